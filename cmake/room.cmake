@@ -1,0 +1,33 @@
+# One room = one static library `linkwright_<room>`; every room is compiled with the same flags.
+
+add_library(linkwright_flags INTERFACE)
+target_include_directories(linkwright_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
+# errno of sqrt and traps of selects block vectorising; without them code is 2.5 to 4.5 times faster and
+# no value changes. Contraction would change values between instruction sets, so it is left to the SIMD kernels.
+target_compile_options(linkwright_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  -fno-math-errno -fno-trapping-math -ffp-contract=off
+  $<$<BOOL:${LINKWRIGHT_WARNINGS_AS_ERRORS}>:-Werror>)
+if(LINKWRIGHT_SANITIZE)
+  target_compile_options(linkwright_flags INTERFACE -fsanitize=${LINKWRIGHT_SANITIZE} -fno-omit-frame-pointer
+                         -fno-sanitize-recover=all)
+  target_link_options(linkwright_flags INTERFACE -fsanitize=${LINKWRIGHT_SANITIZE})
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+
+# linkwright_room(<room> SOURCES <files> [DEPENDS <rooms or libraries>])
+function(linkwright_room room)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_library(linkwright_${room} STATIC ${arg_SOURCES})
+  target_link_libraries(linkwright_${room} PUBLIC linkwright_flags ${arg_DEPENDS})
+endfunction()
+
+# linkwright_test(<room> SOURCES <files> [DEPENDS <rooms or libraries>]): one test program a room.
+function(linkwright_test room)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(${room}_test ${arg_SOURCES})
+  target_include_directories(${room}_test PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_definitions(${room}_test PRIVATE LINKWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${room}_test PRIVATE ${arg_DEPENDS} linkwright_test_support GTest::gmock_main)
+  gtest_discover_tests(${room}_test DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+endfunction()

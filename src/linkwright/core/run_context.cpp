@@ -1,0 +1,27 @@
+#include "linkwright/core/run_context.h"
+
+#include "linkwright/core/check.h"
+
+namespace linkwright {
+
+static_assert(std::atomic<bool>::is_always_lock_free, "cancel() is called from signal handlers");
+
+void RunContext::set_time_limit(std::chrono::duration<double> limit) {
+  LINKWRIGHT_REQUIRE(limit.count() >= 0, "time limit must not be negative, got {} s", limit.count());
+  constexpr double longest = 3600.0 * 24 * 365;  // keeps the conversion to clock ticks in range
+  if (limit.count() < longest) deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
+}
+
+Status RunContext::interruption() const {
+  if (cancelled_.load(std::memory_order_relaxed)) return Status::cancelled;
+  if (deadline_ != Clock::time_point::max() && Clock::now() >= deadline_) return Status::deadline;
+  return Status::done;
+}
+
+void RunContext::report(const Progress& progress) const {
+  if (!report_ || reporting_.test_and_set(std::memory_order_acquire)) return;  // another thread is reporting
+  report_(progress);
+  reporting_.clear(std::memory_order_release);
+}
+
+}  // namespace linkwright

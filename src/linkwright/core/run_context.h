@@ -1,0 +1,59 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <string_view>
+
+#include "linkwright/core/status.h"
+
+namespace linkwright {
+
+/// What a long computation tells while it runs. Sent from any thread, but never by two threads at once.
+struct Progress {
+  std::string_view stage;  ///< what is being done, for example "grey_wolf"
+  double fraction = 0;     ///< of this stage, 0 to 1
+  double best = std::numeric_limits<double>::quiet_NaN();  ///< best cost so far, NaN if there is none
+};
+
+/// Progress, cancellation and deadline of one run; shared by reference, usable from any thread.
+///
+/// Algorithms call `interrupted()` at least once per generation or every millisecond or so of work and, when it
+/// says so, return the best they have with that status.
+class RunContext {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  RunContext() = default;
+  RunContext(const RunContext&) = delete;
+  RunContext& operator=(const RunContext&) = delete;
+
+  /// Asks the run to stop; safe in a signal handler and from any thread.
+  void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
+
+  /// Time after which the run ends with the best so far; call before the run starts.
+  void set_time_limit(std::chrono::duration<double> limit);
+
+  /// Receives progress; call before the run starts. The function must not throw.
+  void set_progress(std::function<void(const Progress&)> report) { report_ = std::move(report); }
+
+  /// Number of threads that a run may use, 0 = all. Results do not depend on it.
+  void set_threads(int threads) { threads_ = threads; }
+  int threads() const { return threads_; }
+
+  /// `done` to go on, else `cancelled` or `deadline`.
+  Status interruption() const;
+  bool interrupted() const { return interruption() != Status::done; }
+
+  void report(const Progress& progress) const;
+
+ private:
+  std::atomic<bool> cancelled_{false};
+  mutable std::atomic_flag reporting_ = ATOMIC_FLAG_INIT;
+  Clock::time_point deadline_ = Clock::time_point::max();
+  std::function<void(const Progress&)> report_;
+  int threads_ = 0;
+};
+
+}  // namespace linkwright

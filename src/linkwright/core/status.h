@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string_view>
+
+namespace linkwright {
+
+/// How a computation ended. Physics that says no is an answer, not an exception: the good part of a result is
+/// kept, and the status tells why the rest is missing.
+enum class Status {
+  done,           ///< everything that was asked for
+  no_assembly,    ///< the links do not reach each other at this input
+  singular,       ///< dead point or rank loss: the answer is not determined
+  not_converged,  ///< iteration stopped before its tolerance
+  branch_lost,    ///< continuation could not stay on the branch it followed
+  limit_reached,  ///< motion stopped at a limit
+  infeasible,     ///< no candidate met every constraint; the least violated one is returned
+  deadline,       ///< time limit reached: best so far
+  cancelled,      ///< asked to stop: best so far
+};
+
+/// The name used in files and tables, for example "no_assembly".
+std::string_view to_string(Status status);
+
+}  // namespace linkwright

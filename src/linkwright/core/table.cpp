@@ -1,0 +1,55 @@
+#include "linkwright/core/table.h"
+
+#include <cmath>
+#include <iterator>
+
+#include "linkwright/core/check.h"
+
+namespace linkwright {
+namespace {
+
+std::string csv_cell(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
+const Column* Table::find(std::string_view key) const {
+  for (const Column& column : columns)
+    if (column.key == key) return &column;
+  return nullptr;
+}
+
+Column& Table::add(std::string key, std::string label, std::vector<double> values) {
+  columns.push_back({std::move(key), std::move(label), std::move(values)});
+  return columns.back();
+}
+
+std::string to_csv(const Table& table) {
+  const std::size_t rows = table.rows();
+  for (const Column& column : table.columns)
+    LINKWRIGHT_REQUIRE(column.values.size() == rows, "column '{}' has {} rows, expected {}", column.key,
+                       column.values.size(), rows);
+  LINKWRIGHT_REQUIRE(table.status.empty() || table.status.size() == rows, "{} status entries for {} rows",
+                     table.status.size(), rows);
+  std::string text;
+  for (const Column& column : table.columns) text += csv_cell(column.key) + ',';
+  text += "status\r\n";
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (const Column& column : table.columns) {
+      if (const double value = column.values[row]; std::isfinite(value))
+        fmt::format_to(std::back_inserter(text), "{}", value);
+      text += ',';
+    }
+    text += (table.status.empty() ? "done" : csv_cell(table.status[row])) + "\r\n";
+  }
+  return text;
+}
+
+}  // namespace linkwright

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "linkwright/core/diagnostic.h"
+#include "linkwright/core/status.h"
+#include "linkwright/core/table.h"
+#include "linkwright/core/value.h"
+#include "linkwright/study/scene.h"
+
+namespace linkwright::study {
+
+/// One `[[check]]` of a study and how it came out.
+struct Check {
+  std::string quantity;  ///< "best.path_error_sum_sq_m2"
+  double value = 0;      ///< NaN when the result has no such quantity
+  std::string limit;     ///< "at_most 0.009029"
+  bool passed = false;
+};
+
+/// One line of the headline panel of a report and of the summary on the terminal.
+struct Fact {
+  std::string label;  ///< "path error (sum of squares)"
+  std::string text;   ///< "0.00902888 m2"
+  enum class Verdict { plain, good, bad } verdict = Verdict::plain;
+};
+
+/// One designed or fixed number of the answer.
+struct Parameter {
+  std::string key;    ///< with unit: "crank_m"
+  std::string label;  ///< "crank length"
+  double value = 0;
+  double lower = 0, upper = 0;  ///< bounds; equal = fixed, infinite = none
+};
+
+/// A diagram of columns of one table.
+struct Plot {
+  enum class Style { line, points, histogram };
+  std::string name;   ///< "transmission"
+  std::string title;  ///< "Transmission angle over the turn"
+  std::string table;  ///< name of the table
+  std::string x;      ///< column key; unused for a histogram
+  std::vector<std::string> y;
+  Style style = Style::line;
+  bool logarithmic_y = false;
+  std::string scene;  ///< the x axis is the input of this scene: the cursor follows the animation; empty = not linked
+};
+
+/// One row "published / ours / verdict".
+struct Comparison {
+  std::string item;    ///< "Boskovic 2018, Table 4.1, column 6"
+  std::string source;
+  double published = 0;
+  double ours = 0;
+  std::string verdict;  ///< "reproduced", "corrected", "not reproduced", "improved"
+  std::string note;
+};
+
+/// One of the distinct answers of a synthesis.
+struct Solution {
+  std::string label;  ///< "crank-rocker, open"
+  std::vector<Parameter> parameters;
+  Value objectives;      ///< object of numbers by key
+  Value classification;  ///< object: type, branch, sense, transmission angle, ...
+  Value defects;         ///< array of texts; empty = none
+  std::string scene;     ///< name of its scene; empty = none
+};
+
+/// What a study gives back. Tables, scenes and plots are all that a report draws.
+struct Result {
+  Status status = Status::done;
+  std::string headline;  ///< the answer in one sentence
+  std::vector<Fact> facts;
+  std::vector<Solution> solutions;  ///< best first
+  Value statistics;                 ///< object: best, median, worst, success_rate, evaluations, ...
+  Value log;                        ///< array of objects: one a seed
+  std::vector<Table> tables;
+  std::vector<Scene> scenes;
+  std::vector<Plot> plots;
+  std::vector<Comparison> comparisons;
+  std::vector<Check> checks;
+  Diagnostics diagnostics;  ///< remarks and warnings about the answer
+};
+
+}  // namespace linkwright::study

@@ -1,0 +1,34 @@
+#include "linkwright/core/run_context.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "linkwright/core/check.h"
+
+namespace linkwright {
+namespace {
+
+TEST(RunContext, CancelAndDeadlineInterrupt) {
+  RunContext free_run;
+  EXPECT_EQ(free_run.interruption(), Status::done);
+  free_run.cancel();
+  EXPECT_EQ(free_run.interruption(), Status::cancelled);
+
+  RunContext timed;
+  timed.set_time_limit(std::chrono::seconds(0));
+  EXPECT_EQ(timed.interruption(), Status::deadline);
+  EXPECT_THROW(timed.set_time_limit(std::chrono::seconds(-1)), ContractError);
+}
+
+TEST(RunContext, PassesProgressOn) {
+  RunContext context;
+  std::vector<double> seen;
+  context.set_progress([&](const Progress& p) { seen.push_back(p.fraction); });
+  context.report({.stage = "search", .fraction = 0.25});
+  context.report({.stage = "search", .fraction = 0.5});
+  EXPECT_EQ(seen, (std::vector<double>{0.25, 0.5}));
+}
+
+}  // namespace
+}  // namespace linkwright

@@ -1,0 +1,15 @@
+#include "linkwright/core/status.h"
+
+#include <gtest/gtest.h>
+
+namespace linkwright {
+namespace {
+
+TEST(Status, HasItsNameInFiles) {
+  EXPECT_EQ(to_string(Status::done), "done");
+  EXPECT_EQ(to_string(Status::no_assembly), "no_assembly");
+  EXPECT_EQ(to_string(Status::cancelled), "cancelled");
+}
+
+}  // namespace
+}  // namespace linkwright
