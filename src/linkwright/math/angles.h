@@ -1,0 +1,23 @@
+#pragma once
+
+#include <numbers>
+#include <span>
+
+namespace linkwright::math {
+
+constexpr double degrees(double radians) { return radians * (180 / std::numbers::pi); }
+constexpr double radians(double degrees) { return degrees * (std::numbers::pi / 180); }
+
+/// The angle in (-pi, pi] that differs from `angle` (rad) by whole turns. Exact for the double nearest to 2
+/// pi, so wrapping twice changes nothing.
+double wrap_angle(double angle);
+
+/// Shortest way from `from` to `to` (rad), in (-pi, pi]: what to add to `from` to arrive at `to` up to whole
+/// turns.
+double angle_difference(double to, double from);
+
+/// Adds whole turns so that neighbours differ by at most half a turn; the first angle (rad) stays as it is.
+/// A sequence of true steps below pi is recovered exactly up to rounding; NaNs are passed over.
+void unwrap_angles(std::span<double> angles);
+
+}  // namespace linkwright::math
