@@ -12,7 +12,8 @@ TEST(Diagnostic, TellsFileLineColumnKeyAndHint) {
   d.key = "mechanism.parameters.crnk_m";
   d.message = "unknown key";
   d.hint = "did you mean 'crank_m'?";
-  EXPECT_EQ(to_string(d), "study.toml:12:3: error: mechanism.parameters.crnk_m: unknown key; did you mean 'crank_m'?");
+  EXPECT_EQ(to_string(d),
+            "study.toml:12:3: error: mechanism.parameters.crnk_m: unknown key; did you mean 'crank_m'?");
   EXPECT_TRUE(has_errors({d}));
   d.severity = Diagnostic::Severity::warning;
   EXPECT_FALSE(has_errors({d}));

@@ -15,7 +15,8 @@ TEST(Table, CsvFollowsRfc4180) {
   table.add("angle_rad", "angle (rad)", {0.1, std::numeric_limits<double>::quiet_NaN()});
   table.add("odd,key", "odd", {1e-300, 2});
   table.status = {"done", "no \"assembly\""};
-  EXPECT_EQ(to_csv(table), "angle_rad,\"odd,key\",status\r\n0.1,1e-300,done\r\n,2,\"no \"\"assembly\"\"\"\r\n");
+  EXPECT_EQ(to_csv(table),
+            "angle_rad,\"odd,key\",status\r\n0.1,1e-300,done\r\n,2,\"no \"\"assembly\"\"\"\r\n");
   EXPECT_EQ(table.find("angle_rad")->values.size(), 2u);
   EXPECT_EQ(table.find("other"), nullptr);
 }

@@ -17,9 +17,9 @@ class ContractError : public std::logic_error {
 }  // namespace linkwright
 
 /// Always-on check at a public entry: LINKWRIGHT_REQUIRE(n >= 3, "needs 3 points, got {}", n).
-#define LINKWRIGHT_REQUIRE(condition, ...)                                                             \
-  do {                                                                                                 \
-    if (!(condition)) [[unlikely]]                                                                     \
-      throw ::linkwright::ContractError(std::string(__func__) + ": " + ::fmt::format(__VA_ARGS__) +    \
-                                        " [" #condition "]");                                          \
+#define LINKWRIGHT_REQUIRE(condition, ...)                                                          \
+  do {                                                                                              \
+    if (!(condition)) [[unlikely]]                                                                  \
+      throw ::linkwright::ContractError(std::string(__func__) + ": " + ::fmt::format(__VA_ARGS__) + \
+                                        " [" #condition "]");                                       \
   } while (false)

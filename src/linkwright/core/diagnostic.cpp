@@ -57,7 +57,8 @@ std::string_view nearest_word(std::string_view word, const std::vector<std::stri
       nearest = candidate;
     }
   }
-  return smallest < std::max<std::size_t>(1, std::min(word.size(), nearest.size())) ? nearest : std::string_view();
+  return smallest < std::max<std::size_t>(1, std::min(word.size(), nearest.size())) ? nearest
+                                                                                    : std::string_view();
 }
 
 }  // namespace linkwright

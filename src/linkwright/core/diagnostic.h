@@ -26,8 +26,8 @@ bool has_errors(const Diagnostics& diagnostics);
 /// "study.toml:12:3: error: mechanism.parameters.crnk_m: unknown key; did you mean 'crank_m'?"
 std::string to_string(const Diagnostic& diagnostic);
 
-/// The word of `allowed` that `word` was probably meant to be (edit distance incl. swaps, at most about a third
-/// of its letters); empty if none is near.
+/// The word of `allowed` that `word` was probably meant to be (edit distance incl. swaps, at most about a
+/// third of its letters); empty if none is near.
 std::string_view nearest_word(std::string_view word, const std::vector<std::string_view>& allowed);
 
 }  // namespace linkwright

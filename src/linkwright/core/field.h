@@ -9,15 +9,16 @@ namespace linkwright {
 /// What a number measures; it decides which unit suffixes its key may carry in a file (see units.h).
 enum class Dimension { none, length, angle, time, speed_angular, acceleration, mass, inertia, area };
 
-/// What a member of a struct means to a person and to a file. A struct that appears in files has one field list,
+/// What a member of a struct means to a person and to a file. A struct that appears in files has one field
+/// list,
 ///
 ///     template <class Visitor>
 ///     void fields(Visitor&& visit, GreyWolfOptions& o) {
 ///       visit(Field{.key = "population", .summary = "wolves in the pack", .minimum = 4}, o.population);
 ///     }
 ///
-/// found by argument-dependent lookup, and everything else follows from it: reading and writing TOML and JSON,
-/// defaults (the member initialisers), range checks, JSON Schema, help text.
+/// found by argument-dependent lookup, and everything else follows from it: reading and writing TOML and
+/// JSON, defaults (the member initialisers), range checks, JSON Schema, help text.
 struct Field {
   std::string_view key;      ///< without unit; the unit suffix comes from the dimension
   std::string_view summary;  ///< one phrase for help and schema
@@ -38,7 +39,8 @@ struct Range {
 };
 
 /// Name of an enumerator in files. For an enum `E` in files, define next to it
-/// `constexpr std::array<EnumName<E>, N> names(E)` (found by argument-dependent lookup; the argument is unused).
+/// `constexpr std::array<EnumName<E>, N> names(E)` (found by argument-dependent lookup; the argument is
+/// unused).
 template <class E>
 struct EnumName {
   E value;

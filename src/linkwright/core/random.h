@@ -5,17 +5,17 @@
 
 namespace linkwright {
 
-/// Which random numbers: a counter-based stream is a pure function of this key, so a result does not depend on
-/// the number of threads or on the order in which candidates are drawn.
+/// Which random numbers: a counter-based stream is a pure function of this key, so a result does not depend
+/// on the number of threads or on the order in which candidates are drawn.
 struct StreamKey {
-  std::uint64_t seed = 0;        ///< what the user gives
-  std::uint32_t run = 0;         ///< which use of the seed: start number, algorithm stage
+  std::uint64_t seed = 0;  ///< what the user gives
+  std::uint32_t run = 0;   ///< which use of the seed: start number, algorithm stage
   std::uint32_t generation = 0;
   std::uint32_t individual = 0;
 };
 
-/// Sequence of random numbers of one key (Philox4x32-10 of Salmon et al. 2011 through Random123), with portable
-/// transforms of our own: the same numbers with every standard library.
+/// Sequence of random numbers of one key (Philox4x32-10 of Salmon et al. 2011 through Random123), with
+/// portable transforms of our own: the same numbers with every standard library.
 class RandomStream {
  public:
   explicit RandomStream(const StreamKey& key);

@@ -12,15 +12,15 @@ namespace linkwright {
 
 /// What a long computation tells while it runs. Sent from any thread, but never by two threads at once.
 struct Progress {
-  std::string_view stage;  ///< what is being done, for example "grey_wolf"
-  double fraction = 0;     ///< of this stage, 0 to 1
+  std::string_view stage;                                  ///< what is being done, for example "grey_wolf"
+  double fraction = 0;                                     ///< of this stage, 0 to 1
   double best = std::numeric_limits<double>::quiet_NaN();  ///< best cost so far, NaN if there is none
 };
 
 /// Progress, cancellation and deadline of one run; shared by reference, usable from any thread.
 ///
-/// Algorithms call `interrupted()` at least once per generation or every millisecond or so of work and, when it
-/// says so, return the best they have with that status.
+/// Algorithms call `interrupted()` at least once per generation or every millisecond or so of work and, when
+/// it says so, return the best they have with that status.
 class RunContext {
  public:
   using Clock = std::chrono::steady_clock;

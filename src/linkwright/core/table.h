@@ -22,7 +22,8 @@ struct Table {
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
   const Column* find(std::string_view key) const;
-  /// Adds a column and returns it; its length must match the columns that are there already when it is written.
+  /// Adds a column and returns it; its length must match the columns that are there already when it is
+  /// written.
   Column& add(std::string key, std::string label, std::vector<double> values = {});
 };
 

@@ -73,7 +73,7 @@ class Value {
   /// Appends to an array; a null value becomes an array.
   void push_back(Value value);
 
-  Position position;  ///< of the value itself
+  Position position;                                       ///< of the value itself
   friend bool operator==(const Value& a, const Value& b);  ///< data only, positions do not count
 
  private:

@@ -6,8 +6,8 @@
 
 namespace linkwright::optimise {
 
-/// Read-only matrix of candidates, one row per variable, so that a vector register holds one variable of several
-/// candidates. Rows start at multiples of 64 bytes and may be read (not used) up to `stride`.
+/// Read-only matrix of candidates, one row per variable, so that a vector register holds one variable of
+/// several candidates. Rows start at multiples of 64 bytes and may be read (not used) up to `stride`.
 struct PopulationView {
   const double* data = nullptr;
   std::size_t dimension = 0;  ///< variables
@@ -17,7 +17,9 @@ struct PopulationView {
   const double* row(std::size_t variable) const { return data + variable * stride; }
   double operator()(std::size_t variable, std::size_t candidate) const { return row(variable)[candidate]; }
   /// Candidates [first, first + count); first must be a multiple of 8.
-  PopulationView slice(std::size_t first, std::size_t count) const { return {data + first, dimension, count, stride}; }
+  PopulationView slice(std::size_t first, std::size_t count) const {
+    return {data + first, dimension, count, stride};
+  }
 };
 
 /// Owns a matrix of candidates in the layout of PopulationView; padding candidates hold zeros at first.

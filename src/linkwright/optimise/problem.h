@@ -22,21 +22,23 @@ struct Violation {
   double amount = 0;
 };
 
-/// What is minimised. An optimiser asks for the costs of a whole population, never of one candidate, and knows
-/// nothing else of the problem.
+/// What is minimised. An optimiser asks for the costs of a whole population, never of one candidate, and
+/// knows nothing else of the problem.
 struct Problem {
   std::vector<Variable> variables;
 
-  /// For each candidate i: cost[i], and violation[i] = sum of the constraint violations (0 = feasible). A cost that
-  /// does not exist is +infinity with violation > 0, never NaN. Must be pure: same input, same bits, for any split
-  /// of the population; called from several threads at once.
-  std::function<void(const PopulationView& candidates, std::span<double> cost, std::span<double> violation)> evaluate;
+  /// For each candidate i: cost[i], and violation[i] = sum of the constraint violations (0 = feasible). A
+  /// cost that does not exist is +infinity with violation > 0, never NaN. Must be pure: same input, same
+  /// bits, for any split of the population; called from several threads at once.
+  std::function<void(const PopulationView& candidates, std::span<double> cost, std::span<double> violation)>
+      evaluate;
 
   /// Why one candidate is infeasible, for reports; may be empty.
   std::function<std::vector<Violation>(std::span<const double> x)> explain;
 };
 
-/// "Better" by the feasibility rules of Deb (2000): feasible before infeasible, then by cost; infeasible ones by violation.
+/// "Better" by the feasibility rules of Deb (2000): feasible before infeasible, then by cost; infeasible ones
+/// by violation.
 inline bool better(double cost_a, double violation_a, double cost_b, double violation_b) {
   if (violation_a > 0 || violation_b > 0) {
     if (violation_a != violation_b) return violation_a < violation_b;

@@ -44,12 +44,13 @@ struct Plot {
   std::vector<std::string> y;
   Style style = Style::line;
   bool logarithmic_y = false;
-  std::string scene;  ///< the x axis is the input of this scene: the cursor follows the animation; empty = not linked
+  std::string
+      scene;  ///< the x axis is the input of this scene: the cursor follows the animation; empty = not linked
 };
 
 /// One row "published / ours / verdict".
 struct Comparison {
-  std::string item;    ///< "Boskovic 2018, Table 4.1, column 6"
+  std::string item;  ///< "Boskovic 2018, Table 4.1, column 6"
   std::string source;
   double published = 0;
   double ours = 0;

@@ -5,10 +5,11 @@
 
 namespace linkwright::study {
 
-/// A mechanism in motion as it is to be drawn: points over samples of the input, bodies and joints that refer to
-/// them. Lengths in metres, plane x right, y up. Reports, SVG and DXF draw this and know no mechanism.
+/// A mechanism in motion as it is to be drawn: points over samples of the input, bodies and joints that refer
+/// to them. Lengths in metres, plane x right, y up. Reports, SVG and DXF draw this and know no mechanism.
 struct Scene {
-  /// A point of the drawing: one entry a sample, or a single entry for a point that does not move. NaN = not assembled.
+  /// A point of the drawing: one entry a sample, or a single entry for a point that does not move. NaN = not
+  /// assembled.
   struct Point {
     std::string name;
     std::vector<double> x, y;
@@ -39,10 +40,10 @@ struct Scene {
     bool closed = false;
   };
 
-  std::string name;         ///< identifies it: "solution-1"
-  std::string title;        ///< for people
-  std::string input_key;    ///< "crank_angle_rad"
-  std::string input_label;  ///< "crank angle"
+  std::string name;                 ///< identifies it: "solution-1"
+  std::string title;                ///< for people
+  std::string input_key;            ///< "crank_angle_rad"
+  std::string input_label;          ///< "crank angle"
   std::vector<double> input;        ///< one value a sample, monotonous, in radians or metres
   std::vector<std::string> status;  ///< one a sample; empty = all done
   std::vector<Point> points;

@@ -1,0 +1,114 @@
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "linkwright/core/random.h"
+#include "linkwright/planar/path_objective.h"
+#include "linkwright/planar/path_synthesis.h"
+
+namespace linkwright::planar {
+namespace {
+
+// Boskovic 2018, Eqs. (4.28)-(4.30).
+PathProblem eighteen_points() {
+  PathProblem p;
+  p.x = {0.5, 0.4, 0.3, 0.2, 0.1, 0.05, 0.02, 0, 0, 0.03, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.6};
+  p.y = {1.1, 1.1, 1.1, 1.0, 0.9, 0.75, 0.6, 0.5, 0.4, 0.3, 0.25, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9, 1.0};
+  p.timing = Timing::equal_steps;
+  p.step = std::numbers::pi / 9;
+  p.bounds = derive_bounds(p.x, p.y);
+  for (std::size_t j = 0; j < 8; ++j) p.bounds[j] = j < 4 ? Range{0, 50} : Range{-50, 50};
+  return p;
+}
+
+// Candidates near feasible crank-rockers, so that no early exit flatters the kernel.
+optimise::Population candidates(std::size_t count) {
+  optimise::Population out(four_bar_parameter_count, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    RandomStream s({.seed = 1, .individual = static_cast<std::uint32_t>(i)});
+    const double x[] = {s.uniform(0.9, 1.2), s.uniform(0.3, 0.5), s.uniform(0.8, 1.0), s.uniform(0.5, 0.7),
+                        s.uniform(-1, 1),    s.uniform(-1, 1),    s.uniform(-1, 1),    s.uniform(-1, 1),
+                        s.uniform(0, 6.28),  s.uniform(0, 6.28)};
+    out.set(i, x);
+  }
+  return out;
+}
+
+void eighteen_point_objective(benchmark::State& state) {
+  const auto size = static_cast<std::size_t>(state.range(0));
+  const optimise::Problem problem = path_population_problem(eighteen_points(), Branch::open, 1);
+  const optimise::Population population = candidates(size);
+  std::vector<double> cost(size), violation(size);
+  for (auto _ : state) {
+    problem.evaluate(population.view(), cost, violation);
+    benchmark::DoNotOptimize(cost.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(size));
+  state.SetLabel(kernel_name());
+}
+BENCHMARK(eighteen_point_objective)->Arg(1)->Arg(32)->Arg(1024);
+
+// The textbook form that most published programs use: angles by acos and atan2 at every point.
+void textbook_objective(benchmark::State& state) {
+  const PathProblem p = eighteen_points();
+  const optimise::Population population = candidates(64);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    i = (i + 1) % 64;
+    double sum = 0;
+    for (std::size_t k = 0; k < p.x.size(); ++k) {
+      const double t2 = population(9, i) + p.step * static_cast<double>(k);
+      const double ax = population(1, i) * std::cos(t2), ay = population(1, i) * std::sin(t2);
+      const double dx = population(0, i) - ax, dy = -ay, d = std::sqrt(dx * dx + dy * dy);
+      const double c = (population(2, i) * population(2, i) + d * d - population(3, i) * population(3, i)) /
+                       (2 * population(2, i) * d);
+      const double t3 = std::atan2(dy, dx) + std::acos(std::fmin(1, std::fmax(-1, c))), t0 = population(8, i);
+      const double x = population(6, i) + population(1, i) * std::cos(t0 + t2) +
+                       population(4, i) * std::cos(t0 + t3) - population(5, i) * std::sin(t0 + t3);
+      const double y = population(7, i) + population(1, i) * std::sin(t0 + t2) +
+                       population(4, i) * std::sin(t0 + t3) + population(5, i) * std::cos(t0 + t3);
+      sum += (x - p.x[k]) * (x - p.x[k]) + (y - p.y[k]) * (y - p.y[k]);
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(textbook_objective);
+
+void four_bar_position(benchmark::State& state) {
+  const FourBar linkage{
+      .ground = 1.05, .crank = 0.42, .coupler = 0.91, .rocker = 0.6, .coupler_u = 0.37, .coupler_v = 0.4};
+  double angle = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(position(linkage, angle += 0.01));
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(four_bar_position);
+
+void recommended_eighteen_points(benchmark::State& state) {
+  const PathProblem problem = eighteen_points();
+  std::uint64_t seed = 0;
+  for (auto _ : state) {
+    RunContext context;
+    benchmark::DoNotOptimize(synthesise_path(problem, {.seed = ++seed}, context));
+  }
+}
+BENCHMARK(recommended_eighteen_points)->Unit(benchmark::kMillisecond);
+
+void recommended_free_timing(benchmark::State& state) {
+  PathProblem problem = eighteen_points();
+  problem.timing = Timing::free;
+  problem.search_negative = true;
+  problem.min_transmission_angle = std::numbers::pi / 6;
+  std::uint64_t seed = 0;
+  for (auto _ : state) {
+    RunContext context;
+    benchmark::DoNotOptimize(synthesise_path(problem, {.seed = ++seed}, context));
+  }
+}
+BENCHMARK(recommended_free_timing)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace linkwright::planar

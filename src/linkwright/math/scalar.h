@@ -1,0 +1,37 @@
+#pragma once
+
+/// Kernels are compiled once per instruction set; forced inlining keeps code for one set out of the others'
+/// object files.
+#define LINKWRIGHT_KERNEL [[gnu::always_inline]] inline
+
+/// What a formula needs beyond + - * / and sqrt to be written once for `double`, `ceres::Jet` and SIMD
+/// batches.
+namespace linkwright::math {
+
+template <class T>
+struct Scalar {  // double, ceres::Jet
+  /// a b + c: fused where the translation unit is compiled for it, so that one scalar and a register of
+  /// scalars give the same bits within one instruction set.
+  LINKWRIGHT_KERNEL static T multiply_add(const T& a, const T& b, const T& c) { return a * b + c; }
+  /// max(x, 0)
+  LINKWRIGHT_KERNEL static T positive_part(const T& x) { return x > T(0) ? x : T(0); }
+};
+
+template <>
+struct Scalar<double> {
+  LINKWRIGHT_KERNEL static double multiply_add(double a, double b, double c) {
+#if defined(__FMA__)
+    return __builtin_fma(a, b, c);
+#else
+    return a * b + c;
+#endif
+  }
+  LINKWRIGHT_KERNEL static double positive_part(double x) { return x > 0 ? x : 0.0; }
+  LINKWRIGHT_KERNEL static double choose(bool condition, double a, double b) { return condition ? a : b; }
+  LINKWRIGHT_KERNEL static double min(double a, double b) { return a < b ? a : b; }
+  LINKWRIGHT_KERNEL static double max(double a, double b) { return a > b ? a : b; }
+  LINKWRIGHT_KERNEL static double abs(double a) { return __builtin_fabs(a); }
+  LINKWRIGHT_KERNEL static double floor(double a) { return __builtin_floor(a); }
+};
+
+}  // namespace linkwright::math

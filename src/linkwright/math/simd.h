@@ -1,0 +1,24 @@
+#pragma once
+
+#include <xsimd/xsimd.hpp>
+
+#include "linkwright/math/scalar.h"
+
+namespace linkwright::math {
+
+template <class Arch>
+struct Scalar<xsimd::batch<double, Arch>> {
+  using T = xsimd::batch<double, Arch>;
+  LINKWRIGHT_KERNEL static T multiply_add(const T& a, const T& b, const T& c) { return xsimd::fma(a, b, c); }
+  LINKWRIGHT_KERNEL static T positive_part(const T& x) { return xsimd::max(x, T(0.0)); }
+  LINKWRIGHT_KERNEL static T choose(const xsimd::batch_bool<double, Arch>& condition, const T& a,
+                                    const T& b) {
+    return xsimd::select(condition, a, b);
+  }
+  LINKWRIGHT_KERNEL static T min(const T& a, const T& b) { return xsimd::min(a, b); }
+  LINKWRIGHT_KERNEL static T max(const T& a, const T& b) { return xsimd::max(a, b); }
+  LINKWRIGHT_KERNEL static T abs(const T& a) { return xsimd::abs(a); }
+  LINKWRIGHT_KERNEL static T floor(const T& a) { return xsimd::floor(a); }
+};
+
+}  // namespace linkwright::math

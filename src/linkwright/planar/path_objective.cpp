@@ -1,0 +1,65 @@
+#include "linkwright/planar/path_objective.h"
+
+#include <cmath>
+
+#include "linkwright/core/check.h"
+
+namespace linkwright::planar {
+namespace {
+
+struct Kernel {
+  PathKernel evaluate;
+  const char* name;
+};
+
+Kernel choose_kernel() {
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f")) return {evaluate_path_avx512, "avx512"};
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return {evaluate_path_avx2, "avx2"};
+  return {evaluate_path_baseline, "baseline"};
+}
+
+const Kernel& kernel() {
+  static const Kernel chosen = choose_kernel();
+  return chosen;
+}
+
+}  // namespace
+
+PathObjective path_objective(const PathProblem& problem, Branch branch, double sense) {
+  LINKWRIGHT_REQUIRE(sense == 1 || sense == -1, "sense must be +1 or -1, got {}", sense);
+  PathObjective o;
+  o.x = problem.x;
+  o.y = problem.y;
+  o.free_timing = problem.timing == Timing::free;
+  o.start_is_variable = problem.timing == Timing::equal_steps;
+  o.closed = problem.closed;
+  o.branch = sign(branch);
+  o.sense = sense;
+  o.crank_rotates_fully = problem.crank_rotates_fully;
+  o.max_transmission_cosine = std::cos(problem.min_transmission_angle);
+  if (problem.packaging) {
+    o.packaged = true;
+    o.box = *problem.packaging;
+  }
+  if (!o.free_timing) {
+    for (std::size_t k = 0; k < o.x.size(); ++k) {
+      const double offset = sense * point_angle(problem, k);
+      o.ux.push_back(std::cos(offset));
+      o.uy.push_back(std::sin(offset));
+    }
+  }
+  return o;
+}
+
+void evaluate(const PathObjective& objective, const optimise::PopulationView& candidates,
+              std::span<double> cost, std::span<double> violation) {
+  LINKWRIGHT_REQUIRE(cost.size() >= candidates.size && violation.size() >= candidates.size,
+                     "{} candidates, but room for {} costs and {} violations", candidates.size, cost.size(),
+                     violation.size());
+  kernel().evaluate(objective, candidates, cost.data(), violation.data());
+}
+
+const char* kernel_name() { return kernel().name; }
+
+}  // namespace linkwright::planar

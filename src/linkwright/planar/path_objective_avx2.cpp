@@ -1,0 +1,10 @@
+#include "linkwright/planar/path_objective_kernel.h"
+
+namespace linkwright::planar {
+
+void evaluate_path_avx2(const PathObjective& objective, const optimise::PopulationView& candidates,
+                        double* cost, double* violation) {
+  evaluate_path<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>(objective, candidates, cost, violation);
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,277 @@
+#include "linkwright/planar/path_synthesis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "linkwright/core/check.h"
+#include "linkwright/core/random.h"
+#include "linkwright/core/tolerance.h"
+#include "linkwright/math/least_squares.h"
+#include "linkwright/planar/cognates.h"
+#include "linkwright/planar/path_fit.h"
+#include "linkwright/planar/path_projection.h"
+#include "linkwright/planar/path_starts.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Local searches per kind, branch and sense when the options leave it open. Prescribed timing has few local
+// optima and cheap searches; free timing has many.
+constexpr int separable_starts = 20, joint_starts = 60;
+constexpr int tries_per_separable_start = 6;  // random ratios of which the best starts a search
+constexpr int linkages_per_joint_start = 48;  // random curves of which the best match starts a search
+constexpr std::size_t finished_starts =
+    24;  // of the searched ones, how many get their constraints met exactly
+
+struct Candidate {
+  FourBar linkage;
+  double sense = 1;
+  std::vector<double> angles;
+  double merit = 0;  // error (m2), with soft constraint violations
+};
+
+bool same_linkage(const FourBar& a, const FourBar& b) {
+  if (a.branch != b.branch) return false;
+  const double size =
+      std::max(a.ground + a.crank + a.coupler + a.rocker, b.ground + b.crank + b.coupler + b.rocker);
+  const double difference[] = {a.ground - b.ground,   a.crank - b.crank,         a.coupler - b.coupler,
+                               a.rocker - b.rocker,   a.coupler_u - b.coupler_u, a.coupler_v - b.coupler_v,
+                               a.pivot_x - b.pivot_x, a.pivot_y - b.pivot_y};
+  for (double d : difference)
+    if (std::abs(d) > tolerance::same_design * size) return false;
+  return true;
+}
+
+double total_violation(const PathDesign& design) {
+  double sum = 0;
+  for (const auto& violation : design.violations) sum += violation.amount;
+  return sum;
+}
+
+bool better_design(const PathDesign& a, const PathDesign& b) {
+  return optimise::better(a.error, total_violation(a), b.error, total_violation(b));
+}
+
+// Best first; among equals, as timed cognates are, the open branch first.
+void rank(std::vector<PathDesign>& designs) {
+  std::stable_sort(designs.begin(), designs.end(), better_design);
+  for (std::size_t i = 0; i + 1 < designs.size(); ++i) {
+    const double difference = designs[i + 1].error - designs[i].error;
+    if (difference <= tolerance::equal_cost * designs[i].error &&
+        designs[i].linkage.branch == Branch::crossed && designs[i + 1].linkage.branch == Branch::open)
+      std::swap(designs[i], designs[i + 1]);
+  }
+}
+
+class Search {
+ public:
+  Search(const PathProblem& problem, const PathSynthesisOptions& options, RunContext& context)
+      : problem_(problem), options_(options), context_(context), relaxed_(relax(problem)) {}
+
+  PathSynthesis run() {
+    std::vector<RatioKind> kinds = {RatioKind::crank_rocker, RatioKind::double_crank};
+    if (!problem_.crank_rotates_fully) kinds = {RatioKind::any};
+    std::uint32_t combination = 0;
+    for (double sense : {1.0, -1.0}) {
+      if (!(sense > 0 ? problem_.search_positive : problem_.search_negative)) continue;
+      for (Branch branch : {Branch::open, Branch::crossed}) {
+        if (!(branch == Branch::open ? problem_.search_open : problem_.search_crossed)) continue;
+        // With prescribed timing the cognate on the other branch has the same error, so one branch tells all,
+        // unless bounds or other limits that the cognate need not meet are in play: that shows when the best
+        // is measured.
+        if (branch == Branch::crossed && problem_.search_open && separable_ && any_feasible()) continue;
+        for (RatioKind kind : kinds) {
+          if (stopped()) return finish();
+          if (problem_.timing == Timing::free) {
+            search_joint(kind, branch, sense, combination++);
+          } else {
+            search_separable(kind, branch, sense, combination++);
+          }
+        }
+      }
+    }
+    return finish();
+  }
+
+ private:
+  // The problem without the fixed values that the separable form cannot see; the constrained finish puts them
+  // back.
+  static PathProblem relax(PathProblem p) {
+    if (p.timing == Timing::free || PathProjection::applies(p)) return p;
+    using P = FourBarParameter;
+    const auto free = derive_bounds(p.x, p.y);
+    for (P j : {P::ground, P::crank, P::coupler, P::rocker, P::coupler_u, P::coupler_v, P::start_angle})
+      p.bounds[index(j)] = free[index(j)];
+    if (p.bounds[index(P::pivot_x)].fixed() != p.bounds[index(P::pivot_y)].fixed())
+      for (P j : {P::pivot_x, P::pivot_y}) p.bounds[index(j)] = free[index(j)];
+    return p;
+  }
+
+  bool stopped() {
+    if (out_.status == Status::done) out_.status = context_.interruption();
+    return out_.status != Status::done;
+  }
+
+  bool any_feasible() const {
+    return std::any_of(out_.designs.begin(), out_.designs.end(),
+                       [](const PathDesign& d) { return d.violations.empty(); });
+  }
+
+  int starts(int usual) const { return options_.starts > 0 ? options_.starts : usual; }
+
+  void note(double error) {
+    const double before =
+        out_.history.empty() ? std::numeric_limits<double>::infinity() : out_.history.back();
+    out_.history.push_back(std::min(before, error));
+  }
+
+  void keep(PathDesign design) {
+    for (PathDesign& other : out_.designs) {
+      if (other.sense != design.sense || !same_linkage(other.linkage, design.linkage)) continue;
+      if (better_design(design, other)) other = std::move(design);
+      return;
+    }
+    out_.designs.push_back(std::move(design));
+  }
+
+  void search_separable(RatioKind kind, Branch branch, double sense, std::uint32_t combination) {
+    PathProjection projection(relaxed_, kind, branch, sense);
+    const std::size_t n = projection.variables(), m = projection.residuals();
+    math::LeastSquaresWorkspace workspace;
+    math::LeastSquaresOptions local;
+    local.step_clip = 2;
+    local.damping = math::Damping::identity;
+    const double size = path_size(problem_);
+    local.decrease_tolerance = 1e-13 * size * size;
+    std::vector<double> residual(m);
+    const auto function = [&](std::span<const double> q, std::span<double> r, std::span<double> jacobian) {
+      return projection.evaluate(q, r, jacobian);
+    };
+    std::vector<Candidate> found;
+    const int count = starts(separable_starts);
+    for (int start = 0; start < count && !stopped(); ++start) {
+      RandomStream stream(
+          {.seed = options_.seed, .run = combination, .individual = static_cast<std::uint32_t>(start)});
+      std::vector<double> best;
+      double lowest = std::numeric_limits<double>::infinity();
+      for (int attempt = 0; attempt < tries_per_separable_start; ++attempt) {
+        std::vector<double> q = random_ratios(kind, n, stream);
+        ++out_.evaluations;
+        if (!projection.evaluate(q, residual, {})) continue;
+        double sum = 0;
+        for (double r : residual) sum += r * r;
+        if (sum < lowest) lowest = sum, best = std::move(q);
+      }
+      if (best.empty()) continue;
+      const auto report = math::minimise_least_squares(function, m, best, local, workspace);
+      out_.evaluations += report.evaluations;
+      PathDesign design = projection.design(relaxed_, best);
+      note(design.error);
+      found.push_back({design.linkage, sense, design.angles, design.error});
+      context_.report({.stage = "recommended",
+                       .fraction = static_cast<double>(start + 1) / count,
+                       .best = out_.history.back()});
+    }
+    finish_candidates(std::move(found), sense);
+  }
+
+  void search_joint(RatioKind kind, Branch branch, double sense, std::uint32_t combination) {
+    PathMatcher matcher(problem_, branch, sense);
+    PathFitter fitter(problem_, sense);
+    std::vector<Candidate> found;
+    const int count = starts(joint_starts);
+    for (int start = 0; start < count && !stopped(); ++start) {
+      RandomStream stream(
+          {.seed = options_.seed, .run = combination, .individual = static_cast<std::uint32_t>(start)});
+      const auto match = matcher.best_of(linkages_per_joint_start, kind, stream);
+      if (!match) continue;
+      const PathFit fit =
+          fitter.fit(match->linkage, match->angles, {.iterations = 80, .passes = 1, .decrease = 1e-6});
+      out_.evaluations += fit.evaluations;
+      if (!std::isfinite(fit.error)) continue;
+      const double size = path_size(problem_);
+      found.push_back(
+          {fit.linkage, sense, fit.angles, fit.error + size * size * fit.violation * fit.violation});
+      note(fit.error);
+      context_.report({.stage = "recommended",
+                       .fraction = static_cast<double>(start + 1) / count,
+                       .best = out_.history.back()});
+    }
+    finish_candidates(std::move(found), sense);
+  }
+
+  // Distinct candidates, best first: those that meet everything are taken as they are, the others go through
+  // the constrained search.
+  void finish_candidates(std::vector<Candidate> found, double sense) {
+    std::sort(found.begin(), found.end(),
+              [](const Candidate& a, const Candidate& b) { return a.merit < b.merit; });
+    PathFitter fitter(problem_, sense);
+    std::vector<FourBar> taken;
+    for (const Candidate& candidate : found) {
+      if (taken.size() >= finished_starts) break;
+      if (std::any_of(taken.begin(), taken.end(),
+                      [&](const FourBar& l) { return same_linkage(l, candidate.linkage); }))
+        continue;
+      taken.push_back(candidate.linkage);
+      if (problem_.timing != Timing::free) {
+        PathDesign design = measure(problem_, candidate.linkage, sense, candidate.angles);
+        if (design.violations.empty()) {
+          keep(std::move(design));
+          continue;
+        }
+      }
+      if (context_.interrupted() && !out_.designs.empty()) break;
+      const PathFit fit = fitter.fit(candidate.linkage, candidate.angles, {.iterations = 200, .passes = 30});
+      out_.evaluations += fit.evaluations;
+      if (!std::isfinite(fit.error)) continue;
+      keep(measure(problem_, fit.linkage, sense, fit.angles));
+      if (out_.designs.back().violations.empty()) note(out_.designs.back().error);
+    }
+  }
+
+  // The cognates with the same timing are answers as good; they may meet limits that the original does not.
+  void add_cognates() {
+    const std::vector<PathDesign> originals = out_.designs;
+    for (const PathDesign& design : originals)
+      for (const Cognate& cognate : cognates(design.linkage, design.angles[0])) {
+        if (!cognate.same_timing) continue;
+        if (!(cognate.linkage.branch == Branch::open ? problem_.search_open : problem_.search_crossed))
+          continue;
+        PathDesign other = measure(problem_, cognate.linkage, design.sense, design.angles);
+        if (other.violations.empty()) keep(std::move(other));
+      }
+  }
+
+  PathSynthesis finish() {
+    add_cognates();
+    rank(out_.designs);
+    if (any_feasible())
+      std::erase_if(out_.designs, [](const PathDesign& d) { return !d.violations.empty(); });
+    if (out_.designs.size() > static_cast<std::size_t>(options_.max_solutions))
+      out_.designs.resize(static_cast<std::size_t>(options_.max_solutions));
+    if (out_.status == Status::done && !any_feasible()) out_.status = Status::infeasible;
+    return std::move(out_);
+  }
+
+  const PathProblem& problem_;
+  const PathSynthesisOptions& options_;
+  RunContext& context_;
+  const PathProblem relaxed_;
+  const bool separable_ = problem_.timing != Timing::free;
+  PathSynthesis out_;
+};
+
+}  // namespace
+
+PathSynthesis synthesise_path(const PathProblem& problem, const PathSynthesisOptions& options,
+                              RunContext& context) {
+  require_valid(problem);
+  LINKWRIGHT_REQUIRE(options.starts >= 0 && options.max_solutions >= 1, "starts {}, max_solutions {}",
+                     options.starts, options.max_solutions);
+  return Search(problem, options, context).run();
+}
+
+}  // namespace linkwright::planar
