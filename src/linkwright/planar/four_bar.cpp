@@ -45,7 +45,8 @@ FourBarPosition position(const FourBar& linkage, double crank_angle) {
     out.gap = distance > reach ? distance - reach : fold - distance;
     return out;
   }
-  const std::complex<double> v(closure.vx, closure.vy);
+  const Direction<double> direction = coupler_direction(closure, linkage.coupler);
+  const std::complex<double> v(direction.x, direction.y);
   const std::complex<double> rocker = crank + linkage.coupler * v - linkage.ground;
   out.coupler_pin = out.crank_pin + frame * (linkage.coupler * v);
   out.coupler_point =

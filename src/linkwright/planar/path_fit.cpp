@@ -176,24 +176,24 @@ bool PathFitter::evaluate(const std::array<double, shared>& q, const std::vector
     const double ux = std::cos(angle), uy = std::sin(angle);
     const Closure<double> c = close_loop(l1, 0.0, l2 * ux, l2 * uy, l3, l4, branch_);
     if (!(c.radicand > 0)) return false;
+    const Direction<double> v = coupler_direction(c, l3);
     // Relative frame first: z = L2 u + l v.
-    const double lx = cu * c.vx - cv * c.vy, ly = cu * c.vy + cv * c.vx;
+    const double lx = cu * v.x - cv * v.y, ly = cu * v.y + cv * v.x;
     const double zx = l2 * ux + lx, zy = l2 * uy + ly;
     const double ex = w * (q[6] + fc * zx - fs * zy - problem_.x[k]);
     const double ey = w * (q[7] + fs * zx + fc * zy - problem_.y[k]);
     sum += ex * ex + ey * ey;
     if (!derivatives) continue;
-    const double rx = l2 * ux + l3 * c.vx - l1, ry = l2 * uy + l3 * c.vy;  // rocker vector
-    const double inverse = 1 / (l3 * (ry * c.vx - rx * c.vy));
+    const double rx = l2 * ux + l3 * v.x - l1, ry = l2 * uy + l3 * v.y;  // rocker vector
+    const double inverse = 1 / (l3 * (ry * v.x - rx * v.y));
     const double gx = -ly, gy = lx;  // d(l v) / d theta3
-    const double turn[4] = {rx * inverse, -(rx * ux + ry * uy) * inverse, -(rx * c.vx + ry * c.vy) * inverse,
+    const double turn[4] = {rx * inverse, -(rx * ux + ry * uy) * inverse, -(rx * v.x + ry * v.y) * inverse,
                             l4 * inverse};
     const double turn_crank = -(ry * ux - rx * uy) * l2 * inverse;
     // Columns in the relative frame, turned into the global one below.
     double jx[shared] = {
-        turn[0] * gx, turn[1] * gx + ux, turn[2] * gx, turn[3] * gx, c.vx, -c.vy, 0, 0, -zy, 0};
-    double jy[shared] = {
-        turn[0] * gy, turn[1] * gy + uy, turn[2] * gy, turn[3] * gy, c.vy, c.vx, 0, 0, zx, 0};
+        turn[0] * gx, turn[1] * gx + ux, turn[2] * gx, turn[3] * gx, v.x, -v.y, 0, 0, -zy, 0};
+    double jy[shared] = {turn[0] * gy, turn[1] * gy + uy, turn[2] * gy, turn[3] * gy, v.y, v.x, 0, 0, zx, 0};
     jx[9] = turn_crank * gx - l2 * uy;
     jy[9] = turn_crank * gy + l2 * ux;
     for (std::size_t j = 0; j < shared; ++j) {

@@ -49,6 +49,9 @@ PathObjective path_objective(const PathProblem& problem, Branch branch, double s
       o.uy.push_back(std::sin(offset));
     }
   }
+  o.points = o.x.size();
+  for (auto* values : {&o.x, &o.y, &o.ux, &o.uy})
+    if (!values->empty()) values->resize((o.points + 3) / 4 * 4, values->back());
   return o;
 }
 

@@ -10,6 +10,7 @@ namespace linkwright::planar {
 
 /// A path problem on one branch and sense, laid out for the kernels.
 struct PathObjective {
+  std::size_t points = 0;  ///< number of target points; the arrays repeat the last one up to a multiple of 4
   std::vector<double> x, y;  ///< target points (m)
   std::vector<double> ux,
       uy;  ///< prescribed timing: direction e^(i angle) of each point before the start angle is added

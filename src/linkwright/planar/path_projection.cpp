@@ -93,8 +93,9 @@ bool PathProjection::project(std::span<const double> q) {
     uy_[k] = start_x * offset_y_[k] + start_y * offset_x_[k];
     const Closure<double> c = close_loop(r1, 0.0, ux_[k], uy_[k], r3, r4, side);
     assembles &= c.radicand >= 0 && c.r2 > 0;
-    vx_[k] = c.vx;
-    vy_[k] = c.vy;
+    const Direction<double> v = coupler_direction(c, r3);
+    vx_[k] = v.x;
+    vy_[k] = v.y;
   }
   // By construction the crank turns fully; only rounding at a change point can say otherwise.
   if (!assembles) return false;

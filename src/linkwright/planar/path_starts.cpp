@@ -64,7 +64,8 @@ void PathMatcher::sample_curve(double from, double to, double l1, double l3, dou
     raw_angle_[i] = start + step * static_cast<double>(i);
     const Complex u = std::polar(1.0, raw_angle_[i]);
     const Closure<double> c = close_loop(l1, 0.0, u.real(), u.imag(), l3, l4, sign(branch_));
-    raw_[i] = u + point * Complex(c.vx, c.vy);
+    const Direction<double> v = coupler_direction(c, l3);
+    raw_[i] = u + point * Complex(v.x, v.y);
     raw_length_[i] = i == 0 ? 0 : raw_length_[i - 1] + std::abs(raw_[i] - raw_[i - 1]);
   }
   const double spacing = raw_length_[raw_samples] / curve_samples;
