@@ -7,7 +7,9 @@
 namespace linkwright {
 
 /// What a number measures; it decides which unit suffixes its key may carry in a file (see units.h).
-enum class Dimension { none, length, angle, time, speed_angular, acceleration, mass, inertia, area };
+enum class Dimension {
+  none, length, angle, time, speed_angular, acceleration, mass, inertia, area, speed, acceleration_angular, force, torque
+};
 
 /// What a member of a struct means to a person and to a file. A struct that appears in files has one field list,
 ///
