@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace linkwright::study {
 namespace {
@@ -158,6 +159,12 @@ void DocumentReader::finish() {
   if (unknown_ > most_unknown_keys)
     report(Diagnostic::Severity::error, {}, {},
            fmt::format("{} more unknown keys", unknown_ - most_unknown_keys));
+  // A table that two readers open (the study room and the domain) tells its problems twice.
+  std::set<std::string> told;
+  const auto first = diagnostics_.begin() + static_cast<std::ptrdiff_t>(first_);
+  diagnostics_.erase(std::remove_if(first, diagnostics_.end(),
+                                    [&](const Diagnostic& d) { return !told.insert(to_string(d)).second; }),
+                     diagnostics_.end());
   const auto place = [](const Diagnostic& d) {
     return std::pair(d.position.line > 0 ? d.position.line : std::numeric_limits<int>::max(),
                      d.position.column);
@@ -227,7 +234,9 @@ std::optional<ObjectReader::Found> ObjectReader::find(const Field& field) {
   }
   if (in_error) return std::nullopt;
   if (!first) {
-    if (field.required) record_->missing.push_back({std::string(field.key), dimension});
+    const auto noted = [&](const auto& missing) { return missing.base == field.key; };
+    if (field.required && std::none_of(record_->missing.begin(), record_->missing.end(), noted))
+      record_->missing.push_back({std::string(field.key), dimension});
     return std::nullopt;
   }
   const Unit* unit = nullptr;

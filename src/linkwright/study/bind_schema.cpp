@@ -50,7 +50,10 @@ Value SchemaWriter::words(std::span<const Word> words) {
 Value SchemaWriter::array(Value items, std::size_t count) {
   Value schema = with("type", "array");
   schema["items"] = std::move(items);
-  if (count > 0) schema["minItems"] = schema["maxItems"] = static_cast<std::int64_t>(count);
+  if (count > 0) {
+    schema["minItems"] = count;
+    schema["maxItems"] = count;
+  }
   return schema;
 }
 
