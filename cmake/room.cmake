@@ -7,6 +7,7 @@ target_include_directories(linkwright_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
 target_compile_options(linkwright_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   -fno-math-errno -fno-trapping-math -ffp-contract=off
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 warns about its own std::string operator+ (GCC bug 105651)
   $<$<BOOL:${LINKWRIGHT_WARNINGS_AS_ERRORS}>:-Werror>)
 if(LINKWRIGHT_SANITIZE)
   target_compile_options(linkwright_flags INTERFACE -fsanitize=${LINKWRIGHT_SANITIZE} -fno-omit-frame-pointer

@@ -7,7 +7,9 @@
 namespace linkwright {
 
 /// What a number measures; it decides which unit suffixes its key may carry in a file (see units.h).
-enum class Dimension { none, length, angle, time, speed_angular, acceleration, mass, inertia, area };
+enum class Dimension {
+  none, length, angle, time, speed_angular, acceleration, mass, inertia, area, speed, acceleration_angular, force, torque
+};
 
 /// What a member of a struct means to a person and to a file. A struct that appears in files has one field
 /// list,
@@ -27,6 +29,8 @@ struct Field {
   double maximum = std::numeric_limits<double>::infinity();
   bool exclusive_minimum = false;  ///< the value must be larger than `minimum`
   bool required = false;
+  /// The key carries no suffix because the key of the table around it does: `near` in `body_m = { near = [0, 0, 0] }`.
+  bool inherits_unit = false;
 };
 
 /// A number that is fixed, or that a synthesis may choose between `lower` and `upper`: written `0.4` or
@@ -44,6 +48,12 @@ struct Range {
 template <class E>
 struct EnumName {
   E value;
+  std::string_view name;
+  std::string_view summary = {};
+};
+
+/// A word that files may hold and what it means.
+struct Word {
   std::string_view name;
   std::string_view summary = {};
 };

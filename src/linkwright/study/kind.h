@@ -1,21 +1,73 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "linkwright/core/diagnostic.h"
+#include "linkwright/core/field.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/value.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
+#include "linkwright/study/checks.h"
 #include "linkwright/study/result.h"
 
 namespace linkwright::study {
 
-/// A study that has been read without errors and can run.
+enum class Format { json, csv, html };
+constexpr std::array<EnumName<Format>, 3> names(Format) {
+  return {{{Format::json, "json", "result.json: everything"},
+           {Format::csv, "csv", "one file for each table"},
+           {Format::html, "html", "report.html: the report for people"}}};
+}
+
+/// `[output]` of a study.
+struct Output {
+  std::string dir;  ///< folder, relative to the current one; empty = "out/" and the name of the study file
+  std::vector<Format> formats{Format::json, Format::csv, Format::html};
+  int samples = 361;                    ///< of curves and animations
+  std::vector<std::string> quantities;  ///< out of Kind::quantities; empty = all
+};
+template <class Visitor>
+void fields(Visitor&& visit, Output& o) {
+  visit(Field{.key = "dir", .summary = "folder of the results"}, o.dir);
+  visit(Field{.key = "formats", .summary = "files to write"}, o.formats);
+  visit(
+      Field{.key = "samples", .summary = "samples of curves and animations", .minimum = 2, .maximum = 100000},
+      o.samples);
+}
+
+/// `[optimiser] seeds` of a study: the seeds first, first + 1, ..., each an independent run.
+struct Seeds {
+  std::int64_t first = 1;
+  int count = 1;
+};
+template <class Visitor>
+void fields(Visitor&& visit, Seeds& s) {
+  visit(Field{.key = "first", .summary = "first seed", .minimum = 0}, s.first);
+  visit(Field{.key = "count", .summary = "number of seeds, one run each", .minimum = 1, .maximum = 100000},
+        s.count);
+}
+
+/// What every study has and the study room reads: a domain finds it here and never reads these keys itself.
+struct Common {
+  std::string title;
+  std::string source;
+  Output output;
+  Seeds seeds;
+  std::vector<CheckRequest> checks;
+  std::filesystem::path folder;  ///< of the study file: file names in a study are relative to it
+};
+
+/// The part of a study that its domain has read.
 struct Prepared {
-  Value canonical;  ///< the study with defaults filled in and SI units: what result.json stores and what is
-                    ///< hashed
+  /// The domain's top-level tables with defaults filled in and in SI units ("mechanism", "target", "sweep",
+  /// "optimiser", ...). The common parts, `type` of mechanism and target and `seeds` of the optimiser are
+  /// added to it.
+  Value canonical;
+  /// Runs the study. Called only when the document has no errors, possibly more than once.
   std::function<Result(RunContext&)> run;
 };
 
@@ -28,13 +80,15 @@ struct Kind {
   std::string summary;    ///< one sentence for the catalogue
   std::string example;    ///< a complete study as TOML: what `linkwright new` writes
 
-  /// JSON Schema (2020-12) of the whole study.
-  std::function<Value()> schema;
-  /// Reads the document; problems are appended, all of them, not just the first. `folder` resolves relative
-  /// file names.
-  std::function<Prepared(const Value& document, const std::filesystem::path& folder,
-                         Diagnostics& diagnostics)>
-      prepare;
+  std::vector<Word> quantities;  ///< what `output.quantities` may list; empty = the kind has no such key
+  bool seeded = false;           ///< has `optimiser.seeds`
+
+  /// Describes the domain's top-level tables: document.property(Field{.key = "mechanism", ...},
+  /// schema_fields<...>()).
+  std::function<void(SchemaWriter& document)> schema;
+  /// Reads the domain's tables through the reader of the document, which also takes the problems, all of them
+  /// and not just the first. Keys that nobody asked for are reported afterwards by the study room.
+  std::function<Prepared(ObjectReader& document, const Common& common)> prepare;
 };
 
 }  // namespace linkwright::study

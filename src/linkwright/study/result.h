@@ -17,6 +17,8 @@ struct Check {
   double value = 0;      ///< NaN when the result has no such quantity
   std::string limit;     ///< "at_most 0.009029"
   bool passed = false;
+  std::string at;       ///< row of the table: "travel_mm = 50, rack_mm = 0"; empty = no row
+  std::string message;  ///< why there is no value; empty = there is one
 };
 
 /// One line of the headline panel of a report and of the summary on the terminal.

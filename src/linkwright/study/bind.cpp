@@ -1,0 +1,441 @@
+#include "linkwright/study/bind.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace linkwright::study {
+namespace {
+
+// A file with more unknown keys than this is no study; the rest of them would only hide the first.
+constexpr std::size_t most_unknown_keys = 50;
+
+bool is_bare_key(std::string_view key) {
+  return !key.empty() && key.size() <= 60 && std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+std::string shown(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  std::string result;
+  for (char c : text.substr(0, longest))
+    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
+  if (text.size() > longest) {
+    while (!result.empty() && (static_cast<unsigned char>(result.back()) & 0xC0) == 0x80) result.pop_back();
+    if (!result.empty() && static_cast<unsigned char>(result.back()) >= 0xC0) result.pop_back();
+    result += "...";
+  }
+  return result;
+}
+
+std::string join_path(const std::string& path, std::string_view key) {
+  const std::string last = is_bare_key(key) ? std::string(key) : "'" + shown(key) + "'";
+  return path.empty() ? last : path + "." + last;
+}
+
+std::string describe_value(const Value& value, const Unit* unit) {
+  const std::string suffix = unit ? " " + readable_unit(unit->suffix) : std::string();
+  if (value.is_integer()) return fmt::format("{}{}", value.as_integer(), suffix);
+  if (value.is_number()) return fmt::format("{}{}", value.as_number(), suffix);
+  if (value.is_string()) return fmt::format("the text '{}'", shown(value.as_string()));
+  if (value.is_bool()) return value.as_bool() ? "true" : "false";
+  if (value.is_array()) return "an array";
+  return value.is_object() ? "a table" : "null";
+}
+
+std::string with_unit(double limit, const Unit* unit) {
+  if (!unit) return fmt::format("{:.12g}", limit);
+  return fmt::format("{:.12g} {}", unit->from_si(limit), readable_unit(unit->suffix));
+}
+
+/// "crank_m, crank_mm or crank_cm"
+std::string keys_with_units(std::string_view base, Dimension dimension) {
+  std::string text;
+  const auto all = units(dimension);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i > 0) text += i + 1 == all.size() ? " or " : ", ";
+    text.append(base).append("_").append(all[i].suffix);
+  }
+  return text;
+}
+
+std::string list_of(std::span<const Word> words) {
+  std::string text;
+  for (const Word& word : words) text.append(text.empty() ? "" : ", ").append(word.name);
+  return text;
+}
+
+/// Whether `key` is `base` with a unit of the dimension, or plain `base` when there is none.
+bool names_field(std::string_view key, std::string_view base, Dimension dimension) {
+  if (dimension == Dimension::none) return key == base;
+  return key.size() > base.size() + 1 && key.starts_with(base) && key[base.size()] == '_' &&
+         find_unit(dimension, key.substr(base.size() + 1));
+}
+
+Dimension key_dimension(const Field& field) {
+  return field.inherits_unit ? Dimension::none : field.dimension;
+}
+
+}  // namespace
+
+// ---------------------------------------------------------------------------------------------------------------
+
+DocumentReader::DocumentReader(const Value& document, std::string file, Diagnostics& diagnostics)
+    : document_(document), file_(std::move(file)), diagnostics_(diagnostics), first_(diagnostics.size()) {}
+
+ObjectReader DocumentReader::root() { return {*this, document_, open(document_, {}, nullptr)}; }
+
+DocumentReader::Record& DocumentReader::open(const Value& object, std::string path, const Unit* unit) {
+  const auto [entry, fresh] = records_.try_emplace(&object);
+  if (fresh) {
+    entry->second.path = std::move(path);
+    entry->second.unit = unit;
+  }
+  return entry->second;
+}
+
+void DocumentReader::report(Diagnostic::Severity severity, Position position, std::string key,
+                            std::string message, std::string hint) {
+  diagnostics_.push_back({severity, file_, position, std::move(key), std::move(message), std::move(hint)});
+}
+
+bool DocumentReader::has_errors() const {
+  return std::any_of(diagnostics_.begin() + static_cast<std::ptrdiff_t>(first_), diagnostics_.end(),
+                     [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
+}
+
+void DocumentReader::finish_object(const Value& value) {
+  if (value.is_array()) {
+    for (const Value& element : value.as_array()) finish_object(element);
+    return;
+  }
+  const auto entry = records_.find(&value);
+  if (!value.is_object() || entry == records_.end()) return;
+  Record& record = entry->second;
+
+  std::vector<std::string_view> bases;
+  std::string allowed;
+  for (const Known& known : record.known) {
+    bases.push_back(known.base);
+    allowed += (allowed.empty() ? "" : ", ") + si_key(known.base, known.dimension);
+  }
+  for (const Value::Member& member : value.as_object()) {
+    if (std::find(record.used.begin(), record.used.end(), &member) != record.used.end()) {
+      finish_object(member.value);
+      continue;
+    }
+    if (++unknown_ > most_unknown_keys) continue;
+    // "crnk_mm" is compared as "crnk" and comes back with its own unit when that fits.
+    const auto parts = split_unit(member.key);
+    std::string_view base = nearest_word(member.key, bases);
+    if (parts && base.empty()) base = nearest_word(parts->base, bases);
+    std::string hint = allowed.empty() ? std::string() : "allowed here: " + allowed;
+    if (!base.empty()) {
+      const auto known = std::find_if(record.known.begin(), record.known.end(),
+                                      [&](const Known& k) { return k.base == base; });
+      std::string meant = si_key(base, known->dimension);
+      if (parts && parts->dimension == known->dimension)
+        meant = known->base + "_" + std::string(parts->unit->suffix);
+      hint = fmt::format("did you mean '{}'?", meant);
+      // The misspelt key is the missing one; one message is enough.
+      std::erase_if(record.missing, [&](const Known& missing) { return missing.base == base; });
+    }
+    report(Diagnostic::Severity::error, member.key_position, join_path(record.path, member.key),
+           "unknown key", hint);
+  }
+  for (const Known& missing : record.missing) {
+    const bool bare = missing.dimension == Dimension::none;
+    report(Diagnostic::Severity::error, value.position,
+           join_path(record.path, si_key(missing.base, missing.dimension)), "this key is missing",
+           bare ? std::string() : "write " + keys_with_units(missing.base, missing.dimension));
+  }
+}
+
+void DocumentReader::finish() {
+  finish_object(document_);
+  if (unknown_ > most_unknown_keys)
+    report(Diagnostic::Severity::error, {}, {},
+           fmt::format("{} more unknown keys", unknown_ - most_unknown_keys));
+  // A table that two readers open (the study room and the domain) tells its problems twice.
+  std::set<std::string> told;
+  const auto first = diagnostics_.begin() + static_cast<std::ptrdiff_t>(first_);
+  diagnostics_.erase(std::remove_if(first, diagnostics_.end(),
+                                    [&](const Diagnostic& d) { return !told.insert(to_string(d)).second; }),
+                     diagnostics_.end());
+  const auto place = [](const Diagnostic& d) {
+    return std::pair(d.position.line > 0 ? d.position.line : std::numeric_limits<int>::max(),
+                     d.position.column);
+  };
+  std::stable_sort(diagnostics_.begin() + static_cast<std::ptrdiff_t>(first_), diagnostics_.end(),
+                   [&](const Diagnostic& a, const Diagnostic& b) { return place(a) < place(b); });
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+
+const std::string& ObjectReader::path() const { return record_->path; }
+
+void ObjectReader::problem(const Found& found, std::string message, std::string hint) {
+  document_->report(Diagnostic::Severity::error, found.value->position, found.path, std::move(message),
+                    std::move(hint));
+}
+
+void ObjectReader::know(const Field& field) {
+  for (const auto& known : record_->known)
+    if (known.base == field.key) return;
+  record_->known.push_back({std::string(field.key), key_dimension(field)});
+}
+
+const Value::Member* ObjectReader::member_of(const Field& field) const {
+  if (!object_->is_object()) return nullptr;
+  for (const Value::Member& member : object_->as_object())
+    if (names_field(member.key, field.key, key_dimension(field))) return &member;
+  return nullptr;
+}
+
+std::optional<ObjectReader::Found> ObjectReader::find(const Field& field) {
+  if (!object_->is_object()) return std::nullopt;
+  know(field);
+  const Dimension dimension = key_dimension(field);
+  const Value::Member* first = nullptr;
+  bool in_error = false;
+  const auto refuse = [&](const Value::Member& member, std::string message, std::string hint) {
+    in_error = true;
+    document_->report(Diagnostic::Severity::error, member.key_position, join_path(path(), member.key),
+                      std::move(message), std::move(hint));
+  };
+  for (const Value::Member& member : object_->as_object()) {
+    if (names_field(member.key, field.key, dimension)) {
+      record_->used.push_back(&member);
+      if (first)
+        refuse(member, fmt::format("is given twice, as {} and {}", first->key, member.key),
+               "keep one of them");
+      first = first ? first : &member;
+    } else if (dimension != Dimension::none) {
+      // A key that another field answers to is that field's.
+      const auto others = [&] {
+        return std::any_of(record_->known.begin(), record_->known.end(), [&](const auto& known) {
+          return known.base != field.key && names_field(member.key, known.base, known.dimension);
+        });
+      };
+      if (member.key == field.key && !others()) {
+        record_->used.push_back(&member);
+        refuse(member, "the unit is missing", "write " + keys_with_units(field.key, dimension));
+      } else if (const auto parts = split_unit(member.key);
+                 parts && parts->base == field.key && parts->dimension != dimension && !others()) {
+        record_->used.push_back(&member);
+        refuse(member,
+               fmt::format("is {}, but '{}' is not a unit of it", describe(dimension), parts->unit->suffix),
+               "write " + keys_with_units(field.key, dimension));
+      }
+    }
+  }
+  if (in_error) return std::nullopt;
+  if (!first) {
+    const auto noted = [&](const auto& missing) { return missing.base == field.key; };
+    if (field.required && std::none_of(record_->missing.begin(), record_->missing.end(), noted))
+      record_->missing.push_back({std::string(field.key), dimension});
+    return std::nullopt;
+  }
+  const Unit* unit = nullptr;
+  if (field.inherits_unit)
+    unit = record_->unit;
+  else if (dimension != Dimension::none)
+    unit = find_unit(dimension, std::string_view(first->key).substr(field.key.size() + 1));
+  return Found{&first->value, unit, join_path(path(), first->key)};
+}
+
+bool ObjectReader::has(const Field& field) {
+  know(field);
+  return member_of(field) != nullptr;
+}
+
+bool ObjectReader::is_table(const Field& field) {
+  know(field);
+  const Value::Member* member = member_of(field);
+  return member && member->value.is_object();
+}
+
+void ObjectReader::error(std::string_view key, std::string message, std::string hint) {
+  for (const auto& known : record_->known) {
+    if (known.base != key) continue;
+    if (const Value::Member* member = member_of({.key = key, .summary = {}, .dimension = known.dimension})) {
+      document_->report(Diagnostic::Severity::error, member->value.position, join_path(path(), member->key),
+                        std::move(message), std::move(hint));
+      return;
+    }
+  }
+  document_->report(Diagnostic::Severity::error, object_->position, join_path(path(), key),
+                    std::move(message), std::move(hint));
+}
+
+void ObjectReader::warning(std::string_view key, std::string message, std::string hint) {
+  document_->report(Diagnostic::Severity::warning, object_->position, join_path(path(), key),
+                    std::move(message), std::move(hint));
+}
+
+std::optional<ObjectReader> ObjectReader::open(const Found& found) {
+  if (!found.value->is_object()) {
+    problem(found, fmt::format("is {}, must be a table", describe_value(*found.value, nullptr)));
+    return std::nullopt;
+  }
+  return ObjectReader(*document_, *found.value, document_->open(*found.value, found.path, found.unit));
+}
+
+std::optional<ObjectReader> ObjectReader::table(const Field& field) {
+  const std::optional<Found> found = find(field);
+  return found ? open(*found) : std::nullopt;
+}
+
+std::vector<ObjectReader> ObjectReader::tables(const Field& field) {
+  std::vector<ObjectReader> all;
+  const std::optional<Found> found = find(field);
+  if (!found) return all;
+  if (!found->value->is_array()) {
+    problem(*found, fmt::format("is {}, must be an array of tables", describe_value(*found->value, nullptr)),
+            fmt::format("write [[{}]] above each of them", found->path));
+    return all;
+  }
+  const Value::Array& array = found->value->as_array();
+  for (std::size_t i = 0; i < array.size(); ++i)
+    if (auto object = open({&array[i], found->unit, fmt::format("{}[{}]", found->path, i)}))
+      all.push_back(*object);
+  return all;
+}
+
+const Value::Object& ObjectReader::members() {
+  for (const Value::Member& member : object_->as_object()) record_->used.push_back(&member);
+  return object_->as_object();
+}
+
+const Value::Array* ObjectReader::elements(const Found& found, std::string_view expected) {
+  if (found.value->is_array()) return &found.value->as_array();
+  problem(found, fmt::format("is {}, must be {}", describe_value(*found.value, nullptr), expected));
+  return nullptr;
+}
+
+bool ObjectReader::number(const Found& found, const Field& field, double& result, std::string_view expected) {
+  if (!found.value->is_number()) {
+    problem(found, fmt::format("is {}, must be {}", describe_value(*found.value, nullptr), expected));
+    return false;
+  }
+  const double given = found.value->as_number();
+  if (!std::isfinite(given)) {
+    problem(found, fmt::format("is {}, must be a finite number", given));
+    return false;
+  }
+  const double value = found.unit ? found.unit->to_si(given) : given;
+  const std::string what = "is " + describe_value(*found.value, found.unit);
+  if (value < field.minimum || (field.exclusive_minimum && value == field.minimum)) {
+    problem(found, fmt::format("{}, must be {} {}", what, field.exclusive_minimum ? "more than" : "at least",
+                               with_unit(field.minimum, found.unit)));
+    return false;
+  }
+  if (value > field.maximum) {
+    problem(found, fmt::format("{}, must be at most {}", what, with_unit(field.maximum, found.unit)));
+    return false;
+  }
+  result = value;
+  return true;
+}
+
+bool ObjectReader::whole(const Found& found, const Field& field, std::int64_t lowest, std::int64_t highest,
+                         std::int64_t& result) {
+  Field limited = field;
+  limited.minimum = std::max(field.minimum, static_cast<double>(lowest));
+  limited.maximum = std::min(field.maximum, static_cast<double>(highest));
+  double value = 0;
+  if (!number(found, limited, value, "a whole number")) return false;
+  // JSON written by other programs has no whole numbers, so 30.0 counts as 30. 2^63 is the first that does
+  // not fit.
+  if (value != std::floor(value) || value >= 0x1p63) {
+    problem(found, fmt::format("is {}, must be a whole number", describe_value(*found.value, found.unit)));
+    return false;
+  }
+  result = found.value->is_integer() ? found.value->as_integer() : static_cast<std::int64_t>(value);
+  return true;
+}
+
+bool ObjectReader::numbers(const Found& found, const Field& field, std::span<double> result) {
+  const std::string expected = fmt::format("an array of {} numbers", result.size());
+  const Value::Array* array = elements(found, expected);
+  if (!array) return false;
+  if (array->size() != result.size()) {
+    problem(found, fmt::format("has {} numbers, must have {}", array->size(), result.size()));
+    return false;
+  }
+  std::vector<double> all(result.size());
+  bool good = true;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    good = number({&(*array)[i], found.unit, fmt::format("{}[{}]", found.path, i)}, field, all[i]) && good;
+  if (good) std::copy(all.begin(), all.end(), result.begin());
+  return good;
+}
+
+std::optional<std::size_t> ObjectReader::one_of(const Found& found, std::span<const Word> words) {
+  if (!found.value->is_string()) {
+    problem(found,
+            fmt::format("is {}, must be one of: {}", describe_value(*found.value, nullptr), list_of(words)));
+    return std::nullopt;
+  }
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i].name == found.value->as_string()) return i;
+    names.push_back(words[i].name);
+  }
+  const std::string_view nearest = nearest_word(found.value->as_string(), names);
+  problem(found, fmt::format("is '{}', must be one of: {}", shown(found.value->as_string()), list_of(words)),
+          nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+  return std::nullopt;
+}
+
+std::optional<std::size_t> ObjectReader::word(const Field& field, std::span<const Word> words) {
+  const std::optional<Found> found = find(field);
+  return found ? one_of(*found, words) : std::nullopt;
+}
+
+bool ObjectReader::convert(const Found& found, const Field&, bool& result) {
+  if (!found.value->is_bool()) {
+    problem(found, fmt::format("is {}, must be true or false", describe_value(*found.value, nullptr)));
+    return false;
+  }
+  result = found.value->as_bool();
+  return true;
+}
+
+bool ObjectReader::convert(const Found& found, const Field&, std::string& result) {
+  if (!found.value->is_string()) {
+    problem(found, fmt::format("is {}, must be a text in quotes", describe_value(*found.value, nullptr)));
+    return false;
+  }
+  result = found.value->as_string();
+  return true;
+}
+
+bool ObjectReader::convert(const Found& found, const Field& field, Range& result) {
+  if (!found.value->is_object()) {
+    double value = 0;
+    if (!number(found, field, value, "a number or { min = ..., max = ... }")) return false;
+    result = {value, value};
+    return true;
+  }
+  ObjectReader bounds = *open(found);
+  Field minimum = field, maximum = field;
+  minimum.key = "min";
+  maximum.key = "max";
+  minimum.required = maximum.required = minimum.inherits_unit = maximum.inherits_unit = true;
+  Range range;
+  const bool has_minimum = bounds(minimum, range.lower), has_maximum = bounds(maximum, range.upper);
+  if (!has_minimum || !has_maximum) return false;
+  if (range.lower > range.upper) {
+    problem(found, fmt::format("min is {}, larger than max, which is {}", with_unit(range.lower, found.unit),
+                               with_unit(range.upper, found.unit)));
+    return false;
+  }
+  result = range;
+  return true;
+}
+
+}  // namespace linkwright::study

@@ -1,0 +1,241 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "linkwright/core/diagnostic.h"
+#include "linkwright/core/field.h"
+#include "linkwright/core/units.h"
+#include "linkwright/core/value.h"
+#include "linkwright/study/bind_traits.h"
+
+// From documents to structs. A struct with a field list (core/field.h) is read by `reader.read(options)`;
+// single values by `reader(Field{...}, member)`. Members may be double, bool, whole numbers, std::string,
+// Range, an enum with `names`, std::array<double, 2 or 3>, a struct with a field list, std::optional of any
+// of these, std::vector of any of these but bool and optional, and a choice: std::variant of structs, each
+// with
+//
+//     constexpr Word choice_word(const GreyWolfOptions&) { return {"grey_wolf", "pack hunting of Mirjalili et
+//     al. 2014"}; }
+//
+// found by argument-dependent lookup; the word stands at the variant's key and the keys of the chosen struct
+// beside it in the same table. bind_write.h and bind_schema.h use the same lists.
+namespace linkwright::study {
+
+class ObjectReader;
+
+/// Reads one document: collects what is wrong with it and which keys were asked for, so that `finish` can
+/// tell the unknown ones. Values that cannot be read keep what the member held before.
+class DocumentReader {
+ public:
+  /// `document` must outlive this; problems are appended to `diagnostics` under the name `file`.
+  DocumentReader(const Value& document, std::string file, Diagnostics& diagnostics);
+  DocumentReader(const DocumentReader&) = delete;
+  DocumentReader& operator=(const DocumentReader&) = delete;
+
+  ObjectReader root();
+
+  /// Reports unknown and missing keys and puts all problems into the order of the file. Call once, when
+  /// everything has been read.
+  void finish();
+
+  void report(Diagnostic::Severity severity, Position position, std::string key, std::string message,
+              std::string hint = {});
+  /// Errors so far, those of `finish` not included.
+  bool has_errors() const;
+  const std::string& file() const { return file_; }
+
+ private:
+  friend class ObjectReader;
+  struct Known {
+    std::string base;
+    Dimension dimension;
+  };
+  struct Record {  // what became of one table of the document
+    std::string path;
+    const Unit* unit = nullptr;
+    std::vector<Known> known;
+    std::vector<const Value::Member*> used;
+    std::vector<Known> missing;
+  };
+  Record& open(const Value& object, std::string path, const Unit* unit);
+  void finish_object(const Value& value);
+
+  const Value& document_;
+  std::string file_;
+  Diagnostics& diagnostics_;
+  std::size_t first_;
+  std::map<const Value*, Record> records_;
+  std::size_t unknown_ = 0;
+};
+
+/// One table of a document; cheap to copy, valid as long as its DocumentReader. It is also the visitor that
+/// field lists are read with.
+class ObjectReader {
+ public:
+  /// Reads one member. True when the key is there and its value is good; false leaves the member as it is.
+  template <class T>
+  bool operator()(const Field& field, T& member);
+
+  /// Reads a struct by its field list.
+  template <HasFields T>
+  void read(T& object) {
+    fields(*this, object);
+  }
+
+  /// Whether the key is there, with any unit.
+  bool has(const Field& field);
+  bool has(std::string_view key) { return has(Field{.key = key, .summary = {}}); }
+  /// Whether it is there and a table: for values that may be a plain value or a table.
+  bool is_table(const Field& field);
+
+  /// A table inside this one. Nothing when it is absent (an error if `field.required`) or no table (an
+  /// error).
+  std::optional<ObjectReader> table(const Field& field);
+  std::optional<ObjectReader> table(std::string_view key) { return table(Field{.key = key, .summary = {}}); }
+  /// The tables of `[[key]]`; empty when absent.
+  std::vector<ObjectReader> tables(const Field& field);
+  std::vector<ObjectReader> tables(std::string_view key) { return tables(Field{.key = key, .summary = {}}); }
+  /// All keys of a table whose keys are free (names that the user gives), each taken as known.
+  const Value::Object& members();
+
+  /// A word out of a list: its index in `words`.
+  std::optional<std::size_t> word(const Field& field, std::span<const Word> words);
+
+  /// An error of meaning at a key ("crank" finds crank_m or crank_mm): position and path are filled in. An
+  /// absent key puts it at the table.
+  void error(std::string_view key, std::string message, std::string hint = {});
+  void warning(std::string_view key, std::string message, std::string hint = {});
+
+  /// "mechanism.parameters", empty for the document itself.
+  const std::string& path() const;
+  Position position() const { return object_->position; }
+  const Value& value() const { return *object_; }
+  DocumentReader& document() const { return *document_; }
+
+ private:
+  friend class DocumentReader;
+  struct Found {
+    const Value* value;
+    const Unit* unit;
+    std::string path;
+  };
+  ObjectReader(DocumentReader& document, const Value& object, DocumentReader::Record& record)
+      : document_(&document), object_(&object), record_(&record) {}
+
+  /// The member of a field; problems with its unit and its absence are noted.
+  std::optional<Found> find(const Field& field);
+  const Value::Member* member_of(const Field& field) const;
+  void know(const Field& field);
+  std::optional<ObjectReader> open(const Found& found);
+  std::vector<ObjectReader> open_all(const Found& found);
+  const Value::Array* elements(const Found& found, std::string_view expected);
+  void problem(const Found& found, std::string message, std::string hint = {});
+
+  bool number(const Found& found, const Field& field, double& result, std::string_view expected = "a number");
+  bool whole(const Found& found, const Field& field, std::int64_t lowest, std::int64_t highest,
+             std::int64_t& result);
+  bool numbers(const Found& found, const Field& field, std::span<double> result);
+  std::optional<std::size_t> one_of(const Found& found, std::span<const Word> words);
+
+  bool convert(const Found& found, const Field& field, double& result) {
+    return number(found, field, result);
+  }
+  bool convert(const Found& found, const Field& field, bool& result);
+  bool convert(const Found& found, const Field& field, std::string& result);
+  bool convert(const Found& found, const Field& field, Range& result);
+  template <class T>
+  bool convert(const Found& found, const Field& field, T& result);
+
+  template <class... Options>
+  bool choose(const Field& field, std::variant<Options...>& result);
+
+  DocumentReader* document_;
+  const Value* object_;
+  DocumentReader::Record* record_;
+};
+
+// ---------------------------------------------------------------------------------------------------------------
+
+template <class T>
+bool ObjectReader::operator()(const Field& field, T& member) {
+  if constexpr (is_variant<T>) {
+    return choose(field, member);
+  } else {
+    const std::optional<Found> found = find(field);
+    return found && convert(*found, field, member);
+  }
+}
+
+template <class T>
+bool ObjectReader::convert(const Found& found, const Field& field, T& result) {
+  if constexpr (is_optional<T>) {
+    typename T::value_type value{};
+    const bool good = convert(found, field, value);
+    if (good) result = std::move(value);
+    return good;
+  } else if constexpr (std::is_integral_v<T>) {
+    std::int64_t value = 0;
+    constexpr auto highest = std::numeric_limits<T>::max() > static_cast<std::uint64_t>(INT64_MAX)
+                                 ? INT64_MAX
+                                 : static_cast<std::int64_t>(std::numeric_limits<T>::max());
+    if (!whole(found, field, static_cast<std::int64_t>(std::numeric_limits<T>::min()), highest, value))
+      return false;
+    result = static_cast<T>(value);
+    return true;
+  } else if constexpr (HasNames<T>) {
+    const auto words = words_of<T>();
+    const std::optional<std::size_t> index = one_of(found, words);
+    if (index) result = names(T{})[*index].value;
+    return index.has_value();
+  } else if constexpr (is_number_array<T>) {
+    return numbers(found, field, result);
+  } else if constexpr (is_vector<T>) {
+    using Element = typename T::value_type;
+    const Value::Array* array = elements(found, expected_elements<Element>());
+    if (!array) return false;
+    T all;
+    all.reserve(array->size());
+    bool good = true;
+    for (std::size_t i = 0; i < array->size(); ++i) {
+      all.emplace_back();
+      const Found element{&(*array)[i], found.unit, found.path + "[" + std::to_string(i) + "]"};
+      good = convert(element, field, all.back()) && good;
+    }
+    if (good) result = std::move(all);
+    return good;
+  } else {
+    static_assert(HasFields<T>, "this type has neither a field list nor names()");
+    std::optional<ObjectReader> object = open(found);
+    if (object) object->read(result);
+    return object.has_value();
+  }
+}
+
+template <class... Options>
+bool ObjectReader::choose(const Field& field, std::variant<Options...>& result) {
+  const std::array<Word, sizeof...(Options)> words{choice_word(Options{})...};
+  const std::optional<Found> found = find(field);
+  if (found) {
+    const std::optional<std::size_t> index = one_of(*found, words);
+    if (!index) return false;
+    if (*index != result.index()) {
+      std::size_t i = 0;
+      ((i++ == *index ? void(result.template emplace<Options>()) : void()), ...);
+    }
+  }
+  std::visit([this](auto& options) { read(options); }, result);
+  return found.has_value();
+}
+
+}  // namespace linkwright::study

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "linkwright/core/units.h"
+#include "linkwright/core/value.h"
+#include "linkwright/study/bind_write.h"
+
+// JSON Schema (2020-12) of structs, by the field lists that bind.h reads them with.
+namespace linkwright::study {
+
+/// The visitor that describes the members of a table. Members hold their defaults while they are visited.
+class SchemaWriter {
+ public:
+  template <class T>
+  void operator()(const Field& field, const T& member) {
+    if constexpr (is_variant<T>) {
+      choice(field, member);
+    } else {
+      Value schema = of(field, member);
+      if constexpr (!is_optional<T> && !HasFields<T>) {
+        if (!field.required) schema["default"] = ObjectWriter::to_value(member);
+      }
+      property(field, std::move(schema));
+    }
+  }
+
+  /// A member that no field list holds: its key (with its units) gets the given schema.
+  void property(const Field& field, Value schema);
+
+  /// The table described so far; other keys are not allowed.
+  Value finish() &&;
+
+ private:
+  /// Schema of one value.
+  template <class T>
+  static Value of(const Field& field, const T& member);
+  static Value number(const Field& field, std::string_view type);
+  static Value range(const Field& field);
+  static Value words(std::span<const Word> words);
+  static Value array(Value items, std::size_t count);
+
+  template <class... Options>
+  void choice(const Field& field, const std::variant<Options...>& member);
+  void alternative(const Field& field, const Word& word, SchemaWriter options);
+
+  Value properties_ = Value::object();
+  Value patterns_ = Value::object();
+  Value::Array required_;
+  Value::Array one_of_units_;
+  Value::Array alternatives_;
+};
+
+/// Schema of a table that is read by the field list of T.
+template <HasFields T>
+Value schema_fields() {
+  SchemaWriter writer;
+  T defaults{};
+  fields(writer, defaults);
+  return std::move(writer).finish();
+}
+
+/// Schema of an array of what `items` describes.
+Value schema_array(Value items);
+/// Schema of a value that may be any of these.
+Value schema_any_of(Value::Array alternatives);
+
+// ---------------------------------------------------------------------------------------------------------------
+
+template <class T>
+Value SchemaWriter::of(const Field& field, const T& member) {
+  if constexpr (is_optional<T>) {
+    return of(field, typename T::value_type{});
+  } else if constexpr (std::is_same_v<T, bool>) {
+    Value schema;
+    schema["type"] = "boolean";
+    return schema;
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    Value schema;
+    schema["type"] = "string";
+    return schema;
+  } else if constexpr (std::is_same_v<T, Range>) {
+    return range(field);
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    return number(field, std::is_integral_v<T> ? "integer" : "number");
+  } else if constexpr (HasNames<T>) {
+    return words(words_of<T>());
+  } else if constexpr (is_number_array<T>) {
+    return array(number(field, "number"), member.size());
+  } else if constexpr (is_vector<T>) {
+    return array(of(field, typename T::value_type{}), 0);
+  } else {
+    return schema_fields<T>();
+  }
+}
+
+template <class... Options>
+void SchemaWriter::choice(const Field& field, const std::variant<Options...>& member) {
+  const auto add = [&](auto options) {
+    SchemaWriter writer;
+    const Word word = choice_word(options);
+    fields(writer, options);
+    alternative(field, word, std::move(writer));
+  };
+  (add(Options{}), ...);
+  Value schema;
+  schema["type"] = "string";
+  if (!field.required)
+    schema["default"] =
+        std::visit([](const auto& options) { return Value(choice_word(options).name); }, member);
+  property(field, std::move(schema));
+}
+
+}  // namespace linkwright::study

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "linkwright/core/field.h"
+
+// What the members of a field list can be; shared by reading, writing and schema.
+namespace linkwright::study {
+
+struct FieldProbe {
+  template <class T>
+  void operator()(const Field&, T&) const {}
+};
+
+/// A struct with a field list: `fields(visitor, object)` is found by argument-dependent lookup.
+template <class T>
+concept HasFields = std::is_class_v<T> && requires(T& object, FieldProbe probe) {
+  fields(probe, object);
+};
+
+/// An enumeration with `names(E)`.
+template <class T>
+concept HasNames = std::is_enum_v<T> && requires {
+  names(T{});
+};
+
+template <class T>
+inline constexpr bool is_optional = false;
+template <class T>
+inline constexpr bool is_optional<std::optional<T>> = true;
+
+template <class T>
+inline constexpr bool is_vector = false;
+template <class T>
+inline constexpr bool is_vector<std::vector<T>> = true;
+
+template <class T>
+inline constexpr bool is_number_array = false;
+template <std::size_t N>
+inline constexpr bool is_number_array<std::array<double, N>> = true;
+
+template <class T>
+inline constexpr bool is_variant = false;
+template <class... T>
+inline constexpr bool is_variant<std::variant<T...>> = true;
+
+/// The words of an enumeration.
+template <HasNames E>
+constexpr auto words_of() {
+  constexpr auto all = names(E{});
+  std::array<Word, all.size()> words;
+  for (std::size_t i = 0; i < all.size(); ++i) words[i] = {all[i].name, all[i].summary};
+  return words;
+}
+
+/// What an array of T is called in messages.
+template <class T>
+constexpr std::string_view expected_elements() {
+  if constexpr (std::is_arithmetic_v<T>)
+    return "an array of numbers";
+  else if constexpr (is_number_array<T>)
+    return std::tuple_size_v<T> == 2 ? "an array of points [x, y]" : "an array of points [x, y, z]";
+  else if constexpr (HasFields<T>)
+    return "an array of tables";
+  else
+    return "an array of words";
+}
+
+}  // namespace linkwright::study

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/field.h"
+#include "linkwright/core/value.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/result.h"
+
+namespace linkwright::study {
+
+/// One `[[check]]` of a study. The limits are in the unit that the quantity's name ends in.
+struct CheckRequest {
+  std::string quantity;
+  std::optional<double> at_most, at_least, equals, tolerance;
+  /// Row of a table: numbers by column key, any unit of the column's dimension; { travel_mm = 50.0, rack_mm =
+  /// 0.0 }.
+  std::vector<std::pair<std::string, double>> at;
+};
+template <class Visitor>
+void fields(Visitor&& visit, CheckRequest& c) {
+  visit(Field{.key = "quantity",
+              .summary = "what is checked: best.<key>, statistics.<key>, <table>.<column>.<statistic>",
+              .required = true},
+        c.quantity);
+  visit(Field{.key = "at_most", .summary = "upper limit"}, c.at_most);
+  visit(Field{.key = "at_least", .summary = "lower limit"}, c.at_least);
+  visit(Field{.key = "equals", .summary = "expected value"}, c.equals);
+  visit(Field{.key = "tolerance", .summary = "allowed distance from the expected value", .minimum = 0},
+        c.tolerance);
+}
+
+/// Reads `[[check]]`: each needs limits that fit together.
+std::vector<CheckRequest> read_checks(ObjectReader& document);
+
+/// The checks as a canonical study holds them.
+Value write_checks(const std::vector<CheckRequest>& checks);
+
+/// Compares a result with a check. Quantities are
+///   best.<key>                 objective, parameter or classification (a number) of the first solution
+///   statistics.<key>           number of the statistics
+///   <table>.<column>           with `at`: the row whose columns have these values (to 1e-6 of the column's
+///   span) <table>.<column>.<what>    max, min, max_abs, mean, rms, first or last of the rows that have a
+///   value
+/// Keys match in any unit of their dimension: sweep.toe_deg is found in the column toe_rad and converted. A
+/// quantity that cannot be found is a failed check whose message says why.
+Check evaluate(const CheckRequest& request, const Result& result);
+
+}  // namespace linkwright::study

@@ -1,0 +1,142 @@
+#include "linkwright/study/read.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "linkwright/study/read_syntax.h"
+
+namespace linkwright::study {
+namespace fs = std::filesystem;
+namespace {
+
+void refuse(Diagnostics& diagnostics, const std::string& file, std::string message, std::string hint = {}) {
+  diagnostics.push_back({Diagnostic::Severity::error, file, {}, {}, std::move(message), std::move(hint)});
+}
+
+bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  return text;
+}
+
+bool is_bare_word(std::string_view text) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  return !text.empty() && letter(text.front()) &&
+         std::all_of(text.begin(), text.end(),
+                     [&](char c) {
+                       return letter(c) || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '/';
+                     }) &&
+         text != "true" && text != "false" && text != "nan" && text != "inf";
+}
+
+}  // namespace
+
+Syntax syntax_of(const fs::path& file, std::string_view text) {
+  if (file.extension() == ".json") return Syntax::json;
+  text = without_byte_order_mark(text);
+  const auto first = std::find_if_not(text.begin(), text.end(), blank);
+  return first != text.end() && *first == '{' ? Syntax::json : Syntax::toml;
+}
+
+Value read_text(std::string_view text, Syntax syntax, const std::string& file, Diagnostics& diagnostics) {
+  text = without_byte_order_mark(text);
+  if (text.size() > largest_document) {
+    refuse(diagnostics, file,
+           fmt::format("the text has {} bytes; a study may have at most {}", text.size(), largest_document));
+    return {};
+  }
+  if (std::all_of(text.begin(), text.end(), blank)) {
+    refuse(diagnostics, file, "the file is empty", "write a first study with `linkwright new`");
+    return {};
+  }
+  Diagnostics problems = check_characters(text, syntax);
+  Value root;
+  if (problems.empty())
+    root = syntax == Syntax::toml ? parse_toml(text, problems) : parse_json(text, problems);
+  if (problems.empty() && root.is_object() && root.as_object().empty())
+    refuse(problems, {}, "the file has no keys, only comments or brackets",
+           "write a first study with `linkwright new`");
+  if (has_errors(problems)) root = Value();
+  for (Diagnostic& problem : problems) {
+    problem.file = file;
+    diagnostics.push_back(std::move(problem));
+  }
+  return root;
+}
+
+std::string load_file(const fs::path& file, Diagnostics& diagnostics) {
+  const std::string name = file.string();
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (!fs::exists(status)) {
+    const bool absent = !error || error == std::errc::no_such_file_or_directory;
+    refuse(diagnostics, name, absent ? "there is no such file" : "cannot be read: " + error.message());
+    return {};
+  }
+  if (fs::is_directory(status)) {
+    refuse(diagnostics, name, "is a folder, expected a file");
+    return {};
+  }
+  // The size is asked before reading so that a huge file is refused at once; what has no size (a pipe) is
+  // read up to the limit.
+  if (fs::is_regular_file(status)) {
+    const auto size = fs::file_size(file, error);
+    if (!error && size > largest_document) {
+      refuse(diagnostics, name,
+             fmt::format("the file has {} bytes; at most {} ({} MiB) are read", size, largest_document,
+                         largest_document >> 20),
+             "keep long point lists in a CSV file of their own");
+      return {};
+    }
+  }
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    refuse(diagnostics, name, fmt::format("cannot be read: {}", std::strerror(errno)));
+    return {};
+  }
+  std::string text(largest_document + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) {
+    refuse(diagnostics, name, fmt::format("cannot be read: {}", std::strerror(errno)));
+    return {};
+  }
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > largest_document) {
+    refuse(diagnostics, name,
+           fmt::format("has more than {} bytes ({} MiB)", largest_document, largest_document >> 20));
+    return {};
+  }
+  return text;
+}
+
+Value read_file(const fs::path& file, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.size();
+  const std::string text = load_file(file, diagnostics);
+  if (diagnostics.size() != before) return {};
+  return read_text(text, syntax_of(file, text), file.string(), diagnostics);
+}
+
+Value read_value(std::string_view text, const std::string& origin, Diagnostics& diagnostics) {
+  if (is_bare_word(text)) return Value(text);
+  Value document;
+  Diagnostics problems;
+  if (text.find('\n') == std::string_view::npos)
+    document = read_text("value = " + std::string(text), Syntax::toml, {}, problems);
+  const Value* value = document.find("value");
+  if (value && document.as_object().size() == 1) {
+    Value plain = *value;
+    clear_positions(plain);
+    return plain;
+  }
+  std::string message = fmt::format("'{}' is not a value", text);
+  if (!problems.empty()) message += ": " + problems.front().message;
+  refuse(diagnostics, origin, message, "write a number, true, false, a word, [ ... ] or { ... } as in TOML");
+  return {};
+}
+
+}  // namespace linkwright::study

@@ -1,0 +1,240 @@
+#include "linkwright/study/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "linkwright/core/check.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::study {
+namespace {
+
+const Field kind_field{.key = "kind", .summary = "what the study does", .required = true};
+const Field type_field{.key = "type", .summary = {}, .required = true};
+const Field schema_field{.key = "schema", .summary = "version of the study grammar", .required = true};
+const Field title_field{.key = "title", .summary = "one line for people"};
+const Field source_field{.key = "source", .summary = "where the numbers come from"};
+const Field output_field{.key = "output", .summary = "what is written, and where"};
+const Field quantities_field{.key = "quantities", .summary = "what is computed; all when absent"};
+const Field seeds_field{.key = "seeds", .summary = "one run for each seed"};
+const Field check_field{.key = "check", .summary = "makes the study a regression test"};
+
+/// Keeps the kinds whose `part` is the word at a key. A misspelt word is an error, and the reading goes on
+/// with the word that was probably meant, so that the other problems of the file are found too.
+void choose(std::vector<const Kind*>& kinds, std::string Kind::*part, ObjectReader& table,
+            const Field& field) {
+  std::vector<Word> words;
+  std::vector<std::string_view> names;
+  for (const Kind* kind : kinds) {
+    const std::string& name = kind->*part;
+    if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) continue;
+    words.push_back({name, {}});
+    names.push_back(name);
+  }
+  std::string_view chosen;
+  if (const auto index = table.word(field, words)) {
+    chosen = names[*index];
+  } else if (const Value* value = table.value().find(field.key); value && value->is_string()) {
+    chosen = nearest_word(value->as_string(), names);
+  }
+  std::erase_if(kinds, [&](const Kind* kind) { return kind->*part != chosen; });
+}
+
+const Kind* find_kind(ObjectReader& root, std::span<const Kind> all) {
+  std::vector<const Kind*> kinds;
+  for (const Kind& kind : all) kinds.push_back(&kind);
+  choose(kinds, &Kind::kind, root, kind_field);
+  if (kinds.empty()) return nullptr;
+
+  std::optional<ObjectReader> mechanism =
+      root.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  if (!mechanism) return nullptr;
+  choose(kinds, &Kind::mechanism, *mechanism, type_field);
+
+  const auto no_target =
+      std::find_if(kinds.begin(), kinds.end(), [](const Kind* k) { return k->target.empty(); });
+  const bool some_target =
+      std::any_of(kinds.begin(), kinds.end(), [](const Kind* k) { return !k->target.empty(); });
+  if (!some_target || (no_target != kinds.end() && !root.has("target")))
+    return no_target == kinds.end() ? nullptr : *no_target;
+  std::optional<ObjectReader> target = root.table(Field{.key = "target", .summary = {}, .required = true});
+  if (!target) return nullptr;
+  choose(kinds, &Kind::target, *target, type_field);
+  return kinds.empty() ? nullptr : kinds.front();
+}
+
+void read_output(ObjectReader& root, const Kind* kind, Output& output) {
+  auto table = root.table(output_field);
+  if (!table) return;
+  table->read(output);
+  if (!kind) {
+    table->members();
+    return;
+  }
+  if (kind->quantities.empty()) return;
+  (*table)(quantities_field, output.quantities);
+  std::vector<std::string_view> allowed;
+  for (const Word& word : kind->quantities) allowed.push_back(word.name);
+  for (const std::string& quantity : output.quantities) {
+    if (std::find(allowed.begin(), allowed.end(), quantity) != allowed.end()) continue;
+    const std::string_view nearest = nearest_word(quantity, allowed);
+    table->error("quantities", fmt::format("'{}' is none of: {}", quantity, fmt::join(allowed, ", ")),
+                 nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+  }
+}
+
+void read_schema_version(ObjectReader& root) {
+  std::int64_t version = 0;
+  if (root(schema_field, version) && version != schema_version)
+    root.error("schema", fmt::format("is {}, must be {}", version, schema_version),
+               "this program reads studies of that version");
+}
+
+/// A table with `key` put before the members it has.
+void put_first(Value& table, std::string_view key, Value value) {
+  if (table.is_null()) table = Value::object();
+  if (Value* found = table.find(key))
+    *found = std::move(value);
+  else
+    table.as_object().insert(table.as_object().begin(), {std::string(key), std::move(value), {}});
+}
+
+Value canonical(const Kind& kind, const Common& common, Value own) {
+  Value all;
+  all["schema"] = schema_version;
+  all["kind"] = kind.kind;
+  if (!common.title.empty()) all["title"] = common.title;
+  if (!common.source.empty()) all["source"] = common.source;
+  if (own.is_null()) own = Value::object();
+  put_first(own["mechanism"], "type", kind.mechanism);
+  if (!kind.target.empty()) put_first(own["target"], "type", kind.target);
+  if (kind.seeded) own["optimiser"]["seeds"] = write_fields(common.seeds);
+  for (Value::Member& member : own.as_object()) all[member.key] = std::move(member.value);
+  all["output"] = write_fields(common.output);
+  if (!common.output.quantities.empty())
+    all["output"]["quantities"] = ObjectWriter::to_value(common.output.quantities);
+  if (!common.checks.empty()) all["check"] = write_checks(common.checks);
+  return all;
+}
+
+Value constant(std::string_view word) {
+  Value schema;
+  schema["const"] = word;
+  return schema;
+}
+
+/// Adds a key that the study room reads to a table that the domain describes.
+void add_property(Value& document, std::string_view table, std::string_view key, Value schema,
+                  bool required) {
+  Value& described = document["properties"][table];
+  if (described.is_null()) described["type"] = "object";
+  put_first(described["properties"], key, std::move(schema));
+  if (required) described["required"].push_back(Value(key));
+}
+
+}  // namespace
+
+std::optional<Study> prepare(const Value& document, const std::string& file,
+                             const std::filesystem::path& folder, std::span<const Kind> kinds,
+                             Diagnostics& diagnostics) {
+  LINKWRIGHT_REQUIRE(document.is_object(), "a study is a table, got {}", document.type_name());
+  DocumentReader reader(document, file, diagnostics);
+  ObjectReader root = reader.root();
+  Study study;
+  Common& common = study.common;
+  common.folder = folder;
+  read_schema_version(root);
+  root(title_field, common.title);
+  root(source_field, common.source);
+  study.kind = find_kind(root, kinds);
+  read_output(root, study.kind, common.output);
+  common.checks = read_checks(root);
+  Prepared prepared;
+  if (study.kind) {
+    if (study.kind->seeded)
+      if (auto optimiser = root.table("optimiser")) (*optimiser)(seeds_field, common.seeds);
+    prepared = study.kind->prepare(root, common);
+  } else {
+    // Without a kind nobody knows what else may stand here.
+    root.members();
+    for (const char* name : {"mechanism", "target"})
+      if (root.is_table(Field{.key = name, .summary = {}})) root.table(name)->members();
+  }
+  reader.finish();
+  if (reader.has_errors() || !study.kind) return std::nullopt;
+  LINKWRIGHT_REQUIRE(prepared.run != nullptr, "the kind '{}' accepted '{}' but cannot run it",
+                     name_of(*study.kind), file);
+  study.canonical = canonical(*study.kind, common, std::move(prepared.canonical));
+  study.run = std::move(prepared.run);
+  return study;
+}
+
+Result run_study(const Study& study, RunContext& context) {
+  Result result = study.run(context);
+  for (const CheckRequest& check : study.common.checks) result.checks.push_back(evaluate(check, result));
+  return result;
+}
+
+Value schema_of(const Kind& kind) {
+  SchemaWriter writer;
+  Value version;
+  version["const"] = schema_version;
+  writer.property(schema_field, std::move(version));
+  writer.property(kind_field, constant(kind.kind));
+  Value text;
+  text["type"] = "string";
+  writer.property(title_field, text);
+  writer.property(source_field, text);
+  if (kind.schema) kind.schema(writer);
+
+  Value output = schema_fields<Output>();
+  if (!kind.quantities.empty()) {
+    Value::Array words;
+    for (const Word& word : kind.quantities) {
+      words.push_back(constant(word.name));
+      if (!word.summary.empty()) words.back()["description"] = word.summary;
+    }
+    Value one;
+    one["oneOf"] = Value(std::move(words));
+    output["properties"]["quantities"] = schema_array(std::move(one));
+  }
+  writer.property(output_field, std::move(output));
+  Value check = schema_fields<CheckRequest>();
+  Value at;
+  at["type"] = "object";
+  at["additionalProperties"]["type"] = "number";
+  check["properties"]["at"] = std::move(at);
+  writer.property(check_field, schema_array(std::move(check)));
+
+  Value document;
+  document["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+  document["title"] = name_of(kind);
+  document["description"] = kind.summary;
+  Value own = std::move(writer).finish();
+  for (Value::Member& member : own.as_object()) document[member.key] = std::move(member.value);
+  add_property(document, "mechanism", "type", constant(kind.mechanism), true);
+  if (!kind.target.empty()) add_property(document, "target", "type", constant(kind.target), true);
+  if (kind.seeded) add_property(document, "optimiser", "seeds", schema_fields<Seeds>(), false);
+  return document;
+}
+
+Value schema_of(std::span<const Kind> kinds) {
+  Value::Array all;
+  for (const Kind& kind : kinds) {
+    all.push_back(schema_of(kind));
+    std::erase_if(all.back().as_object(),
+                  [](const Value::Member& member) { return member.key == "$schema"; });
+  }
+  Value document;
+  document["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+  document["title"] = "linkwright study";
+  document["anyOf"] = Value(std::move(all));
+  return document;
+}
+
+std::string name_of(const Kind& kind) {
+  return kind.kind + "/" + kind.mechanism + (kind.target.empty() ? "" : "/" + kind.target);
+}
+
+}  // namespace linkwright::study

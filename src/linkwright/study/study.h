@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "linkwright/core/diagnostic.h"
+#include "linkwright/core/value.h"
+#include "linkwright/study/kind.h"
+
+namespace linkwright::study {
+
+/// The version of the study grammar that this program reads and writes: `schema = 1`.
+inline constexpr int schema_version = 1;
+
+/// A study that has been read without errors and can run.
+struct Study {
+  const Kind* kind = nullptr;
+  Common common;
+  Value canonical;  ///< the whole study with defaults filled in and in SI units: what result.json stores and
+                    ///< what is hashed
+  std::function<Result(RunContext&)> run;  ///< the domain's run; see run_study
+};
+
+/// Finds the kind of a document among `kinds` (which must outlive the study), reads its common parts and lets
+/// the domain read the rest. All problems of the document are appended to `diagnostics` under the name
+/// `file`, in the order of the file; nothing is returned if there is an error. `folder` is where file names
+/// in the study start.
+std::optional<Study> prepare(const Value& document, const std::string& file,
+                             const std::filesystem::path& folder, std::span<const Kind> kinds,
+                             Diagnostics& diagnostics);
+
+/// Runs a study and compares the result with its checks. A cancelled run or one out of time keeps its checks
+/// too.
+Result run_study(const Study& study, RunContext& context);
+
+/// JSON Schema (2020-12) of the studies of one kind.
+Value schema_of(const Kind& kind);
+/// ... and of all of them.
+Value schema_of(std::span<const Kind> kinds);
+
+/// What a kind is called on the command line: "synthesis/planar.four_bar/path_points".
+std::string name_of(const Kind& kind);
+
+}  // namespace linkwright::study

@@ -1,0 +1,57 @@
+#include "linkwright/core/units.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace linkwright {
+namespace {
+
+double si(Dimension dimension, std::string_view suffix, double value) {
+  const Unit* unit = find_unit(dimension, suffix);
+  return unit ? unit->to_si(value) : std::nan("");
+}
+
+// Decimal factors must give the double nearest to the exact result, so that 60 mm is the 0.06 that people
+// write.
+TEST(Units, DecimalUnitsRoundOnce) {
+  for (int mm = -1000; mm <= 1000; ++mm) {
+    EXPECT_EQ(si(Dimension::length, "mm", mm), mm / 1000.0);
+    EXPECT_EQ(find_unit(Dimension::length, "mm")->from_si(mm / 1000.0), mm);
+  }
+  EXPECT_EQ(si(Dimension::length, "in", 1), 0.0254);
+  EXPECT_EQ(si(Dimension::inertia, "g_mm2", 1), 1e-9);
+}
+
+TEST(Units, AnglesAndSpeeds) {
+  EXPECT_EQ(si(Dimension::angle, "deg", 360), 2 * std::numbers::pi);
+  EXPECT_EQ(si(Dimension::speed_angular, "rpm", 300), 10 * std::numbers::pi);
+  EXPECT_EQ(si(Dimension::torque, "N_mm", 1500), 1.5);
+}
+
+TEST(Units, KeysTakeTheLongestSuffix) {
+  const auto dimension = [](std::string_view key) {
+    const auto parts = split_unit(key);
+    return parts ? std::string(parts->base) + "|" + std::string(parts->unit->suffix) : "none";
+  };
+  EXPECT_EQ(dimension("toe_deg"), "toe|deg");
+  EXPECT_EQ(dimension("drive_torque_N_m"), "drive_torque|N_m");
+  EXPECT_EQ(dimension("inertia_kg_m2"), "inertia|kg_m2");
+  EXPECT_EQ(dimension("path_error_sum_sq_m2"), "path_error_sum_sq|m2");
+  EXPECT_EQ(dimension("gravity_m_per_s2"), "gravity|m_per_s2");
+  EXPECT_EQ(dimension("rocker_acceleration_rad_per_s2"), "rocker_acceleration|rad_per_s2");
+  EXPECT_EQ(dimension("samples"), "none");
+  EXPECT_EQ(dimension("_m"), "none");
+}
+
+TEST(Units, NamesForKeysAndPeople) {
+  EXPECT_EQ(si_key("crank", Dimension::length), "crank_m");
+  EXPECT_EQ(si_key("weight", Dimension::none), "weight");
+  EXPECT_EQ(find_unit(Dimension::length, "deg"), nullptr);
+  EXPECT_EQ(readable_unit("m_per_s2"), "m/s2");
+  EXPECT_EQ(readable_unit("N_m"), "N m");
+}
+
+}  // namespace
+}  // namespace linkwright

@@ -1,0 +1,321 @@
+#include "linkwright/study/bind.h"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "linkwright/study/bind_schema.h"
+#include "linkwright/study/bind_write.h"
+#include "linkwright/study/read.h"
+
+namespace linkwright::study {
+namespace bind_sample {
+
+enum class Branch { open, crossed, any };
+constexpr std::array<EnumName<Branch>, 3> names(Branch) {
+  return {
+      {{Branch::open, "open", "coupler does not cross"}, {Branch::crossed, "crossed"}, {Branch::any, "any"}}};
+}
+
+struct Wolves {
+  int population = 30;
+};
+template <class V>
+void fields(V&& visit, Wolves& o) {
+  visit(Field{.key = "population", .summary = "wolves in the pack", .minimum = 4}, o.population);
+}
+constexpr Word choice_word(const Wolves&) { return {"grey_wolf", "a pack"}; }
+
+struct Descent {
+  double step = 0.5;
+};
+template <class V>
+void fields(V&& visit, Descent& o) {
+  visit(Field{.key = "step", .summary = "first step", .minimum = 0, .exclusive_minimum = true}, o.step);
+}
+constexpr Word choice_word(const Descent&) { return {"descent"}; }
+
+struct Box {
+  std::array<double, 3> near{};
+  double edge = 0;
+};
+template <class V>
+void fields(V&& visit, Box& o) {
+  visit(Field{.key = "near",
+              .summary = "centre",
+              .dimension = Dimension::length,
+              .required = true,
+              .inherits_unit = true},
+        o.near);
+  visit(Field{.key = "box", .summary = "edge", .dimension = Dimension::length}, o.edge);
+}
+
+struct Link {
+  std::string name;
+  Box body;
+};
+template <class V>
+void fields(V&& visit, Link& o) {
+  visit(Field{.key = "name", .summary = "of the link", .required = true}, o.name);
+  visit(Field{.key = "body", .summary = "point on the body", .dimension = Dimension::length}, o.body);
+}
+
+struct Sample {
+  Range crank{0.1, 2};
+  double angle = 0;
+  std::optional<double> limit;
+  bool closed = true;
+  Branch branch = Branch::any;
+  std::vector<Branch> branches;
+  std::vector<std::array<double, 2>> points;
+  std::vector<double> weights;
+  std::vector<std::string> tags;
+  std::vector<Link> links;
+  std::variant<Wolves, Descent> method;
+};
+template <class V>
+void fields(V&& visit, Sample& o) {
+  visit(Field{.key = "crank",
+              .summary = "crank length",
+              .dimension = Dimension::length,
+              .minimum = 0,
+              .maximum = 50,
+              .required = true},
+        o.crank);
+  visit(Field{.key = "angle", .summary = "start", .dimension = Dimension::angle}, o.angle);
+  visit(Field{.key = "limit", .summary = "largest mass", .dimension = Dimension::mass, .minimum = 0},
+        o.limit);
+  visit(Field{.key = "closed", .summary = "is the path closed"}, o.closed);
+  visit(Field{.key = "branch", .summary = "assembly"}, o.branch);
+  visit(Field{.key = "branches", .summary = "assemblies"}, o.branches);
+  visit(Field{.key = "points", .summary = "targets", .dimension = Dimension::length}, o.points);
+  visit(Field{.key = "weights", .summary = "of points", .minimum = 0}, o.weights);
+  visit(Field{.key = "tags", .summary = "words"}, o.tags);
+  visit(Field{.key = "link", .summary = "links"}, o.links);
+  visit(Field{.key = "method", .summary = "optimiser"}, o.method);
+}
+
+}  // namespace bind_sample
+
+namespace {
+using bind_sample::Branch;
+using bind_sample::Sample;
+using testing::HasSubstr;
+
+struct Reading {
+  Sample sample;
+  std::string messages;
+};
+
+Reading read_sample(std::string_view text, Syntax syntax = Syntax::toml) {
+  Reading reading;
+  Diagnostics diagnostics;
+  const Value document = read_text(text, syntax, "s.toml", diagnostics);
+  DocumentReader reader(document, "s.toml", diagnostics);
+  reader.root().read(reading.sample);
+  reader.finish();
+  for (const Diagnostic& d : diagnostics) reading.messages += to_string(d) + "\n";
+  return reading;
+}
+
+std::string messages(std::string_view text) { return read_sample(text).messages; }
+
+constexpr std::string_view everything = R"(
+crank_mm = { min = 100, max = 2000.0 }
+angle_deg = 180
+limit_g = 250
+closed = false
+branch = "open"
+branches = ["open", "crossed"]
+points_mm = [[500, 1100], [400, 1100.0]]
+weights = [1, 0.5]
+tags = ["a", "b"]
+method = "descent"
+step = 0.25
+[[link]]
+name = "front"
+body_mm = { near = [1, 2, 3], box_m = 0.15 }
+[[link]]
+name = "rear"
+)";
+
+TEST(Bind, ReadsEveryKindOfMemberInSiUnits) {
+  const auto [s, text] = read_sample(everything);
+  EXPECT_EQ(text, "");
+  EXPECT_EQ(s.crank, (Range{0.1, 2}));
+  EXPECT_EQ(s.angle, std::numbers::pi);
+  EXPECT_EQ(s.limit, 0.25);
+  EXPECT_FALSE(s.closed);
+  EXPECT_EQ(s.branch, Branch::open);
+  EXPECT_EQ(s.branches, (std::vector{Branch::open, Branch::crossed}));
+  EXPECT_EQ(s.points, (std::vector<std::array<double, 2>>{{0.5, 1.1}, {0.4, 1.1}}));
+  EXPECT_EQ(s.weights, (std::vector{1.0, 0.5}));
+  EXPECT_EQ(s.tags, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(std::get<bind_sample::Descent>(s.method).step, 0.25);
+  ASSERT_EQ(s.links.size(), 2u);
+  EXPECT_EQ(s.links[0].body.near, (std::array<double, 3>{0.001, 0.002, 0.003}));
+  EXPECT_EQ(s.links[0].body.edge, 0.15);
+  EXPECT_EQ(s.links[1].name, "rear");
+}
+
+TEST(Bind, AbsentKeysKeepTheDefaults) {
+  const auto [s, text] = read_sample("crank_m = 0.4\n");
+  EXPECT_EQ(text, "");
+  EXPECT_TRUE(s.crank.fixed());
+  EXPECT_FALSE(s.limit.has_value());
+  EXPECT_EQ(std::get<bind_sample::Wolves>(s.method).population, 30);
+}
+
+TEST(Bind, WritingAndReadingAgain) {
+  const Sample sample = read_sample(everything).sample;
+  const Value written = write_fields(sample);
+  EXPECT_EQ(written.find("crank_m")->find("max")->as_number(), 2.0);
+  EXPECT_EQ(written.find("method")->as_string(), "descent");
+  EXPECT_EQ(written.find("step")->as_number(), 0.25);
+  EXPECT_EQ(written.find("link")->as_array()[0].find("body_m")->find("box_m")->as_number(), 0.15);
+  Diagnostics diagnostics;
+  DocumentReader reader(written, "again", diagnostics);
+  Sample again;
+  reader.root().read(again);
+  reader.finish();
+  for (const Diagnostic& d : diagnostics) ADD_FAILURE() << to_string(d);
+  EXPECT_EQ(write_fields(again), written);
+}
+
+TEST(Bind, UnknownKeysComeWithASuggestion) {
+  EXPECT_EQ(messages("crank_m = 1\nclsed = true\n"),
+            "s.toml:2:1: error: clsed: unknown key; did you mean 'closed'?\n");
+  // The unit of the misspelt key is kept, and the crank is not reported as missing besides.
+  EXPECT_EQ(messages("crnk_mm = 100\n"),
+            "s.toml:1:1: error: crnk_mm: unknown key; did you mean 'crank_mm'?\n");
+  EXPECT_THAT(messages("crank_m = 1\nxyzzy = 1\n"),
+              HasSubstr("s.toml:2:1: error: xyzzy: unknown key; allowed here: crank_m, angle_rad, limit_kg"));
+  EXPECT_THAT(messages("crank_m = 1\n[[link]]\nname = 'x'\nbdy_m = {}\n"),
+              HasSubstr("s.toml:4:1: error: link[0].bdy_m: unknown key; did you mean 'body_m'?"));
+  EXPECT_THAT(messages("crank_m = {min = 1, max = 2, mid = 3}"), HasSubstr("crank_m.mid: unknown key"));
+  // A key of another choice is unknown here.
+  EXPECT_THAT(messages("crank_m = 1\nmethod = 'grey_wolf'\nstep = 1.0\n"),
+              HasSubstr("s.toml:3:1: error: step: unknown key"));
+}
+
+TEST(Bind, UnitsOfKeys) {
+  EXPECT_EQ(messages("crank = 1\n"),
+            "s.toml:1:1: error: crank: the unit is missing; write crank_m, crank_mm, crank_cm, crank_um or "
+            "crank_in\n");
+  EXPECT_EQ(messages("crank_m = 1\ncrank_mm = 1000\n"),
+            "s.toml:2:1: error: crank_mm: is given twice, as crank_m and crank_mm; keep one of them\n");
+  EXPECT_EQ(messages("crank_m = 1\nangle_mm = 1000\n"),
+            "s.toml:2:1: error: angle_mm: is an angle, but 'mm' is not a unit of it; write angle_rad or "
+            "angle_deg\n");
+  EXPECT_EQ(messages("closed = true\n"),
+            "s.toml:1:1: error: crank_m: this key is missing; write crank_m, crank_mm, crank_cm, crank_um or "
+            "crank_in\n");
+}
+
+TEST(Bind, NumbersAndTheirLimits) {
+  EXPECT_EQ(messages("crank_mm = -3\n"), "s.toml:1:12: error: crank_mm: is -3 mm, must be at least 0 mm\n");
+  EXPECT_EQ(messages("crank_mm = { min = 1, max = 60000 }\n"),
+            "s.toml:1:29: error: crank_mm.max: is 60000 mm, must be at most 50000 mm\n");
+  EXPECT_EQ(messages("crank_m = 1\npopulation = -3\n"),
+            "s.toml:2:14: error: population: is -3, must be at least 4\n");
+  EXPECT_EQ(messages("crank_m = 1\npopulation = 4.5\n"),
+            "s.toml:2:14: error: population: is 4.5, must be a whole number\n");
+  EXPECT_EQ(messages("crank_m = 1\npopulation = 3000000000\n"),
+            "s.toml:2:14: error: population: is 3000000000, must be at most 2147483647\n");
+  EXPECT_EQ(messages("crank_m = 1\nmethod = 'descent'\nstep = 0\n"),
+            "s.toml:3:8: error: step: is 0, must be more than 0\n");
+  EXPECT_EQ(messages("crank_m = inf\n"), "s.toml:1:11: error: crank_m: is inf, must be a finite number\n");
+  EXPECT_EQ(messages("crank_m = { min = nan, max = 1 }\n"),
+            "s.toml:1:19: error: crank_m.min: is nan, must be a finite number\n");
+  EXPECT_EQ(messages("crank_mm = { min = 2, max = 1 }\n"),
+            "s.toml:1:12: error: crank_mm: min is 2 mm, larger than max, which is 1 mm\n");
+  EXPECT_EQ(messages("crank_m = { min = 2 }\n"), "s.toml:1:11: error: crank_m.max: this key is missing\n");
+  EXPECT_EQ(read_sample("{\"crank_m\": 1, \"population\": 40.0}", Syntax::json).messages, "");
+}
+
+TEST(Bind, WrongTypes) {
+  EXPECT_EQ(
+      messages("crank_m = 'long'\n"),
+      "s.toml:1:11: error: crank_m: is the text 'long', must be a number or { min = ..., max = ... }\n");
+  EXPECT_EQ(messages("crank_m = 1\nangle_deg = [1]\n"),
+            "s.toml:2:13: error: angle_deg: is an array, must be a number\n");
+  EXPECT_EQ(messages("crank_m = 1\nclosed = 1\n"),
+            "s.toml:2:10: error: closed: is 1, must be true or false\n");
+  EXPECT_EQ(messages("crank_m = 1\ntags = ['a', 2]\n"),
+            "s.toml:2:14: error: tags[1]: is 2, must be a text in quotes\n");
+  EXPECT_EQ(messages("crank_m = 1\nweights = 3\n"),
+            "s.toml:2:11: error: weights: is 3, must be an array of numbers\n");
+  EXPECT_EQ(messages("crank_m = 1\npoints_m = [[1, 2], [1, 2, 3], 4]\n"),
+            "s.toml:2:21: error: points_m[1]: has 3 numbers, must have 2\n"
+            "s.toml:2:32: error: points_m[2]: is 4, must be an array of 2 numbers\n");
+  EXPECT_EQ(messages("crank_m = 1\nlink = 3\n"),
+            "s.toml:2:8: error: link: is 3, must be an array of tables\n");
+  EXPECT_EQ(
+      messages("crank_m = 1\nbranch = 'opn'\n"),
+      "s.toml:2:10: error: branch: is 'opn', must be one of: open, crossed, any; did you mean 'open'?\n");
+  EXPECT_EQ(messages("crank_m = 1\nbranch = 1\n"),
+            "s.toml:2:10: error: branch: is 1, must be one of: open, crossed, any\n");
+  EXPECT_EQ(messages("crank_m = 1\nmethod = 'gray_wolf'\n"),
+            "s.toml:2:10: error: method: is 'gray_wolf', must be one of: grey_wolf, descent; did you mean "
+            "'grey_wolf'?\n");
+}
+
+TEST(Bind, AllProblemsInTheOrderOfTheFile) {
+  EXPECT_EQ(messages("branch = 'x'\ncrank_m = -1\nclosd = true\nclosed = 3\n"),
+            "s.toml:1:10: error: branch: is 'x', must be one of: open, crossed, any\n"
+            "s.toml:2:11: error: crank_m: is -1 m, must be at least 0 m\n"
+            "s.toml:3:1: error: closd: unknown key; did you mean 'closed'?\n"
+            "s.toml:4:10: error: closed: is 3, must be true or false\n");
+}
+
+TEST(Bind, AFloodOfUnknownKeysIsCut) {
+  std::string text = "crank_m = 1\n";
+  for (int i = 0; i < 2000; ++i) text += "unknown" + std::to_string(i) + " = 1\n";
+  const std::string all = messages(text);
+  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 51);
+  EXPECT_THAT(all, HasSubstr("1950 more unknown keys"));
+}
+
+TEST(Bind, TablesErrorsOfMeaningAndFreeNames) {
+  Diagnostics diagnostics;
+  const Value document =
+      read_text("[mass.crank]\nmass_kg = 1\n[timing]\nstep_deg = 20\n", Syntax::toml, "s.toml", diagnostics);
+  DocumentReader reader(document, "s.toml", diagnostics);
+  ObjectReader root = reader.root();
+  EXPECT_FALSE(root.table("nothing").has_value());
+  ObjectReader timing = *root.table("timing");
+  double step = 0;
+  EXPECT_TRUE(timing(Field{.key = "step", .summary = {}, .dimension = Dimension::angle}, step));
+  timing.error("step", "does not divide the turn");
+  ObjectReader mass = *root.table("mass");
+  EXPECT_EQ(mass.members().front().key, "crank");
+  EXPECT_EQ(mass.path(), "mass");
+  reader.finish();
+  ASSERT_EQ(diagnostics.size(), 1u);
+  EXPECT_EQ(to_string(diagnostics[0]), "s.toml:4:12: error: timing.step_deg: does not divide the turn");
+}
+
+TEST(Bind, SchemaFollowsTheFieldList) {
+  const Value schema = schema_fields<Sample>();
+  const Value* crank = schema.find("properties")->find("crank_m");
+  EXPECT_EQ(crank->find("description")->as_string(), "crank length");
+  EXPECT_EQ(crank->find("unit")->as_string(), "m");
+  EXPECT_EQ(crank->find("anyOf")->as_array()[0].find("maximum")->as_number(), 50.0);
+  EXPECT_NE(schema.find("patternProperties")->find("^crank_(mm|cm|um|in)$"), nullptr);
+  EXPECT_EQ(
+      schema.find("properties")->find("branch")->find("oneOf")->as_array()[1].find("const")->as_string(),
+      "crossed");
+  EXPECT_EQ(schema.find("properties")->find("branch")->find("default")->as_string(), "any");
+  EXPECT_EQ(schema.find("properties")->find("points_m")->find("items")->find("minItems")->as_integer(), 2);
+  EXPECT_EQ(schema.find("oneOf")
+                ->as_array()[0]
+                .find("properties")
+                ->find("population")
+                ->find("minimum")
+                ->as_number(),
+            4);
+  EXPECT_FALSE(schema.find("unevaluatedProperties")->as_bool());
+}
+
+}  // namespace
+}  // namespace linkwright::study
