@@ -6,6 +6,7 @@ target_include_directories(linkwright_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
 # no value changes. Contraction would change values between instruction sets, so it is left to the SIMD kernels.
 target_compile_options(linkwright_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  -Wno-missing-field-initializers  # designated initialisers name what differs from the defaults
   -fno-math-errno -fno-trapping-math -ffp-contract=off
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 warns about its own std::string operator+ (GCC bug 105651)
   $<$<BOOL:${LINKWRIGHT_WARNINGS_AS_ERRORS}>:-Werror>)

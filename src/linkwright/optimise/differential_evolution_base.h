@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "linkwright/optimise/optimiser.h"
+
+namespace linkwright::optimise {
+
+/// What all forms of differential evolution share: members with their costs, and the duel of each with its
+/// trial.
+class DifferentialEvolutionBase : public Optimiser {
+ public:
+  PopulationView members() const override { return members_.view(); }
+
+ protected:
+  DifferentialEvolutionBase(std::span<const Variable> variables, std::size_t population, const Seed& seed)
+      : Optimiser(variables, population, seed),
+        members_(dimension(), population),
+        cost_(shape().stride, std::numeric_limits<double>::infinity()),
+        violation_(shape().stride, std::numeric_limits<double>::infinity()),
+        chosen_(shape().stride, 0) {}
+
+  void accept(const double* cost, const double* violation) override {
+    kernels_.select(population(), cost, violation, cost_.data(), violation_.data(), chosen_.data());
+    kernels_.copy_chosen(shape(), chosen_.data(), candidates_.row(0), members_.row(0));
+  }
+
+  const Kernels& kernels_ = kernels();
+  Population members_;
+  std::vector<double> cost_, violation_;
+  std::vector<std::uint64_t> chosen_;  ///< members that the last trials replaced, see Kernels::select
+};
+
+}  // namespace linkwright::optimise

@@ -1,0 +1,3 @@
+#define LINKWRIGHT_KERNELS avx2
+#define LINKWRIGHT_LANES 4
+#include "linkwright/optimise/kernels_body.h"

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+
+#include "linkwright/core/field.h"
+#include "linkwright/optimise/differential_evolution.h"
+#include "linkwright/optimise/grey_wolf.h"
+#include "linkwright/optimise/self_adaptive_differential_evolution.h"
+
+namespace linkwright::optimise {
+
+/// The population methods by name. A new one needs a line here, in OptimiserOptions and in its
+/// `visit_method`.
+enum class Method { differential_evolution, self_adaptive_differential_evolution, grey_wolf };
+
+/// The first name of a method is its full one; "jde" is accepted in files as the short name it goes by.
+constexpr std::array<EnumName<Method>, 4> names(Method) {
+  return {{{Method::differential_evolution, "differential_evolution", "rand/1/bin with constant factors"},
+           {Method::self_adaptive_differential_evolution, "self_adaptive_differential_evolution",
+            "rand/1/bin in which every member carries its own factors"},
+           {Method::grey_wolf, "grey_wolf", "grey wolf optimiser"},
+           {Method::self_adaptive_differential_evolution, "jde",
+            "short for self_adaptive_differential_evolution"}}};
+}
+
+/// A method and the options of each; only those of the chosen method count.
+struct OptimiserOptions {
+  Method method = Method::differential_evolution;
+  DifferentialEvolutionOptions differential_evolution = {};
+  SelfAdaptiveDifferentialEvolutionOptions self_adaptive_differential_evolution = {};
+  GreyWolfOptions grey_wolf = {};
+};
+
+/// Calls f with the options of the chosen method.
+template <class Options, class F>
+decltype(auto) visit_method(Options&& o, F&& f) {
+  switch (o.method) {
+    case Method::self_adaptive_differential_evolution:
+      return f(o.self_adaptive_differential_evolution);
+    case Method::grey_wolf:
+      return f(o.grey_wolf);
+    case Method::differential_evolution:
+      break;
+  }
+  return f(o.differential_evolution);
+}
+
+/// `method` comes first; the keys after it are those of the method that was read.
+template <class Visitor>
+void fields(Visitor&& visit, OptimiserOptions& o) {
+  visit(Field{.key = "method", .summary = "population method"}, o.method);
+  visit_method(o, [&](auto& options) { fields(visit, options); });
+}
+
+std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,
+                                          const OptimiserOptions& options, const Seed& seed);
+
+/// Generations that the chosen method runs when nothing else stops it.
+int generations(const OptimiserOptions& options);
+
+}  // namespace linkwright::optimise

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/field.h"
+#include "linkwright/core/run_context.h"
+#include "linkwright/core/status.h"
+#include "linkwright/optimise/methods.h"
+#include "linkwright/optimise/optimiser.h"
+#include "linkwright/optimise/problem.h"
+
+namespace linkwright::optimise {
+
+/// When a run ends, whichever comes first.
+struct StopCriteria {
+  std::int64_t evaluations =
+      0;                ///< no generation begins that would exceed this; 0 = no limit; the first always runs
+  int generations = 0;  ///< 0 = as the options of the method say
+  double target_cost = -std::numeric_limits<double>::infinity();  ///< a feasible candidate costs at most this
+  int stagnation = 0;  ///< generations in a row without a better candidate; 0 = no limit
+  /// The best was improved or equalled in this generation and no member is further than this from it
+  /// (Euclidean, in the units of the variables); 0 = never. The criterion of the wheel-guide studies.
+  double spread = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, StopCriteria& o) {
+  visit(
+      Field{.key = "max_evaluations", .summary = "evaluations; 0 = no limit", .minimum = 0, .maximum = 1e15},
+      o.evaluations);
+  visit(Field{.key = "target_cost", .summary = "end when a feasible candidate costs at most this"},
+        o.target_cost);
+  visit(Field{.key = "stagnation",
+              .summary = "end after so many generations without a better candidate; 0 = never",
+              .minimum = 0,
+              .maximum = 1e9},
+        o.stagnation);
+  visit(Field{.key = "spread",
+              .summary = "end when no member is further than this from the best; 0 = never",
+              .minimum = 0},
+        o.spread);
+}
+
+/// How candidates that violate constraints are ranked.
+enum class Constraints {
+  feasibility_rules,  ///< Deb 2000, see better()
+  penalty,            ///< by cost + weight [violation > 0], as many publications do
+};
+constexpr std::array<EnumName<Constraints>, 2> names(Constraints) {
+  return {
+      {{Constraints::feasibility_rules, "feasibility_rules", "feasible first, then by violation (Deb 2000)"},
+       {Constraints::penalty, "penalty",
+        "cost plus a constant for every candidate that violates a constraint"}}};
+}
+
+struct MinimiseOptions {
+  StopCriteria stop = {};
+  Constraints constraints = Constraints::feasibility_rules;
+  double penalty_weight = 1e3;
+  bool log = true;       ///< keep one GenerationLog a generation
+  bool progress = true;  ///< report to the run context
+};
+template <class Visitor>
+void fields(Visitor&& visit, MinimiseOptions& o) {
+  fields(visit, o.stop);
+  visit(Field{.key = "constraints", .summary = "how candidates that violate constraints are ranked"},
+        o.constraints);
+  visit(Field{.key = "penalty_weight",
+              .summary = "what a candidate that violates a constraint costs more",
+              .minimum = 0},
+        o.penalty_weight);
+}
+
+/// One generation; NaN where there is no feasible candidate.
+struct GenerationLog {
+  std::int64_t evaluations = 0;  ///< so far, this generation included
+  double best_cost = 0;          ///< of the best candidate so far
+  double best_violation = 0;
+  double median = 0;  ///< cost of the feasible candidates of this generation
+  double mean = 0;
+  double violated = 0;  ///< share of its candidates that violate a constraint
+};
+
+struct Report {
+  /// done: a stop criterion was met; infeasible: likewise, but no candidate met every constraint; deadline,
+  /// cancelled.
+  Status status = Status::done;
+  std::string stop_reason;  ///< for people: "target cost 1e-08 reached"
+  std::vector<double> x;    ///< best candidate, also when the run was interrupted
+  double cost = std::numeric_limits<double>::infinity();  ///< of the problem, without penalty
+  double violation = std::numeric_limits<double>::infinity();
+  std::int64_t evaluations = 0;
+  int generations = 0;
+  std::vector<GenerationLog> log;
+};
+
+/// Minimises a problem by a population method. Interruption is looked for after every generation; the first
+/// one always runs. Populations of more than 256 candidates are evaluated in parts by RunContext::threads()
+/// threads; the result does not depend on that. Throws ContractError for options out of range.
+Report minimise(const Problem& problem, const OptimiserOptions& method, const MinimiseOptions& options,
+                const Seed& seed, RunContext& context);
+
+/// The same with an optimiser of one's own, for at most `generations` more generations. `name` is the stage
+/// of the progress.
+Report minimise(const Problem& problem, Optimiser& optimiser, int generations, std::string_view name,
+                const MinimiseOptions& options, RunContext& context);
+
+}  // namespace linkwright::optimise

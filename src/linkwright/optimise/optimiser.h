@@ -1,0 +1,115 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "linkwright/core/check.h"
+#include "linkwright/core/field.h"
+#include "linkwright/optimise/kernels.h"
+#include "linkwright/optimise/population.h"
+#include "linkwright/optimise/problem.h"
+
+namespace linkwright::optimise {
+
+/// Which random numbers an optimiser draws: its whole course is a function of this, its options and the costs
+/// told.
+struct Seed {
+  std::uint64_t seed = 1;
+  std::uint32_t run = 0;  ///< tells apart several optimisers of one seed
+};
+
+/// A population method as a conversation: `ask` for the candidates of the next generation, evaluate them
+/// anywhere and in any order, `tell` the answers. `minimise` is built on this.
+///
+///     auto wolves = make_optimiser(problem.variables, GreyWolfOptions{}, {.seed = 7});
+///     while (...) {
+///       const PopulationView candidates = wolves->ask();
+///       problem.evaluate(candidates, cost, violation);
+///       wolves->tell(cost, violation);
+///     }
+///
+/// Candidates are always within the bounds. Nothing is allocated after construction.
+class Optimiser {
+ public:
+  virtual ~Optimiser() = default;
+  Optimiser(const Optimiser&) = delete;
+  Optimiser& operator=(const Optimiser&) = delete;
+
+  /// Candidates of the next generation, the first time uniform in the bounds; the same ones until `tell`.
+  /// The view is valid until the next `ask` after it.
+  PopulationView ask();
+
+  /// Answers to the candidates of the last `ask`, in their order, as Problem::evaluate gives them. Throws
+  /// ContractError for a wrong number of answers, a NaN, or when nothing was asked.
+  void tell(std::span<const double> cost, std::span<const double> violation);
+
+  std::size_t dimension() const { return lower_.size(); }
+  std::size_t population() const { return candidates_.size(); }
+  /// Generations told so far.
+  std::uint32_t generation() const { return generation_; }
+
+  /// Best candidate told so far, by the feasibility rules; empty before the first `tell`.
+  std::span<const double> best() const { return best_; }
+  double best_cost() const { return best_cost_; }
+  double best_violation() const { return best_violation_; }
+  /// Whether the last `tell` brought a new best candidate (then also which one) or one as good as the best.
+  bool improved() const { return improved_; }
+  bool equalled() const { return equalled_; }
+  std::size_t best_candidate() const { return best_candidate_; }
+
+  /// The population that the next candidates will be made from.
+  virtual PopulationView members() const = 0;
+
+ protected:
+  Optimiser(std::span<const Variable> variables, std::size_t population, const Seed& seed);
+
+  /// Makes the candidates of a generation after the first.
+  virtual void propose(const GenerationKey& key) = 0;
+  /// Takes in the answers. They are padded to the stride of the population.
+  virtual void accept(const double* cost, const double* violation) = 0;
+
+  KernelShape shape() const { return {dimension(), candidates_.size(), candidates_.view().stride}; }
+
+  std::vector<double> lower_, upper_;
+  Seed seed_;
+  Population candidates_;
+
+ private:
+  std::vector<double> told_cost_, told_violation_;
+  std::vector<double> best_;
+  double best_cost_ = std::numeric_limits<double>::infinity();
+  double best_violation_ = std::numeric_limits<double>::infinity();
+  std::size_t best_candidate_ = 0;
+  std::uint32_t generation_ = 0;
+  bool improved_ = false, equalled_ = false;
+  bool asked_ = false;
+};
+
+/// Throws ContractError naming the first option outside the range of its field: "grey_wolf: population must
+/// be at least 4, got 2".
+template <class Options>
+void require_in_range(std::string_view method, Options options) {
+  fields(
+      [&](const Field& field, auto& value) {
+        using T = std::remove_reference_t<decltype(value)>;
+        if constexpr (std::is_arithmetic_v<T> && !std::same_as<T, bool>) {
+          const auto v = static_cast<double>(value);
+          const bool above = field.exclusive_minimum ? v > field.minimum : v >= field.minimum;
+          LINKWRIGHT_REQUIRE(above, "{}: {} must be {} {}, got {}", method, field.key,
+                             field.exclusive_minimum ? "more than" : "at least", field.minimum, value);
+          LINKWRIGHT_REQUIRE(v <= field.maximum, "{}: {} must be at most {}, got {}", method, field.key,
+                             field.maximum, value);
+        }
+      },
+      options);
+}
+
+}  // namespace linkwright::optimise

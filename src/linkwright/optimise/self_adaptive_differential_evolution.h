@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "linkwright/core/field.h"
+#include "linkwright/optimise/optimiser.h"
+
+namespace linkwright::optimise {
+
+/// jDE (Brest, Greiner, Boskovic, Mernik, Zumer 2006): rand/1/bin in which every member carries its own F and
+/// CR. Both are drawn anew at times, and the new ones stay if the trial made with them survives. Bounds as in
+/// differential_evolution. Defaults of the paper.
+struct SelfAdaptiveDifferentialEvolutionOptions {
+  int population = 100;
+  int generations = 1500;
+  double scale_start = 0.5;      ///< F of the first generation
+  double scale_lower = 0.1;      ///< F_l: a new F is uniform on [F_l, F_l + F_u)
+  double scale_width = 0.9;      ///< F_u
+  double scale_rate = 0.1;       ///< tau_1: probability of a new F
+  double crossover_start = 0.9;  ///< CR of the first generation
+  double crossover_rate = 0.1;   ///< tau_2: probability of a new CR, uniform on [0, 1)
+};
+template <class Visitor>
+void fields(Visitor&& visit, SelfAdaptiveDifferentialEvolutionOptions& o) {
+  visit(Field{.key = "population", .summary = "members", .minimum = 4, .maximum = 1e6}, o.population);
+  visit(
+      Field{.key = "generations", .summary = "generations, the first included", .minimum = 1, .maximum = 1e9},
+      o.generations);
+  visit(Field{.key = "scale_start",
+              .summary = "factor F of every member at first",
+              .minimum = 0,
+              .maximum = 2,
+              .exclusive_minimum = true},
+        o.scale_start);
+  visit(Field{.key = "scale_lower", .summary = "least new F", .minimum = 0, .maximum = 2}, o.scale_lower);
+  visit(Field{.key = "scale_width", .summary = "width of the range of a new F", .minimum = 0, .maximum = 2},
+        o.scale_width);
+  visit(Field{.key = "scale_rate", .summary = "probability of a new F", .minimum = 0, .maximum = 1},
+        o.scale_rate);
+  visit(Field{.key = "crossover_start",
+              .summary = "crossover probability CR of every member at first",
+              .minimum = 0,
+              .maximum = 1},
+        o.crossover_start);
+  visit(Field{.key = "crossover_rate", .summary = "probability of a new CR", .minimum = 0, .maximum = 1},
+        o.crossover_rate);
+}
+
+std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,
+                                          const SelfAdaptiveDifferentialEvolutionOptions& options,
+                                          const Seed& seed);
+
+}  // namespace linkwright::optimise

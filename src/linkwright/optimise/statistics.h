@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/field.h"
+#include "linkwright/core/run_context.h"
+#include "linkwright/math/function_ref.h"
+#include "linkwright/optimise/minimise.h"
+
+namespace linkwright::optimise {
+
+/// Seeds first, first + 1, ... as a study gives them.
+struct SeedRange {
+  std::uint64_t first = 1;
+  int count = 1;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SeedRange& o) {
+  visit(Field{.key = "first", .summary = "first seed", .minimum = 0}, o.first);
+  visit(Field{.key = "count", .summary = "number of seeds", .minimum = 1, .maximum = 1e6}, o.count);
+}
+
+/// What one seed came to.
+struct SeedOutcome {
+  double cost = std::numeric_limits<double>::infinity();
+  double violation = 0;
+  std::int64_t evaluations = 0;
+};
+
+/// Figures over seeds. A seed that ended infeasible counts as one of infinite cost.
+struct SeedStatistics {
+  int seeds = 0;
+  int feasible = 0;
+  double best = std::numeric_limits<double>::quiet_NaN();  ///< costs; NaN when there are no seeds
+  double quantile10 = best, quantile25 = best, median = best, quantile75 = best, quantile90 = best,
+         worst = best;
+  double mean = best;
+  double threshold = 0;  ///< a seed succeeds when it is feasible and costs at most this
+  int successes = 0;
+  double success_rate = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t evaluations = 0;  ///< of all seeds
+  double median_evaluations = best;
+  /// Evaluations spent, failures included, for one success; infinite without success.
+  double evaluations_per_success = std::numeric_limits<double>::infinity();
+};
+
+/// Linear between order statistics (type 7 of Hyndman and Fan 1996), p in [0, 1]; of nothing NaN. Infinite
+/// values count.
+double quantile(std::span<const double> sorted, double p);
+
+SeedStatistics statistics(std::span<const SeedOutcome> outcomes, double threshold);
+
+/// How a loop over seeds ended.
+struct SeedLoop {
+  Status status = Status::done;  ///< done, deadline or cancelled
+  std::vector<bool> ran;  ///< one a seed; seeds that had not begun when the run was interrupted are left out
+};
+
+/// Calls body(i, seed i) for every seed, on RunContext::threads() threads, and reports progress under the
+/// name `stage`. The body returns the cost that its seed came to (for the progress; infinite if none), writes
+/// its results to a place of its own (index i) and heeds the run context itself. The first seed always runs.
+SeedLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage,
+                       math::FunctionRef<double(std::size_t index, std::uint64_t seed)> body);
+
+/// The same method on the same problem with many seeds.
+struct SeedsReport {
+  Status status = Status::done;      ///< done, infeasible (all seeds), deadline or cancelled
+  std::vector<std::uint64_t> seeds;  ///< those that ran, in order; under an interruption perhaps not all
+  std::vector<Report> reports;       ///< one a seed
+  std::size_t best = 0;  ///< index of the best report, by the feasibility rules; the first of equals
+  SeedStatistics statistics;
+};
+
+/// Runs `minimise` for every seed in parallel. The same bits for any number of threads.
+SeedsReport minimise_seeds(const Problem& problem, const OptimiserOptions& method,
+                           const MinimiseOptions& options, const SeedRange& seeds, double threshold,
+                           RunContext& context);
+
+}  // namespace linkwright::optimise

@@ -1,0 +1,299 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "linkwright/core/csv.h"
+#include "linkwright/core/units.h"
+#include "linkwright/planar/path_study.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr std::size_t most_points = 2000;
+constexpr std::uintmax_t largest_points_file = 4u << 20;
+
+// Columns x and y of a CSV file, in metres; any length unit.
+void read_points_file(study::ObjectReader& reader, const study::Common& common, const std::string& file,
+                      PathStudy& s) {
+  const std::filesystem::path path = common.folder / file;
+  std::error_code failed;
+  const auto size = std::filesystem::file_size(path, failed);
+  if (failed || !std::filesystem::is_regular_file(path, failed)) {
+    reader.error("points_file", fmt::format("cannot read '{}'", path.string()),
+                 "file names are relative to the folder of the study");
+    return;
+  }
+  if (size > largest_points_file) {
+    reader.error("points_file",
+                 fmt::format("'{}' has {} bytes, at most {} are allowed", file, size, largest_points_file));
+    return;
+  }
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  Diagnostics problems;
+  const std::optional<Table> table = read_csv(text.str(), path.string(), problems);
+  for (const Diagnostic& problem : problems) reader.error("points_file", to_string(problem));
+  if (!table) return;
+  const auto column = [&](std::string_view base) -> std::vector<double> {
+    for (const Column& c : table->columns) {
+      const auto key = split_unit(c.key);
+      if (!key || key->base != base || key->dimension != Dimension::length) continue;
+      std::vector<double> values;
+      for (double v : c.values) values.push_back(key->unit->to_si(v));
+      return values;
+    }
+    reader.error("points_file", fmt::format("'{}' has no column {}_m", file, base),
+                 fmt::format("name the columns x_m,y_m (or x_mm,y_mm, ...)"));
+    return {};
+  };
+  s.problem.x = column("x");
+  s.problem.y = column("y");
+  for (std::size_t k = 0; k < s.problem.x.size() && k < s.problem.y.size(); ++k)
+    if (!std::isfinite(s.problem.x[k]) || !std::isfinite(s.problem.y[k]))
+      reader.error("points_file", fmt::format("'{}': point {} is incomplete", file, k + 1));
+}
+
+void read_points(study::ObjectReader& target, const study::Common& common, PathStudy& s) {
+  const bool has_points = target.has(Field{.key = "points", .summary = {}, .dimension = Dimension::length});
+  const bool has_file = target.has("points_file");
+  if (has_points && has_file) {
+    target.error("points_file", "the target has both points and points_file", "keep one of them");
+    return;
+  }
+  if (!has_points && !has_file) {
+    target.error("points", "the target has no points",
+                 "write points_m = [[x, y], ...] or points_file = \"path.csv\"");
+    return;
+  }
+  const char* key = has_file ? "points_file" : "points";
+  if (s.target.points_file) read_points_file(target, common, *s.target.points_file, s);
+  if (s.target.points)
+    for (const auto& point : *s.target.points) {
+      s.problem.x.push_back(point[0]);
+      s.problem.y.push_back(point[1]);
+    }
+  auto &x = s.problem.x, &y = s.problem.y;
+  if (x.size() != y.size() || (x.empty() && !s.target.points)) return;  // told already
+  const std::size_t n = x.size();
+  if (n == 0) {
+    target.error(key, "there are no points", "give at least 3 points [x, y]");
+    return;
+  }
+  if (n < 3) {
+    target.error(key,
+                 fmt::format("{} point{} make{} no path, at least 3 are needed", n, n == 1 ? "" : "s",
+                             n == 1 ? "s" : ""),
+                 "add points between them");
+    return;
+  }
+  if (n > most_points) {
+    target.error(key, fmt::format("{} points, at most {} are allowed", n, most_points),
+                 "keep every second or third point");
+    return;
+  }
+  double far = 0;
+  for (std::size_t k = 0; k < n; ++k) far = std::max({far, std::abs(x[k]), std::abs(y[k])});
+  if (far > 1e9) {
+    target.error(key, fmt::format("a point lies {:.3g} m from the origin, at most 1e9 m are allowed", far),
+                 "check the unit");
+    return;
+  }
+  // Points that agree to rounding of their coordinates are the same.
+  const auto same = [&](std::size_t a, std::size_t b) {
+    return std::hypot(x[a] - x[b], y[a] - y[b]) <= 1e-12 * far;
+  };
+  for (std::size_t k = 1; k < n; ++k)
+    if (same(k, k - 1))
+      target.error(key, fmt::format("point {} repeats point {}: ({}, {})", k + 1, k, x[k], y[k]),
+                   "remove one of them");
+  if (s.target.closed && same(0, n - 1))
+    target.error(key, fmt::format("the last point repeats the first: ({}, {})", x[0], y[0]),
+                 "remove it: closed = true joins the last point to the first");
+}
+
+void read_timing(study::ObjectReader& target, PathStudy& s) {
+  const PathTiming& t = s.target.timing;
+  s.problem.timing = t.mode;
+  const std::size_t n = s.problem.x.size();
+  if (t.mode == Timing::equal_steps) {
+    if (!t.step) {
+      target.error("timing", "equal_steps needs step_deg",
+                   "for example timing = { mode = \"equal_steps\", step_deg = 20.0 }");
+    } else if (*t.step == 0 || std::abs(*t.step) > 2 * std::numbers::pi) {
+      target.error("timing",
+                   fmt::format("the step is {:.6g} rad, it must not be zero nor more than a turn", *t.step));
+    } else {
+      s.problem.step = *t.step;
+    }
+  } else if (t.step) {
+    target.error("timing", fmt::format("step goes with mode equal_steps, the mode is {}", name_of(t.mode)),
+                 "remove the step");
+  }
+  if (t.mode == Timing::given) {
+    if (!t.angles) {
+      target.error("timing", "given needs angles_deg, one for each point");
+    } else if (n >= 3 && t.angles->size() != n) {
+      target.error("timing", fmt::format("{} angles for {} points", t.angles->size(), n),
+                   "give one crank angle for each point");
+    } else {
+      s.problem.angles = *t.angles;
+    }
+  } else if (t.angles) {
+    target.error("timing", fmt::format("angles go with mode given, the mode is {}", name_of(t.mode)),
+                 "remove the angles");
+  }
+}
+
+void set_bounds(study::ObjectReader& mechanism, PathStudy& s) {
+  if (s.problem.x.size() < 3 || s.problem.x.size() != s.problem.y.size()) return;
+  s.problem.bounds = derive_bounds(s.problem.x, s.problem.y);
+  for (std::size_t j = 0; j < four_bar_parameter_count; ++j) {
+    const auto& range = s.mechanism.parameters.ranges[j];
+    if (!range) continue;
+    s.problem.bounds[j] = *range;
+    if (j <= index(FourBarParameter::rocker) && range->upper <= 0)
+      mechanism.error("parameters",
+                      fmt::format("{} must be able to be longer than 0", name(FourBarParameter(j))));
+  }
+  if (s.mechanism.parameters.ranges[index(FourBarParameter::start_angle)] &&
+      s.problem.timing != Timing::equal_steps)
+    mechanism.warning("parameters",
+                      fmt::format("start_angle has no use: the timing is {}", name_of(s.problem.timing)));
+}
+
+void set_search(PathStudy& s) {
+  PathProblem& p = s.problem;
+  p.closed = s.target.closed;
+  p.search_open = s.mechanism.branch != BranchChoice::crossed;
+  p.search_crossed = s.mechanism.branch != BranchChoice::open;
+  SenseChoice sense = s.mechanism.sense;
+  if (sense == SenseChoice::automatic)
+    sense = p.timing == Timing::free ? SenseChoice::any : SenseChoice::positive;
+  p.search_positive = sense != SenseChoice::negative;
+  p.search_negative = sense != SenseChoice::positive;
+}
+
+void set_constraints(study::ObjectReader& document, PathStudy& s) {
+  PathProblem& p = s.problem;
+  p.crank_rotates_fully = false;
+  for (const PathConstraint& constraint : s.constraints) {
+    if (!constraint.enabled) continue;
+    if (std::holds_alternative<CrankRotatesFully>(constraint.limit)) p.crank_rotates_fully = true;
+    if (std::holds_alternative<NoDefects>(constraint.limit)) s.no_defects = true;
+    if (const auto* limit = std::get_if<TransmissionLimit>(&constraint.limit))
+      p.min_transmission_angle = std::max(p.min_transmission_angle, limit->min);
+    if (const auto* limit = std::get_if<PackagingLimit>(&constraint.limit)) {
+      if (limit->x.fixed() || limit->y.fixed())
+        document.error("constraint", "the packaging box has no width",
+                       "write x_m = { min = ..., max = ... }");
+      p.packaging = PackagingBox{limit->x.lower, limit->x.upper, limit->y.lower, limit->y.upper};
+    }
+  }
+  // A closed path is traced by a crank that goes round.
+  if (p.closed) p.crank_rotates_fully = true;
+}
+
+}  // namespace
+
+PathStudy read_path_study(study::ObjectReader& document, const study::Common& common) {
+  PathStudy s;
+  if (auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true}))
+    mechanism->read(s.mechanism);
+  auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
+  if (target) {
+    target->read(s.target);
+    read_points(*target, common, s);
+    read_timing(*target, s);
+  }
+  document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
+  if (s.objectives.size() > 1)
+    document.error("objective", fmt::format("{} objectives, path synthesis has one", s.objectives.size()),
+                   "keep one [[objective]]");
+  document(Field{.key = "constraint", .summary = "what must hold"}, s.constraints);
+  if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
+  if (auto mechanism = document.table("mechanism")) set_bounds(*mechanism, s);
+  set_search(s);
+  set_constraints(document, s);
+  return s;
+}
+
+study::Kind path_kind() {
+  study::Kind kind;
+  kind.kind = "synthesis";
+  kind.mechanism = "planar.four_bar";
+  kind.target = "path_points";
+  kind.summary = "four-bar linkage whose coupler point traces a path";
+  kind.seeded = true;
+  kind.example = R"(# linkwright study: a four-bar whose coupler point traces a closed path
+schema = 1
+kind   = "synthesis"
+title  = "Four-bar for my path"
+
+[mechanism]
+type = "planar.four_bar"
+# Bounds follow from the path. To fix or limit a quantity:
+# [mechanism.parameters]
+# ground_mm = 400.0
+# crank_mm  = { min = 50.0, max = 200.0 }
+
+[target]
+type   = "path_points"
+closed = true
+timing = { mode = "free" }          # free | equal_steps | given
+points_mm = [
+  [500, 1100], [300, 1100], [100, 900], [20, 600], [0, 400], [100, 250],
+  [200, 300], [400, 500], [600, 900],
+]
+# or: points_file = "path.csv"      # columns x_mm, y_mm
+
+[[constraint]]
+type = "crank_rotates_fully"
+
+[[constraint]]
+type    = "transmission_angle"
+min_deg = 30.0
+
+[optimiser]
+method = "recommended"
+seeds  = { first = 1, count = 4 }
+)";
+  kind.schema = [](study::SchemaWriter& document) {
+    document.property(Field{.key = "mechanism", .summary = "the four-bar"},
+                      study::schema_fields<PathMechanism>());
+    document.property(Field{.key = "target", .summary = "the path"}, study::schema_fields<PathTarget>());
+    document.property(Field{.key = "objective", .summary = "what is minimised"},
+                      study::schema_array(study::schema_fields<PathObjectiveEntry>()));
+    document.property(Field{.key = "constraint", .summary = "what must hold"},
+                      study::schema_array(study::schema_fields<PathConstraint>()));
+    document.property(Field{.key = "optimiser", .summary = "how designs are searched"},
+                      study::schema_fields<PathOptimiser>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    const PathStudy s = read_path_study(document, common);
+    study::Prepared prepared;
+    PathStudy resolved = s;
+    for (std::size_t j = 0; j < four_bar_parameter_count; ++j)
+      if (j != index(FourBarParameter::start_angle) || s.problem.timing == Timing::equal_steps)
+        resolved.mechanism.parameters.ranges[j] = s.problem.bounds[j];
+    resolved.target.points_file.reset();
+    resolved.target.points.emplace();
+    for (std::size_t k = 0; k < std::min(s.problem.x.size(), s.problem.y.size()); ++k)
+      resolved.target.points->push_back({s.problem.x[k], s.problem.y[k]});
+    if (resolved.objectives.empty()) resolved.objectives.emplace_back();
+    prepared.canonical["mechanism"] = study::write_fields(resolved.mechanism);
+    prepared.canonical["target"] = study::write_fields(resolved.target);
+    prepared.canonical["objective"] = study::ObjectWriter::to_value(resolved.objectives);
+    prepared.canonical["constraint"] = study::ObjectWriter::to_value(resolved.constraints);
+    prepared.canonical["optimiser"] = study::write_fields(resolved.optimiser);
+    prepared.run = [s, common](RunContext& context) { return run_path_study(s, common, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::planar

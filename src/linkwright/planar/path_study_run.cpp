@@ -1,0 +1,452 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linkwright/core/tolerance.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/optimise/statistics.h"
+#include "linkwright/planar/cognates.h"
+#include "linkwright/planar/four_bar_classify.h"
+#include "linkwright/planar/path_defects.h"
+#include "linkwright/planar/path_study.h"
+#include "linkwright/planar/samples.h"
+#include "linkwright/planar/scenes.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// A seed succeeds when it comes this close to the best of all seeds: a share of the best, or, where zero is
+// within reach, a share of the squared size of the path.
+constexpr double success_share = 1e-4, success_of_size = 1e-12;
+
+constexpr std::size_t most_seed_curves = 30;
+
+struct SeedRun {
+  Status status = Status::done;
+  std::vector<PathDesign> designs;  // best first
+  std::vector<double> at, best;     // convergence: evaluations or searches, best feasible error so far
+  std::int64_t evaluations = 0;
+};
+
+struct Run {
+  Status status = Status::done;
+  std::string method;
+  std::string progress_unit;  // what SeedRun::at counts
+  std::vector<std::uint64_t> seeds;
+  std::vector<SeedRun> runs;
+};
+
+double total_violation(const PathDesign& d) {
+  double sum = 0;
+  for (const auto& violation : d.violations) sum += violation.amount;
+  return sum;
+}
+
+bool better_design(const PathDesign& a, const PathDesign& b) {
+  return optimise::better(a.error, total_violation(a), b.error, total_violation(b));
+}
+
+SeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_t seed, RunContext& context) {
+  PathSynthesisOptions options = method.options;
+  options.seed = seed;
+  PathSynthesis answer = synthesise_path(s.problem, options, context);
+  SeedRun out{answer.status, std::move(answer.designs), {}, std::move(answer.history), answer.evaluations};
+  for (std::size_t i = 0; i < out.best.size(); ++i) out.at.push_back(static_cast<double>(i + 1));
+  return out;
+}
+
+template <class Options>
+SeedRun run_seed(const PopulationMethod<Options>& method, const PathStudy& s, std::uint64_t seed,
+                 RunContext& context) {
+  SeedRun out;
+  std::uint32_t part = 0;
+  for (double sense : {1.0, -1.0}) {
+    if (!(sense > 0 ? s.problem.search_positive : s.problem.search_negative)) continue;
+    // One branch tells all: the cognate on the other one has the same crank angles and the same error.
+    const Branch branch = s.problem.search_open ? Branch::open : Branch::crossed;
+    const optimise::Problem problem = path_population_problem(s.problem, branch, sense);
+    optimise::MinimiseOptions minimise = method.minimise;
+    minimise.progress = false;
+    const auto optimiser =
+        optimise::make_optimiser(problem.variables, method.options, {.seed = seed, .run = part++});
+    const optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
+                                                       choice_word(method).name, minimise, context);
+    if (report.status == Status::cancelled || report.status == Status::deadline) out.status = report.status;
+    PathDesign design = path_design(s.problem, branch, sense, report.x);
+    if (out.designs.empty() || better_design(design, out.designs[0])) {
+      out.at.clear();
+      out.best.clear();
+      for (const auto& generation : report.log) {
+        out.at.push_back(static_cast<double>(generation.evaluations));
+        out.best.push_back(generation.best_violation > 0 ? nan : generation.best_cost);
+      }
+    }
+    out.designs.push_back(std::move(design));
+    out.evaluations += report.evaluations;
+  }
+  std::stable_sort(out.designs.begin(), out.designs.end(), better_design);
+  if (out.status == Status::done && !out.designs[0].violations.empty()) out.status = Status::infeasible;
+  return out;
+}
+
+Run run_seeds(const PathStudy& s, const study::Common& common, RunContext& context) {
+  Run out;
+  out.method = std::string(std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method));
+  out.progress_unit =
+      std::holds_alternative<Recommended>(s.optimiser.method) ? "local searches" : "evaluations";
+  const auto count = static_cast<std::size_t>(common.seeds.count);
+  std::vector<SeedRun> all(count);
+  const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
+  const optimise::SeedLoop loop =
+      optimise::for_each_seed(seeds, context, out.method, [&](std::size_t i, std::uint64_t seed) {
+        all[i] = std::visit([&](const auto& method) { return run_seed(method, s, seed, context); },
+                            s.optimiser.method);
+        return all[i].designs.empty() || !all[i].designs[0].violations.empty() ? infinity
+                                                                               : all[i].designs[0].error;
+      });
+  out.status = loop.status;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!loop.ran[i]) continue;
+    if (out.status == Status::done &&
+        (all[i].status == Status::deadline || all[i].status == Status::cancelled))
+      out.status = all[i].status;
+    out.seeds.push_back(seeds.first + i);
+    out.runs.push_back(std::move(all[i]));
+  }
+  return out;
+}
+
+bool same_design(const PathDesign& a, const PathDesign& b) {
+  const FourBar &p = a.linkage, &q = b.linkage;
+  const double size = p.ground + p.crank + p.coupler + p.rocker;
+  const auto near = [&](double x, double y) { return std::abs(x - y) <= tolerance::same_design * size; };
+  return p.branch == q.branch && a.sense == b.sense && near(p.ground, q.ground) && near(p.crank, q.crank) &&
+         near(p.coupler, q.coupler) && near(p.rocker, q.rocker) && near(p.coupler_u, q.coupler_u) &&
+         near(p.coupler_v, q.coupler_v) && near(p.pivot_x, q.pivot_x) && near(p.pivot_y, q.pivot_y);
+}
+
+// Distinct designs of all seeds, best first.
+std::vector<PathDesign> distinct_designs(const PathStudy& s, const Run& run) {
+  std::vector<PathDesign> all;
+  for (const SeedRun& seed : run.runs) all.insert(all.end(), seed.designs.begin(), seed.designs.end());
+  if (s.no_defects)
+    for (PathDesign& d : all)
+      for (const Defect& defect : defects(s.problem, d))
+        d.violations.push_back({std::string(name_of(defect.kind)), 1});
+  std::stable_sort(all.begin(), all.end(), better_design);
+  std::size_t most = 8;
+  if (const auto* recommended = std::get_if<Recommended>(&s.optimiser.method))
+    most = static_cast<std::size_t>(recommended->options.max_solutions);
+  std::vector<PathDesign> out;
+  for (PathDesign& d : all) {
+    if (out.size() == most) break;
+    if (!out.empty() && !d.violations.empty()) break;  // one infeasible answer only when there is no other
+    if (!std::any_of(out.begin(), out.end(), [&](const PathDesign& o) { return same_design(o, d); }))
+      out.push_back(std::move(d));
+  }
+  // Among equals, as timed cognates are, the open branch first.
+  for (std::size_t i = 0; i + 1 < out.size(); ++i)
+    if (out[i + 1].error - out[i].error <= tolerance::equal_cost * out[i].error &&
+        out[i].linkage.branch == Branch::crossed && out[i + 1].linkage.branch == Branch::open)
+      std::swap(out[i], out[i + 1]);
+  return out;
+}
+
+std::array<double, four_bar_parameter_count> values_of(const PathDesign& d, bool with_start) {
+  const FourBar& l = d.linkage;
+  return {l.ground,    l.crank,   l.coupler, l.rocker,      l.coupler_u,
+          l.coupler_v, l.pivot_x, l.pivot_y, l.frame_angle, with_start ? d.angles[0] : 0.0};
+}
+
+study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t number) {
+  constexpr std::array<std::string_view, four_bar_parameter_count> labels = {"ground length",
+                                                                             "crank length",
+                                                                             "coupler length",
+                                                                             "rocker length",
+                                                                             "tracing point along coupler",
+                                                                             "tracing point across",
+                                                                             "crank pivot x",
+                                                                             "crank pivot y",
+                                                                             "frame angle",
+                                                                             "start angle"};
+  const PathProblem& p = s.problem;
+  const FourBarClass type = classify(d.linkage);
+  study::Solution out;
+  out.label = fmt::format("{}, {}", name_of(type.type), name_of(d.linkage.branch));
+  const bool with_start = p.timing == Timing::equal_steps;
+  const auto values = values_of(d, with_start);
+  for (std::size_t j = 0; j < four_bar_parameter_count; ++j) {
+    const bool angle = j >= index(FourBarParameter::frame_angle);
+    if (j == index(FourBarParameter::start_angle) && !with_start) continue;
+    double value = values[j];
+    const Range& range = p.bounds[j];
+    if (angle) {
+      const double turned =
+          value - 2 * std::numbers::pi * std::floor((value - range.lower) / (2 * std::numbers::pi));
+      if (turned <= range.upper) value = turned;
+    }
+    out.parameters.push_back({std::string(name(FourBarParameter(j))) + (angle ? "_rad" : "_m"),
+                              std::string(labels[j]), value, range.lower, range.upper});
+  }
+  const PathErrors errors = path_errors(p, d);
+  out.objectives["path_error_sum_sq_m2"] = d.error;
+  out.objectives["path_error_rms_m"] = std::sqrt(d.error / static_cast<double>(p.x.size()));
+  out.objectives["path_error_max_m"] = *std::max_element(errors.distance.begin(), errors.distance.end());
+  out.classification["type"] = name_of(type.type);
+  out.classification["branch"] = name_of(d.linkage.branch);
+  out.classification["sense"] = d.sense > 0 ? "positive" : "negative";
+  out.classification["grashof"] = type.grashof;
+  out.classification["circuits"] = type.circuits;
+  out.classification["crank_rotates_fully"] = type.crank_rotates_fully;
+  out.classification["crank_margin_m"] = type.crank_margin;
+  out.classification["min_transmission_angle_rad"] = transmission_angles(d.linkage).minimum;
+  out.classification["active_bounds"] = Value::array();
+  for (const std::string& bound : d.active_bounds) out.classification["active_bounds"].push_back(bound);
+  out.defects = Value::array();
+  for (const auto& violation : d.violations)
+    out.defects.push_back(fmt::format("violates {} by {:.3g}", violation.reason, violation.amount));
+  for (const Defect& defect : defects(p, d))
+    out.defects.push_back(fmt::format("{}: {}", name_of(defect.kind), defect.text));
+  out.scene = fmt::format("solution-{}", number);
+  return out;
+}
+
+void add_tables(study::Result& result, const PathStudy& s, const study::Common& common,
+                const std::vector<PathDesign>& designs, const Run& run) {
+  result.tables.push_back(point_table(s.problem, designs[0], "points"));
+  result.tables.push_back(motion_table(designs[0], "motion", common.output.samples));
+  result.plots.push_back({.name = "errors",
+                          .title = "Distance from the target points",
+                          .table = "points",
+                          .x = "crank_angle_rad",
+                          .y = {"distance_m"},
+                          .style = study::Plot::Style::points,
+                          .scene = "solution-1"});
+  result.plots.push_back({.name = "transmission",
+                          .title = "Transmission angle",
+                          .table = "motion",
+                          .x = "crank_angle_rad",
+                          .y = {"transmission_angle_rad"},
+                          .scene = "solution-1"});
+  result.plots.push_back({.name = "angles",
+                          .title = "Coupler and rocker angle",
+                          .table = "motion",
+                          .x = "crank_angle_rad",
+                          .y = {"coupler_angle_rad", "rocker_angle_rad"},
+                          .scene = "solution-1"});
+
+  Table seeds{.name = "seeds"};
+  std::vector<double> number, error, evaluations;
+  for (std::size_t i = 0; i < run.runs.size(); ++i) {
+    const SeedRun& seed = run.runs[i];
+    number.push_back(static_cast<double>(run.seeds[i]));
+    error.push_back(seed.designs.empty() || !seed.designs[0].violations.empty() ? nan
+                                                                                : seed.designs[0].error);
+    evaluations.push_back(static_cast<double>(seed.evaluations));
+    seeds.status.emplace_back(to_string(seed.status));
+  }
+  seeds.add("seed", "seed", number);
+  seeds.add("path_error_sum_sq_m2", "path error, sum of squares (m2)", error);
+  seeds.add("evaluations", "evaluations", evaluations);
+  result.tables.push_back(std::move(seeds));
+  result.plots.push_back({.name = "seeds",
+                          .title = "Error that each seed came to",
+                          .table = "seeds",
+                          .x = "",
+                          .y = {"path_error_sum_sq_m2"},
+                          .style = study::Plot::Style::histogram});
+
+  // Convergence: one column a seed over the longest axis; seeds that ended earlier keep their last value.
+  Table convergence{.name = "convergence"};
+  std::vector<double> axis;
+  for (const SeedRun& seed : run.runs)
+    if (seed.at.size() > axis.size()) axis = seed.at;
+  if (!axis.empty()) {
+    convergence.add(run.progress_unit == "evaluations" ? "evaluations" : "searches", run.progress_unit, axis);
+    std::vector<std::string> keys;
+    for (std::size_t i = 0; i < std::min(run.runs.size(), most_seed_curves); ++i) {
+      std::vector<double> best = run.runs[i].best;
+      best.resize(axis.size(), best.empty() ? nan : best.back());
+      keys.push_back(fmt::format("seed_{}_m2", run.seeds[i]));
+      convergence.add(keys.back(), fmt::format("seed {}", run.seeds[i]), std::move(best));
+    }
+    const std::string x = convergence.columns[0].key;
+    result.tables.push_back(std::move(convergence));
+    result.plots.push_back({.name = "convergence",
+                            .title = "Best error so far, one line a seed",
+                            .table = "convergence",
+                            .x = x,
+                            .y = keys,
+                            .logarithmic_y = true});
+  }
+}
+
+double add_statistics(study::Result& result, const Run& run, double best, double size) {
+  std::vector<optimise::SeedOutcome> outcomes;
+  result.log = Value::array();
+  for (std::size_t i = 0; i < run.runs.size(); ++i) {
+    const SeedRun& seed = run.runs[i];
+    const double error = seed.designs.empty() ? infinity : seed.designs[0].error;
+    const double violation = seed.designs.empty() ? infinity : total_violation(seed.designs[0]);
+    outcomes.push_back({error, violation, seed.evaluations});
+    Value entry;
+    entry["seed"] = static_cast<std::int64_t>(run.seeds[i]);
+    entry["status"] = to_string(seed.status);
+    entry["path_error_sum_sq_m2"] = error;
+    entry["violation"] = violation;
+    entry["evaluations"] = seed.evaluations;
+    if (!seed.designs.empty()) {
+      entry["violations"] = Value::array();
+      for (const auto& v : seed.designs[0].violations) entry["violations"].push_back(v.reason);
+    }
+    result.log.push_back(std::move(entry));
+  }
+  const double threshold = best + std::max(success_share * best, success_of_size * size * size);
+  const optimise::SeedStatistics st = optimise::statistics(outcomes, threshold);
+  Value& out = result.statistics;
+  out["method"] = run.method;
+  out["seeds"] = st.seeds;
+  out["feasible_seeds"] = st.feasible;
+  out["best"] = st.best;
+  out["quantile10"] = st.quantile10;
+  out["median"] = st.median;
+  out["quantile90"] = st.quantile90;
+  out["worst"] = st.worst;
+  out["success_threshold"] = st.threshold;
+  out["success_rate"] = st.success_rate;
+  out["evaluations"] = st.evaluations;
+  out["median_evaluations"] = st.median_evaluations;
+  return st.success_rate;
+}
+
+bool is_eighteen_points(const PathProblem& p) {
+  const PathProblem known = eighteen_points();
+  return p.x == known.x && p.y == known.y && p.timing == Timing::equal_steps &&
+         std::abs(p.step - known.step) < 1e-12;
+}
+
+void add_published(study::Result& result, const PathProblem& p, double best) {
+  if (!is_eighteen_points(p)) return;
+  const std::string source = "Boskovic 2018, Table 4.1";
+  for (const PublishedPathDesign& published : eighteen_point_designs()) {
+    std::vector<double> angles;
+    for (std::size_t k = 0; k < p.x.size(); ++k) angles.push_back(published.start_angle + point_angle(p, k));
+    const double ours = measure(p, published.linkage, 1, angles).error;
+    result.comparisons.push_back({published.label + ", design re-evaluated", source,
+                                  published.published_error, ours, published.verdict, published.note});
+  }
+  constexpr double published_best = 0.00908, best_known = 0.009028884631;
+  if (std::isfinite(best)) {
+    const bool better = best < published_best, equal = std::abs(best - best_known) <= 1e-7;
+    result.comparisons.push_back({"best of this study", source, published_best, best,
+                                  better ? "improved" : "not reached",
+                                  equal ? "the best design known: both branches, joined by a timed cognate"
+                                        : fmt::format("the best design known has {:.9f}", best_known)});
+  }
+}
+
+std::string metres(double value) {
+  if (value >= 0.1) return fmt::format("{:.4g} m", value);
+  if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
+  return fmt::format("{:.3g} um", value * 1e6);
+}
+
+void add_cognates(study::Result& result, const PathDesign& best) {
+  Table table{.name = "cognates"};
+  const std::array<std::string_view, 10> keys = {"ground_m",        "crank_m",     "coupler_m", "rocker_m",
+                                                 "coupler_u_m",     "coupler_v_m", "pivot_x_m", "pivot_y_m",
+                                                 "frame_angle_rad", "same_timing"};
+  for (std::string_view key : keys) table.add(std::string(key), std::string(key));
+  const auto row = [&](const FourBar& l, bool same_timing) {
+    const std::array<double, 10> v = {
+        l.ground,    l.crank,   l.coupler, l.rocker,      l.coupler_u,
+        l.coupler_v, l.pivot_x, l.pivot_y, l.frame_angle, same_timing ? 1.0 : 0.0};
+    for (std::size_t i = 0; i < v.size(); ++i) table.columns[i].values.push_back(v[i]);
+  };
+  row(best.linkage, true);
+  for (const Cognate& cognate : cognates(best.linkage, best.angles[0]))
+    row(cognate.linkage, cognate.same_timing);
+  result.tables.push_back(std::move(table));
+}
+
+}  // namespace
+
+study::Result run_path_study(const PathStudy& s, const study::Common& common, RunContext& context) {
+  study::Result result;
+  const Run run = run_seeds(s, common, context);
+  const std::vector<PathDesign> designs = distinct_designs(s, run);
+  if (designs.empty()) {
+    result.status = run.status == Status::done ? Status::infeasible : run.status;
+    result.headline = "No four-bar found: no start of the search assembles at every point.";
+    return result;
+  }
+  const PathDesign& best = designs[0];
+  const bool feasible = best.violations.empty();
+  result.status = run.status != Status::done ? run.status : feasible ? Status::done : Status::infeasible;
+
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    result.solutions.push_back(solution_of(s, designs[i], i + 1));
+    result.scenes.push_back(path_scene(s.problem, designs[i], result.solutions[i].scene,
+                                       fmt::format("{}: {}", i + 1, result.solutions[i].label),
+                                       common.output.samples));
+  }
+  const double success = add_statistics(result, run, feasible ? best.error : infinity, path_size(s.problem));
+  add_tables(result, s, common, designs, run);
+  add_cognates(result, best);
+  add_published(result, s.problem, feasible ? best.error : infinity);
+
+  const FourBarClass type = classify(best.linkage);
+  const double rms = std::sqrt(best.error / static_cast<double>(s.problem.x.size()));
+  const PathErrors errors = path_errors(s.problem, best);
+  const auto worst = std::max_element(errors.distance.begin(), errors.distance.end());
+  const double mu = math::degrees(transmission_angles(best.linkage).minimum);
+  using Verdict = study::Fact::Verdict;
+  if (feasible) {
+    result.headline = fmt::format("A {} ({} branch) passes the {} points within {} (root mean square {}).",
+                                  name_of(type.type), name_of(best.linkage.branch), s.problem.x.size(),
+                                  metres(*worst), metres(rms));
+  } else {
+    std::string reasons;
+    for (const auto& v : best.violations) reasons += (reasons.empty() ? "" : ", ") + v.reason;
+    result.headline = fmt::format("No design meets every constraint; the nearest one violates {}.", reasons);
+  }
+  result.facts = {
+      {"path error (sum of squares)",
+       best.error >= 1e-4 ? fmt::format("{:.8f} m2", best.error) : fmt::format("{:.4g} m2", best.error),
+       feasible ? Verdict::good : Verdict::bad},
+      {"root mean square distance", metres(rms)},
+      {"worst point", fmt::format("{} at point {}", metres(*worst), worst - errors.distance.begin() + 1)},
+      {"type", result.solutions[0].label},
+      {"least transmission angle", fmt::format("{:.1f} deg", mu), mu < 20 ? Verdict::bad : Verdict::plain},
+      {"method", run.method},
+      {"seeds that reached the best",
+       fmt::format("{:.0f} of {}", success * static_cast<double>(run.runs.size()), run.runs.size()),
+       success > 0.9 ? Verdict::good : Verdict::plain},
+      {"evaluations", fmt::format("{}", result.statistics.find("evaluations")->as_integer())},
+  };
+  if (run.runs.size() < static_cast<std::size_t>(common.seeds.count))
+    result.diagnostics.push_back(
+        {Diagnostic::Severity::warning,
+         {},
+         {},
+         {},
+         fmt::format("interrupted: {} of {} seeds ran", run.runs.size(), common.seeds.count),
+         {}});
+  if (mu < 20)
+    result.diagnostics.push_back(
+        {Diagnostic::Severity::warning,
+         {},
+         {},
+         {},
+         fmt::format("the transmission angle falls to {:.1f} deg: the linkage transmits force badly there",
+                     mu),
+         "limit it: [[constraint]] type = \"transmission_angle\", min_deg = 30"});
+  return result;
+}
+
+}  // namespace linkwright::planar

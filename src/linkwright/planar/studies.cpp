@@ -1,0 +1,9 @@
+#include "linkwright/planar/studies.h"
+
+#include "linkwright/planar/path_study.h"
+
+namespace linkwright::planar {
+
+std::vector<study::Kind> studies() { return {path_kind()}; }
+
+}  // namespace linkwright::planar

@@ -1,0 +1,187 @@
+#include "linkwright/planar/path_study.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "linkwright/planar/studies.h"
+#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
+
+namespace linkwright::planar {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* head = R"(schema = 1
+kind = "synthesis"
+title = "test"
+[mechanism]
+type = "planar.four_bar"
+)";
+constexpr const char* square = "points_m = [[0, 0], [1, 0], [1, 1], [0, 1]]\n";
+
+std::optional<study::Study> prepare(const std::string& text, std::string& messages,
+                                    const std::filesystem::path& folder = ".") {
+  static const std::vector<study::Kind> kinds = studies();
+  Diagnostics diagnostics;
+  const Value document = study::read_text(text, study::Syntax::toml, "study.toml", diagnostics);
+  auto prepared = study::prepare(document, "study.toml", folder, kinds, diagnostics);
+  for (const Diagnostic& d : diagnostics) messages += to_string(d) + "\n";
+  return prepared;
+}
+
+std::string problems(const std::string& text) {
+  std::string messages;
+  EXPECT_FALSE(prepare(text, messages)) << text;
+  return messages;
+}
+
+std::string target(const std::string& lines) {
+  return std::string(head) + "[target]\ntype = \"path_points\"\n" + lines;
+}
+
+TEST(PathStudyRead, NamesWhatIsWrongWithThePoints) {
+  EXPECT_THAT(problems(target("")),
+              HasSubstr("the target has no points; write points_m = [[x, y], ...] or points_file"));
+  EXPECT_THAT(problems(target("points_m = []\n")), HasSubstr("there are no points; give at least 3 points"));
+  EXPECT_THAT(
+      problems(target("points_m = [[0, 0], [1, 0]]\n")),
+      HasSubstr("study.toml:8:12: error: target.points_m: 2 points make no path, at least 3 are needed"));
+  EXPECT_THAT(problems(target("points_m = [[0, 0], [1, 0], [1, 0], [2, 1]]\n")),
+              HasSubstr("point 3 repeats point 2: (1, 0)"));
+  EXPECT_THAT(problems(target("closed = true\npoints_m = [[0, 0], [1, 0], [1, 1], [0, 0]]\n")),
+              HasSubstr("the last point repeats the first: (0, 0); remove it"));
+  EXPECT_THAT(problems(target("points_m = [[0, 0], [1, 0], [1, nan]]\n")), HasSubstr("nan"));
+  EXPECT_THAT(problems(target("points_m = [[0, 0], [1, 0], [1]]\n")), HasSubstr("points_m[2]"));
+  EXPECT_THAT(problems(target(std::string(square) + "points_file = \"p.csv\"\n")),
+              HasSubstr("both points and points_file"));
+  EXPECT_THAT(problems(target("points_file = \"nowhere.csv\"\n")), HasSubstr("cannot read './nowhere.csv'"));
+}
+
+TEST(PathStudyRead, TimingMustFit) {
+  EXPECT_THAT(problems(target(std::string(square) + "timing = { mode = \"equal_steps\" }\n")),
+              HasSubstr("equal_steps needs step_deg"));
+  EXPECT_THAT(
+      problems(target(std::string(square) + "timing = { mode = \"given\", angles_deg = [1, 2, 3] }\n")),
+      HasSubstr("3 angles for 4 points"));
+  EXPECT_THAT(problems(target(std::string(square) + "timing = { mode = \"free\", step_deg = 10 }\n")),
+              HasSubstr("step goes with mode equal_steps, the mode is free"));
+  EXPECT_THAT(problems(target(std::string(square) + "timing = { mode = \"equal_step\", step_deg = 10 }\n")),
+              HasSubstr("equal_steps"));
+}
+
+TEST(PathStudyRead, TellsAllProblemsAtOnce) {
+  const std::string text = target("points_m = [[0, 0], [1, 0]]\ntimming = { mode = \"free\" }\n") +
+                           "[optimiser]\nmethod = \"grey_wulf\"\n";
+  const std::string messages = problems(text);
+  EXPECT_THAT(messages, HasSubstr("2 points make no path"));
+  EXPECT_THAT(messages, HasSubstr("timming"));
+  EXPECT_THAT(messages, HasSubstr("did you mean"));
+  EXPECT_THAT(messages, HasSubstr("grey_wolf"));
+}
+
+TEST(PathStudyRead, ParametersNeedUnitsAndOrder) {
+  const std::string parameters = "[mechanism.parameters]\n";
+  const std::string rest = std::string("[target]\ntype = \"path_points\"\n") + square;
+  EXPECT_THAT(problems(head + parameters + "crank = 1.0\n" + rest), HasSubstr("crank_m"));
+  EXPECT_THAT(problems(head + parameters + "crank_m = 1.0\ncrank_mm = 10\n" + rest), HasSubstr("crank_mm"));
+  EXPECT_THAT(problems(head + parameters + "crank_m = { min = 2, max = 1 }\n" + rest), HasSubstr("2"));
+  EXPECT_THAT(problems(head + parameters + "crank_m = { min = 0, max = inf }\n" + rest), HasSubstr("inf"));
+  EXPECT_THAT(problems(head + parameters + "crnk_m = 1\n" + rest), HasSubstr("did you mean 'crank_m'"));
+  EXPECT_THAT(problems(head + parameters + "crank_m = -1\n" + rest), HasSubstr("crank_m"));
+}
+
+TEST(PathStudyRead, ReadsPointsFromCsvInAnyLengthUnit) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "linkwright_path_study_test";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "path.csv") << "x_mm,y_mm\n0,0\n100,0\n100,50\n0,50\n";
+  std::ofstream(folder / "bad.csv") << "x_mm,z_mm\n0,0\n";
+  std::string messages;
+  const auto study = prepare(target("points_file = \"path.csv\"\n"), messages, folder);
+  ASSERT_TRUE(study) << messages;
+  EXPECT_EQ(study->canonical.find("target")->find("points_m")->as_array()[2].as_array()[1].as_number(), 0.05);
+  EXPECT_EQ(study->canonical.find("target")->find("points_file"), nullptr);
+  EXPECT_FALSE(prepare(target("points_file = \"bad.csv\"\n"), messages, folder));
+  EXPECT_THAT(messages, HasSubstr("has no column y_m"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(PathStudyRead, DerivesBoundsFromThePath) {
+  std::string messages;
+  const auto study = prepare(target(square), messages);
+  ASSERT_TRUE(study) << messages;
+  const Value& crank = *study->canonical.find("mechanism")->find("parameters")->find("crank_m");
+  EXPECT_NEAR(crank.find("max")->as_number(), 50 * std::sqrt(2.0), 1e-9);
+}
+
+TEST(PathStudyRead, EveryExampleReads) {
+  const std::filesystem::path folder = std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples" / "studies";
+  const std::vector<study::Kind> kinds = studies();
+  int read = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".toml") continue;
+    Diagnostics diagnostics;
+    const Value document = study::read_file(entry.path(), diagnostics);
+    EXPECT_TRUE(study::prepare(document, entry.path().string(), folder, kinds, diagnostics)) << entry.path();
+    EXPECT_TRUE(diagnostics.empty()) << to_string(diagnostics[0]);
+    ++read;
+  }
+  EXPECT_GE(read, 11);
+  std::string messages;
+  EXPECT_TRUE(prepare(kinds[0].example, messages)) << messages;
+}
+
+TEST(PathStudyRun, AnswersWithEvidence) {
+  std::string messages;
+  const auto study = prepare(
+      target(std::string("closed = true\ntiming = { mode = \"equal_steps\", step_deg = 90 }\n") + square) +
+          "[optimiser]\nmethod = \"recommended\"\nseeds = { first = 3, count = 2 }\n",
+      messages);
+  ASSERT_TRUE(study) << messages;
+  RunContext context;
+  const study::Result result = study::run_study(*study, context);
+  EXPECT_EQ(result.status, Status::done);
+  ASSERT_FALSE(result.solutions.empty());
+  EXPECT_NEAR(result.solutions[0].objectives.find("path_error_sum_sq_m2")->as_number(), 0,
+              1e-9);  // four points can be met
+  EXPECT_EQ(result.scenes.size(), result.solutions.size());
+  EXPECT_EQ(result.statistics.find("seeds")->as_integer(), 2);
+  EXPECT_EQ(result.log.as_array().size(), 2u);
+  EXPECT_TRUE(result.comparisons.empty());
+}
+
+TEST(PathStudyRun, PopulationMethodsReportWhatTheyReach) {
+  for (const char* method : {"grey_wolf", "differential_evolution", "self_adaptive_differential_evolution"}) {
+    std::string messages;
+    const auto study = prepare(
+        target(std::string("closed = true\ntiming = { mode = \"equal_steps\", step_deg = 90 }\n") + square) +
+            "[optimiser]\nmethod = \"" + method +
+            "\"\npopulation = 20\ngenerations = 30\nseeds = { first = 1, count = 3 }\n",
+        messages);
+    ASSERT_TRUE(study) << messages;
+    RunContext context;
+    const study::Result result = study::run_study(*study, context);
+    EXPECT_EQ(result.statistics.find("evaluations")->as_integer(), 3 * 20 * 30) << method;
+    EXPECT_EQ(result.statistics.find("method")->as_string(), method);
+  }
+}
+
+TEST(PathStudyRun, CancelledRunKeepsWhatItHas) {
+  std::string messages;
+  const auto study = prepare(
+      target(std::string("closed = true\n") + square) + "[optimiser]\nseeds = { first = 1, count = 4 }\n",
+      messages);
+  ASSERT_TRUE(study) << messages;
+  RunContext context;
+  context.set_time_limit(std::chrono::milliseconds(1));
+  const study::Result result = study::run_study(*study, context);
+  EXPECT_EQ(result.status, Status::deadline);
+  EXPECT_FALSE(result.headline.empty());
+}
+
+}  // namespace
+}  // namespace linkwright::planar
