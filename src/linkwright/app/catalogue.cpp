@@ -1,0 +1,58 @@
+#include "linkwright/app/catalogue.h"
+
+#include <fmt/format.h>
+
+#include <initializer_list>
+#include <iterator>
+
+#include "linkwright/study/study.h"
+
+namespace linkwright::app {
+namespace {
+
+using Kinds = std::vector<study::Kind>;
+
+Kinds join(std::initializer_list<Kinds> domains) {
+  Kinds all;
+  for (const Kinds& kinds : domains) all.insert(all.end(), kinds.begin(), kinds.end());
+  return all;
+}
+
+}  // namespace
+
+std::span<const study::Kind> catalogue() {
+  // One line for each domain.
+  static const Kinds kinds = join({});
+  return kinds;
+}
+
+const study::Kind* find_kind(std::string_view name, std::span<const study::Kind> kinds,
+                             Diagnostics& diagnostics) {
+  std::vector<const study::Kind*> fitting;
+  std::vector<std::string> names;
+  for (const study::Kind& kind : kinds) {
+    names.push_back(name_of(kind));
+    if (names.back() == name) return &kind;
+    if (names.back().starts_with(std::string(name) + "/")) fitting.push_back(&kind);
+  }
+  if (fitting.size() == 1) return fitting.front();
+  Diagnostic problem;
+  if (fitting.empty()) {
+    problem.message = fmt::format("there is no kind of study '{}'", name);
+    const std::vector<std::string_view> allowed(names.begin(), names.end());
+    const std::string_view nearest = nearest_word(name, allowed);
+    problem.hint = nearest.empty() ? fmt::format("there is: {}", fmt::join(names, ", "))
+                                   : fmt::format("did you mean '{}'?", nearest);
+  } else {
+    std::vector<std::string> several;
+    for (const study::Kind* kind : fitting) several.push_back(name_of(*kind));
+    problem.message = fmt::format("several kinds of study begin with '{}'", name);
+    problem.hint = fmt::format("write one of: {}", fmt::join(several, ", "));
+  }
+  diagnostics.push_back(std::move(problem));
+  return nullptr;
+}
+
+std::string_view version() { return LINKWRIGHT_VERSION; }
+
+}  // namespace linkwright::app

@@ -1,0 +1,111 @@
+#include "linkwright/app/result_json.h"
+
+#include <filesystem>
+
+#include "linkwright/app/catalogue.h"
+#include "linkwright/app/sha256.h"
+#include "linkwright/core/status.h"
+#include "linkwright/core/units.h"
+#include "linkwright/study/write.h"
+
+namespace linkwright::app {
+namespace {
+
+Value or_empty(const Value& value, Value empty) { return value.is_null() ? empty : value; }
+
+Value to_value(const study::Solution& solution) {
+  Value v;
+  v["label"] = solution.label;
+  v["parameters"] = Value::object();
+  for (const study::Parameter& p : solution.parameters) v["parameters"][p.key] = p.value;
+  v["objectives"] = or_empty(solution.objectives, Value::object());
+  v["classification"] = or_empty(solution.classification, Value::object());
+  v["defects"] = or_empty(solution.defects, Value::array());
+  return v;
+}
+
+Value to_value(const study::Check& check) {
+  Value v;
+  v["quantity"] = check.quantity;
+  if (!check.at.empty()) v["at"] = check.at;
+  v["value"] = check.value;
+  v["limit"] = check.limit;
+  v["passed"] = check.passed;
+  if (!check.message.empty()) v["message"] = check.message;
+  return v;
+}
+
+/// Column arrays; like in CSV, `status` is the last column.
+Value to_value(const Table& table) {
+  Value v;
+  v["name"] = table.name;
+  Value::Array columns, data;
+  const auto describe = [&](std::string_view key, std::string_view unit, std::string_view label) {
+    Value column;
+    column["key"] = key;
+    column["unit"] = unit;
+    column["label"] = label;
+    columns.push_back(std::move(column));
+  };
+  for (const Column& column : table.columns) {
+    const auto parts = split_unit(column.key);
+    describe(column.key, parts ? readable_unit(parts->unit->suffix) : std::string(), column.label);
+    data.push_back(Value(column.values));
+  }
+  describe("status", "", "status");
+  Value::Array status;
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    status.push_back(table.status.empty() ? Value("done") : Value(table.status[row]));
+  data.push_back(Value(std::move(status)));
+  v["columns"] = Value(std::move(columns));
+  v["data"] = Value(std::move(data));
+  return v;
+}
+
+Value to_value(const Diagnostic& diagnostic) {
+  Value v;
+  v["severity"] = diagnostic.severity == Diagnostic::Severity::error ? "error" : "warning";
+  // The name alone: the folder differs between machines.
+  if (!diagnostic.file.empty()) v["file"] = std::filesystem::path(diagnostic.file).filename().string();
+  if (diagnostic.position.line > 0) {
+    v["line"] = diagnostic.position.line;
+    v["column"] = diagnostic.position.column;
+  }
+  if (!diagnostic.key.empty()) v["key"] = diagnostic.key;
+  v["message"] = diagnostic.message;
+  if (!diagnostic.hint.empty()) v["hint"] = diagnostic.hint;
+  return v;
+}
+
+template <class T>
+Value all(const std::vector<T>& items) {
+  Value::Array array;
+  for (const T& item : items) array.push_back(to_value(item));
+  return Value(std::move(array));
+}
+
+}  // namespace
+
+Value result_json(const study::Study& study, const study::Result& result, const RunRecord& run) {
+  Value v;
+  v["schema"] = study::schema_version;
+  v["tool"] = "linkwright " + std::string(version());
+  v["study"] = study.canonical;
+  v["study_sha256"] = sha256(study::to_json(study.canonical));
+  v["status"] = to_string(result.status);
+  v["checks"] = all(result.checks);
+  v["best"] = result.solutions.empty() ? Value() : to_value(result.solutions.front());
+  v["solutions"] = all(result.solutions);
+  v["statistics"] = or_empty(result.statistics, Value::object());
+  v["log"] = or_empty(result.log, Value::array());
+  v["tables"] = all(result.tables);
+  v["diagnostics"] = all(result.diagnostics);
+  Value& record = v["run"];
+  record["started"] = run.started;
+  record["seconds"] = run.seconds;
+  record["host"] = run.host;
+  record["threads"] = run.threads;
+  return v;
+}
+
+}  // namespace linkwright::app

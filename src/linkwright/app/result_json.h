@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "linkwright/core/value.h"
+#include "linkwright/study/result.h"
+#include "linkwright/study/study.h"
+
+namespace linkwright::app {
+
+/// What differs between two runs of one study.
+struct RunRecord {
+  std::string started;  ///< UTC, "2026-02-03T04:05:06Z"
+  double seconds = 0;   ///< wall-clock time of the run
+  std::string host;
+  int threads = 0;  ///< 0 = all
+};
+
+/// The document of result.json. All of it but `run` depends on the study and the program alone.
+Value result_json(const study::Study& study, const study::Result& result, const RunRecord& run);
+
+}  // namespace linkwright::app

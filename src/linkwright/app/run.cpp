@@ -1,0 +1,144 @@
+#include "linkwright/app/run.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+
+#include "linkwright/app/overrides.h"
+#include "linkwright/core/table.h"
+#include "linkwright/study/read.h"
+#include "linkwright/study/write.h"
+
+namespace linkwright::app {
+namespace fs = std::filesystem;
+namespace {
+
+void refuse(Diagnostics& diagnostics, const fs::path& file, std::string message) {
+  diagnostics.push_back({Diagnostic::Severity::error, file.string(), {}, {}, std::move(message), {}});
+}
+
+/// Writes a file whole or not at all.
+bool write_whole(const fs::path& file, std::string_view text, Diagnostics& diagnostics) {
+  const fs::path temporary = file.string() + fmt::format(".{}.part", ::getpid());
+  errno = 0;
+  std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+  stream.close();
+  std::error_code error;
+  if (stream) {
+    fs::rename(temporary, file, error);
+    if (!error) return true;
+  }
+  refuse(diagnostics, file,
+         fmt::format("cannot be written: {}", error ? error.message() : std::string(std::strerror(errno))));
+  fs::remove(temporary, error);
+  return false;
+}
+
+bool wants(const study::Study& study, study::Format format) {
+  const auto& formats = study.common.output.formats;
+  return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : std::string();
+}
+
+}  // namespace
+
+std::optional<study::Study> load_study(const fs::path& file, const RunOptions& options,
+                                       std::span<const study::Kind> kinds, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.size();
+  Value document = study::read_file(file, diagnostics);
+  std::vector<Override> changes;
+  for (const std::string& text : options.set) {
+    Override change;
+    if (parse_override(text, change, diagnostics)) changes.push_back(std::move(change));
+  }
+  if (options.seed)
+    changes.push_back(
+        {fmt::format("--seed {}", *options.seed), "optimiser.seeds.first", Value(*options.seed)});
+  if (diagnostics.size() != before) return std::nullopt;
+  for (const Override& change : changes) apply_override(document, change, diagnostics);
+  if (diagnostics.size() != before) return std::nullopt;
+  auto study = study::prepare(document, file.string(), file.parent_path(), kinds, diagnostics);
+  name_overrides(diagnostics, changes);
+  return study;
+}
+
+fs::path output_folder(const study::Study& study, const fs::path& file, const RunOptions& options) {
+  if (!options.out.empty()) return options.out;
+  if (!study.common.output.dir.empty()) return study.common.output.dir;
+  return fs::path("out") / file.stem();
+}
+
+bool prepare_folder(const fs::path& folder, Diagnostics& diagnostics) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    refuse(diagnostics, folder, fmt::format("the folder cannot be made: {}", error.message()));
+    return false;
+  }
+  const fs::path probe = folder / fmt::format(".{}.part", ::getpid());
+  errno = 0;
+  if (!std::ofstream(probe).put('\n')) {
+    refuse(diagnostics, folder, fmt::format("the folder cannot be written: {}", std::strerror(errno)));
+    return false;
+  }
+  fs::remove(probe, error);
+  return true;
+}
+
+RunOutcome run_and_record(const study::Study& study, RunContext& context) {
+  RunOutcome outcome;
+  const auto start = RunContext::Clock::now();
+  outcome.record.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  outcome.record.host = host_name();
+  outcome.record.threads = context.threads();
+  outcome.result = study::run_study(study, context);
+  outcome.record.seconds = std::chrono::duration<double>(RunContext::Clock::now() - start).count();
+  return outcome;
+}
+
+std::vector<fs::path> write_results(const study::Study& study, const RunOutcome& outcome,
+                                    const fs::path& folder, Diagnostics& diagnostics) {
+  std::vector<fs::path> written;
+  const auto write = [&](const std::string& name, std::string_view text) {
+    if (write_whole(folder / name, text, diagnostics)) written.push_back(folder / name);
+  };
+  if (wants(study, study::Format::json))
+    write("result.json", study::to_json_readable(result_json(study, outcome.result, outcome.record)));
+  if (wants(study, study::Format::csv))
+    for (const Table& table : outcome.result.tables) write(table.name + ".csv", to_csv(table));
+  return written;
+}
+
+int exit_code(const study::Result& result) {
+  switch (result.status) {
+    case Status::cancelled:
+      return 4;
+    case Status::no_assembly:
+    case Status::singular:
+    case Status::not_converged:
+    case Status::branch_lost:
+    case Status::limit_reached:
+    case Status::infeasible:
+      return 3;
+    case Status::done:
+    case Status::deadline:
+      break;
+  }
+  const bool passed =
+      std::all_of(result.checks.begin(), result.checks.end(), [](const study::Check& c) { return c.passed; });
+  return passed ? 0 : 1;
+}
+
+}  // namespace linkwright::app

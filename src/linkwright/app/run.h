@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "linkwright/app/result_json.h"
+#include "linkwright/core/diagnostic.h"
+#include "linkwright/core/run_context.h"
+#include "linkwright/study/study.h"
+
+namespace linkwright::app {
+
+/// How a study file is run; everything but `seed` and `set` leaves the canonical study as it is.
+struct RunOptions {
+  std::filesystem::path out;         ///< folder of the results; empty = what the study says
+  std::optional<std::int64_t> seed;  ///< first seed
+  std::vector<std::string> set;      ///< "key=value", applied before validation
+};
+
+/// Reads and validates a study file. All problems are appended to `diagnostics`; nothing is returned if there
+/// is an error.
+std::optional<study::Study> load_study(const std::filesystem::path& file, const RunOptions& options,
+                                       std::span<const study::Kind> kinds, Diagnostics& diagnostics);
+
+/// Folder for the results of a study: options.out, output.dir of the study, or "out/" and the name of its
+/// file.
+std::filesystem::path output_folder(const study::Study& study, const std::filesystem::path& file,
+                                    const RunOptions& options);
+
+/// Makes the folder and tries to write in it, so that an hour's run does not end at a locked door.
+bool prepare_folder(const std::filesystem::path& folder, Diagnostics& diagnostics);
+
+/// What a run gives.
+struct RunOutcome {
+  study::Result result;
+  RunRecord record;
+};
+
+/// Runs a study, checks included, and notes what `run` of result.json holds.
+RunOutcome run_and_record(const study::Study& study, RunContext& context);
+
+/// Writes the files that the study asks for, each under a temporary name first, so that no file is ever half
+/// written. Returns those written; problems are appended to `diagnostics`.
+std::vector<std::filesystem::path> write_results(const study::Study& study, const RunOutcome& outcome,
+                                                 const std::filesystem::path& folder,
+                                                 Diagnostics& diagnostics);
+
+/// The exit code of the program: 0 done or out of time, 1 a check failed, 3 a numeric failure, 4 cancelled.
+int exit_code(const study::Result& result);
+
+}  // namespace linkwright::app

@@ -1,0 +1,4 @@
+#include "linkwright/app/catalogue.h"
+#include "linkwright/cli/program.h"
+
+int main(int argc, char** argv) { return linkwright::cli::program(argc, argv, linkwright::app::catalogue()); }

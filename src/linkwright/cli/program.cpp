@@ -1,0 +1,219 @@
+#include "linkwright/cli/program.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+
+#include "linkwright/app/catalogue.h"
+#include "linkwright/app/run.h"
+#include "linkwright/cli/arguments.h"
+#include "linkwright/cli/progress.h"
+#include "linkwright/study/study.h"
+#include "linkwright/study/write.h"
+
+namespace linkwright::cli {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int bad_input = 2;
+constexpr int internal_error = 70;
+
+void print(const Diagnostics& diagnostics) {
+  for (const Diagnostic& diagnostic : diagnostics) fmt::print(stderr, "{}\n", to_string(diagnostic));
+  const auto errors = std::count_if(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& d) {
+    return d.severity == Diagnostic::Severity::error;
+  });
+  if (errors > 1) fmt::print(stderr, "{} errors\n", errors);
+}
+
+// The run that Ctrl-C asks to stop. The handler is reset by its first use, so a second Ctrl-C kills the
+// program.
+RunContext* interruptible = nullptr;
+
+extern "C" void interrupt(int) {
+  if (interruptible) interruptible->cancel();
+}
+
+/// While it lives, the first SIGINT or SIGTERM cancels the run.
+class Interruptible {
+ public:
+  explicit Interruptible(RunContext& context) {
+    interruptible = &context;
+    struct sigaction action = {};
+    action.sa_handler = interrupt;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, &old_interrupt_);
+    sigaction(SIGTERM, &action, &old_terminate_);
+  }
+  ~Interruptible() {
+    sigaction(SIGINT, &old_interrupt_, nullptr);
+    sigaction(SIGTERM, &old_terminate_, nullptr);
+    interruptible = nullptr;
+  }
+  Interruptible(const Interruptible&) = delete;
+  Interruptible& operator=(const Interruptible&) = delete;
+
+ private:
+  struct sigaction old_interrupt_ = {};
+  struct sigaction old_terminate_ = {};
+};
+
+std::string summary(const study::Study& study, const study::Result& result,
+                    const std::vector<fs::path>& written) {
+  std::string text;
+  const auto line = [&](std::string_view content) { text.append(content).append("\n"); };
+  if (!study.common.title.empty()) line(study.common.title);
+  if (!result.headline.empty()) line("  " + result.headline);
+  std::size_t width = 6;
+  for (const study::Fact& fact : result.facts) width = std::max(width, fact.label.size());
+  line(fmt::format("  {:<{}}  {}", "status", width, to_string(result.status)));
+  for (const study::Fact& fact : result.facts) {
+    const std::string_view mark = fact.verdict == study::Fact::Verdict::bad ? "  (!)" : "";
+    line(fmt::format("  {:<{}}  {}{}", fact.label, width, fact.text, mark));
+  }
+  if (!result.checks.empty()) {
+    const auto passed = std::count_if(result.checks.begin(), result.checks.end(),
+                                      [](const study::Check& c) { return c.passed; });
+    line(fmt::format("checks: {} passed, {} failed", passed,
+                     static_cast<std::ptrdiff_t>(result.checks.size()) - passed));
+    for (const study::Check& check : result.checks) {
+      const std::string at = check.at.empty() ? "" : " at " + check.at;
+      const std::string value =
+          check.message.empty() ? fmt::format(" = {:.9g}", check.value) : ": " + check.message;
+      line(fmt::format("  {}  {}{}{}  ({})", check.passed ? "passed" : "FAILED", check.quantity, at, value,
+                       check.limit));
+    }
+  }
+  for (const Diagnostic& d : result.diagnostics) line(to_string(d));
+  if (!written.empty()) {
+    line(fmt::format("results in {}:", written.front().parent_path().string()));
+    for (const fs::path& file : written) line("  " + file.filename().string());
+  }
+  return text;
+}
+
+int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
+  Diagnostics diagnostics;
+  const app::RunOptions options{arguments.out, arguments.seed, arguments.set};
+  const auto study = app::load_study(arguments.study, options, kinds, diagnostics);
+  const fs::path folder = study ? app::output_folder(*study, arguments.study, options) : fs::path();
+  if (!study || !app::prepare_folder(folder, diagnostics)) {
+    print(diagnostics);
+    return bad_input;
+  }
+  RunContext context;
+  context.set_threads(arguments.threads);
+  if (arguments.time_limit) context.set_time_limit(std::chrono::duration<double>(*arguments.time_limit));
+  app::RunOutcome outcome;
+  {
+    const Interruptible guard(context);
+    const ProgressBar bar(context);
+    outcome = app::run_and_record(*study, context);
+  }
+  // What was remarkable about the study belongs to its evidence.
+  outcome.result.diagnostics.insert(outcome.result.diagnostics.begin(), diagnostics.begin(),
+                                    diagnostics.end());
+  Diagnostics problems;
+  const std::vector<fs::path> written = app::write_results(*study, outcome, folder, problems);
+  if (arguments.json)
+    fmt::print("{}", study::to_json_readable(app::result_json(*study, outcome.result, outcome.record)));
+  else
+    fmt::print("{}", summary(*study, outcome.result, written));
+  print(problems);
+  return has_errors(problems) ? bad_input : app::exit_code(outcome.result);
+}
+
+int check(const Arguments& arguments, std::span<const study::Kind> kinds) {
+  Diagnostics diagnostics;
+  const auto study =
+      app::load_study(arguments.study, {{}, arguments.seed, arguments.set}, kinds, diagnostics);
+  print(diagnostics);
+  if (!study) return bad_input;
+  fmt::print("{}: good, {}\n", arguments.study, name_of(*study->kind));
+  return 0;
+}
+
+int make(const Arguments& arguments, std::span<const study::Kind> kinds) {
+  Diagnostics diagnostics;
+  const study::Kind* kind = app::find_kind(arguments.kind, kinds, diagnostics);
+  if (!kind) {
+    print(diagnostics);
+    return bad_input;
+  }
+  if (arguments.file == "-") {
+    fmt::print("{}", kind->example);
+    return 0;
+  }
+  std::string file = arguments.file;
+  if (file.empty()) {
+    file = name_of(*kind) + ".toml";
+    std::replace(file.begin(), file.end(), '/', '-');
+  }
+  // "x": the file must not exist; asked and made in one step.
+  std::FILE* stream = std::fopen(file.c_str(), "wbx");
+  if (!stream) {
+    fmt::print(stderr, "{}: error: {}\n", file,
+               errno == EEXIST ? "exists already and is left alone" : std::strerror(errno));
+    return bad_input;
+  }
+  const bool whole =
+      std::fwrite(kind->example.data(), 1, kind->example.size(), stream) == kind->example.size();
+  if (std::fclose(stream) != 0 || !whole) {
+    fmt::print(stderr, "{}: error: cannot be written: {}\n", file, std::strerror(errno));
+    return bad_input;
+  }
+  fmt::print("{} written; run it with: linkwright run {}\n", file, file);
+  return 0;
+}
+
+int schema(const Arguments& arguments, std::span<const study::Kind> kinds) {
+  if (arguments.kind.empty()) {
+    fmt::print("{}", study::to_json_readable(study::schema_of(kinds)));
+    return 0;
+  }
+  Diagnostics diagnostics;
+  const study::Kind* kind = app::find_kind(arguments.kind, kinds, diagnostics);
+  if (kind) fmt::print("{}", study::to_json_readable(study::schema_of(*kind)));
+  print(diagnostics);
+  return kind ? 0 : bad_input;
+}
+
+int catalogue(std::span<const study::Kind> kinds) {
+  for (const study::Kind& kind : kinds) fmt::print("{}\n    {}\n", name_of(kind), kind.summary);
+  return 0;
+}
+
+}  // namespace
+
+int program(int argc, const char* const* argv, std::span<const study::Kind> kinds) try {
+  const Arguments arguments = parse_arguments(argc, argv);
+  switch (arguments.command) {
+    case Arguments::Command::nothing:
+      fmt::print(arguments.exit_code == 0 ? stdout : stderr, "{}", arguments.text);
+      return arguments.exit_code;
+    case Arguments::Command::run:
+      return run(arguments, kinds);
+    case Arguments::Command::check:
+      return check(arguments, kinds);
+    case Arguments::Command::make:
+      return make(arguments, kinds);
+    case Arguments::Command::schema:
+      return schema(arguments, kinds);
+    case Arguments::Command::catalogue:
+      return catalogue(kinds);
+  }
+  return internal_error;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "linkwright: internal error: {}\nThis is a fault of the program, not of the study.\n",
+             error.what());
+  return internal_error;
+}
+
+}  // namespace linkwright::cli

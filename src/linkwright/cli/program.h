@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+
+#include "linkwright/study/kind.h"
+
+namespace linkwright::cli {
+
+/// The whole program for a catalogue of studies: reads the command line, runs the command, prints. Returns
+/// the exit code: 0 done, 1 a check failed, 2 bad input or usage, 3 numeric failure, 4 cancelled, 70 internal
+/// error.
+int program(int argc, const char* const* argv, std::span<const study::Kind> kinds);
+
+}  // namespace linkwright::cli
