@@ -9,11 +9,11 @@
 namespace linkwright::planar {
 
 void require_lengths(const FourBar& linkage) {
-  const auto usable = [](double length) { return length > 0 && std::isfinite(length); };
+  const auto usable = [](double length) { return length >= shortest_link && length <= longest_link; };
   LINKWRIGHT_REQUIRE(
       usable(linkage.ground) && usable(linkage.crank) && usable(linkage.coupler) && usable(linkage.rocker),
-      "link lengths must be positive and finite, got ground {}, crank {}, coupler {}, rocker {}",
-      linkage.ground, linkage.crank, linkage.coupler, linkage.rocker);
+      "link lengths must be positive and finite ({} to {} m), got ground {}, crank {}, coupler {}, rocker {}",
+      shortest_link, longest_link, linkage.ground, linkage.crank, linkage.coupler, linkage.rocker);
 }
 
 std::complex<double> crank_pivot(const FourBar& linkage) { return {linkage.pivot_x, linkage.pivot_y}; }
@@ -24,6 +24,13 @@ std::complex<double> rocker_pivot(const FourBar& linkage) {
 
 FourBarPosition position(const FourBar& linkage, double crank_angle) {
   require_lengths(linkage);
+  LINKWRIGHT_REQUIRE(
+      std::isfinite(linkage.coupler_u) && std::isfinite(linkage.coupler_v) &&
+          std::isfinite(linkage.pivot_x) && std::isfinite(linkage.pivot_y) &&
+          std::isfinite(linkage.frame_angle) && std::isfinite(crank_angle),
+      "coupler point ({}, {}), pivot ({}, {}), frame angle {} and crank angle {} must be finite",
+      linkage.coupler_u, linkage.coupler_v, linkage.pivot_x, linkage.pivot_y, linkage.frame_angle,
+      crank_angle);
   const std::complex<double> frame = std::polar(1.0, linkage.frame_angle);
   const std::complex<double> crank = std::polar(linkage.crank, crank_angle);
   const Closure<double> closure = close_loop(linkage.ground, 0.0, crank.real(), crank.imag(), linkage.coupler,
@@ -36,13 +43,13 @@ FourBarPosition position(const FourBar& linkage, double crank_angle) {
   // Rounding may push a toggle position just outside; beyond that the gap is real and is reported, never
   // clamped.
   const double rounding = tolerance::closure * (distance + reach);
-  if (distance <= tolerance::closure * reach) {
-    out.status = Status::singular;  // A on B0: the coupler direction is not determined
-    return out;
-  }
   if (distance > reach + rounding || distance < fold - rounding) {
     out.status = Status::no_assembly;
     out.gap = distance > reach ? distance - reach : fold - distance;
+    return out;
+  }
+  if (distance <= tolerance::closure * reach) {
+    out.status = Status::singular;  // A on B0: the coupler direction is not determined
     return out;
   }
   const Direction<double> direction = coupler_direction(closure, linkage.coupler);

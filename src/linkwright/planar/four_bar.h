@@ -2,6 +2,7 @@
 
 #include <array>
 #include <complex>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -38,24 +39,30 @@ struct FourBar {
   Branch branch = Branch::open;
 };
 
-/// Position of a four-bar at one crank angle. Points in the global frame, angles relative to the ground link.
+/// Position of a four-bar at one crank angle. Points in the global frame, angles relative to the ground link;
+/// what is not determined is NaN.
 struct FourBarPosition {
-  Status status =
-      Status::done;  ///< done, no_assembly (points beyond A are not set) or singular (toggle: branches meet)
-  std::complex<double> crank_pin;      ///< A
-  std::complex<double> coupler_pin;    ///< B
-  std::complex<double> coupler_point;  ///< C
-  double coupler_angle = 0;            ///< of A->B, (-pi, pi]
-  double rocker_angle = 0;             ///< of B0->B, (-pi, pi]
-  double transmission_angle = 0;       ///< between coupler and rocker, folded to [0, pi/2]
-  double gap =
-      0;  ///< metres by which coupler and rocker are too short (> 0) or too long to close; 0 when assembled
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Status status = Status::done;  ///< done, no_assembly, or singular (toggle: branches meet); only A is known
+                                 ///< when the links do not meet, and when A lies on B0 (singular, too)
+  std::complex<double> crank_pin;                   ///< A
+  std::complex<double> coupler_pin = {nan, nan};    ///< B
+  std::complex<double> coupler_point = {nan, nan};  ///< C
+  double coupler_angle = nan;                       ///< of A->B, (-pi, pi]
+  double rocker_angle = nan;                        ///< of B0->B, (-pi, pi]
+  double transmission_angle = nan;                  ///< between coupler and rocker, folded to [0, pi/2]
+  double gap = 0;  ///< metres, >= 0: by how much coupler and rocker together are too short, or differ too
+                   ///< much in length, to close; 0 when assembled
 };
 
-/// Closed form on the given branch. Throws ContractError unless all link lengths are positive and finite.
+/// Closed form on the given branch. Throws ContractError on the lengths that require_lengths rejects and on a
+/// tracing point, pivot or angle that is not finite.
 FourBarPosition position(const FourBar& linkage, double crank_angle);
 
-/// Throws ContractError unless all link lengths are positive and finite.
+/// Shortest and longest link (m): between them no product of four lengths leaves the range of a double.
+inline constexpr double shortest_link = 1e-70, longest_link = 1e70;
+
+/// Throws ContractError unless all link lengths are positive and finite, from shortest_link to longest_link.
 void require_lengths(const FourBar& linkage);
 
 /// Points O and B0 in the global frame.

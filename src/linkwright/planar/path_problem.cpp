@@ -50,8 +50,11 @@ void require_valid(const PathProblem& p) {
   for (std::size_t k = 0; k < p.x.size(); ++k)
     LINKWRIGHT_REQUIRE(std::isfinite(p.x[k]) && std::isfinite(p.y[k]), "point {} is ({}, {})", k + 1, p.x[k],
                        p.y[k]);
-  if (p.timing == Timing::given)
+  if (p.timing == Timing::given) {
     LINKWRIGHT_REQUIRE(p.angles.size() == p.x.size(), "{} angles for {} points", p.angles.size(), p.x.size());
+    for (std::size_t k = 0; k < p.angles.size(); ++k)
+      LINKWRIGHT_REQUIRE(std::isfinite(p.angles[k]), "angle {} is {}", k + 1, p.angles[k]);
+  }
   if (p.timing == Timing::equal_steps)
     LINKWRIGHT_REQUIRE(p.step != 0 && std::isfinite(p.step), "the step must not be zero, got {}", p.step);
   for (std::size_t j = 0; j < four_bar_parameter_count; ++j)
@@ -60,6 +63,16 @@ void require_valid(const PathProblem& p) {
                            (j > index(FourBarParameter::rocker) || p.bounds[j].upper > 0),
                        "bounds of {} are {} to {}", name(FourBarParameter(j)), p.bounds[j].lower,
                        p.bounds[j].upper);
+  LINKWRIGHT_REQUIRE(p.min_transmission_angle >= 0 && p.min_transmission_angle < pi / 2,
+                     "the least transmission angle must be at least 0 and less than pi/2, got {}",
+                     p.min_transmission_angle);
+  if (p.packaging)
+    LINKWRIGHT_REQUIRE(std::isfinite(p.packaging->x_min) && std::isfinite(p.packaging->x_max) &&
+                           std::isfinite(p.packaging->y_min) && std::isfinite(p.packaging->y_max) &&
+                           p.packaging->x_min <= p.packaging->x_max &&
+                           p.packaging->y_min <= p.packaging->y_max,
+                       "the packaging box is {} to {} by {} to {}", p.packaging->x_min, p.packaging->x_max,
+                       p.packaging->y_min, p.packaging->y_max);
   LINKWRIGHT_REQUIRE(path_size(p) > 0, "all {} points coincide", p.x.size());
 }
 
@@ -107,10 +120,11 @@ PathDesign measure(const PathProblem& problem, const FourBar& linkage, double se
   for (std::size_t k = 0; k < problem.x.size(); ++k) {
     const FourBarPosition pose = position(linkage, d.angles[k]);
     gap = std::max(gap, pose.gap);
-    if (pose.status == Status::no_assembly) d.error = infinity;
-    d.error += std::norm(pose.coupler_point - std::complex<double>(problem.x[k], problem.y[k]));
+    const double square = std::norm(pose.coupler_point - std::complex<double>(problem.x[k], problem.y[k]));
+    d.error += std::isnan(square) ? infinity : square;
   }
-  add_violation(d, "no_assembly", gap / total);
+  // Whatever the tolerance of the other constraints: an error that does not exist is never feasible.
+  if (!std::isfinite(d.error)) d.violations.push_back({"no_assembly", gap > 0 ? gap / total : 1});
   if (problem.crank_rotates_fully)
     add_violation(d, "crank_rotates_fully", -classify(linkage).crank_margin / total);
   if (problem.min_transmission_angle > 0) {
@@ -201,9 +215,7 @@ PathDesign path_design(const PathProblem& problem, Branch branch, double sense, 
   // A link of length zero is allowed by the published bounds; it is no linkage, so it becomes the smallest
   // one.
   const auto value = [&](FourBarParameter j) { return x[index(j)]; };
-  const auto length = [&](FourBarParameter j) {
-    return std::max(value(j), std::numeric_limits<double>::min());
-  };
+  const auto length = [&](FourBarParameter j) { return std::max(value(j), shortest_link); };
   const FourBar linkage{.ground = length(FourBarParameter::ground),
                         .crank = length(FourBarParameter::crank),
                         .coupler = length(FourBarParameter::coupler),

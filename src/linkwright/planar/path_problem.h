@@ -70,8 +70,9 @@ struct PathProblem {
 /// Keys of the parameters without unit, in their order: "ground", ..., "start_angle".
 std::string_view name(FourBarParameter parameter);
 
-/// Throws ContractError unless there are at least 3 finite points (and as many angles when they are given),
-/// the bounds are ordered and finite, and lengths may be positive.
+/// Throws ContractError unless there are at least 3 finite points that do not all coincide (and as many
+/// angles when they are given), the bounds are ordered and finite, lengths may be positive, the transmission
+/// limit lies in [0, pi/2) and the packaging box is ordered and finite.
 void require_valid(const PathProblem& problem);
 
 /// Diagonal of the bounding box of the target points (m): the characteristic length of the problem.
@@ -92,8 +93,8 @@ struct PathDesign {
   double sense = 1;  ///< +1 or -1: sense of crank rotation along the order of the points
   std::vector<double>
       angles;        ///< crank angle at each target point (rad), unwrapped in the order of the points
-  double error = 0;  ///< sum of squared distances (m2), Boskovic 2018 Eq. (4.4); infinite when it does not
-                     ///< assemble at a point
+  double error = 0;  ///< sum of squared distances (m2), Boskovic 2018 Eq. (4.4); infinite when the
+                     ///< coupler point does not exist at a target
   std::vector<optimise::Violation> violations;  ///< of the constraints of the problem; empty = feasible
   std::vector<std::string> active_bounds;       ///< names of parameters at a bound
 };

@@ -1,0 +1,73 @@
+#include "linkwright/math/scalar.h"
+
+#include <ceres/jet.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace linkwright::math {
+namespace {
+
+using S = Scalar<double>;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST(Scalar, PositivePartCutsOffBelowZero) {
+  EXPECT_EQ(S::positive_part(2.5), 2.5);
+  EXPECT_EQ(S::positive_part(0.0), 0.0);
+  EXPECT_EQ(S::positive_part(-2.5), 0.0);
+  EXPECT_EQ(S::positive_part(infinity), infinity);
+  EXPECT_EQ(S::positive_part(-infinity), 0.0);
+  EXPECT_EQ(S::positive_part(std::numeric_limits<double>::denorm_min()),
+            std::numeric_limits<double>::denorm_min());
+  // No sign is left over that a division or an atan2 could pick up.
+  EXPECT_FALSE(std::signbit(S::positive_part(-0.0)));
+}
+
+TEST(Scalar, MultiplyAdd) {
+  EXPECT_EQ(S::multiply_add(3.0, 4.0, 5.0), 17.0);
+  EXPECT_EQ(S::multiply_add(-0.5, 4.0, 2.0), 0.0);
+  EXPECT_TRUE(std::isnan(S::multiply_add(nan, 0.0, 1.0)));
+}
+
+TEST(Scalar, MultiplyAddRoundsTwiceWithoutFusedInstructions) {
+#if defined(__FMA__)
+  GTEST_SKIP() << "compiled with fused multiply-add";
+#else
+  // (1 + e)^2 - 1 with e = 2^-30: the fused result keeps e^2, two roundings lose it.
+  const double a = 1 + 0x1p-30;
+  EXPECT_EQ(S::multiply_add(a, a, -1.0), a * a - 1);
+  EXPECT_NE(S::multiply_add(a, a, -1.0), std::fma(a, a, -1.0));
+#endif
+}
+
+TEST(Scalar, ChooseTakesOneSideOnly) {
+  EXPECT_EQ(S::choose(true, 1.0, nan), 1.0);
+  EXPECT_EQ(S::choose(false, nan, 2.0), 2.0);
+}
+
+TEST(Scalar, ExtremesSizesAndWholeParts) {
+  EXPECT_EQ(S::min(-1.0, 2.0), -1.0);
+  EXPECT_EQ(S::max(-1.0, 2.0), 2.0);
+  EXPECT_EQ(S::abs(-1.5), 1.5);
+  EXPECT_FALSE(std::signbit(S::abs(-0.0)));
+  EXPECT_EQ(S::floor(-0.25), -1.0);
+  EXPECT_EQ(S::floor(3.0), 3.0);
+}
+
+TEST(Scalar, JetsCarryDerivativesThrough) {
+  using Jet = ceres::Jet<double, 2>;
+  const Jet x(3.0, 0), y(-4.0, 1);
+  const Jet sum = Scalar<Jet>::multiply_add(x, y, x);  // d = (y + 1, x)
+  EXPECT_EQ(sum.a, -9.0);
+  EXPECT_EQ(sum.v[0], -3.0);
+  EXPECT_EQ(sum.v[1], 3.0);
+  EXPECT_EQ(Scalar<Jet>::positive_part(x).v[0], 1.0);
+  const Jet none = Scalar<Jet>::positive_part(y);
+  EXPECT_EQ(none.a, 0.0);
+  EXPECT_EQ(none.v[1], 0.0);
+}
+
+}  // namespace
+}  // namespace linkwright::math
