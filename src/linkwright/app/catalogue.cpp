@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <iterator>
 
+#include "linkwright/planar/studies.h"
 #include "linkwright/study/study.h"
 
 namespace linkwright::app {
@@ -22,7 +23,7 @@ Kinds join(std::initializer_list<Kinds> domains) {
 
 std::span<const study::Kind> catalogue() {
   // One line for each domain.
-  static const Kinds kinds = join({});
+  static const Kinds kinds = join({planar::studies()});
   return kinds;
 }
 
