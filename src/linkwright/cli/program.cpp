@@ -100,6 +100,8 @@ std::string summary(const study::Study& study, const study::Result& result,
 }
 
 int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
+  RunContext context;
+  const Interruptible guard(context);
   Diagnostics diagnostics;
   const app::RunOptions options{arguments.out, arguments.seed, arguments.set};
   const auto study = app::load_study(arguments.study, options, kinds, diagnostics);
@@ -108,12 +110,10 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
     print(diagnostics);
     return bad_input;
   }
-  RunContext context;
   context.set_threads(arguments.threads);
   if (arguments.time_limit) context.set_time_limit(std::chrono::duration<double>(*arguments.time_limit));
   app::RunOutcome outcome;
   {
-    const Interruptible guard(context);
     const ProgressBar bar(context);
     outcome = app::run_and_record(*study, context);
   }

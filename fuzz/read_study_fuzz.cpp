@@ -1,0 +1,37 @@
+// Whatever bytes come, reading a study ends with a tree or with diagnostics, and what was read can be written
+// and read again. libFuzzer in the `fuzz` preset; tests/study/read_study_corpus_test.cpp replays the kept
+// inputs.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
+#include "linkwright/study/write.h"
+#include "tests/study/sample_kind.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace linkwright;
+  static const std::vector<study::Kind> kinds = study::sample::kinds();
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  for (study::Syntax syntax : {study::Syntax::toml, study::Syntax::json}) {
+    Diagnostics diagnostics;
+    const Value document = study::read_text(text, syntax, "input", diagnostics);
+    if (document.is_null() != has_errors(diagnostics)) std::abort();
+    for (const Diagnostic& diagnostic : diagnostics)
+      if (to_string(diagnostic).empty()) std::abort();
+    if (!document.is_object()) continue;
+
+    Diagnostics again;
+    const Value from_json = study::read_text(study::to_json(document), study::Syntax::json, "again", again);
+    const Value from_toml = study::read_text(study::to_toml(document), study::Syntax::toml, "again", again);
+    // Without TOML's null a document may be empty, and an inline table of its own text may be too deep by
+    // one.
+    if (syntax == study::Syntax::json && from_json.is_null()) std::abort();
+
+    const auto prepared = study::prepare(document, "input", ".", kinds, diagnostics);
+    if (prepared.has_value() == has_errors(diagnostics)) std::abort();
+  }
+  return 0;
+}

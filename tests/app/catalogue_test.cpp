@@ -1,0 +1,55 @@
+#include "linkwright/app/catalogue.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
+#include "tests/study/sample_kind.h"
+
+namespace linkwright::app {
+namespace {
+using testing::HasSubstr;
+
+TEST(Catalogue, FindsKindsByNameAndUnambiguousBeginning) {
+  const auto kinds = study::sample::kinds();
+  const auto find = [&](std::string_view name) {
+    Diagnostics diagnostics;
+    const study::Kind* kind = find_kind(name, kinds, diagnostics);
+    EXPECT_EQ(kind == nullptr, has_errors(diagnostics));
+    return kind ? study::name_of(*kind) : to_string(diagnostics.at(0));
+  };
+  EXPECT_EQ(find("synthesis/sample.lever/angle"), "synthesis/sample.lever/angle");
+  EXPECT_EQ(find("analysis"), "analysis/sample.wheel");
+  EXPECT_EQ(find("synthesis/sample.lever"),
+            "error: several kinds of study begin with 'synthesis/sample.lever'; write one of: "
+            "synthesis/sample.lever/angle, synthesis/sample.lever/point");
+  EXPECT_THAT(
+      find("analysis/sample.weel"),
+      HasSubstr("there is no kind of study 'analysis/sample.weel'; did you mean 'analysis/sample.wheel'?"));
+  EXPECT_THAT(find("x"), HasSubstr("there is: synthesis/sample.lever/angle, analysis/sample.wheel"));
+}
+
+// Holds for whatever the domains register: names are unique and every example is a study of its kind without
+// errors.
+TEST(Catalogue, EveryKindHasAGoodExampleAndASchema) {
+  std::set<std::string> names;
+  for (const study::Kind& kind : catalogue()) {
+    const std::string name = study::name_of(kind);
+    EXPECT_TRUE(names.insert(name).second) << name << " stands twice";
+    EXPECT_FALSE(kind.summary.empty()) << name;
+    Diagnostics diagnostics;
+    const Value document = study::read_text(kind.example, study::Syntax::toml, name, diagnostics);
+    ASSERT_TRUE(document.is_object()) << name;
+    const auto example =
+        study::prepare(document, name, LINKWRIGHT_SOURCE_DIR "/examples/studies", catalogue(), diagnostics);
+    for (const Diagnostic& d : diagnostics) ADD_FAILURE() << to_string(d);
+    ASSERT_TRUE(example) << name;
+    EXPECT_EQ(study::name_of(*example->kind), name);
+    EXPECT_NE(study::schema_of(kind).find("properties")->find("mechanism"), nullptr) << name;
+  }
+}
+
+}  // namespace
+}  // namespace linkwright::app

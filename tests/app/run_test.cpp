@@ -1,0 +1,128 @@
+#include "linkwright/app/run.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/study/sample_kind.h"
+
+namespace linkwright::app {
+namespace {
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Run : public testing::Test {
+ protected:
+  Run() : folder_(fs::temp_directory_path() / ("linkwright-run-" + std::to_string(::getpid()))) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    write("s.toml", study::sample::example);
+  }
+  ~Run() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& name, std::string_view text) {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+  static std::string read(const fs::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+  }
+  std::optional<study::Study> load(const RunOptions& options) {
+    diagnostics_.clear();
+    return load_study(folder_ / "s.toml", options, kinds_, diagnostics_);
+  }
+  std::string message() const { return diagnostics_.empty() ? "" : to_string(diagnostics_[0]); }
+
+  std::vector<study::Kind> kinds_ = study::sample::kinds();
+  Diagnostics diagnostics_;
+  fs::path folder_;
+};
+
+TEST_F(Run, OptionsChangeTheCanonicalStudy) {
+  const auto study = load({.out = "x", .seed = 7, .set = {"mechanism.length_m=0.25", "target.to_rad=1"}});
+  ASSERT_TRUE(study) << message();
+  EXPECT_EQ(study->common.seeds.first, 7);
+  EXPECT_EQ(study->common.seeds.count, 2);
+  EXPECT_EQ(study->canonical.find("mechanism")->find("length_m")->as_number(), 0.25);
+  EXPECT_EQ(study->canonical.find("output")->find("dir")->as_string(), "");
+}
+
+TEST_F(Run, ProblemsOfOptionsNameTheOption) {
+  EXPECT_FALSE(load({.out = {}, .seed = {}, .set = {"mechanism.length_m=-1"}}));
+  EXPECT_EQ(message(),
+            "--set mechanism.length_m=-1: error: mechanism.length_m: is -1 m, must be at least 0 m");
+  EXPECT_FALSE(load({.out = {}, .seed = {}, .set = {"mechanism.lenth_m=1"}}));
+  EXPECT_EQ(message(),
+            "--set mechanism.lenth_m=1: error: mechanism.lenth_m: unknown key; did you mean 'length_m'?");
+  EXPECT_FALSE(load({.out = {}, .seed = {}, .set = {"nonsense"}}));
+  EXPECT_EQ(message(), "--set nonsense: error: has no value; write --set key=value");
+}
+
+TEST_F(Run, ASeedNeedsAStudyWithSeeds) {
+  write("s.toml", "schema = 1\nkind = 'analysis'\nmechanism = { type = 'sample.wheel', length_m = 1 }\n");
+  EXPECT_FALSE(load({.out = {}, .seed = 3, .set = {}}));
+  EXPECT_THAT(message(), HasSubstr("--seed 3: error: optimiser: unknown key"));
+}
+
+TEST_F(Run, FolderOfTheResults) {
+  auto study = load({});
+  EXPECT_EQ(output_folder(*study, "a/lever.toml", {}), fs::path("out/lever"));
+  EXPECT_EQ(output_folder(*study, "a/lever.toml", {.out = "b", .seed = {}, .set = {}}), fs::path("b"));
+  study->common.output.dir = "c";
+  EXPECT_EQ(output_folder(*study, "a/lever.toml", {}), fs::path("c"));
+}
+
+TEST_F(Run, WritesWhatTheStudyAsksFor) {
+  const auto study = load({.out = {}, .seed = {}, .set = {"output.formats=['csv']"}});
+  ASSERT_TRUE(study) << message();
+  RunContext context;
+  ASSERT_TRUE(prepare_folder(folder_ / "deep/out", diagnostics_));
+  const auto written =
+      write_results(*study, run_and_record(*study, context), folder_ / "deep/out", diagnostics_);
+  EXPECT_EQ(written, std::vector<fs::path>{folder_ / "deep/out/sweep.csv"});
+  EXPECT_EQ(read(written[0]),
+            "angle_rad,height_m,status\r\n0,0,done\r\n0.7853981633974483,,no_assembly\r\n1.5707963267948966,"
+            "0.4,done\r\n");
+  // Nothing is left of the temporary files.
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "deep/out"), fs::directory_iterator()), 1);
+}
+
+TEST_F(Run, UnwritableFolders) {
+  EXPECT_FALSE(prepare_folder(folder_ / "s.toml" / "below", diagnostics_));
+  EXPECT_THAT(message(), HasSubstr("s.toml/below: error: the folder cannot be made: Not a directory"));
+  diagnostics_.clear();
+  EXPECT_FALSE(prepare_folder("/proc", diagnostics_));
+  EXPECT_THAT(message(), HasSubstr("/proc: error: the folder cannot be written"));
+  diagnostics_.clear();
+  const auto study = load({});
+  RunContext context;
+  EXPECT_TRUE(write_results(*study, run_and_record(*study, context), folder_ / "none", diagnostics_).empty());
+  EXPECT_THAT(message(), HasSubstr("none/result.json: error: cannot be written: No such file or directory"));
+}
+
+TEST(ExitCode, StatusBeforeChecks) {
+  study::Result result;
+  EXPECT_EQ(exit_code(result), 0);
+  result.checks.resize(1);
+  EXPECT_EQ(exit_code(result), 1);
+  result.checks[0].passed = true;
+  EXPECT_EQ(exit_code(result), 0);
+  result.status = Status::deadline;
+  EXPECT_EQ(exit_code(result), 0);
+  result.checks[0].passed = false;
+  EXPECT_EQ(exit_code(result), 1);
+  for (Status status :
+       {Status::no_assembly, Status::not_converged, Status::infeasible, Status::limit_reached}) {
+    result.status = status;
+    EXPECT_EQ(exit_code(result), 3);
+  }
+  result.status = Status::cancelled;
+  EXPECT_EQ(exit_code(result), 4);
+}
+
+}  // namespace
+}  // namespace linkwright::app
