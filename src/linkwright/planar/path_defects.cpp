@@ -50,16 +50,20 @@ std::vector<Defect> defects(const PathProblem& problem, const PathDesign& design
   }
   const FourBarClass type = classify(design.linkage);
   const std::size_t steps = problem.closed ? n : n - 1;
+  // Prescribed angles tell themselves which way the crank turns.
+  const double direction = problem.timing == Timing::free
+                               ? design.sense
+                               : std::copysign(1.0, design.angles.back() - design.angles.front());
   double turned = 0;
   std::size_t backwards = 0;
   for (std::size_t k = 0; k < steps; ++k) {
     const std::size_t next = (k + 1) % n;
-    const double step = design.sense * (design.angles[next] - design.angles[k]);
+    const double step = direction * (design.angles[next] - design.angles[k]);
     const double forward = step - 2 * pi * std::floor(step / (2 * pi));
     turned += forward;
     if (forward > pi && forward > 2 * pi - 1)
       ++backwards;  // a short way back counts as nearly a turn forward
-    if (everywhere && !reachable(type, design.angles[k], design.angles[k] + design.sense * forward))
+    if (everywhere && !reachable(type, design.angles[k], design.angles[k] + direction * forward))
       out.push_back(
           {DefectKind::circuit,
            fmt::format(

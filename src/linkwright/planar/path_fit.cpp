@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "linkwright/core/check.h"
 #include "linkwright/planar/four_bar_kernel.h"
@@ -43,7 +44,7 @@ PathFitter::PathFitter(const PathProblem& problem, double sense)
       lower_[j] = -infinity;
       upper_[j] = infinity;
     }
-    if (j <= index(P::rocker)) lower_[j] = std::max(lower_[j], 1e-9 * size_);
+    if (j <= index(P::rocker)) lower_[j] = std::min(upper_[j], std::max(lower_[j], 1e-9 * size_));
   }
   if (problem.packaging) {
     const auto tighten = [&](P parameter, double low, double high) {
@@ -65,8 +66,13 @@ PathFitter::PathFitter(const PathProblem& problem, double sense)
   values_.resize(order_rows + points);
 }
 
+double PathFitter::crank_angle(const std::array<double, shared>& q, const std::vector<double>& angles,
+                               std::size_t k) const {
+  return free_timing_ ? angles[k] : q[index(P::start_angle)] + sense_ * point_angle(problem_, k);
+}
+
 void PathFitter::add_constraint(std::size_t row, double value, const std::array<double, shared>& gradient,
-                                bool derivatives, double& merit) {
+                                bool derivatives, double& merit, std::size_t point, double by_angle) {
   values_[row] = value;
   const double c = value + multipliers_[row] / penalty_;
   if (c <= 0) return;
@@ -76,12 +82,20 @@ void PathFitter::add_constraint(std::size_t row, double value, const std::array<
     if (gradient[i] == 0) continue;
     gradient_[i] += penalty_ * c * gradient[i];
     for (std::size_t j = 0; j < shared; ++j) hessian_[i * shared + j] += penalty_ * gradient[i] * gradient[j];
+    if (by_angle != 0) coupling_[point * shared + i] += penalty_ * gradient[i] * by_angle;
   }
+  if (by_angle == 0) return;
+  angle_gradient_[point] += penalty_ * c * by_angle;
+  diagonal_[point] += penalty_ * by_angle * by_angle;
 }
 
 void PathFitter::evaluate_constraints(const std::array<double, shared>& q, const std::vector<double>& angles,
                                       bool derivatives, double& merit) {
   const double l1 = q[0], l2 = q[1], l3 = q[2], l4 = q[3];
+  const auto negative = [](std::array<double, shared> g) {
+    for (double& v : g) v = -v;
+    return g;
+  };
   if (problem_.crank_rotates_fully) {
     // Linear on either side of the change point L1 = L2.
     const double s = crank_shorter_ ? 1 : -1, w = 1 / size_;
@@ -91,24 +105,38 @@ void PathFitter::evaluate_constraints(const std::array<double, shared>& q, const
   }
   if (problem_.min_transmission_angle > 0) {
     // |cos mu| <= cos(mu_min) at both extremes of the distance R of A and B0: for a full turn those with
-    // crank and ground in line, else those of the points that are met.
+    // crank and ground in line, else those of the arc from the first point to the last.
     const double limit = std::cos(problem_.min_transmission_angle), product = 2 * l3 * l4;
-    std::array<double, 2> crank_cosine = {1, -1};
+    struct Extreme {
+      double cosine, sine;  // of the crank angle
+      std::size_t point;
+    };
+    std::array<Extreme, 2> extremes = {{{1, 0, 0}, {-1, 0, 0}}};
     if (!problem_.crank_rotates_fully) {
-      crank_cosine = {-1, 1};
+      double low = infinity, high = -infinity;
+      extremes[0].cosine = -infinity;
+      extremes[1].cosine = infinity;
       for (std::size_t k = 0; k < problem_.x.size(); ++k) {
-        const double c = std::cos(free_timing_ ? angles[k] : q[9] + sense_ * point_angle(problem_, k));
-        crank_cosine = {std::max(crank_cosine[0], c), std::min(crank_cosine[1], c)};
+        const double angle = crank_angle(q, angles, k), c = std::cos(angle);
+        low = std::min(low, angle);
+        high = std::max(high, angle);
+        if (c > extremes[0].cosine) extremes[0] = {c, std::sin(angle), k};
+        if (c < extremes[1].cosine) extremes[1] = {c, std::sin(angle), k};
       }
+      if (2 * pi * std::floor(high / (2 * pi)) >= low) extremes[0] = {1, 0, 0};
+      if (2 * pi * std::floor((high - pi) / (2 * pi)) + pi >= low) extremes[1] = {-1, 0, 0};
     }
     for (std::size_t e = 0; e < 2; ++e) {
-      const double c = crank_cosine[e], r2 = l1 * l1 + l2 * l2 - 2 * l1 * l2 * c;
+      const auto [c, s, point] = extremes[e];
+      const double r2 = l1 * l1 + l2 * l2 - 2 * l1 * l2 * c;
       const double cosine = (l3 * l3 + l4 * l4 - r2) / product;
-      const std::array<double, 4> d = {-2 * (l1 - l2 * c) / product, -2 * (l2 - l1 * c) / product,
-                                       2 * l3 / product - cosine / l3, 2 * l4 / product - cosine / l4};
+      std::array<double, shared> d = {-2 * (l1 - l2 * c) / product, -2 * (l2 - l1 * c) / product,
+                                      2 * l3 / product - cosine / l3, 2 * l4 / product - cosine / l4};
+      double by_angle = -2 * l1 * l2 * s / product;
+      if (!free_timing_) d[index(P::start_angle)] = std::exchange(by_angle, 0.0);
       const std::size_t row = transmission_rows + 2 * e;
-      add_constraint(row, cosine - limit, {d[0], d[1], d[2], d[3]}, derivatives, merit);
-      add_constraint(row + 1, -cosine - limit, {-d[0], -d[1], -d[2], -d[3]}, derivatives, merit);
+      add_constraint(row, cosine - limit, d, derivatives, merit, point, by_angle);
+      add_constraint(row + 1, -cosine - limit, negative(d), derivatives, merit, point, -by_angle);
     }
   }
   if (problem_.packaging) {
@@ -118,10 +146,6 @@ void PathFitter::evaluate_constraints(const std::array<double, shared>& q, const
     std::array<double, shared> gx{}, gy{};
     gx[0] = w * c, gx[6] = w, gx[8] = -w * l1 * s;
     gy[0] = w * s, gy[7] = w, gy[8] = w * l1 * c;
-    const auto negative = [](std::array<double, shared> g) {
-      for (double& v : g) v = -v;
-      return g;
-    };
     add_constraint(packaging_rows, w * (bx - box.x_max), gx, derivatives, merit);
     add_constraint(packaging_rows + 1, w * (box.x_min - bx), negative(gx), derivatives, merit);
     add_constraint(packaging_rows + 2, w * (by - box.y_max), gy, derivatives, merit);
@@ -172,7 +196,7 @@ bool PathFitter::evaluate(const std::array<double, shared>& q, const std::vector
   }
   double sum = 0;
   for (std::size_t k = 0; k < n; ++k) {
-    const double angle = free_timing_ ? angles[k] : q[9] + sense_ * point_angle(problem_, k);
+    const double angle = crank_angle(q, angles, k);
     const double ux = std::cos(angle), uy = std::sin(angle);
     const Closure<double> c = close_loop(l1, 0.0, l2 * ux, l2 * uy, l3, l4, branch_);
     if (!(c.radicand > 0)) return false;

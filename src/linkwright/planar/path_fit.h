@@ -42,8 +42,11 @@ class PathFitter {
 
   bool evaluate(const std::array<double, shared>& q, const std::vector<double>& angles, bool derivatives,
                 double& merit);
+  double crank_angle(const std::array<double, shared>& q, const std::vector<double>& angles,
+                     std::size_t k) const;
+  // `by_angle`: derivative for the crank angle of `point`, where that is an unknown of its own.
   void add_constraint(std::size_t row, double value, const std::array<double, shared>& gradient,
-                      bool derivatives, double& merit);
+                      bool derivatives, double& merit, std::size_t point = 0, double by_angle = 0);
   void evaluate_constraints(const std::array<double, shared>& q, const std::vector<double>& angles,
                             bool derivatives, double& merit);
   void evaluate_order(const std::vector<double>& angles, bool derivatives, double& merit);

@@ -1,6 +1,8 @@
 #include "linkwright/planar/path_objective.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "linkwright/core/check.h"
 
@@ -43,8 +45,12 @@ PathObjective path_objective(const PathProblem& problem, Branch branch, double s
     o.box = *problem.packaging;
   }
   if (!o.free_timing) {
+    o.least_offset = std::numeric_limits<double>::infinity();
+    o.greatest_offset = -o.least_offset;
     for (std::size_t k = 0; k < o.x.size(); ++k) {
       const double offset = sense * point_angle(problem, k);
+      o.least_offset = std::min(o.least_offset, offset);
+      o.greatest_offset = std::max(o.greatest_offset, offset);
       o.ux.push_back(std::cos(offset));
       o.uy.push_back(std::sin(offset));
     }

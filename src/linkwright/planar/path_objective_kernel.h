@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <type_traits>
 
 #include "linkwright/math/simd.h"
@@ -74,10 +75,20 @@ template <bool free_timing, class T, class Load>
 LINKWRIGHT_KERNEL void judge(const PathObjective& o, const PathLinkage<T>& l, const Load& load_row,
                              const T& sum, T nearest, T farthest, T& cost, T& violation) {
   using S = math::Scalar<T>;
+  constexpr double pi = std::numbers::pi, two_pi = 2 * pi;
+  constexpr std::size_t first = index(FourBarParameter::start_angle);
   const T reach = l.l3 + l.l4, fold = l.l3 - l.l4;
   const T total = l.l1 + l.l2 + reach;
   const T area = total * total;
   T excess(0.0);
+  // Free timing: crank rotation from the first point to the last, each step brought to one turn.
+  T turned(0.0);
+  const auto step_to = [&](std::size_t next, std::size_t from) __attribute__((always_inline)) {
+    const T step = T(o.sense) * (load_row(first + next) - load_row(first + from));
+    return step - T(two_pi) * S::floor(step * T(1 / two_pi));
+  };
+  if constexpr (free_timing)
+    for (std::size_t i = 0; i + 1 < o.points; ++i) turned = turned + step_to(i + 1, i);
   if (o.crank_rotates_fully) {
     excess = (S::positive_part(l.l1 + l.l2 - reach) + S::positive_part(S::abs(fold) - S::abs(l.l1 - l.l2))) /
              total;
@@ -87,6 +98,22 @@ LINKWRIGHT_KERNEL void judge(const PathObjective& o, const PathLinkage<T>& l, co
     excess = (S::positive_part(farthest - reach * reach) + S::positive_part(fold * fold - nearest)) / area;
   }
   if (o.max_transmission_cosine < 1) {
+    if (!o.crank_rotates_fully) {
+      // The extremes between the points: A and B0 are nearest at whole turns, farthest at half turns.
+      T start(0.0), low(o.least_offset), high(o.greatest_offset);
+      if (free_timing || o.start_is_variable) start = load_row(first);
+      if constexpr (free_timing) {
+        low = S::min(T(0.0), T(o.sense) * turned);
+        high = S::max(T(0.0), T(o.sense) * turned);
+      }
+      low = low + start;
+      high = high + start;
+      const auto passes = [&](double angle) __attribute__((always_inline)) {
+        return T(two_pi) * S::floor((high - T(angle)) * T(1 / two_pi)) + T(angle) >= low;
+      };
+      nearest = S::choose(passes(0), (l.l1 - l.l2) * (l.l1 - l.l2), nearest);
+      farthest = S::choose(passes(pi), (l.l1 + l.l2) * (l.l1 + l.l2), farthest);
+    }
     const T right = l.l3 * l.l3 + l.l4 * l.l4, limit = T(2 * o.max_transmission_cosine) * l.l3 * l.l4;
     excess = excess + (S::positive_part(S::abs(right - nearest) - limit) +
                        S::positive_part(S::abs(right - farthest) - limit)) /
@@ -102,15 +129,8 @@ LINKWRIGHT_KERNEL void judge(const PathObjective& o, const PathLinkage<T>& l, co
     excess = excess + out / T((o.box.x_max - o.box.x_min) + (o.box.y_max - o.box.y_min));
   }
   if constexpr (free_timing) {
-    // Order: the steps, each brought to one turn, add up to exactly one turn (closed) or to less (open).
-    constexpr double two_pi = 6.283185307179586477;
-    constexpr std::size_t first = index(FourBarParameter::start_angle);
-    T turned(0.0);
-    const std::size_t steps = o.closed ? o.points : o.points - 1;
-    for (std::size_t i = 0; i < steps; ++i) {
-      const T step = T(o.sense) * (load_row(first + (i + 1) % o.points) - load_row(first + i));
-      turned = turned + (step - T(two_pi) * S::floor(step * T(1 / two_pi)));
-    }
+    // Order: the steps add up to exactly one turn (closed) or to less (open).
+    if (o.closed) turned = turned + step_to(0, o.points - 1);
     const T beyond = turned - T(two_pi);
     // One turn is met up to rounding of `points` additions.
     excess = excess + S::positive_part((o.closed ? S::abs(beyond) : S::positive_part(beyond)) - T(1e-9));
