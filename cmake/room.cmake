@@ -2,6 +2,7 @@
 
 add_library(linkwright_flags INTERFACE)
 target_include_directories(linkwright_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
+target_compile_features(linkwright_flags INTERFACE cxx_std_20)
 # errno of sqrt and traps of selects block vectorising; without them code is 2.5 to 4.5 times faster and
 # no value changes. Contraction would change values between instruction sets, so it is left to the SIMD kernels.
 target_compile_options(linkwright_flags INTERFACE
@@ -21,8 +22,27 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 function(linkwright_room room)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(linkwright_${room} STATIC ${arg_SOURCES})
-  target_link_libraries(linkwright_${room} PUBLIC linkwright_flags ${arg_DEPENDS})
+  target_include_directories(linkwright_${room} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                                                       $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(linkwright_${room} PUBLIC cxx_std_20)
+  # Our programs and tests take the flags from the rooms; other people's code keeps its own.
+  if(PROJECT_IS_TOP_LEVEL)
+    target_link_libraries(linkwright_${room} PUBLIC $<BUILD_INTERFACE:linkwright_flags> ${arg_DEPENDS})
+  else()
+    target_link_libraries(linkwright_${room} PRIVATE $<BUILD_INTERFACE:linkwright_flags> PUBLIC ${arg_DEPENDS})
+  endif()
+  set_target_properties(linkwright_${room} PROPERTIES EXPORT_NAME ${room} POSITION_INDEPENDENT_CODE ON)
+  add_library(Linkwright::${room} ALIAS linkwright_${room})
+  set_property(GLOBAL APPEND PROPERTY LINKWRIGHT_ROOMS linkwright_${room})
 endfunction()
+
+# linkwright_require(<package> [options]): find_package(... REQUIRED) for a library that rooms link; the installed
+# package looks for it again.
+macro(linkwright_require)
+  find_package(${ARGV} REQUIRED)
+  string(REPLACE ";" " " linkwright_requirement "${ARGV}")
+  set_property(GLOBAL APPEND PROPERTY LINKWRIGHT_REQUIREMENTS "${linkwright_requirement}")
+endmacro()
 
 # linkwright_test(<room> SOURCES <files> [DEPENDS <rooms or libraries>]): one test program a room.
 function(linkwright_test room)

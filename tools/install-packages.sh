@@ -1,23 +1,69 @@
 #!/bin/sh
-# Installs the Debian packages that the build and the tests need; does nothing when all are there.
+# Installs the Debian packages that are missing; does nothing, quickly, when all are there.
+#   tools/install-packages.sh run    what the program needs to be built
+#   tools/install-packages.sh test   that, and what the tests and benchmarks need
 set -eu
-packages="g++ cmake ninja-build ccache git ca-certificates
-libfmt-dev libeigen3-dev libtbb-dev librandom123-dev libxsimd-dev libceres-dev libtomlplusplus-dev nlohmann-json3-dev
-libcli11-dev libexpected-dev libnlopt-dev libnlopt-cxx-dev libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev
-nodejs npm chromium python3 python3-ezdxf"
+
+packages="g++ cmake ninja-build ccache
+libfmt-dev libeigen3-dev libtbb-dev librandom123-dev libxsimd-dev libceres-dev libtomlplusplus-dev
+nlohmann-json3-dev libcli11-dev libexpected-dev libnlopt-dev libnlopt-cxx-dev
+nodejs npm"
+case "${1:-}" in
+  run) ;;
+  test) packages="$packages
+git libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev chromium python3 python3-ezdxf" ;;
+  *) echo "usage: tools/install-packages.sh run|test" >&2; exit 2 ;;
+esac
+
+if ! command -v apt-get >/dev/null 2>&1 || ! command -v dpkg-query >/dev/null 2>&1; then
+  # shellcheck disable=SC2086  # on one line
+  {
+    echo "This machine has no apt-get, so nothing is installed; the build goes on with what is there."
+    echo "These are the packages of Debian 12 that it needs:" $packages
+  } >&2
+  exit 0
+fi
+
+# One call for all packages: lines "<name> installed" for those that are there.
+# shellcheck disable=SC2086  # a list of names
+there=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $packages 2>/dev/null || true)
 missing=""
 for package in $packages; do
+  # A node or npm from elsewhere serves as well, and Debian's would clash with it.
   case "$package" in
-    nodejs | npm) command -v "${package%js}" >/dev/null 2>&1 && continue ;;
+    nodejs) command -v node >/dev/null 2>&1 && continue ;;
+    npm) command -v npm >/dev/null 2>&1 && continue ;;
   esac
-  dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q "install ok installed" || missing="$missing $package"
+  case "
+$there
+" in
+    *"
+$package installed
+"*) ;;
+    *) missing="$missing $package" ;;
+  esac
 done
-[ -z "$missing" ] && exit 0
-sudo=""
-if [ "$(id -u)" != 0 ]; then
-  command -v sudo >/dev/null 2>&1 || { echo "install-packages: needs root or sudo to install:$missing" >&2; exit 1; }
-  sudo=sudo
+[ -n "$missing" ] || exit 0
+
+if [ "$(id -u)" = 0 ]; then
+  as_root=""
+elif command -v sudo >/dev/null 2>&1; then
+  as_root="sudo"
+else
+  echo "These packages are missing, and installing them needs root or sudo:$missing" >&2
+  exit 1
 fi
-$sudo env DEBIAN_FRONTEND=noninteractive apt-get update -q
-# shellcheck disable=SC2086
-$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing
+
+apt() {
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@" >/dev/null
+}
+echo "Installing (a few minutes on a bare machine):$missing"
+if ! apt update; then
+  echo "The package lists could not be fetched (is the network up?); trying with the old ones." >&2
+fi
+# shellcheck disable=SC2086  # a list of names
+if ! apt install --no-install-recommends $missing; then
+  echo "apt-get could not install:$missing" >&2
+  echo "The messages above tell why; without a network, install them by other means and start again." >&2
+  exit 1
+fi

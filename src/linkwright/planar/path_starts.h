@@ -46,7 +46,6 @@ class PathMatcher {
   std::vector<double> angle_;
   std::vector<std::complex<double>> raw_;
   std::vector<double> raw_angle_, raw_length_;
-  bool curve_closed_ = true;
 };
 
 }  // namespace linkwright::planar

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/random.h"
@@ -16,7 +15,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 
 // Local searches per kind, branch and sense when the options leave it open. Prescribed timing has few local
 // optima and cheap searches; free timing has many.

@@ -1,0 +1,34 @@
+# Installs the library for find_package(Linkwright): one target a room (Linkwright::planar ...) and
+# Linkwright::linkwright, which is all of them; add_subdirectory gives the same names.
+
+get_property(rooms GLOBAL PROPERTY LINKWRIGHT_ROOMS)
+list(REMOVE_ITEM rooms linkwright_cli)
+add_library(linkwright_all INTERFACE)
+target_link_libraries(linkwright_all INTERFACE ${rooms})
+set_target_properties(linkwright_all PROPERTIES EXPORT_NAME linkwright)
+add_library(Linkwright::linkwright ALIAS linkwright_all)
+
+option(LINKWRIGHT_INSTALL "Add install rules" ${PROJECT_IS_TOP_LEVEL})
+if(NOT LINKWRIGHT_INSTALL)
+  return()
+endif()
+
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Linkwright)
+
+if(TARGET linkwright)
+  install(TARGETS linkwright RUNTIME)
+endif()
+install(TARGETS ${rooms} linkwright_all EXPORT LinkwrightTargets ARCHIVE)
+install(DIRECTORY src/linkwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(EXPORT LinkwrightTargets NAMESPACE Linkwright:: DESTINATION ${package_dir})
+
+get_property(requirements GLOBAL PROPERTY LINKWRIGHT_REQUIREMENTS)
+list(REMOVE_DUPLICATES requirements)
+list(TRANSFORM requirements PREPEND "find_dependency(")
+list(TRANSFORM requirements APPEND ")")
+list(JOIN requirements "\n" LINKWRIGHT_FIND_DEPENDENCIES)
+configure_package_config_file(cmake/LinkwrightConfig.cmake.in LinkwrightConfig.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(LinkwrightConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/LinkwrightConfig.cmake ${PROJECT_BINARY_DIR}/LinkwrightConfigVersion.cmake
+        DESTINATION ${package_dir})

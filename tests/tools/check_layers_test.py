@@ -1,0 +1,64 @@
+import unittest
+
+from scratch import ScratchCase
+import check_layers
+
+
+class CheckLayers(ScratchCase):
+    def findings(self, name, text):
+        self.write(f"src/linkwright/{name}", text)
+        return check_layers.check(self.root)
+
+    def test_downward_arrows_pass(self):
+        self.assertEqual(self.findings("planar/model.h", '#include "linkwright/core/field.h"\n#include <vector>\n'), [])
+        self.assertEqual(self.findings("clearance/model.h", '#include "linkwright/planar/model.h"\n'), [])
+
+    def test_upward_arrow(self):
+        self.assertEqual(self.findings("core/table.h", '\n#include "linkwright/math/angles.h"\n'),
+                         ["src/linkwright/core/table.h:2: core may not use math: it lies above"])
+
+    def test_same_floor(self):
+        self.assertEqual(self.findings("planar/a.cpp", '#include "linkwright/suspension/model.h"\n'),
+                         ["src/linkwright/planar/a.cpp:1: planar may not use suspension: they share a floor"])
+
+    def test_report_knows_no_optimiser(self):
+        self.assertEqual(self.findings("report/a.cpp", '#include "linkwright/optimise/problem.h"\n'),
+                         ["src/linkwright/report/a.cpp:1: report may not use optimise"])
+
+    def test_only_synthesis_optimises(self):
+        line = '#include "linkwright/optimise/problem.h"\n'
+        for name in ("function_synthesis.cpp", "balancing.h", "path_objective.h", "path_synthesis.h"):
+            self.assertEqual(self.findings(f"planar/{name}", line), [])
+        [finding] = self.findings("planar/four_bar.cpp", line)
+        self.assertIn("four_bar.cpp:1: only *_synthesis*", finding)
+
+    def test_only_studies_use_study(self):
+        line = '#include "linkwright/study/result.h"\n'
+        self.assertEqual(self.findings("planar/studies_path.cpp", line), [])
+        self.assertEqual(self.findings("planar/scene.h", line), [])
+        self.assertEqual(self.findings("planar/path_synthesis.cpp", line),
+                         ["src/linkwright/planar/path_synthesis.cpp:1: only studies*, scene* of a domain use study"])
+
+    def test_room_without_floor(self):
+        [finding] = self.findings("gears/model.h", "")
+        self.assertIn("room 'gears' stands on no floor", finding)
+        self.write("src/linkwright/gears/model.h")
+        self.assertEqual(len(self.findings("app/run.cpp", '#include "linkwright/gears/model.h"\n')), 2)
+
+    def test_links(self):
+        self.assertEqual(self.findings("math/CMakeLists.txt", "linkwright_room(math\n  DEPENDS linkwright_study)\n"),
+                         ["src/linkwright/math/CMakeLists.txt:2: math may not use study: it lies above"])
+
+    def test_heavy_header(self):
+        self.assertEqual(self.findings("study/read.cpp", "#include <toml++/toml.h>\n"), [])
+        self.assertEqual(self.findings("study/read.h", "#include <toml++/toml.h>\n"),
+                         ["src/linkwright/study/read.h:1: <toml++/toml.h> is heavy: include it in sources, not in headers"])
+
+    def test_include_without_room(self):
+        self.write("src/linkwright/core/table.h")
+        self.assertEqual(self.findings("core/table.cpp", '#include "table.h"\n'),
+                         ['src/linkwright/core/table.cpp:1: say "linkwright/core/table.h": every include names its room'])
+
+
+if __name__ == "__main__":
+    unittest.main()

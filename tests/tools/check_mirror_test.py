@@ -1,0 +1,51 @@
+import unittest
+
+from scratch import ScratchCase
+import check_mirror
+
+
+class CheckMirror(ScratchCase):
+    def setUp(self):
+        super().setUp()
+        self.write("src/linkwright/core/table.h")
+        self.write("src/linkwright/core/table.cpp")
+        self.write("src/linkwright/core/CMakeLists.txt", "linkwright_room(core SOURCES table.cpp)\n")
+        self.write("tests/core/table_test.cpp")
+        self.write("tests/core/CMakeLists.txt", "linkwright_test(core SOURCES table_test.cpp)\n")
+
+    def findings(self, no_test=()):
+        return check_mirror.check(self.root, dict(no_test))
+
+    def test_complete_unit_passes(self):
+        self.assertEqual(self.findings(), [])
+
+    def test_missing_test(self):
+        (self.root / "tests/core/table_test.cpp").unlink()
+        self.assertEqual(self.findings(), ["src/linkwright/core/table.h: has no tests/core/table_test.cpp"])
+        self.assertEqual(self.findings({"core/table.h": "plain data"}), [])
+
+    def test_stale_exception(self):
+        self.assertEqual(self.findings({"core/table.h": "plain data"}),
+                         ["tools/check_mirror.py: 'core/table.h' needs no exception (it has a test, or is gone)"])
+
+    def test_unlisted_source(self):
+        self.write("src/linkwright/core/value.cpp")
+        self.assertEqual(self.findings(), ["src/linkwright/core/value.cpp: is not listed in "
+                                           "src/linkwright/core/CMakeLists.txt, so it is not built"])
+
+    def test_unlisted_test_even_when_a_comment_names_it(self):
+        self.write("tests/core/CMakeLists.txt", "linkwright_test(core SOURCES)  # table_test.cpp\n")
+        self.assertEqual(self.findings(), ["tests/core/table_test.cpp: is not listed in "
+                                           "tests/core/CMakeLists.txt, so it is not built"])
+
+    def test_name_inside_another_name_does_not_count(self):
+        self.write("src/linkwright/core/able.cpp")
+        self.assertEqual(len(self.findings()), 1)
+
+    def test_folder_without_list(self):
+        self.write("src/linkwright/math/angles.cpp")
+        self.assertEqual(self.findings(), ["src/linkwright/math/angles.cpp: its folder has no CMakeLists.txt"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,39 @@
+import unittest
+
+from scratch import ScratchCase
+import check_words
+
+
+class CheckWords(ScratchCase):
+    def findings(self, text, name="docs/page.md"):
+        self.write(name, text)
+        return check_words.check(self.root)
+
+    def test_plain_text_passes(self):
+        self.assertEqual(self.findings(
+            "colour #112233, build/tmp/x, https://example.org/work/page, ~/work/x, method, the work/rest ratio\n"), [])
+
+    # The words are put together here, so that the check of this repository does not find this file.
+    def test_machine_paths(self):
+        for folder in ("wo" "rk", "tm" "p", "ho" "me", "ro" "ot"):
+            [finding] = self.findings(f"first\nsee /{folder}/data.json\n")
+            self.assertEqual(finding, f"docs/page.md:2: '/{folder}/d': path of a machine")
+
+    def test_tracker_numbers(self):
+        for text in ("see iss" "ue #12", "Fix" "es #3", "GH" "-77"):
+            [finding] = self.findings(text)
+            self.assertIn("number of a tracker", finding)
+
+    def test_unfinished_business(self):
+        for word in ("TO" "DO", "FIX" "ME", "XX" "X"):
+            [finding] = self.findings(f"// {word}: later", "src/linkwright/core/a.cpp")
+            self.assertIn("src/linkwright/core/a.cpp:1", finding)
+
+    def test_binary_and_generated_files_are_left_alone(self):
+        self.assertEqual(self.findings("TO" "DO", "package-lock.json"), [])
+        (self.root / "picture.png").write_bytes(b"\xff\xfe TO" b"DO")
+        self.assertEqual(check_words.check(self.root), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Checks that every unit has the furniture of a unit: src/linkwright/<room>/x.h has tests/<room>/x_test.cpp, and every
+source and test is listed in the CMakeLists.txt of its room.
+
+    tools/check_mirror.py [ROOT]
+"""
+
+import re
+import sys
+from pathlib import PurePosixPath
+
+import repository
+
+# Headers without a test of their own name, and why. An entry that no header needs any more is a finding.
+NO_TEST = {
+    "core/field.h": "declarations; reading, checking and describing fields is tested with the readers of studies",
+    "core/tolerance.h": "named constants",
+    "study/kind.h": "plain data; every kind's own test fills and runs it",
+    "study/result.h": "plain data; written by the tests of results and reports",
+    "study/scene.h": "plain data; drawn by the tests of the report",
+    "math/scalar.h": "used with each instruction set by planar/path_objective_test.cpp",
+    "math/simd.h": "used with each instruction set by planar/path_objective_test.cpp",
+    "planar/path_objective_kernel.h": "compiled once per instruction set and compared by path_objective_test.cpp",
+}
+
+
+def listed(cmake_lists):
+    """File names that a CMakeLists.txt mentions outside comments."""
+    if not cmake_lists.is_file():
+        return None
+    text = re.sub(r"#.*", "", cmake_lists.read_text(encoding="utf-8"))
+    return set(re.findall(r"[\w./-]+\.(?:cpp|h)\b", text))
+
+
+def check(root, no_test=None):
+    no_test = NO_TEST if no_test is None else no_test
+    findings = []
+    excused = set()
+    for path in repository.files(root):
+        where = PurePosixPath(path.relative_to(root).as_posix())
+        if where.match("src/linkwright/*/*.h"):
+            room, unit = where.parts[2], where.stem
+            key = f"{room}/{where.name}"
+            test = root / "tests" / room / f"{unit}_test.cpp"
+            if test.is_file():
+                continue
+            if key in no_test:
+                excused.add(key)
+            else:
+                findings.append(f"{where}: has no tests/{room}/{unit}_test.cpp")
+        elif where.match("src/linkwright/*/*.cpp") or where.match("tests/*/*_test.cpp"):
+            names = listed(path.parent / "CMakeLists.txt")
+            if names is None:
+                findings.append(f"{where}: its folder has no CMakeLists.txt")
+            elif where.name not in names:
+                findings.append(f"{where}: is not listed in {where.parent}/CMakeLists.txt, so it is not built")
+    for key in sorted(set(no_test) - excused):
+        findings.append(f"tools/check_mirror.py: '{key}' needs no exception (it has a test, or is gone)")
+    return findings
+
+
+if __name__ == "__main__":
+    sys.exit(repository.main(check))
