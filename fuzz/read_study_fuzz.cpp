@@ -1,19 +1,18 @@
 // Whatever bytes come, reading a study ends with a tree or with diagnostics, and what was read can be written
-// and read again. libFuzzer in the `fuzz` preset; tests/study/read_study_corpus_test.cpp replays the kept
-// inputs.
+// and read again.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
 
+#include "linkwright/planar/studies.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
-#include "tests/study/sample_kind.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace linkwright;
-  static const std::vector<study::Kind> kinds = study::sample::kinds();
+  static const std::vector<study::Kind> kinds = planar::studies();
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   for (study::Syntax syntax : {study::Syntax::toml, study::Syntax::json}) {
     Diagnostics diagnostics;
