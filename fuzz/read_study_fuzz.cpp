@@ -23,11 +23,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!document.is_object()) continue;
 
     Diagnostics again;
+    study::read_text(study::to_toml(document), study::Syntax::toml, "again", again);
     const Value from_json = study::read_text(study::to_json(document), study::Syntax::json, "again", again);
-    const Value from_toml = study::read_text(study::to_toml(document), study::Syntax::toml, "again", again);
-    // Without TOML's null a document may be empty, and an inline table of its own text may be too deep by
-    // one.
-    if (syntax == study::Syntax::json && from_json.is_null()) std::abort();
+    if (syntax == study::Syntax::json && !(from_json == document)) std::abort();
 
     const auto prepared = study::prepare(document, "input", ".", kinds, diagnostics);
     if (prepared.has_value() == has_errors(diagnostics)) std::abort();
