@@ -37,7 +37,9 @@ class PathProjection {
   /// linkage or it does not assemble at a point.
   bool evaluate(std::span<const double> q, std::span<double> residual, std::span<double> jacobian);
 
-  /// Design at q: the linear unknowns turned back into lengths and positions. q must be one that evaluates.
+  /// Design at q: the linear unknowns turned back into lengths and positions. Its error is the sum of squared
+  /// residuals, except where a fixed frame angle asks for a crank of negative length: then it is larger.
+  /// Throws ContractError when q does not evaluate.
   PathDesign design(const PathProblem& problem, std::span<const double> q);
 
  private:

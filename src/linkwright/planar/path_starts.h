@@ -17,7 +17,7 @@ struct PathStart {
 };
 
 /// Random q = logarithms (and start angle) of PathProjection for a kind: slacks uniform in the logarithm over
-/// [-3, 3].
+/// [-3, 3], ratios (kind any) over [-1.5, 1.5]; a double-crank has a ground link of positive length.
 std::vector<double> random_ratios(RatioKind kind, std::size_t variables, RandomStream& stream);
 
 /// Starts for free timing: random linkages whose coupler curve is laid on the path by arc length and
