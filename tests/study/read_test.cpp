@@ -127,6 +127,17 @@ TEST(ReadText, OnlyUtf8AndAsciiOutsideStrings) {
             "");
 }
 
+// Left to toml++, these reach code that it believes unreachable.
+TEST(ReadText, QuotesInTheMiddleOfAValue) {
+  EXPECT_THAT(messages("at = 202\"\u00e9\"\n"),
+              HasSubstr("s.toml:1:9: error: is not valid TOML: a text cannot begin with \" here"));
+  EXPECT_THAT(messages("a = 2.\"\u00e9\"\n"), HasSubstr("s.toml:1:7: error: is not valid TOML"));
+  EXPECT_THAT(messages("a = [2.\"\u00e9\"]\n"), HasSubstr("s.toml:1:8: error: is not valid TOML"));
+  EXPECT_EQ(messages("[a.\"\u00e9\"]\n[[b.'\u00e9']]\nc = { 2.'\u00e9' = [1, # x\n 2] }\n"), "");
+  EXPECT_THAT(messages("a = 'x' '\u00e9'\n"), HasSubstr("s.toml:1:9: error: is not valid TOML"));
+  EXPECT_EQ(messages("'a' . \"b\" = ['x', # 'y\n  \"z\", {'c' = 'd', \"e\" = ''}]\n'f' = 1\n"), "");
+}
+
 TEST(ReadText, EmptyDocuments) {
   EXPECT_THAT(messages(""), HasSubstr("s.toml: error: the file is empty"));
   EXPECT_THAT(messages(" \n\t\n"), HasSubstr("the file is empty"));

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <string>
 
 namespace linkwright::study {
 namespace {
@@ -79,10 +79,17 @@ class Scanner {
   void ascii(char c) {
     if (comment_) {
       comment_ = c != '\n';
+      if (!comment_) outside(c);
     } else if (quote_ != 0) {
       in_string(c);
     } else if (c == '"' || (c == '\'' && syntax_ == Syntax::toml)) {
-      open_string(c);
+      // In `a = 202"x"` toml++ takes the quotes as part of a number; it must not see what we take for a
+      // string.
+      if (syntax_ == Syntax::toml && !may_begin_string_)
+        problem(fmt::format("is not valid TOML: a text cannot begin with {} here", c),
+                "is there a , or = missing?");
+      else
+        open_string(c);
     } else if (c == '#' && syntax_ == Syntax::toml) {
       comment_ = true;
     } else {
@@ -92,6 +99,7 @@ class Scanner {
 
   void open_string(char c) {
     quote_ = c;
+    may_begin_string_ = false;
     long_string_ = syntax_ == Syntax::toml && text_.substr(at_, 3) == std::string(3, c);
     if (!long_string_) return;
     advance(1);
@@ -111,22 +119,39 @@ class Scanner {
       quote_ = 0;
     } else if (c == quote_ || c == '\n') {
       quote_ = 0;  // a string that its line does not end is the parser's to report
+      if (c == '\n') outside(c);
     }
   }
 
   void outside(char c) {
-    if (c == '[' || c == '{') {
-      ++brackets_;
-    } else if (c == ']' || c == '}') {
-      brackets_ = std::max(0, brackets_ - 1);
-    }
+    follow(c);
     // "a.b.c" nests as deep as brackets do.
     if (c == '.')
       ++dots_;
     else if (c == '=' || c == ',' || c == '\n' || c == '[' || c == '{')
       dots_ = 0;
-    if (brackets_ > deepest_nesting || dots_ > deepest_nesting)
+    if (open_.size() > deepest_nesting || dots_ > deepest_nesting)
       problem(fmt::format("tables and arrays stand in each other more than {} deep", deepest_nesting), {});
+  }
+
+  /// Keeps track of whether a key or a value is due, and so whether a string may begin. It needs to be right
+  /// for good TOML only: at what is wrong before, the parser stops.
+  void follow(char c) {
+    if (c == ' ' || c == '\t' || c == '\r') return;
+    may_begin_string_ =
+        c == '\n' || c == '=' || c == ',' || c == '[' || c == '{' || (c == '.' && key_is_due_);
+    if (c == '[' || c == '{') {
+      open_ += c;
+      if (c == '{') key_is_due_ = true;
+    } else if ((c == ']' || c == '}') && !open_.empty()) {
+      open_.pop_back();
+    } else if (c == '=') {
+      key_is_due_ = false;
+    } else if (c == ',') {
+      key_is_due_ = !open_.empty() && open_.back() == '{';
+    } else if (c == '\n' && open_.empty()) {
+      key_is_due_ = true;
+    }
   }
 
   std::string_view text_;
@@ -135,8 +160,10 @@ class Scanner {
   Position position_{1, 1};
   char quote_ = 0;  // the quote that ends the string we are in
   bool long_string_ = false;
+  bool may_begin_string_ = true;
+  bool key_is_due_ = true;
   bool comment_ = false;
-  int brackets_ = 0;
+  std::string open_;  // brackets
   int dots_ = 0;
   Diagnostics problems_;
 };
