@@ -23,6 +23,7 @@ NO_TEST = {
     "study/bind_write.h": "part of bind, tested in bind_test.cpp",
     "study/read_syntax.h": "part of read, tested in read_test.cpp",
     "optimise/kernels_body.h": "part of kernels, compiled once per instruction set and compared by kernels_test.cpp",
+    "optimise/differential_evolution_base.h": "shared part of both forms, tested through them",
     "planar/path_objective_kernel.h": "part of path_objective, compiled once per instruction set and compared by its test",
 }
 

@@ -1,0 +1,97 @@
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "linkwright/optimise/methods.h"
+#include "linkwright/optimise/minimise.h"
+
+namespace {
+
+using namespace linkwright;
+using namespace linkwright::optimise;
+
+Problem sphere(std::size_t dimension) {
+  Problem problem;
+  for (std::size_t j = 0; j < dimension; ++j) problem.variables.push_back({fmt::format("x{}", j), -5, 3});
+  problem.evaluate = [](const PopulationView& x, std::span<double> cost, std::span<double> violation) {
+    for (std::size_t i = 0; i < x.size; ++i) cost[i] = violation[i] = 0;
+    for (std::size_t j = 0; j < x.dimension; ++j) {
+      const double* row = x.row(j);
+      for (std::size_t i = 0; i < x.size; ++i) cost[i] += row[i] * row[i];
+    }
+  };
+  return problem;
+}
+
+constexpr int generations = 1000;
+
+/// Everything between two evaluations, with ask and tell: the objective is the first variable, that is next
+/// to nothing.
+void overhead(benchmark::State& state, OptimiserOptions options) {
+  const auto n = static_cast<int>(state.range(0));
+  options.differential_evolution.population = n;
+  options.self_adaptive_differential_evolution.population = n;
+  options.grey_wolf.population = n;
+  options.grey_wolf.generations = 1000;
+  const Problem problem = sphere(10);
+  const auto optimiser = make_optimiser(problem.variables, options, {});
+  const std::vector<double> violation(optimiser->population(), 0.0);
+  for (auto _ : state) {
+    const PopulationView candidates = optimiser->ask();
+    optimiser->tell({candidates.row(0), candidates.size}, violation);
+  }
+  state.counters["ns_per_evaluation"] =
+      benchmark::Counter(1e-9 * static_cast<double>(state.iterations() * n),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+/// A whole run with minimise: sphere of 10 variables, log and all.
+void whole_run(benchmark::State& state, OptimiserOptions options) {
+  const auto n = static_cast<int>(state.range(0));
+  options.differential_evolution.population = n;
+  options.self_adaptive_differential_evolution.population = n;
+  options.grey_wolf.population = n;
+  MinimiseOptions minimise_options;
+  minimise_options.stop.generations = generations;
+  const Problem problem = sphere(10);
+  RunContext context;
+  context.set_threads(1);
+  std::uint64_t seed = 0;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(minimise(problem, options, minimise_options, {.seed = ++seed}, context).cost);
+  state.counters["ns_per_evaluation"] =
+      benchmark::Counter(1e-9 * static_cast<double>(state.iterations() * n * generations),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void sphere_only(benchmark::State& state) {
+  const Problem problem = sphere(10);
+  const auto n = static_cast<std::size_t>(state.range(0));
+  const Population x(10, n);
+  std::vector<double> cost(n), violation(n);
+  for (auto _ : state) {
+    problem.evaluate(x.view(), cost, violation);
+    benchmark::DoNotOptimize(cost.data());
+  }
+  state.counters["ns_per_evaluation"] =
+      benchmark::Counter(1e-9 * static_cast<double>(state.iterations() * state.range(0)),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+const OptimiserOptions de = {.method = Method::differential_evolution};
+const OptimiserOptions jde = {.method = Method::self_adaptive_differential_evolution};
+const OptimiserOptions wolf = {.method = Method::grey_wolf};
+
+BENCHMARK_CAPTURE(overhead, differential_evolution, de)->Arg(30)->Arg(100)->Arg(1000);
+BENCHMARK_CAPTURE(overhead, self_adaptive_differential_evolution, jde)->Arg(30)->Arg(100)->Arg(1000);
+BENCHMARK_CAPTURE(overhead, grey_wolf, wolf)->Arg(30)->Arg(100)->Arg(1000);
+BENCHMARK_CAPTURE(whole_run, differential_evolution, de)->Arg(30)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(whole_run, self_adaptive_differential_evolution, jde)
+    ->Arg(30)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(whole_run, grey_wolf, wolf)->Arg(30)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK(sphere_only)->Arg(30)->Arg(100);
+
+}  // namespace

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "linkwright/optimise/problem.h"
+
+/// Standard functions with known optima; the boxes are not symmetric, so that a pull to the centre does not
+/// help.
+namespace linkwright::optimise::test {
+
+struct Value {
+  double cost = 0;
+  double violation = 0;
+};
+
+inline Problem make_problem(std::size_t dimension, double lower, double upper,
+                            std::function<Value(std::span<const double>)> f) {
+  Problem problem;
+  for (std::size_t j = 0; j < dimension; ++j)
+    problem.variables.push_back({fmt::format("x{}", j), lower, upper});
+  problem.evaluate = [f = std::move(f)](const PopulationView& candidates, std::span<double> cost,
+                                        std::span<double> violation) {
+    std::vector<double> x(candidates.dimension);
+    for (std::size_t i = 0; i < candidates.size; ++i) {
+      for (std::size_t j = 0; j < x.size(); ++j) x[j] = candidates(j, i);
+      const Value v = f(x);
+      cost[i] = v.cost;
+      violation[i] = v.violation;
+    }
+  };
+  return problem;
+}
+
+/// 0 at the origin.
+inline Problem sphere(std::size_t n) {
+  return make_problem(n, -5, 3, [](std::span<const double> x) {
+    double sum = 0;
+    for (const double v : x) sum += v * v;
+    return Value{sum};
+  });
+}
+
+/// 0 at (1, ..., 1).
+inline Problem rosenbrock(std::size_t n) {
+  return make_problem(n, -2, 3, [](std::span<const double> x) {
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < x.size(); ++i)
+      sum += 100 * std::pow(x[i + 1] - x[i] * x[i], 2) + std::pow(1 - x[i], 2);
+    return Value{sum};
+  });
+}
+
+/// 0 at the origin, a minimum near every point of whole numbers.
+inline Problem rastrigin(std::size_t n) {
+  return make_problem(n, -4, 5.12, [](std::span<const double> x) {
+    double sum = 0;
+    for (const double v : x) sum += v * v + 10 * (1 - std::cos(2 * std::numbers::pi * v));
+    return Value{sum};
+  });
+}
+
+/// 0 at the origin.
+inline Problem ackley(std::size_t n) {
+  return make_problem(n, -20, 32, [](std::span<const double> x) {
+    double squares = 0, cosines = 0;
+    for (const double v : x) {
+      squares += v * v;
+      cosines += std::cos(2 * std::numbers::pi * v);
+    }
+    const auto count = static_cast<double>(x.size());
+    return Value{20 * (1 - std::exp(-0.2 * std::sqrt(squares / count))) + std::numbers::e -
+                 std::exp(cosines / count)};
+  });
+}
+
+/// Problem g06 of Michalewicz and Schoenauer 1996, in its own box: -6961.81388 at (14.095, 0.84296), both
+/// constraints active. The feasible part is 0.007 % of the box.
+inline Problem g06() {
+  Problem problem = make_problem(2, 0, 100, [](std::span<const double> x) {
+    const double g1 = -std::pow(x[0] - 5, 2) - std::pow(x[1] - 5, 2) + 100;
+    const double g2 = std::pow(x[0] - 6, 2) + std::pow(x[1] - 5, 2) - 82.81;
+    return Value{std::pow(x[0] - 10, 3) + std::pow(x[1] - 20, 3), std::max(g1, 0.0) + std::max(g2, 0.0)};
+  });
+  problem.variables[0].lower = 13;
+  return problem;
+}
+
+}  // namespace linkwright::optimise::test

@@ -1,0 +1,64 @@
+#include "linkwright/optimise/methods.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "optimise/functions.h"
+
+namespace linkwright::optimise {
+namespace {
+
+std::vector<std::string> keys(OptimiserOptions options) {
+  std::vector<std::string> found;
+  fields([&](const Field& field, auto&) { found.emplace_back(field.key); }, options);
+  return found;
+}
+
+TEST(Methods, NamesAreFullAndJdeIsAnAlias) {
+  EXPECT_EQ(name_of(Method::differential_evolution), "differential_evolution");
+  EXPECT_EQ(name_of(Method::self_adaptive_differential_evolution), "self_adaptive_differential_evolution");
+  EXPECT_EQ(name_of(Method::grey_wolf), "grey_wolf");
+  EXPECT_EQ(names(Method{}).back().name, "jde");
+  EXPECT_EQ(names(Method{}).back().value, Method::self_adaptive_differential_evolution);
+}
+
+TEST(Methods, FieldsAreThoseOfTheChosenMethod) {
+  EXPECT_EQ(keys({.method = Method::differential_evolution}),
+            (std::vector<std::string>{"method", "population", "generations", "scale", "crossover"}));
+  EXPECT_EQ(keys({.method = Method::grey_wolf}),
+            (std::vector<std::string>{"method", "population", "generations", "reset_worst_half",
+                                      "absolute_value"}));
+  EXPECT_EQ(keys({.method = Method::self_adaptive_differential_evolution}).size(), 9u);
+}
+
+TEST(Methods, TheMethodReadFirstDecidesAboutTheKeysAfterIt) {
+  OptimiserOptions options;
+  std::vector<std::string> found;
+  fields(
+      [&](const Field& field, auto& value) {
+        if constexpr (std::is_same_v<std::remove_reference_t<decltype(value)>, Method>)
+          value = Method::grey_wolf;
+        found.emplace_back(field.key);
+      },
+      options);
+  EXPECT_EQ(found.back(), "absolute_value");
+}
+
+TEST(Methods, MakeTheChosenOptimiserWithItsDefaults) {
+  const Problem problem = test::sphere(4);
+  EXPECT_EQ(make_optimiser(problem.variables, OptimiserOptions{}, {})->population(), 20u);
+  EXPECT_EQ(
+      make_optimiser(problem.variables, OptimiserOptions{.method = Method::grey_wolf}, {})->population(),
+      30u);
+  EXPECT_EQ(make_optimiser(problem.variables,
+                           OptimiserOptions{.method = Method::self_adaptive_differential_evolution}, {})
+                ->population(),
+            100u);
+  EXPECT_EQ(generations({.method = Method::grey_wolf}), 50);
+  EXPECT_EQ(generations({}), 10000);
+}
+
+}  // namespace
+}  // namespace linkwright::optimise

@@ -1,0 +1,236 @@
+#include "linkwright/optimise/minimise.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "optimise/functions.h"
+#include "support/allocations.h"
+#include "support/message.h"
+
+namespace linkwright::optimise {
+namespace {
+
+using linkwright::test::message;
+using testing::HasSubstr;
+
+constexpr Method all_methods[] = {Method::differential_evolution,
+                                  Method::self_adaptive_differential_evolution, Method::grey_wolf};
+
+void expect_same_bits(const Report& a, const Report& b) {
+  EXPECT_EQ(a.x, b.x);
+  EXPECT_EQ(a.cost, b.cost);
+  EXPECT_EQ(a.violation, b.violation);
+  EXPECT_EQ(a.evaluations, b.evaluations);
+  ASSERT_EQ(a.log.size(), b.log.size());
+  for (std::size_t i = 0; i < a.log.size(); ++i) EXPECT_EQ(a.log[i].median, b.log[i].median);
+}
+
+TEST(Minimise, IsAskEvaluateTell) {
+  const Problem problem = test::rosenbrock(4);
+  for (const Method method : all_methods) {
+    RunContext context;
+    MinimiseOptions options;
+    options.stop.generations = 40;
+    const Report report = minimise(problem, {.method = method}, options, {.seed = 3}, context);
+    const auto optimiser = make_optimiser(problem.variables, OptimiserOptions{.method = method}, {.seed = 3});
+    std::vector<double> cost(optimiser->population()), violation(cost.size());
+    for (int generation = 0; generation < 40; ++generation) {
+      problem.evaluate(optimiser->ask(), cost, violation);
+      optimiser->tell(cost, violation);
+    }
+    EXPECT_EQ(report.cost, optimiser->best_cost());
+    EXPECT_TRUE(std::equal(report.x.begin(), report.x.end(), optimiser->best().begin()));
+    EXPECT_EQ(report.evaluations, 40 * static_cast<std::int64_t>(cost.size()));
+    EXPECT_EQ(report.stop_reason, "40 generations");
+    EXPECT_EQ(report.status, Status::done);
+  }
+}
+
+TEST(Minimise, SameBitsForAnyThreadsAndAnySplitOfThePopulation) {
+  const Problem problem = test::rastrigin(5);
+  OptimiserOptions method = {.method = Method::self_adaptive_differential_evolution};
+  method.self_adaptive_differential_evolution.population = 1001;  // evaluated in four parts
+  MinimiseOptions options;
+  options.stop.generations = 20;
+  std::vector<Report> reports;
+  for (const int threads : {1, 2, 5, 0}) {
+    RunContext context;
+    context.set_threads(threads);
+    reports.push_back(minimise(problem, method, options, {}, context));
+  }
+  for (const Report& report : reports) expect_same_bits(report, reports[0]);
+}
+
+TEST(Minimise, LogTellsOfEveryGeneration) {
+  // Half of the box is infeasible.
+  const Problem problem = test::make_problem(1, -1, 1, [](std::span<const double> x) {
+    return test::Value{x[0], std::max(0.0, -x[0])};
+  });
+  RunContext context;
+  MinimiseOptions options;
+  options.stop.generations = 12;
+  const Report report = minimise(problem, {.method = Method::grey_wolf}, options, {}, context);
+  ASSERT_EQ(report.log.size(), 12u);
+  EXPECT_EQ(report.log[3].evaluations, 120);
+  EXPECT_NEAR(report.log[0].violated, 0.5, 0.45);
+  EXPECT_NEAR(report.log[0].mean, 0.5, 0.3);
+  EXPECT_NEAR(report.log[0].median, 0.5, 0.4);
+  for (std::size_t i = 1; i < 12; ++i) EXPECT_LE(report.log[i].best_cost, report.log[i - 1].best_cost);
+  EXPECT_EQ(report.log.back().best_cost, report.cost);
+  options.log = false;
+  EXPECT_TRUE(minimise(problem, {.method = Method::grey_wolf}, options, {}, context).log.empty());
+}
+
+TEST(Minimise, MedianAndMeanAreOfTheFeasibleCandidates) {
+  // Costs 0 to 4 by candidate, 3 violates.
+  Problem problem = test::sphere(1);
+  problem.evaluate = [](const PopulationView& x, std::span<double> cost, std::span<double> violation) {
+    for (std::size_t i = 0; i < x.size; ++i) {
+      cost[i] = static_cast<double>(i * i);
+      violation[i] = i == 3 ? 1 : 0;
+    }
+  };
+  OptimiserOptions method;
+  method.differential_evolution.population = 5;
+  RunContext context;
+  MinimiseOptions options;
+  options.stop.generations = 1;
+  const Report report = minimise(problem, method, options, {}, context);
+  EXPECT_EQ(report.log[0].median, 2.5);  // of 0, 1, 4, 16
+  EXPECT_EQ(report.log[0].mean, 5.25);
+  EXPECT_NEAR(report.log[0].violated, 0.2, 1e-15);
+}
+
+TEST(Minimise, StopsForEachReason) {
+  const Problem problem = test::sphere(3);
+  RunContext context;
+  const auto run = [&](const StopCriteria& stop) {
+    MinimiseOptions options;
+    options.stop = stop;
+    return minimise(problem, {}, options, {}, context);
+  };
+  const Report target = run({.target_cost = 1e-6});
+  EXPECT_EQ(target.stop_reason, "target cost 1e-06 reached");
+  EXPECT_LE(target.cost, 1e-6);
+  EXPECT_GT(target.log[target.log.size() - 2].best_cost, 1e-6);
+
+  const Report budget = run({.evaluations = 100});  // 15 members: six generations are 90
+  EXPECT_EQ(budget.stop_reason, "another generation would exceed 100 evaluations");
+  EXPECT_EQ(budget.evaluations, 90);
+  EXPECT_EQ(run({.evaluations = 1}).evaluations, 15);
+
+  const Report stagnant = run({.stagnation = 30});
+  EXPECT_EQ(stagnant.stop_reason, "no better candidate in 30 generations");
+  EXPECT_EQ(stagnant.log.back().best_cost, stagnant.log[stagnant.log.size() - 31].best_cost);
+
+  const Report close = run({.spread = 1e-5});
+  EXPECT_EQ(close.stop_reason, "every member within 1e-05 of the best");
+  EXPECT_LT(std::sqrt(close.cost), 1e-4);
+  EXPECT_LT(close.generations, 500);
+}
+
+TEST(Minimise, CancelAndDeadlineKeepTheBestSoFar) {
+  const Problem problem = test::sphere(3);
+  for (const bool cancel : {true, false}) {
+    RunContext context;
+    if (cancel)
+      context.cancel();
+    else
+      context.set_time_limit(std::chrono::duration<double>(0));
+    const Report report = minimise(problem, {}, {}, {}, context);
+    EXPECT_EQ(report.status, cancel ? Status::cancelled : Status::deadline);
+    EXPECT_EQ(report.stop_reason, cancel ? "cancelled" : "time limit reached");
+    EXPECT_EQ(report.generations, 1);
+    double sum = 0;
+    for (const double v : report.x) sum += v * v;
+    EXPECT_EQ(report.cost, sum);
+  }
+  // From within, as a signal would.
+  RunContext context;
+  context.set_progress([&](const Progress& progress) {
+    EXPECT_EQ(progress.stage, "differential_evolution");
+    if (progress.fraction >= 0.0007) context.cancel();  // generation 7 of 10000
+  });
+  const Report report = minimise(problem, {}, {}, {}, context);
+  EXPECT_EQ(report.status, Status::cancelled);
+  EXPECT_EQ(report.generations, 7);
+}
+
+TEST(Minimise, TellsWhenNothingIsFeasible) {
+  const Problem problem = test::make_problem(2, 0, 1, [](std::span<const double> x) {
+    return test::Value{HUGE_VAL, 1 + x[0]};
+  });
+  RunContext context;
+  MinimiseOptions options;
+  options.stop.generations = 200;
+  const Report report = minimise(problem, {}, options, {}, context);
+  EXPECT_EQ(report.status, Status::infeasible);
+  EXPECT_NEAR(report.violation, 1, 1e-6);  // the least violated one
+  EXPECT_EQ(report.log.back().violated, 1);
+  EXPECT_TRUE(std::isnan(report.log.back().median));
+}
+
+TEST(Minimise, PenaltyRanksAsPublishedAndReportsTheCostOfTheProblem) {
+  // Infeasible below 0.5 by any amount: the rules go there by violation, a penalty of 1e3 does not care how
+  // much.
+  const Problem problem = test::make_problem(1, -10, 10, [](std::span<const double> x) {
+    return test::Value{(x[0] + 2) * (x[0] + 2), x[0] < 0.5 ? 1.0 : 0.0};
+  });
+  RunContext context;
+  OptimiserOptions method;
+  method.differential_evolution.population = 40;  // five members soon agree in one dimension
+  MinimiseOptions options;
+  options.stop.generations = 100;
+  options.constraints = Constraints::penalty;
+  const Report strong = minimise(problem, method, options, {}, context);
+  EXPECT_EQ(strong.violation, 0);
+  EXPECT_NEAR(strong.cost, 6.25, 1e-6);
+  options.penalty_weight = 1;  // too weak: the infeasible minimum wins, and is reported with its own cost
+  const Report weak = minimise(problem, method, options, {}, context);
+  EXPECT_EQ(weak.violation, 1);
+  EXPECT_NEAR(weak.cost, 0, 1e-6);
+  EXPECT_EQ(weak.status, Status::infeasible);
+  options.constraints = Constraints::feasibility_rules;
+  EXPECT_NEAR(minimise(problem, method, options, {}, context).cost, 6.25, 1e-6);
+}
+
+TEST(Minimise, AllocatesNothingPerGeneration) {
+  Problem problem = test::sphere(3);
+  problem.evaluate = [](const PopulationView& x, std::span<double> cost, std::span<double> violation) {
+    for (std::size_t i = 0; i < x.size; ++i) {
+      cost[i] = x(0, i) * x(0, i) + x(1, i) * x(1, i);
+      violation[i] = 0;
+    }
+  };
+  RunContext context;
+  for (const Method method : all_methods) {
+    const auto count = [&](int generations) {
+      MinimiseOptions options;
+      options.stop = {.generations = generations, .stagnation = 100000, .spread = 1e-300};
+      const auto before = linkwright::test::allocations();
+      EXPECT_EQ(minimise(problem, {.method = method}, options, {}, context).generations, generations);
+      return linkwright::test::allocations() - before;
+    };
+    EXPECT_EQ(count(50), count(5)) << name_of(method);
+  }
+}
+
+TEST(Minimise, SaysWhichOptionIsOutOfRange) {
+  const Problem problem = test::sphere(2);
+  RunContext context;
+  const auto with = [&](const MinimiseOptions& options) {
+    return message([&] { minimise(problem, {}, options, {}, context); });
+  };
+  EXPECT_THAT(with({.stop = {.evaluations = -5}}),
+              HasSubstr("minimise: max_evaluations must be at least 0, got -5"));
+  EXPECT_THAT(with({.stop = {.spread = -1}}), HasSubstr("minimise: spread must be at least 0, got -1"));
+  EXPECT_THAT(with({.penalty_weight = -1}), HasSubstr("minimise: penalty_weight must be at least 0, got -1"));
+  const auto optimiser = make_optimiser(test::sphere(3).variables, GreyWolfOptions{}, {});
+  EXPECT_THAT(message([&] { minimise(problem, *optimiser, 5, "mine", {}, context); }),
+              HasSubstr("an optimiser of 3 variables for a problem of 2"));
+}
+
+}  // namespace
+}  // namespace linkwright::optimise

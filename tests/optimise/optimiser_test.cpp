@@ -1,0 +1,153 @@
+#include "linkwright/optimise/optimiser.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "linkwright/core/random.h"
+#include "linkwright/optimise/methods.h"
+#include "optimise/functions.h"
+#include "support/allocations.h"
+#include "support/message.h"
+
+namespace linkwright::optimise {
+namespace {
+
+using linkwright::test::message;
+using testing::HasSubstr;
+
+constexpr Method all_methods[] = {Method::differential_evolution,
+                                  Method::self_adaptive_differential_evolution, Method::grey_wolf};
+
+TEST(Optimiser, FirstCandidatesAreUniformAndOneOfEachStream) {
+  const Problem problem = test::sphere(3);
+  for (const Method method : all_methods) {
+    const auto optimiser =
+        make_optimiser(problem.variables, OptimiserOptions{.method = method}, {.seed = 9, .run = 2});
+    const PopulationView first = optimiser->ask();
+    for (std::size_t i = 0; i < first.size; ++i) {
+      RandomStream random({9, 2, 0, static_cast<std::uint32_t>(i)});
+      for (std::size_t j = 0; j < 3; ++j) EXPECT_EQ(first(j, i), random.uniform(-5, 3));
+    }
+  }
+}
+
+TEST(Optimiser, CandidatesStayInTheBoxAndFixedVariablesFixed) {
+  Problem problem = test::sphere(5);
+  problem.variables[1] = {"fixed", 0.7, 0.7};
+  problem.variables[2] = {"thin", 1e6, 1e6 + 1e-9};
+  problem.variables[3] = {"huge", -1e300, 1e300};
+  for (const bool reset : {false, true})
+    for (const Method method : all_methods) {
+      OptimiserOptions options = {.method = method};
+      options.grey_wolf.reset_worst_half = reset;
+      const auto optimiser = make_optimiser(problem.variables, options, {});
+      std::vector<double> cost(optimiser->population()), violation(optimiser->population());
+      for (int generation = 0; generation < 60; ++generation) {
+        const PopulationView x = optimiser->ask();
+        problem.evaluate(x, cost, violation);
+        // An optimum outside the box pushes against the bounds.
+        for (std::size_t i = 0; i < x.size; ++i) {
+          cost[i] = x(0, i) + x(4, i);
+          for (std::size_t j = 0; j < 5; ++j) {
+            ASSERT_GE(x(j, i), problem.variables[j].lower) << name_of(method);
+            ASSERT_LE(x(j, i), problem.variables[j].upper) << name_of(method);
+          }
+        }
+        optimiser->tell(cost, violation);
+      }
+      EXPECT_LT(optimiser->best_cost(), -9.9) << name_of(method);
+    }
+}
+
+TEST(Optimiser, AskTwiceGivesTheSameCandidates) {
+  const Problem problem = test::sphere(2);
+  const auto optimiser = make_optimiser(problem.variables, GreyWolfOptions{}, {});
+  std::vector<double> cost(30), violation(30);
+  for (int generation = 0; generation < 3; ++generation) {
+    const PopulationView x = optimiser->ask();
+    const double before = x(1, 7);
+    EXPECT_EQ(optimiser->ask()(1, 7), before);
+    problem.evaluate(x, cost, violation);
+    optimiser->tell(cost, violation);
+  }
+}
+
+TEST(Optimiser, TellsWhatIsBestAndWhetherItIsNew) {
+  const Problem problem = test::sphere(2);
+  const auto optimiser = make_optimiser(problem.variables, DifferentialEvolutionOptions{.population = 4}, {});
+  EXPECT_TRUE(optimiser->best().empty());
+  double x0 = optimiser->ask()(0, 2);
+  optimiser->tell(std::vector<double>{5, 6, 4, 9}, std::vector<double>{0, 0, 0, 0});
+  EXPECT_TRUE(optimiser->improved());
+  EXPECT_EQ(optimiser->best_candidate(), 2u);
+  EXPECT_EQ(optimiser->best()[0], x0);
+  optimiser->ask();
+  optimiser->tell(std::vector<double>{5, 6, 4, 1}, std::vector<double>{0, 0, 0, 0.1});
+  EXPECT_FALSE(optimiser->improved());  // the cheaper one violates a constraint
+  EXPECT_TRUE(optimiser->equalled());
+  EXPECT_EQ(optimiser->best_cost(), 4);
+  optimiser->ask();
+  optimiser->tell(std::vector<double>{5, 6, 7, 8}, std::vector<double>{0, 0, 0, 0});
+  EXPECT_FALSE(optimiser->improved());
+  EXPECT_FALSE(optimiser->equalled());
+  EXPECT_EQ(optimiser->best()[0], x0);
+  EXPECT_EQ(optimiser->generation(), 3u);
+}
+
+TEST(Optimiser, SeedsAndRunsAreDifferentCourses) {
+  const Problem problem = test::sphere(2);
+  std::set<double> firsts;
+  for (const std::uint64_t seed : {1, 2})
+    for (const std::uint32_t run : {0u, 1u})
+      firsts.insert(make_optimiser(problem.variables, GreyWolfOptions{}, {seed, run})->ask()(0, 0));
+  EXPECT_EQ(firsts.size(), 4u);
+}
+
+TEST(Optimiser, AGenerationAllocatesNothing) {
+  const Problem problem = test::sphere(10);
+  for (const bool reset : {false, true})
+    for (const Method method : all_methods) {
+      OptimiserOptions options = {.method = method};
+      options.grey_wolf.reset_worst_half = reset;
+      const auto optimiser = make_optimiser(problem.variables, options, {});
+      const std::vector<double> violation(optimiser->population(), 0.0);
+      const auto before = linkwright::test::allocations();
+      for (int generation = 0; generation < 50; ++generation) {
+        const PopulationView x = optimiser->ask();
+        optimiser->tell({x.row(0), x.size}, violation);
+      }
+      EXPECT_EQ(linkwright::test::allocations(), before) << name_of(method);
+    }
+}
+
+TEST(Optimiser, SaysWhatIsWrong) {
+  const Problem problem = test::sphere(2);
+  const auto optimiser = make_optimiser(problem.variables, GreyWolfOptions{.population = 3}, {});
+  const std::vector<double> three = {1, 2, 3}, two = {1, 2}, zero = {0, 0, 0};
+  EXPECT_THAT(message([&] { optimiser->tell(three, zero); }), HasSubstr("nothing was asked"));
+  optimiser->ask();
+  EXPECT_THAT(message([&] { optimiser->tell(two, zero); }),
+              HasSubstr("2 costs and 3 violations for 3 candidates"));
+  EXPECT_THAT(message([&] {
+                optimiser->tell(std::vector<double>{1, std::nan(""), 2}, zero);
+              }),
+              HasSubstr("candidate 1: cost nan, violation 0"));
+  EXPECT_THAT(message([&] {
+                optimiser->tell(three, std::vector<double>{0, 0, -1});
+              }),
+              HasSubstr("candidate 2: cost 3, violation -1"));
+  EXPECT_THAT(message([&] { make_optimiser({}, GreyWolfOptions{}, {}); }),
+              HasSubstr("a problem needs variables"));
+  const std::vector<Variable> reversed = {{"crank_m", 2, 1}};
+  EXPECT_THAT(message([&] { make_optimiser(reversed, GreyWolfOptions{}, {}); }),
+              HasSubstr("bounds of 'crank_m': 2 to 1"));
+  const std::vector<Variable> unbounded = {{"crank_m", 0, HUGE_VAL}};
+  EXPECT_THAT(message([&] { make_optimiser(unbounded, GreyWolfOptions{}, {}); }),
+              HasSubstr("bounds of 'crank_m': 0 to inf"));
+}
+
+}  // namespace
+}  // namespace linkwright::optimise
