@@ -65,7 +65,8 @@ export interface View {
   status: string;
   headline: string;
   facts: { label: string; text: string; verdict: "plain" | "good" | "bad" }[];
-  parameters: Parameter[][];
+  parameters: Parameter[][]; // one list a solution
+  solution_scenes: string[];
   scenes: Scene[];
   plots: Plot[];
   comparisons: Comparison[];
@@ -84,11 +85,10 @@ export interface Solution {
   objectives: JsonObject | null;
   classification: JsonObject | null;
   defects: Json[] | null;
-  scene: string;
 }
 
 export interface Result {
-  checks: { quantity: string; value: Num; limit: string; passed: boolean }[];
+  checks: { quantity: string; at?: string; value: Num; limit: string; passed: boolean; message?: string }[];
   solutions: Solution[];
   statistics: JsonObject | null;
   log: Json[] | null;
@@ -107,13 +107,30 @@ export interface Result {
 const text = (id: string) => document.getElementById(id)?.textContent ?? "null";
 export const resultText = () => text("result-data");
 export const readView = (): View => JSON.parse(text("view-data"));
-export const readResult = (): Result => {
-  const result = JSON.parse(resultText());
+
+type RawTable = { name: string; columns: { key: string; label: string }[]; data: (Num | string)[][] };
+
+/** A table of result.json has the status as its last column, which holds text. */
+export function readTable({ name, columns, data }: RawTable): Table {
+  const at = columns.findIndex((c) => c.key === "status");
+  const numbers = (_: unknown, i: number) => i !== at;
+  const status = at < 0 ? [] : (data[at] as string[]);
   return {
-    ...result,
+    name,
+    columns: columns.filter(numbers),
+    data: data.filter(numbers) as Num[][],
+    status: status.some((s) => s !== "done") ? status : [],
+  };
+}
+
+export const readResult = (): Result => {
+  const result = JSON.parse(resultText()) ?? {};
+  return {
     checks: result.checks ?? [],
     solutions: result.solutions ?? [],
-    tables: result.tables ?? [],
+    statistics: result.statistics ?? null,
+    log: result.log ?? null,
+    tables: (result.tables ?? []).map(readTable),
     diagnostics: result.diagnostics ?? [],
   };
 };

@@ -73,9 +73,11 @@ LengthUnit length_unit(double size) {
 
 Worst worst(const study::Scene::Target& target) {
   Worst result;
-  const std::size_t n = std::min({target.x.size(), target.y.size(), target.achieved_x.size(), target.achieved_y.size()});
+  const std::size_t n =
+      std::min({target.x.size(), target.y.size(), target.achieved_x.size(), target.achieved_y.size()});
   for (std::size_t i = 0; i < n; ++i) {
-    const double distance = std::hypot(target.achieved_x[i] - target.x[i], target.achieved_y[i] - target.y[i]);
+    const double distance =
+        std::hypot(target.achieved_x[i] - target.x[i], target.achieved_y[i] - target.y[i]);
     if (distance > result.distance) result = {i, distance};
   }
   return result;

@@ -28,7 +28,8 @@ struct Place {
   bool finite() const;
 };
 
-/// Where a point is at a sample: its only entry when it does not move, NaN when the sample or point is not there.
+/// Where a point is at a sample: its only entry when it does not move, NaN when the sample or point is not
+/// there.
 Place place(const study::Scene& scene, int point, std::size_t sample);
 
 /// True when every point of the scene exists at the sample.
@@ -37,7 +38,8 @@ bool assembled(const study::Scene& scene, std::size_t sample);
 /// The sample to draw when one must do: the first that is assembled; 0 when none is.
 std::size_t reference_sample(const study::Scene& scene);
 
-/// The largest of 1, 2, 5 times a power of ten that is not above `span / divisions`; 1 for a span of 0 or NaN.
+/// The largest of 1, 2, 5 times a power of ten that is not above `span / divisions`; 1 for a span of 0 or
+/// NaN.
 double nice_step(double span, double divisions);
 
 /// Length unit for drawings of this size: factor from metres and its symbol.
@@ -48,7 +50,8 @@ struct LengthUnit {
 /// Millimetres below one metre, else metres.
 LengthUnit length_unit(double size);
 
-/// Index of the target point that is missed most, and by how much (m); distance is negative when there is none.
+/// Index of the target point that is missed most, and by how much (m); distance is negative when there is
+/// none.
 struct Worst {
   std::size_t index = 0;
   double distance = -1;

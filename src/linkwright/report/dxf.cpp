@@ -19,9 +19,15 @@ constexpr double millimetres = 1000;
 // Group codes and values, one a line (AutoCAD R12 Customization Manual, chapter 11).
 class Writer {
  public:
-  void text(int code, std::string_view value) { fmt::format_to(std::back_inserter(out_), "{:>3}\n{}\n", code, value); }
-  void integer(int code, int value) { fmt::format_to(std::back_inserter(out_), "{:>3}\n{:>6}\n", code, value); }
-  void real(int code, double value) { fmt::format_to(std::back_inserter(out_), "{:>3}\n{:.9g}\n", code, value); }
+  void text(int code, std::string_view value) {
+    fmt::format_to(std::back_inserter(out_), "{:>3}\n{}\n", code, value);
+  }
+  void integer(int code, int value) {
+    fmt::format_to(std::back_inserter(out_), "{:>3}\n{:>6}\n", code, value);
+  }
+  void real(int code, double value) {
+    fmt::format_to(std::back_inserter(out_), "{:>3}\n{:.9g}\n", code, value);
+  }
   /// A place in metres as group codes first, first + 10 (and z = 0), in millimetres.
   void at(int first, const Place& p) {
     real(first, p.x * millimetres);
@@ -84,8 +90,11 @@ void write_header(Writer& w, const Box& box) {
     int colour;
     std::string_view line_type;
   };
-  constexpr Layer layers[] = {{"GROUND", 8, "DASHDOT"}, {"LINKS", 5, "CONTINUOUS"}, {"JOINTS", 7, "CONTINUOUS"},
-                              {"TRACE", 3, "CONTINUOUS"}, {"TARGETS", 1, "CONTINUOUS"}};
+  constexpr Layer layers[] = {{"GROUND", 8, "DASHDOT"},
+                              {"LINKS", 5, "CONTINUOUS"},
+                              {"JOINTS", 7, "CONTINUOUS"},
+                              {"TRACE", 3, "CONTINUOUS"},
+                              {"TARGETS", 1, "CONTINUOUS"}};
   w.text(0, "SECTION");
   w.text(2, "TABLES");
   w.text(0, "TABLE");
@@ -121,7 +130,8 @@ void write_header(Writer& w, const Box& box) {
   w.text(0, "ENDSEC");
 }
 
-void write_body(Writer& w, const Scene& scene, const Scene::Body& body, std::size_t sample, const DxfLayers& layers) {
+void write_body(Writer& w, const Scene& scene, const Scene::Body& body, std::size_t sample,
+                const DxfLayers& layers) {
   const bool ground = body.style == Scene::BodyStyle::ground;
   if (!(ground ? layers.ground : layers.links)) return;
   const std::string_view layer = ground ? "GROUND" : "LINKS";
@@ -158,8 +168,8 @@ void write_trace(Writer& w, const Scene& scene, const Scene::Trace& trace) {
 }  // namespace
 
 std::string dxf(const study::Scene& scene, const DxfOptions& options) {
-  LINKWRIGHT_REQUIRE(!options.sample || *options.sample < scene.samples(), "sample {} of a scene with {} samples",
-                     *options.sample, scene.samples());
+  LINKWRIGHT_REQUIRE(!options.sample || *options.sample < scene.samples(),
+                     "sample {} of a scene with {} samples", *options.sample, scene.samples());
   const std::size_t sample = options.sample.value_or(reference_sample(scene));
   const Box box = bounds(scene);
   // Symbols are drawn at a size that can be seen in the whole drawing.
@@ -181,7 +191,8 @@ std::string dxf(const study::Scene& scene, const DxfOptions& options) {
       w.text(1, plain(joint.name));
     }
     if (ground && options.layers.ground)
-      w.polyline("GROUND", {p, {p.x - 2 * symbol, p.y - 3 * symbol}, {p.x + 2 * symbol, p.y - 3 * symbol}}, true);
+      w.polyline("GROUND", {p, {p.x - 2 * symbol, p.y - 3 * symbol}, {p.x + 2 * symbol, p.y - 3 * symbol}},
+                 true);
   }
   if (options.layers.trace)
     for (const auto& trace : scene.traces) write_trace(w, scene, trace);

@@ -22,9 +22,9 @@ struct DxfOptions {
   DxfLayers layers;
 };
 
-/// The scene as an AutoCAD R12 (AC1009) drawing in millimetres, scale 1:1, for CAD and workshop: bars as LINE, plates
-/// and traces as POLYLINE, pins as CIRCLE with their name as TEXT, targets as POINT. Points that do not exist at the
-/// sample are left out. Throws ContractError when `sample` is not one of the scene.
+/// The scene as an AutoCAD R12 (AC1009) drawing in millimetres, scale 1:1, for CAD and workshop: bars as
+/// LINE, plates and traces as POLYLINE, pins as CIRCLE with their name as TEXT, targets as POINT. Points that
+/// do not exist at the sample are left out. Throws ContractError when `sample` is not one of the scene.
 std::string dxf(const study::Scene& scene, const DxfOptions& options = {});
 
 }  // namespace linkwright::report

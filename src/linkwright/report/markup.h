@@ -11,8 +11,8 @@ namespace linkwright::report {
 /// The text with every byte that is not part of a UTF-8 character (RFC 3629) replaced by U+FFFD.
 std::string valid_utf8(std::string_view text);
 
-/// Text for element content and for attributes in either quotes: & < > " ' become references, control characters
-/// that XML forbids become U+FFFD, as do bytes that are not UTF-8.
+/// Text for element content and for attributes in either quotes: & < > " ' become references, control
+/// characters that XML forbids become U+FFFD, as do bytes that are not UTF-8.
 std::string escape(std::string_view text);
 
 /// A number for people: `digits` significant digits, "–" for NaN.

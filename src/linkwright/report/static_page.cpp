@@ -48,25 +48,29 @@ void heading(std::string& out, std::string_view text) { put(out, "<h2>{}</h2>\n"
 
 void write_banner(std::string& out, const ReportInput& input) {
   const auto& result = input.result;
-  const auto failed = std::count_if(result.checks.begin(), result.checks.end(), [](const auto& c) { return !c.passed; });
+  const auto failed =
+      std::count_if(result.checks.begin(), result.checks.end(), [](const auto& c) { return !c.passed; });
   put(out, "<header><p class=\"kicker\">Linkwright report</p><h1>{}</h1>", escape(input.title));
   if (!input.source.empty()) put(out, "<p class=\"source\">{}</p>", escape(input.source));
   const bool good = failed == 0 && result.status == Status::done;
-  put(out, "<div class=\"verdict {}\"><strong>{}</strong><span>status {}", good ? "good" : "bad", escape(result.headline),
-      to_string(result.status));
+  put(out, "<div class=\"verdict {}\"><strong>{}</strong><span>status {}", good ? "good" : "bad",
+      escape(result.headline), to_string(result.status));
   if (!result.checks.empty())
-    put(out, " · {} of {} checks passed", result.checks.size() - static_cast<std::size_t>(failed), result.checks.size());
+    put(out, " · {} of {} checks passed", result.checks.size() - static_cast<std::size_t>(failed),
+        result.checks.size());
   out += "</span></div></header>\n";
   if (!result.facts.empty()) {
     out += "<dl class=\"facts\">";
-    for (const auto& fact : result.facts) put(out, "<div><dt>{}</dt><dd>{}</dd></div>", escape(fact.label), escape(fact.text));
+    for (const auto& fact : result.facts)
+      put(out, "<div><dt>{}</dt><dd>{}</dd></div>", escape(fact.label), escape(fact.text));
     out += "</dl>\n";
   }
   if (!result.checks.empty()) {
     heading(out, "Checks");
-    Sheet sheet(out, {"quantity", "value", "limit", "outcome"});
+    Sheet sheet(out, {"quantity", "at", "value", "limit", "outcome"});
     for (const auto& check : result.checks)
-      sheet.row({check.quantity, number(check.value, 9), check.limit, check.passed ? "passed" : "failed"});
+      sheet.row({check.quantity, check.at, check.message.empty() ? number(check.value, 9) : check.message,
+                 check.limit, check.passed ? "passed" : "failed"});
   }
 }
 
@@ -74,7 +78,8 @@ void write_drawings(std::string& out, const study::Result& result) {
   for (const auto& scene : result.scenes) {
     SvgOptions options;
     options.ghosts = 8;
-    put(out, "<figure class=\"drawing\">{}<figcaption>{}</figcaption></figure>\n", svg(scene, options), escape(scene.title));
+    put(out, "<figure class=\"drawing\">{}<figcaption>{}</figcaption></figure>\n", svg(scene, options),
+        escape(scene.title));
   }
 }
 
@@ -87,14 +92,16 @@ void write_solutions(std::string& out, const study::Result& result) {
     Sheet sheet(out, {"solution", "objectives", "classification", "defects"});
     for (const auto& s : result.solutions) {
       const std::string defects = s.defects.is_null() ? "" : display(s.defects);
-      sheet.row({s.label, display(s.objectives), display(s.classification), defects.empty() ? "none" : defects});
+      sheet.row(
+          {s.label, display(s.objectives), display(s.classification), defects.empty() ? "none" : defects});
     }
   }
   heading(out, "Parameters of the best solution");
   Sheet sheet(out, {"parameter", "key", "value", "lower bound", "upper bound"});
   for (const auto& p : result.solutions.front().parameters) {
     const bool fixed = p.lower == p.upper;
-    sheet.row({p.label, p.key, number(p.value, 12), fixed ? "fixed" : bound(p.lower), fixed ? "fixed" : bound(p.upper)});
+    sheet.row({p.label, p.key, number(p.value, 12), fixed ? "fixed" : bound(p.lower),
+               fixed ? "fixed" : bound(p.upper)});
   }
 }
 
@@ -142,7 +149,8 @@ void write_tables(std::string& out, const study::Result& result) {
     Sheet sheet(out, head);
     for (std::size_t row = 0; row < table.rows(); row += step) {
       std::vector<std::string> cells;
-      for (const auto& column : table.columns) cells.push_back(row < column.values.size() ? number(column.values[row]) : "");
+      for (const auto& column : table.columns)
+        cells.push_back(row < column.values.size() ? number(column.values[row]) : "");
       if (!table.status.empty()) cells.push_back(row < table.status.size() ? table.status[row] : "");
       sheet.row(cells);
     }

@@ -6,8 +6,8 @@
 
 namespace linkwright::report {
 
-/// The report as plain HTML sections with drawings, for print and for browsers without scripts. Long tables are
-/// thinned and say so.
+/// The report as plain HTML sections with drawings, for print and for browsers without scripts. Long tables
+/// are thinned and say so.
 std::string static_page(const ReportInput& input);
 
 }  // namespace linkwright::report

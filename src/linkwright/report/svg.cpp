@@ -19,7 +19,8 @@ namespace {
 using study::Scene;
 
 // Okabe and Ito's colours, which stay apart for the colour-blind; bodies take them in turn.
-constexpr std::array<std::string_view, 6> body_colours = {"#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00"};
+constexpr std::array<std::string_view, 6> body_colours = {"#0072B2", "#E69F00", "#009E73",
+                                                          "#CC79A7", "#56B4E9", "#D55E00"};
 constexpr std::string_view ink = "#1d2935";
 constexpr std::string_view paper = "#ffffff";
 constexpr std::string_view trace_colour = "#0072B2";
@@ -79,63 +80,77 @@ void draw_grid(std::string& out, const Canvas& canvas) {
   const LengthUnit unit = length_unit(std::max(canvas.width(), canvas.height()) / canvas.scale() / 2);
   out += "<g class=\"grid\" stroke=\"#dfe5ea\" stroke-width=\"1\" fill=\"#64727f\" font-size=\"11\">\n";
   const auto from = [step](double w) { return static_cast<long long>(std::ceil(w / step)); };
-  for (long long i = from(canvas.world_x(0)); canvas.x(static_cast<double>(i) * step) <= canvas.width(); ++i) {
+  for (long long i = from(canvas.world_x(0)); canvas.x(static_cast<double>(i) * step) <= canvas.width();
+       ++i) {
     const double x = canvas.x(static_cast<double>(i) * step);
     put(out, "<path d=\"M{0:.2f} 0V{1:.0f}\"/>", x, canvas.height());
     if (x > 30 && x < canvas.width() - 30)
-      put(out, "<text stroke=\"none\" x=\"{:.2f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n", x, canvas.height() - 8,
-          number(static_cast<double>(i) * step * unit.per_metre));
+      put(out, "<text stroke=\"none\" x=\"{:.2f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n", x,
+          canvas.height() - 8, number(static_cast<double>(i) * step * unit.per_metre));
   }
-  for (long long i = from(canvas.world_y(canvas.height())); canvas.y(static_cast<double>(i) * step) >= 0; ++i) {
+  for (long long i = from(canvas.world_y(canvas.height())); canvas.y(static_cast<double>(i) * step) >= 0;
+       ++i) {
     const double y = canvas.y(static_cast<double>(i) * step);
     put(out, "<path d=\"M0 {0:.2f}H{1:.0f}\"/>", y, canvas.width());
     if (y > 20 && y < canvas.height() - 30)
-      put(out, "<text stroke=\"none\" x=\"6\" y=\"{:.2f}\">{}</text>\n", y - 4, number(static_cast<double>(i) * step * unit.per_metre));
+      put(out, "<text stroke=\"none\" x=\"6\" y=\"{:.2f}\">{}</text>\n", y - 4,
+          number(static_cast<double>(i) * step * unit.per_metre));
   }
-  put(out, "<text stroke=\"none\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text></g>\n", canvas.width() - 8,
-      canvas.height() - 8, unit.symbol);
+  put(out, "<text stroke=\"none\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text></g>\n",
+      canvas.width() - 8, canvas.height() - 8, unit.symbol);
 }
 
-void draw_body(std::string& out, const Canvas& canvas, const Scene& scene, const Scene::Body& body, std::size_t sample,
-               std::string_view colour) {
+void draw_body(std::string& out, const Canvas& canvas, const Scene& scene, const Scene::Body& body,
+               std::size_t sample, std::string_view colour) {
   std::vector<Place> places;
   for (const int point : body.points) places.push_back(place(scene, point, sample));
-  if (places.size() < 2 || !std::all_of(places.begin(), places.end(), [](const Place& p) { return p.finite(); })) return;
+  if (places.size() < 2 ||
+      !std::all_of(places.begin(), places.end(), [](const Place& p) { return p.finite(); }))
+    return;
   const bool plate = body.style == Scene::BodyStyle::plate && places.size() > 2;
   const std::string path = path_of(canvas, places, plate);
   put(out, "<g class=\"body\"><title>{}</title>", escape(body.name));
   if (body.style == Scene::BodyStyle::ground) {
-    put(out, "<path d=\"{}\" fill=\"none\" stroke=\"#64727f\" stroke-width=\"1.2\" stroke-dasharray=\"14 4 2 4\"/></g>\n", path);
+    put(out,
+        "<path d=\"{}\" fill=\"none\" stroke=\"#64727f\" stroke-width=\"1.2\" stroke-dasharray=\"14 4 2 "
+        "4\"/></g>\n",
+        path);
     return;
   }
   // A rounded bar with an outline is a thick line under a slightly thinner one.
   put(out,
-      "<path d=\"{0}\" fill=\"none\" stroke=\"{1}\" stroke-width=\"{2}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"/>"
-      "<path d=\"{0}\" fill=\"{3}\" stroke=\"{4}\" stroke-width=\"{5}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"/></g>\n",
+      "<path d=\"{0}\" fill=\"none\" stroke=\"{1}\" stroke-width=\"{2}\" stroke-linecap=\"round\" "
+      "stroke-linejoin=\"round\"/>"
+      "<path d=\"{0}\" fill=\"{3}\" stroke=\"{4}\" stroke-width=\"{5}\" stroke-linecap=\"round\" "
+      "stroke-linejoin=\"round\"/></g>\n",
       path, ink, bar_width, plate ? colour : "none", colour, bar_width - 2.6);
 }
 
-void draw_joint(std::string& out, const Canvas& canvas, const Scene& scene, const Scene::Joint& joint, std::size_t sample,
-                bool label) {
+void draw_joint(std::string& out, const Canvas& canvas, const Scene& scene, const Scene::Joint& joint,
+                std::size_t sample, bool label) {
   const Place p = place(scene, joint.point, sample);
   if (!p.finite()) return;
   const double x = canvas.x(p.x), y = canvas.y(p.y);
   put(out, "<g class=\"joint\"><title>{}</title>", escape(joint.name));
   if (joint.style == Scene::JointStyle::ground_pivot) {
-    put(out, "<path d=\"M{:.2f} {:.2f}l-11 18h22z\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"/>", x,
-        y, paper, ink);
+    put(out,
+        "<path d=\"M{:.2f} {:.2f}l-11 18h22z\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.6\" "
+        "stroke-linejoin=\"round\"/>",
+        x, y, paper, ink);
     put(out, "<path d=\"M{:.2f} {:.2f}h36", x - 18, y + 18);
     for (int i = 0; i < 6; ++i) put(out, "M{:.2f} {:.2f}l-6 7", x - 12 + 6 * i, y + 18);
     put(out, "\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.4\"/>", ink);
   }
   if (joint.style == Scene::JointStyle::tracer)
-    put(out, "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"5\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.6\"/>", x, y, error_colour, paper);
+    put(out, "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"5\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.6\"/>",
+        x, y, error_colour, paper);
   else
-    put(out, "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.6\"/>", x, y, pin_radius, paper,
-        ink);
+    put(out, "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.6\"/>",
+        x, y, pin_radius, paper, ink);
   if (label)
     put(out,
-        "<text x=\"{:.2f}\" y=\"{:.2f}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"4\" paint-order=\"stroke\" font-size=\"13\" "
+        "<text x=\"{:.2f}\" y=\"{:.2f}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"4\" paint-order=\"stroke\" "
+        "font-size=\"13\" "
         "font-style=\"italic\">{}</text>",
         x + 11, y - 9, ink, paper, escape(joint.name));
   out += "</g>\n";
@@ -148,7 +163,8 @@ void draw_pose(std::string& out, const Canvas& canvas, const Scene& scene, std::
     for (const auto& body : scene.bodies) {
       const std::string_view fill = body_colours[colour % body_colours.size()];
       if (body.style != Scene::BodyStyle::ground) ++colour;
-      if ((body.style == Scene::BodyStyle::plate) == plates) draw_body(out, canvas, scene, body, sample, fill);
+      if ((body.style == Scene::BodyStyle::plate) == plates)
+        draw_body(out, canvas, scene, body, sample, fill);
     }
   }
   for (const auto& joint : scene.joints) draw_joint(out, canvas, scene, joint, sample, labels);
@@ -158,7 +174,9 @@ void draw_traces(std::string& out, const Canvas& canvas, const Scene& scene) {
   for (const auto& trace : scene.traces) {
     std::vector<Place> places;
     for (std::size_t i = 0; i < scene.samples(); ++i) places.push_back(place(scene, trace.point, i));
-    put(out, "<path class=\"trace\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" stroke-linejoin=\"round\"><title>{}</title></path>\n",
+    put(out,
+        "<path class=\"trace\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" "
+        "stroke-linejoin=\"round\"><title>{}</title></path>\n",
         path_of(canvas, places, trace.closed), trace_colour, escape(trace.name));
   }
 }
@@ -174,13 +192,17 @@ void draw_targets(std::string& out, const Canvas& canvas, const Scene& scene, do
         const Place end{wanted.x + whisker_scale * (target.achieved_x[i] - wanted.x),
                         wanted.y + whisker_scale * (target.achieved_y[i] - wanted.y)};
         if (end.finite())
-          put(out, "<path d=\"M{:.2f} {:.2f}L{:.2f} {:.2f}\" stroke=\"{}\" stroke-width=\"2\"/>", x, y, canvas.x(end.x),
-              canvas.y(end.y), error_colour);
+          put(out, "<path d=\"M{:.2f} {:.2f}L{:.2f} {:.2f}\" stroke=\"{}\" stroke-width=\"2\"/>", x, y,
+              canvas.x(end.x), canvas.y(end.y), error_colour);
       }
-      put(out, "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.6\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.5\"/>", x, y, paper, ink);
+      put(out,
+          "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.6\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.5\"/>", x,
+          y, paper, ink);
     }
     if (const Worst w = worst(target); w.distance > 0)
-      put(out, "<circle class=\"worst\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"9\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-dasharray=\"3 2\"/>",
+      put(out,
+          "<circle class=\"worst\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"9\" fill=\"none\" stroke=\"{}\" "
+          "stroke-width=\"1.6\" stroke-dasharray=\"3 2\"/>",
           canvas.x(target.x[w.index]), canvas.y(target.y[w.index]), error_colour);
     out += "</g>\n";
   }
@@ -189,22 +211,25 @@ void draw_targets(std::string& out, const Canvas& canvas, const Scene& scene, do
 }  // namespace
 
 std::string svg(const study::Scene& scene, const SvgOptions& options) {
-  LINKWRIGHT_REQUIRE(!options.sample || *options.sample < scene.samples(), "sample {} of a scene with {} samples",
-                     *options.sample, scene.samples());
+  LINKWRIGHT_REQUIRE(!options.sample || *options.sample < scene.samples(),
+                     "sample {} of a scene with {} samples", *options.sample, scene.samples());
   const std::size_t sample = options.sample.value_or(reference_sample(scene));
   const Box box = bounds(scene);
   std::string out;
   if (box.empty()) {
     put(out,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"120\" viewBox=\"0 0 {0:.0f} 120\" role=\"img\" "
-        "font-family=\"sans-serif\"><title>{1}</title><text x=\"24\" y=\"64\" font-size=\"15\">Nothing to draw: the mechanism "
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"120\" viewBox=\"0 0 {0:.0f} "
+        "120\" role=\"img\" "
+        "font-family=\"sans-serif\"><title>{1}</title><text x=\"24\" y=\"64\" font-size=\"15\">Nothing to "
+        "draw: the mechanism "
         "assembles at no input.</text></svg>\n",
         options.width, escape(scene.title));
     return out;
   }
   const Canvas canvas(box, options);
   put(out,
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" role=\"img\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
+      "{1:.0f}\" role=\"img\" "
       "font-family=\"system-ui, sans-serif\"><title>{2}</title>\n"
       "<rect class=\"paper\" width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"{3}\"/>\n",
       canvas.width(), canvas.height(), escape(scene.title), paper);
@@ -212,7 +237,9 @@ std::string svg(const study::Scene& scene, const SvgOptions& options) {
   if (options.ghosts > 0) {
     out += "<g class=\"ghosts\" opacity=\"0.14\">\n";
     for (int i = 0; i < options.ghosts; ++i)
-      draw_pose(out, canvas, scene, scene.samples() * static_cast<std::size_t>(i) / static_cast<std::size_t>(options.ghosts), false);
+      draw_pose(out, canvas, scene,
+                scene.samples() * static_cast<std::size_t>(i) / static_cast<std::size_t>(options.ghosts),
+                false);
     out += "</g>\n";
   }
   if (options.traces) draw_traces(out, canvas, scene);

@@ -13,7 +13,9 @@ namespace {
 using study::Scene;
 
 // Nine digits are a millionth of a pixel and halve the size of the file.
-double rounded(double value) { return std::isfinite(value) ? std::strtod(fmt::format("{:.9g}", value).c_str(), nullptr) : value; }
+double rounded(double value) {
+  return std::isfinite(value) ? std::strtod(fmt::format("{:.9g}", value).c_str(), nullptr) : value;
+}
 
 Value coordinates(const std::vector<double>& values) {
   Value out = Value::array();
@@ -60,12 +62,16 @@ Value scene_data(const Scene& scene) {
   out["bodies"] = list(scene.bodies, [](Value& o, const Scene::Body& b) {
     o["name"] = b.name;
     o["points"] = indices(b.points);
-    o["style"] = b.style == Scene::BodyStyle::ground ? "ground" : b.style == Scene::BodyStyle::plate ? "plate" : "bar";
+    o["style"] = b.style == Scene::BodyStyle::ground  ? "ground"
+                 : b.style == Scene::BodyStyle::plate ? "plate"
+                                                      : "bar";
   });
   out["joints"] = list(scene.joints, [](Value& o, const Scene::Joint& j) {
     o["name"] = j.name;
     o["point"] = j.point;
-    o["style"] = j.style == Scene::JointStyle::ground_pivot ? "ground_pivot" : j.style == Scene::JointStyle::tracer ? "tracer" : "pivot";
+    o["style"] = j.style == Scene::JointStyle::ground_pivot ? "ground_pivot"
+                 : j.style == Scene::JointStyle::tracer     ? "tracer"
+                                                            : "pivot";
   });
   out["traces"] = list(scene.traces, [](Value& o, const Scene::Trace& t) {
     o["point"] = t.point;
@@ -95,19 +101,6 @@ Value parameters_data(const std::vector<study::Parameter>& parameters) {
   });
 }
 
-Value solution_data(const study::Solution& s) {
-  Value o = Value::object();
-  o["label"] = s.label;
-  Value values = Value::object();
-  for (const auto& p : s.parameters) values[p.key] = p.value;
-  o["parameters"] = std::move(values);
-  o["objectives"] = s.objectives;
-  o["classification"] = s.classification;
-  o["defects"] = s.defects;
-  o["scene"] = s.scene;
-  return o;
-}
-
 }  // namespace
 
 Value view_data(const ReportInput& input) {
@@ -123,10 +116,16 @@ Value view_data(const ReportInput& input) {
   out["facts"] = list(result.facts, [](Value& o, const study::Fact& f) {
     o["label"] = f.label;
     o["text"] = f.text;
-    o["verdict"] = f.verdict == study::Fact::Verdict::good ? "good" : f.verdict == study::Fact::Verdict::bad ? "bad" : "plain";
+    o["verdict"] = f.verdict == study::Fact::Verdict::good  ? "good"
+                   : f.verdict == study::Fact::Verdict::bad ? "bad"
+                                                            : "plain";
   });
   out["parameters"] = Value::array();
-  for (const auto& s : result.solutions) out["parameters"].push_back(parameters_data(s.parameters));
+  out["solution_scenes"] = Value::array();
+  for (const auto& s : result.solutions) {
+    out["parameters"].push_back(parameters_data(s.parameters));
+    out["solution_scenes"].push_back(s.scene);
+  }
   out["scenes"] = Value::array();
   for (const auto& scene : result.scenes) out["scenes"].push_back(scene_data(scene));
   out["plots"] = list(result.plots, [](Value& o, const study::Plot& p) {
@@ -135,7 +134,9 @@ Value view_data(const ReportInput& input) {
     o["table"] = p.table;
     o["x"] = p.x;
     o["y"] = texts(p.y);
-    o["style"] = p.style == study::Plot::Style::points ? "points" : p.style == study::Plot::Style::histogram ? "histogram" : "line";
+    o["style"] = p.style == study::Plot::Style::points      ? "points"
+                 : p.style == study::Plot::Style::histogram ? "histogram"
+                                                            : "line";
     o["logarithmic_y"] = p.logarithmic_y;
     o["scene"] = p.scene;
   });
@@ -146,46 +147,6 @@ Value view_data(const ReportInput& input) {
     o["ours"] = c.ours;
     o["verdict"] = c.verdict;
     o["note"] = c.note;
-  });
-  return out;
-}
-
-Value result_document(const ReportInput& input) {
-  const study::Result& result = input.result;
-  Value out = Value::object();
-  out["schema"] = 1;
-  out["tool"] = input.tool;
-  out["study"] = input.study;
-  out["status"] = to_string(result.status);
-  out["checks"] = list(result.checks, [](Value& o, const study::Check& c) {
-    o["quantity"] = c.quantity;
-    o["value"] = c.value;
-    o["limit"] = c.limit;
-    o["passed"] = c.passed;
-  });
-  out["best"] = result.solutions.empty() ? Value() : solution_data(result.solutions.front());
-  out["solutions"] = Value::array();
-  for (const auto& s : result.solutions) out["solutions"].push_back(solution_data(s));
-  out["statistics"] = result.statistics;
-  out["log"] = result.log;
-  out["tables"] = list(result.tables, [](Value& o, const Table& t) {
-    o["name"] = t.name;
-    o["columns"] = list(t.columns, [](Value& c, const Column& column) {
-      c["key"] = column.key;
-      c["label"] = column.label;
-    });
-    o["data"] = Value::array();
-    for (const auto& column : t.columns) o["data"].push_back(column.values);
-    o["status"] = texts(t.status);
-  });
-  out["diagnostics"] = list(result.diagnostics, [](Value& o, const Diagnostic& d) {
-    o["severity"] = d.severity == Diagnostic::Severity::error ? "error" : "warning";
-    o["file"] = d.file;
-    o["line"] = d.position.line;
-    o["column"] = d.position.column;
-    o["key"] = d.key;
-    o["message"] = d.message;
-    o["hint"] = d.hint;
   });
   return out;
 }

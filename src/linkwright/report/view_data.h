@@ -5,11 +5,8 @@
 
 namespace linkwright::report {
 
-/// What the viewer draws and result.json does not hold: title, facts, scenes (coordinates rounded to nine digits),
-/// plots, comparisons, text of the study.
+/// What the viewer draws and result.json does not hold: title, facts, scenes (coordinates rounded to nine
+/// digits), plots, comparisons, text of the study.
 Value view_data(const ReportInput& input);
-
-/// The document of result.json: tool, study, status, checks, best, solutions, statistics, log, tables, diagnostics.
-Value result_document(const ReportInput& input);
 
 }  // namespace linkwright::report
