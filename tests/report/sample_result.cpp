@@ -267,7 +267,8 @@ std::string sample_json(const study::Result& result) {
     }
     for (const auto& s : t.status) status.push_back(s);
     Value column;
-    column["key"] = column["label"] = "status";
+    column["key"] = "status";
+    column["label"] = "status";
     v["columns"].push_back(column);
     v["data"].push_back(status);
     doc["tables"].push_back(v);

@@ -25,7 +25,8 @@ export function zoomBy(factor: number, about?: Place): void {
 
 const screen = (p: Place | null) => p && toScreen(camera.value, size.value, p);
 
-const extent = computed(() => {
+/** Larger side of the scene (m). */
+export const extent = computed(() => {
   const box = state.scene.value && bounds(state.scene.value);
   return box ? Math.max(box.right - box.left, box.top - box.bottom) : 1;
 });
@@ -155,36 +156,33 @@ function Targets({ scene }: { scene: Scene }) {
   );
 }
 
-function Bodies({ scene, at }: { scene: Scene; at: number }) {
+/** Bodies of one kind: plates lie under the traces, bars above them. */
+function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boolean }) {
   let colour = -1;
-  const drawn = scene.bodies.map((body) => {
-    if (body.style !== "ground") colour = (colour + 1) % 6;
-    const places = body.points.map((p) => screen(placeNear(scene, p, at)));
-    const plate = body.style === "plate" && places.length > 2;
-    return { body, plate, fill: `var(--c${Math.max(0, colour)})`, places, d: pathOf(places, plate) };
-  });
-  const whole = drawn.filter(({ places }) => places.length > 1 && places.every((p) => p !== null));
   return (
     <>
-      {[true, false].map((plates) =>
-        whole.filter(({ plate }) => plate === plates).map(({ body, plate, fill, d }) =>
-          body.style === "ground" ? (
-            <path class="ground" d={d}><title>{body.name}</title></path>
-          ) : (
-            <g class="link" data-body={body.name}>
-              <title>{body.name}</title>
-              <path class="outline" d={d} />
-              <path class="bar" d={d} style={plate ? { stroke: fill, fill } : { stroke: fill }} />
-              {plate && <path class="plate" d={d} />}
-            </g>
-          ),
-        ),
-      )}
+      {scene.bodies.map((body) => {
+        if (body.style !== "ground") colour = (colour + 1) % 6;
+        const fill = `var(--c${Math.max(0, colour)})`;
+        const places = body.points.map((p) => screen(placeNear(scene, p, at)));
+        const plate = body.style === "plate" && places.length > 2;
+        if (plate !== plates || places.length < 2 || places.some((p) => p === null)) return null;
+        const d = pathOf(places, plate);
+        if (body.style === "ground") return <path class="ground" d={d}><title>{body.name}</title></path>;
+        return (
+          <g class="link" data-body={body.name}>
+            <title>{body.name}</title>
+            {plate && <path class="plate" d={d} style={{ fill }} />}
+            <path class="outline" d={d} />
+            <path class="bar" d={d} style={{ stroke: fill }} />
+          </g>
+        );
+      })}
     </>
   );
 }
 
-function Joints({ scene, at, labels }: { scene: Scene; at: number; labels: boolean }) {
+function Joints({ scene, at }: { scene: Scene; at: number }) {
   return (
     <>
       {scene.joints.map((joint) => {
@@ -198,7 +196,7 @@ function Joints({ scene, at, labels }: { scene: Scene; at: number; labels: boole
             {joint.style === "ground_pivot" && <path class="hatch" d={`M-18 18H18${cut}`} />}
             <circle r={joint.style === "tracer" ? 5.4 : 4.6} />
             {joint.style !== "tracer" && <circle class="pin" r={1.1} />}
-            {labels && state.showLabels.value && <text x={11} y={-9}>{joint.name}</text>}
+            {state.showLabels.value && <text x={11} y={-9}>{joint.name}</text>}
           </g>
         );
       })}
@@ -211,16 +209,17 @@ function Ghosts({ scene }: { scene: Scene }) {
   const motion = state.motion.value;
   const count = 12;
   const at = Array.from({ length: count }, (_, i) => Math.round(((motion.samples - 1) * i) / (motion.fullTurn ? count : count - 1)));
-  return <g class="ghosts">{at.filter((i) => motion.ok[i]).map((i) => <g><Bodies scene={scene} at={i} /></g>)}</g>;
+  return <g class="ghosts">{at.filter((i) => motion.ok[i]).map((i) => <g><Bodies scene={scene} at={i} plates /><Bodies scene={scene} at={i} plates={false} /></g>)}</g>;
 }
 
-function Pose({ scene }: { scene: Scene }) {
+function Pose({ scene, under }: { scene: Scene; under: boolean }) {
   const at = state.position.value;
-  const good = isAssembled(state.motion.value, at);
+  const name = isAssembled(state.motion.value, at) ? "" : " broken";
+  if (under) return <g class={`plates${name}`}><Bodies scene={scene} at={at} plates /></g>;
   return (
-    <g class={good ? "pose" : "pose broken"} data-position={at.toFixed(3)}>
-      <Bodies scene={scene} at={at} />
-      <Joints scene={scene} at={at} labels />
+    <g class={`pose${name}`} data-position={at.toFixed(3)}>
+      <Bodies scene={scene} at={at} plates={false} />
+      <Joints scene={scene} at={at} />
     </g>
   );
 }
@@ -285,8 +284,9 @@ export function Drawing(): JSX.Element {
         {scene && bounds(scene) ? (
           <>
             <Ghosts scene={scene} />
+            <Pose scene={scene} under />
             <Traces scene={scene} />
-            <Pose scene={scene} />
+            <Pose scene={scene} under={false} />
             <Targets scene={scene} />
           </>
         ) : (

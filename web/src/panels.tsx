@@ -166,6 +166,9 @@ export function Parameters() {
   const index = shown < 0 ? 0 : shown;
   const list = view.parameters[index];
   if (!list?.length) return null;
+  // One unit for all lengths, so that they can be compared.
+  const largest = list.filter((p) => p.key.endsWith("_m")).flatMap((p) => [p.value, p.lower, p.upper])
+    .reduce<number>((a, v) => Math.max(a, Math.abs(v ?? 0)), 0);
   return (
     <Section title={result.solutions.length > 1 ? `Parameters of solution ${index + 1}` : "Parameters"} id="parameters">
       <div class="scroll">
@@ -175,7 +178,7 @@ export function Parameters() {
             {list.map((p) => {
               const free = p.lower === null && p.upper === null;
               const fixed = !free && p.lower === p.upper;
-              const unit = unitOf(p.key, Math.max(Math.abs(p.value ?? 0), fixed ? 0 : Math.abs(p.lower ?? 0), fixed ? 0 : Math.abs(p.upper ?? 0)));
+              const unit = unitOf(p.key, largest);
               const show = (v: Num, digits = 9) => (v === null ? "–" : format(v * unit.factor, digits) + (unit.symbol === "°" ? "°" : unit.symbol ? `\u202f${unit.symbol}` : ""));
               const span = p.lower !== null && p.upper !== null ? p.upper - p.lower : Math.abs(p.value ?? 1);
               const near = (b: Num) => !fixed && b !== null && p.value !== null && Math.abs(p.value - b) <= 1e-6 * span;

@@ -1,10 +1,10 @@
 // Controls of the motion and of what is drawn.
 import type { Signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { Drawing, fitView, SpeedLegend, whiskerFactor, zoomBy } from "./drawing";
+import { Drawing, extent, fitView, SpeedLegend, whiskerFactor, zoomBy } from "./drawing";
 import { gaps, inputAt, isAssembled, placeNear, positionOfTurn, step } from "./motion";
 import * as state from "./state";
-import { format, quantity, unitOf } from "./units";
+import { format, lengthUnit, quantity, unitOf } from "./units";
 
 const toggle = (flag: Signal<boolean>) => (flag.value = !flag.value);
 const walk = (count: number) => state.scrub(step(state.motion.value, state.position.value, count));
@@ -34,7 +34,6 @@ function onKey(event: KeyboardEvent) {
   const target = event.target as HTMLElement;
   if (event.ctrlKey || event.metaKey || event.altKey || target.closest("select, textarea, summary, a, pre")) return;
   if (target.closest("button") && (event.key === " " || event.key === "Enter")) return;
-  if (target.closest("input") && event.key.startsWith("Arrow")) return;
   const act = keys[event.key];
   // Home and End belong to the page unless the drawing or its controls have the focus.
   if (!act || (["Home", "End"].includes(event.key) && !target.closest(".machine"))) return;
@@ -77,12 +76,13 @@ function Readout() {
   const unit = unitOf(scene.input_key);
   const tracer = scene.joints.find((j) => j.style === "tracer");
   const p = tracer && placeNear(scene, tracer.point, at);
+  const length = lengthUnit(extent.value);
   const value = inputAt(motion, at) * unit.factor;
   return (
     <dl class="title-block">
       <div class="wide"><dt>mechanism</dt><dd>{scene.title}</dd></div>
       <div><dt>{scene.input_label || "input"}</dt><dd id="input-value">{unit.symbol === "°" ? value.toFixed(1).replace("-", "−") : format(value, 5)}{unit.symbol === "°" ? "°" : ` ${unit.symbol}`}</dd></div>
-      {tracer && <div class="mid"><dt>{`point ${tracer.name}`}</dt><dd>{p ? `${quantity("_m", p.x, 4)}, ${quantity("_m", p.y, 4)}` : "–"}</dd></div>}
+      {tracer && <div class="mid"><dt>{`point ${tracer.name}`}</dt><dd>{p ? `${format(p.x * length.factor, 5)}, ${format(p.y * length.factor, 5)} ${length.symbol}` : "–"}</dd></div>}
       <div><dt>state</dt><dd class={good ? "ok" : "fail"}>{good ? "assembled" : (scene.status[Math.round(at)] ?? "no assembly").replace(/_/g, " ")}</dd></div>
     </dl>
   );

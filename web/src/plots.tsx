@@ -14,16 +14,16 @@ const seriesColours = ["--c0", "--c5", "--c2", "--c3", "--c1", "--c4"];
 const dashes = [[], [8, 4], [2, 3], [10, 3, 2, 3], [5, 2], [1, 2]];
 const height = 230;
 
-export const axis = (label: string, log = false): uPlot.Axis => ({
+const axis = (label: string, log = false): uPlot.Axis => ({
   label,
-  labelSize: 22,
+  labelSize: 20,
   labelFont: "12px system-ui, sans-serif",
   font: "11px system-ui, sans-serif",
   stroke: () => css("--soft"),
   grid: { stroke: () => css("--faint"), width: 1 },
   ticks: { stroke: () => css("--line"), width: 1, size: 5 },
   values: (_, ticks) => ticks.map((t) => (t === null ? "" : log && Math.abs(Math.log10(t) % 1) > 1e-9 && ticks.length > 12 ? "" : format(t, 5))),
-  size: label ? undefined : 30,
+  size: (_, values, index) => (index === 0 ? 30 : Math.max(40, 14 + 6.4 * (values ?? []).reduce((n, v) => Math.max(n, v.length), 0))),
 });
 
 interface Props {

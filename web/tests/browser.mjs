@@ -45,7 +45,7 @@ test("the report stands, complete and without errors", async () => {
   assert.equal(await page.locator("#static").count(), 0);
   assert.match(await page.locator("h1").innerText(), /Four-bar through 18 points/);
   assert.match(await page.locator(".verdict").innerText(), /2 of 2 checks passed/);
-  for (const [part, count] of [[".link", 3], [".joint", 5], [".target", 18], [".worst", 2], [".chart canvas", 3], ["#solutions tbody tr", 3],
+  for (const [part, count] of [["#drawing .link", 3], [".joint", 5], [".target", 18], [".worst", 2], [".chart canvas", 3], ["#solutions tbody tr", 3],
     ["#parameters tbody tr", 8], ["#published tbody tr", 2], [".dots circle", 12], [".remarks li", 1], [".facts > div", 9]])
     assert.equal(await page.locator(part).count(), count, part);
   assert.equal(await page.locator("#parameters", { hasText: "at upper bound" }).count(), 1);
