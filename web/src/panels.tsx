@@ -207,8 +207,9 @@ function Distribution() {
   const bins = 60;
   const { logarithmic, low, high, dots } = stackDots(values, bins);
   const tallest = Math.max(...dots.map((d) => d.level)) + 1;
-  const [w, h] = [520, 190];
-  const pitch = Math.min(11, (h - 20) / tallest);
+  const w = 520;
+  const h = Math.min(190, Math.max(70, tallest * 11 + 16));
+  const pitch = Math.min(11, (h - 16) / tallest);
   const middle = logarithmic ? Math.sqrt(low * high) : (low + high) / 2;
   const known = values.filter((v): v is number => v !== null);
   const spread = Math.max(...known) - Math.min(...known);

@@ -46,7 +46,8 @@ export function Chart({ label, options, data, linked = false, factor = 1, units 
       new uPlot(
         {
           ...options(),
-          width: element.clientWidth || 500,
+          // Two plots stand side by side on an A4 page; its layout comes too late to be measured.
+          width: state.printing ? 310 : element.clientWidth || 500,
           height,
           legend: { show: false },
           hooks: {
@@ -90,7 +91,6 @@ export function Chart({ label, options, data, linked = false, factor = 1, units 
     const observer = new ResizeObserver(() => {
       if (!plot || !element.clientWidth || element.clientWidth === plot.width) return;
       plot.setSize({ width: element.clientWidth, height });
-      state.theme.value; // the marker follows below
       if (now && linked) now.style.transform = `translateX(${plot.valToPos(inputAt(state.motion.peek(), state.position.peek()) * factor, "x").toFixed(1)}px)`;
     });
     observer.observe(element);

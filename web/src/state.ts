@@ -32,14 +32,15 @@ export const whisker = signal<number | "auto">("auto");
 export const theme = signal(0);
 for (const query of ["(prefers-color-scheme: dark)", "print"])
   matchMedia(query).addEventListener("change", () => theme.value++);
-addEventListener("beforeprint", () => {
-  document.documentElement.dataset.theme = "light";
+export let printing = false;
+const print = (now: boolean) => {
+  printing = now;
+  if (now) document.documentElement.dataset.theme = "light";
+  else delete document.documentElement.dataset.theme;
   theme.value++;
-});
-addEventListener("afterprint", () => {
-  delete document.documentElement.dataset.theme;
-  theme.value++;
-});
+};
+addEventListener("beforeprint", () => print(true));
+addEventListener("afterprint", () => print(false));
 
 export function showScene(index: number): void {
   if (index < 0 || index >= view.scenes.length) return;

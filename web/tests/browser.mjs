@@ -29,7 +29,12 @@ async function open(name, options = {}) {
 const tests = [];
 const test = (name, run) => tests.push({ name, run });
 const position = (page) => page.locator("#drawing .pose").getAttribute("data-position").then(Number);
-const crank = (page) => page.locator('[data-body="crank"] .bar').getAttribute("d");
+const crank = (page) => page.locator('.pose [data-body="crank"] .bar').getAttribute("d");
+// The page forbids eval, so that its state is asked for from here.
+async function until(what) {
+  for (const end = Date.now() + 10_000; Date.now() < end; await new Promise((resolve) => setTimeout(resolve, 30))) if (await what()) return;
+  assert.fail(`never happened: ${what}`);
+}
 const marker = (page, plot) => page.locator(`[data-plot="${plot}"] .now`).evaluate((e) => new DOMMatrix(getComputedStyle(e).transform).e);
 const pause = async (page) => {
   if ((await page.locator("#play").getAttribute("aria-label")) === "Pause") await page.locator("#play").click();
@@ -56,19 +61,19 @@ test("the report stands, complete and without errors", async () => {
 test("it moves at once, pauses and plays", async () => {
   const { page, close } = await open("report.html");
   const before = await crank(page);
-  await page.waitForFunction((d) => document.querySelector('[data-body="crank"] .bar').getAttribute("d") !== d, before);
+  await until(async () => (await crank(page)) !== before);
   await page.locator("#play").click();
   const still = await crank(page);
   await page.waitForTimeout(200);
   assert.equal(await crank(page), still);
   await page.locator("body").press(" ");
-  await page.waitForFunction((d) => document.querySelector('[data-body="crank"] .bar').getAttribute("d") !== d, still);
+  await until(async () => (await crank(page)) !== still);
   await close();
 });
 
 test("links keep their length while it moves", async () => {
   const { page, close } = await open("report.html");
-  const length = () => page.locator('[data-body="crank"] .bar').evaluate((e) => e.getTotalLength());
+  const length = () => page.locator('.pose [data-body="crank"] .bar').evaluate((e) => e.getTotalLength());
   await pause(page);
   const before = await length();
   for (let i = 0; i < 5; ++i) await page.locator("body").press("Shift+ArrowRight");
@@ -97,7 +102,7 @@ test("pointing at a plot moves the mechanism there", async () => {
   const box = await over.boundingBox();
   await page.mouse.move(box.x + box.width * 0.5, box.y + 40);
   await page.mouse.move(box.x + box.width * 0.75, box.y + 40);
-  await page.waitForFunction(() => Math.abs(Number(document.querySelector("#drawing .pose").dataset.position) - 270) < 3);
+  await until(async () => Math.abs((await position(page)) - 270) < 3);
   await close();
 });
 
@@ -181,6 +186,19 @@ test("downloads have their content", async () => {
   await close();
 });
 
+test("it prints in light colours and returns to the screen", async () => {
+  const { page, errors, close } = await open("report.html", { colorScheme: "dark" });
+  const width = await page.locator(".chart canvas").first().evaluate((e) => e.clientWidth);
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  assert.equal(await page.locator("html").getAttribute("data-theme"), "light");
+  assert.equal(await page.locator(".uplot").first().evaluate((e) => e.clientWidth), 310);
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  assert.equal(await page.locator(".chart canvas").first().evaluate((e) => e.clientWidth), width);
+  assert.equal((await page.pdf({ format: "A4" })).subarray(0, 4).toString(), "%PDF");
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("reduced motion is respected", async () => {
   const { page, close } = await open("report.html", { reducedMotion: "reduce" });
   const before = await position(page);
@@ -227,6 +245,14 @@ if (pictures)
       await page.waitForTimeout(200);
       await page.screenshot({ path: join(pictures, `${name}.png`), fullPage: true });
       if (name === "light") {
+        await page.emulateMedia({ media: "print" });
+        await page.setViewportSize({ width: 703, height: 1000 });
+        await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+        await page.waitForTimeout(300);
+        await page.screenshot({ path: join(pictures, "print.png"), fullPage: true });
+        await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+        await page.emulateMedia({ media: "screen" });
+        await page.setViewportSize({ width: 1360, height: 900 });
         await page.locator('[data-solution="2"]').click();
         await page.locator("#scrub").fill("40");
         await page.screenshot({ path: join(pictures, "gaps.png") });

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "linkwright/core/check.h"
@@ -117,13 +118,14 @@ void draw_body(std::string& out, const Canvas& canvas, const Scene& scene, const
         path);
     return;
   }
+  if (plate) put(out, "<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.24\"/>", path, colour);
   // A rounded bar with an outline is a thick line under a slightly thinner one.
-  put(out,
-      "<path d=\"{0}\" fill=\"none\" stroke=\"{1}\" stroke-width=\"{2}\" stroke-linecap=\"round\" "
-      "stroke-linejoin=\"round\"/>"
-      "<path d=\"{0}\" fill=\"{3}\" stroke=\"{4}\" stroke-width=\"{5}\" stroke-linecap=\"round\" "
-      "stroke-linejoin=\"round\"/></g>\n",
-      path, ink, bar_width, plate ? colour : "none", colour, bar_width - 2.6);
+  for (const auto& [stroke, width] : {std::pair{ink, bar_width}, std::pair{colour, bar_width - 2.6}})
+    put(out,
+        "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" "
+        "stroke-linejoin=\"round\"/>",
+        path, stroke, width);
+  out += "</g>\n";
 }
 
 void draw_joint(std::string& out, const Canvas& canvas, const Scene& scene, const Scene::Joint& joint,
@@ -156,18 +158,15 @@ void draw_joint(std::string& out, const Canvas& canvas, const Scene& scene, cons
   out += "</g>\n";
 }
 
-void draw_pose(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample, bool labels) {
-  // Plates lie under bars, so that the pins of both stay in sight.
-  for (const bool plates : {true, false}) {
-    std::size_t colour = 0;
-    for (const auto& body : scene.bodies) {
-      const std::string_view fill = body_colours[colour % body_colours.size()];
-      if (body.style != Scene::BodyStyle::ground) ++colour;
-      if ((body.style == Scene::BodyStyle::plate) == plates)
-        draw_body(out, canvas, scene, body, sample, fill);
-    }
+// Plates lie under the traces, bars above them, so that traces and pins stay in sight.
+void draw_bodies(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample,
+                 bool plates) {
+  std::size_t colour = 0;
+  for (const auto& body : scene.bodies) {
+    const std::string_view fill = body_colours[colour % body_colours.size()];
+    if (body.style != Scene::BodyStyle::ground) ++colour;
+    if ((body.style == Scene::BodyStyle::plate) == plates) draw_body(out, canvas, scene, body, sample, fill);
   }
-  for (const auto& joint : scene.joints) draw_joint(out, canvas, scene, joint, sample, labels);
 }
 
 void draw_traces(std::string& out, const Canvas& canvas, const Scene& scene) {
@@ -234,18 +233,17 @@ std::string svg(const study::Scene& scene, const SvgOptions& options) {
       "<rect class=\"paper\" width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"{3}\"/>\n",
       canvas.width(), canvas.height(), escape(scene.title), paper);
   if (options.grid) draw_grid(out, canvas);
-  if (options.ghosts > 0) {
-    out += "<g class=\"ghosts\" opacity=\"0.14\">\n";
-    for (int i = 0; i < options.ghosts; ++i)
-      draw_pose(out, canvas, scene,
-                scene.samples() * static_cast<std::size_t>(i) / static_cast<std::size_t>(options.ghosts),
-                false);
+  for (int i = 0; i < options.ghosts; ++i) {
+    const std::size_t ghost =
+        scene.samples() * static_cast<std::size_t>(i) / static_cast<std::size_t>(options.ghosts);
+    out += "<g class=\"ghost\" opacity=\"0.13\">\n";
+    for (const bool plates : {true, false}) draw_bodies(out, canvas, scene, ghost, plates);
     out += "</g>\n";
   }
+  draw_bodies(out, canvas, scene, sample, true);
   if (options.traces) draw_traces(out, canvas, scene);
-  out += "<g class=\"pose\">\n";
-  draw_pose(out, canvas, scene, sample, options.labels);
-  out += "</g>\n";
+  draw_bodies(out, canvas, scene, sample, false);
+  for (const auto& joint : scene.joints) draw_joint(out, canvas, scene, joint, sample, options.labels);
   if (options.targets) draw_targets(out, canvas, scene, options.whisker_scale);
   out += "</svg>\n";
   return out;
