@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "linkwright/study/scene.h"
+
+/// What SVG, DXF and HTML have in common when they draw a scene.
+namespace linkwright::report {
+
+/// Rectangle in metres; empty while x_min > x_max.
+struct Box {
+  double x_min = 1, x_max = -1;
+  double y_min = 1, y_max = -1;
+  bool empty() const { return x_min > x_max || y_min > y_max; }
+  double width() const { return x_max - x_min; }
+  double height() const { return y_max - y_min; }
+  /// Takes in a point; one with a NaN or infinite coordinate is left out.
+  void add(double x, double y);
+};
+
+/// Smallest rectangle with every finite point of the scene, over all samples, and its targets.
+Box bounds(const study::Scene& scene);
+
+/// A place in the plane (m); NaN when it does not exist.
+struct Place {
+  double x = 0, y = 0;
+  bool finite() const;
+};
+
+/// Where a point is at a sample: its only entry when it does not move, NaN when the sample or point is not
+/// there.
+Place place(const study::Scene& scene, int point, std::size_t sample);
+
+/// True when every point of the scene exists at the sample.
+bool assembled(const study::Scene& scene, std::size_t sample);
+
+/// The sample to draw when one must do: the first that is assembled; 0 when none is.
+std::size_t reference_sample(const study::Scene& scene);
+
+/// The largest of 1, 2, 5 times a power of ten that is not above `span / divisions`; 1 for a span of 0 or
+/// NaN.
+double nice_step(double span, double divisions);
+
+/// Length unit for drawings of this size: factor from metres and its symbol.
+struct LengthUnit {
+  double per_metre = 1;
+  std::string symbol = "m";
+};
+/// Millimetres below one metre, else metres.
+LengthUnit length_unit(double size);
+
+/// Index of the target point that is missed most, and by how much (m); distance is negative when there is
+/// none.
+struct Worst {
+  std::size_t index = 0;
+  double distance = -1;
+};
+Worst worst(const study::Scene::Target& target);
+
+}  // namespace linkwright::report

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "linkwright/study/scene.h"
+
+namespace linkwright::report {
+
+/// Which parts of a scene go into a DXF file; each is a layer of that name.
+struct DxfLayers {
+  bool ground = true;
+  bool links = true;
+  bool joints = true;
+  bool trace = true;
+  bool targets = true;
+};
+
+struct DxfOptions {
+  std::optional<std::size_t> sample;  ///< pose to draw; none = the first that is assembled
+  DxfLayers layers;
+};
+
+/// The scene as an AutoCAD R12 (AC1009) drawing in millimetres, scale 1:1, for CAD and workshop: bars as
+/// LINE, plates and traces as POLYLINE, pins as CIRCLE with their name as TEXT, targets as POINT. Points that
+/// do not exist at the sample are left out. Throws ContractError when `sample` is not one of the scene.
+std::string dxf(const study::Scene& scene, const DxfOptions& options = {});
+
+}  // namespace linkwright::report

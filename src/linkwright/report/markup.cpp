@@ -1,0 +1,102 @@
+#include "linkwright/report/markup.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace linkwright::report {
+namespace {
+
+constexpr std::string_view replacement = "\xEF\xBF\xBD";
+
+// Length in bytes of the UTF-8 character that starts at `i`; 0 when there is none (RFC 3629, section 4).
+std::size_t character_length(std::string_view text, std::size_t i) {
+  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
+  const auto tail = [&](std::size_t k) { return (byte(k) & 0xC0u) == 0x80u; };
+  const unsigned first = byte(i);
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first < 0xE0) return tail(i + 1) ? 2 : 0;
+  if (first >= 0xE0 && first < 0xF0) {
+    if (!tail(i + 1) || !tail(i + 2)) return 0;
+    if ((first == 0xE0 && byte(i + 1) < 0xA0) || (first == 0xED && byte(i + 1) >= 0xA0)) return 0;
+    return 3;
+  }
+  if (first >= 0xF0 && first < 0xF5) {
+    if (!tail(i + 1) || !tail(i + 2) || !tail(i + 3)) return 0;
+    if ((first == 0xF0 && byte(i + 1) < 0x90) || (first == 0xF4 && byte(i + 1) >= 0x90)) return 0;
+    return 4;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::string valid_utf8(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = character_length(text, i);
+    out += length == 0 ? replacement : text.substr(i, length);
+    i += length == 0 ? 1 : length;
+  }
+  return out;
+}
+
+std::string escape(std::string_view text) {
+  std::string out;
+  out.reserve(text.size() + 16);
+  for (const char c : valid_utf8(text)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else if (c == '\'')
+      out += "&#39;";
+    else if ((byte < 0x20 && c != '\t' && c != '\n' && c != '\r') || byte == 0x7F)
+      out += replacement;
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string number(double value, int digits) {
+  if (std::isnan(value)) return "–";
+  if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
+  return fmt::format("{:.{}g}", value == 0 ? 0.0 : value, digits);
+}
+
+std::string display(const Value& value) {
+  if (value.is_null()) return "–";
+  if (value.is_bool()) return value.as_bool() ? "yes" : "no";
+  if (value.is_integer()) return fmt::format("{}", value.as_integer());
+  if (value.is_number()) return number(value.as_number());
+  if (value.is_string()) return value.as_string();
+  std::string out;
+  if (value.is_array()) {
+    for (const Value& item : value.as_array()) out += (out.empty() ? "" : ", ") + display(item);
+  } else {
+    for (const auto& member : value.as_object())
+      out += (out.empty() ? "" : ", ") + member.key + ": " + display(member.value);
+  }
+  return out;
+}
+
+std::string script_safe(std::string json) {
+  std::string out;
+  out.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<')
+      out += "\\u003c";
+    else
+      out += c;
+  }
+  return out;
+}
+
+}  // namespace linkwright::report

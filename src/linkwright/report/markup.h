@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "linkwright/core/value.h"
+
+/// Text that is safe inside HTML, SVG and script elements.
+namespace linkwright::report {
+
+/// The text with every byte that is not part of a UTF-8 character (RFC 3629) replaced by U+FFFD.
+std::string valid_utf8(std::string_view text);
+
+/// Text for element content and for attributes in either quotes: & < > " ' become references, control
+/// characters that XML forbids become U+FFFD, as do bytes that are not UTF-8.
+std::string escape(std::string_view text);
+
+/// A number for people: `digits` significant digits, "–" for NaN.
+std::string number(double value, int digits = 6);
+
+/// A scalar for people: text as it is, numbers by number(), "yes"/"no"; arrays and objects joined by commas.
+std::string display(const Value& value);
+
+/// JSON text that cannot end a script element nor open a comment in it: every < is written as an escape.
+std::string script_safe(std::string json);
+
+}  // namespace linkwright::report

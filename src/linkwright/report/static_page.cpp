@@ -1,0 +1,184 @@
+#include "linkwright/report/static_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <iterator>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/status.h"
+#include "linkwright/report/markup.h"
+#include "linkwright/report/svg.h"
+
+namespace linkwright::report {
+namespace {
+
+constexpr std::size_t longest_table = 40;
+
+template <class... Args>
+void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
+}
+
+// A table of texts; every cell is escaped here and nowhere else.
+class Sheet {
+ public:
+  Sheet(std::string& out, const std::vector<std::string>& head) : out_(out) {
+    out_ += "<div class=\"scroll\"><table><thead><tr>";
+    for (const auto& cell : head) put(out_, "<th scope=\"col\">{}</th>", escape(cell));
+    out_ += "</tr></thead><tbody>\n";
+  }
+  ~Sheet() { out_ += "</tbody></table></div>\n"; }
+  Sheet(const Sheet&) = delete;
+  Sheet& operator=(const Sheet&) = delete;
+  void row(const std::vector<std::string>& cells) {
+    out_ += "<tr>";
+    for (const auto& cell : cells) put(out_, "<td>{}</td>", escape(cell));
+    out_ += "</tr>\n";
+  }
+
+ private:
+  std::string& out_;
+};
+
+void heading(std::string& out, std::string_view text) { put(out, "<h2>{}</h2>\n", escape(text)); }
+
+void write_banner(std::string& out, const ReportInput& input) {
+  const auto& result = input.result;
+  const auto failed =
+      std::count_if(result.checks.begin(), result.checks.end(), [](const auto& c) { return !c.passed; });
+  put(out, "<header><p class=\"kicker\">Linkwright report</p><h1>{}</h1>", escape(input.title));
+  if (!input.source.empty()) put(out, "<p class=\"source\">{}</p>", escape(input.source));
+  const bool good = failed == 0 && result.status == Status::done;
+  put(out, "<div class=\"verdict {}\"><strong>{}</strong><span>status {}", good ? "good" : "bad",
+      escape(result.headline), to_string(result.status));
+  if (!result.checks.empty())
+    put(out, " · {} of {} checks passed", result.checks.size() - static_cast<std::size_t>(failed),
+        result.checks.size());
+  out += "</span></div></header>\n";
+  if (!result.facts.empty()) {
+    out += "<dl class=\"facts\">";
+    for (const auto& fact : result.facts)
+      put(out, "<div><dt>{}</dt><dd>{}</dd></div>", escape(fact.label), escape(fact.text));
+    out += "</dl>\n";
+  }
+  if (!result.checks.empty()) {
+    heading(out, "Checks");
+    Sheet sheet(out, {"quantity", "at", "value", "limit", "outcome"});
+    for (const auto& check : result.checks)
+      sheet.row({check.quantity, check.at, check.message.empty() ? number(check.value, 9) : check.message,
+                 check.limit, check.passed ? "passed" : "failed"});
+  }
+}
+
+void write_drawings(std::string& out, const study::Result& result) {
+  for (const auto& scene : result.scenes) {
+    SvgOptions options;
+    options.ghosts = 8;
+    put(out, "<figure class=\"drawing\">{}<figcaption>{}</figcaption></figure>\n", svg(scene, options),
+        escape(scene.title));
+  }
+}
+
+std::string bound(double value) { return std::isinf(value) ? "none" : number(value, 9); }
+
+void write_solutions(std::string& out, const study::Result& result) {
+  if (result.solutions.empty()) return;
+  heading(out, "Solutions");
+  {
+    Sheet sheet(out, {"solution", "objectives", "classification", "defects"});
+    for (const auto& s : result.solutions) {
+      const std::string defects = s.defects.is_null() ? "" : display(s.defects);
+      sheet.row(
+          {s.label, display(s.objectives), display(s.classification), defects.empty() ? "none" : defects});
+    }
+  }
+  heading(out, "Parameters of the best solution");
+  Sheet sheet(out, {"parameter", "key", "value", "lower bound", "upper bound"});
+  for (const auto& p : result.solutions.front().parameters) {
+    const bool fixed = p.lower == p.upper;
+    sheet.row({p.label, p.key, number(p.value, 12), fixed ? "fixed" : bound(p.lower),
+               fixed ? "fixed" : bound(p.upper)});
+  }
+}
+
+void write_comparisons(std::string& out, const study::Result& result) {
+  if (result.comparisons.empty()) return;
+  heading(out, "Published and ours");
+  Sheet sheet(out, {"item", "source", "published", "ours", "verdict", "note"});
+  for (const auto& c : result.comparisons)
+    sheet.row({c.item, c.source, number(c.published, 9), number(c.ours, 9), c.verdict, c.note});
+}
+
+void write_object(std::string& out, std::string_view title, const Value& object) {
+  if (!object.is_object() || object.as_object().empty()) return;
+  heading(out, title);
+  Sheet sheet(out, {"quantity", "value"});
+  for (const auto& member : object.as_object()) sheet.row({member.key, display(member.value)});
+}
+
+void write_log(std::string& out, const Value& log) {
+  if (!log.is_array() || log.as_array().empty() || !log.as_array().front().is_object()) return;
+  heading(out, "Runs");
+  // Histories are long and belong into plots; the columns are the scalars of the first run.
+  std::vector<std::string> keys;
+  for (const auto& member : log.as_array().front().as_object())
+    if (!member.value.is_array() && !member.value.is_object()) keys.push_back(member.key);
+  Sheet sheet(out, keys);
+  for (const Value& entry : log.as_array()) {
+    std::vector<std::string> cells;
+    for (const auto& key : keys) {
+      const Value* value = entry.find(key);
+      cells.push_back(value ? display(*value) : "");
+    }
+    sheet.row(cells);
+  }
+}
+
+void write_tables(std::string& out, const study::Result& result) {
+  for (const auto& table : result.tables) {
+    heading(out, table.name);
+    const std::size_t step = std::max<std::size_t>(1, (table.rows() + longest_table - 1) / longest_table);
+    if (step > 1) put(out, "<p class=\"note\">Every {}th of {} rows.</p>\n", step, table.rows());
+    std::vector<std::string> head;
+    for (const auto& column : table.columns) head.push_back(column.label.empty() ? column.key : column.label);
+    if (!table.status.empty()) head.push_back("status");
+    Sheet sheet(out, head);
+    for (std::size_t row = 0; row < table.rows(); row += step) {
+      std::vector<std::string> cells;
+      for (const auto& column : table.columns)
+        cells.push_back(row < column.values.size() ? number(column.values[row]) : "");
+      if (!table.status.empty()) cells.push_back(row < table.status.size() ? table.status[row] : "");
+      sheet.row(cells);
+    }
+  }
+}
+
+}  // namespace
+
+std::string static_page(const ReportInput& input) {
+  std::string out;
+  write_banner(out, input);
+  write_drawings(out, input.result);
+  write_solutions(out, input.result);
+  write_comparisons(out, input.result);
+  write_object(out, "Statistics", input.result.statistics);
+  write_log(out, input.result.log);
+  if (!input.result.diagnostics.empty()) {
+    heading(out, "Remarks");
+    out += "<ul>";
+    for (const auto& d : input.result.diagnostics) put(out, "<li>{}</li>", escape(to_string(d)));
+    out += "</ul>\n";
+  }
+  write_tables(out, input.result);
+  heading(out, "How to reproduce");
+  if (!input.command.empty()) put(out, "<pre>{}</pre>\n", escape(input.command));
+  if (!input.study_toml.empty()) put(out, "<pre class=\"study\">{}</pre>\n", escape(input.study_toml));
+  put(out, "<footer>{}</footer>\n", escape(input.tool));
+  return out;
+}
+
+}  // namespace linkwright::report

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "linkwright/study/scene.h"
+
+namespace linkwright::report {
+
+/// How a scene is drawn as a picture.
+struct SvgOptions {
+  std::optional<std::size_t> sample;  ///< pose to draw; none = the first that is assembled
+  double width = 900;                 ///< of the picture (px)
+  double max_height = 680;            ///< the scale is chosen so that the picture is not higher (px)
+  bool grid = true;                   ///< grid with lengths in mm or m
+  bool traces = true;
+  bool targets = true;       ///< target points with whiskers to what is achieved
+  bool labels = true;        ///< names of the joints
+  int ghosts = 0;            ///< pale poses at equal distances over the samples
+  double whisker_scale = 1;  ///< errors are drawn this many times larger
+};
+
+/// The scene as a complete SVG 1.1 document (UTF-8, no scripts, nothing loaded), drawn to scale. Points that
+/// do not exist at the sample are left out with the bodies and joints that need them; a scene without any
+/// finite point gives a picture that says so. Throws ContractError when `sample` is not one of the scene.
+std::string svg(const study::Scene& scene, const SvgOptions& options = {});
+
+}  // namespace linkwright::report

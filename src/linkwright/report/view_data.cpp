@@ -1,0 +1,154 @@
+#include "linkwright/report/view_data.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "linkwright/core/status.h"
+
+namespace linkwright::report {
+namespace {
+
+using study::Scene;
+
+// Nine digits are a millionth of a pixel and halve the size of the file.
+double rounded(double value) {
+  return std::isfinite(value) ? std::strtod(fmt::format("{:.9g}", value).c_str(), nullptr) : value;
+}
+
+Value coordinates(const std::vector<double>& values) {
+  Value out = Value::array();
+  for (const double v : values) out.push_back(rounded(v));
+  return out;
+}
+
+Value texts(const std::vector<std::string>& values) {
+  Value out = Value::array();
+  for (const auto& v : values) out.push_back(v);
+  return out;
+}
+
+Value indices(const std::vector<int>& values) {
+  Value out = Value::array();
+  for (const int v : values) out.push_back(v);
+  return out;
+}
+
+template <class T, class F>
+Value list(const std::vector<T>& items, F&& convert) {
+  Value out = Value::array();
+  for (const T& item : items) {
+    Value object = Value::object();
+    convert(object, item);
+    out.push_back(std::move(object));
+  }
+  return out;
+}
+
+Value scene_data(const Scene& scene) {
+  Value out = Value::object();
+  out["name"] = scene.name;
+  out["title"] = scene.title;
+  out["input_key"] = scene.input_key;
+  out["input_label"] = scene.input_label;
+  out["input"] = coordinates(scene.input);
+  out["status"] = texts(scene.status);
+  out["points"] = list(scene.points, [](Value& o, const Scene::Point& p) {
+    o["name"] = p.name;
+    o["x"] = coordinates(p.x);
+    o["y"] = coordinates(p.y);
+  });
+  out["bodies"] = list(scene.bodies, [](Value& o, const Scene::Body& b) {
+    o["name"] = b.name;
+    o["points"] = indices(b.points);
+    o["style"] = b.style == Scene::BodyStyle::ground  ? "ground"
+                 : b.style == Scene::BodyStyle::plate ? "plate"
+                                                      : "bar";
+  });
+  out["joints"] = list(scene.joints, [](Value& o, const Scene::Joint& j) {
+    o["name"] = j.name;
+    o["point"] = j.point;
+    o["style"] = j.style == Scene::JointStyle::ground_pivot ? "ground_pivot"
+                 : j.style == Scene::JointStyle::tracer     ? "tracer"
+                                                            : "pivot";
+  });
+  out["traces"] = list(scene.traces, [](Value& o, const Scene::Trace& t) {
+    o["point"] = t.point;
+    o["name"] = t.name;
+    o["closed"] = t.closed;
+  });
+  out["targets"] = list(scene.targets, [](Value& o, const Scene::Target& t) {
+    o["name"] = t.name;
+    o["x"] = t.x;
+    o["y"] = t.y;
+    // Not rounded: their differences are the errors, which may be tiny.
+    o["achieved_x"] = t.achieved_x;
+    o["achieved_y"] = t.achieved_y;
+    o["achieved_input"] = coordinates(t.achieved_input);
+    o["closed"] = t.closed;
+  });
+  return out;
+}
+
+Value parameters_data(const std::vector<study::Parameter>& parameters) {
+  return list(parameters, [](Value& o, const study::Parameter& p) {
+    o["key"] = p.key;
+    o["label"] = p.label;
+    o["value"] = p.value;
+    o["lower"] = p.lower;  // infinite = null = none
+    o["upper"] = p.upper;
+  });
+}
+
+}  // namespace
+
+Value view_data(const ReportInput& input) {
+  const study::Result& result = input.result;
+  Value out = Value::object();
+  out["title"] = input.title;
+  out["source"] = input.source;
+  out["tool"] = input.tool;
+  out["command"] = input.command;
+  out["study_toml"] = input.study_toml;
+  out["status"] = to_string(result.status);
+  out["headline"] = result.headline;
+  out["facts"] = list(result.facts, [](Value& o, const study::Fact& f) {
+    o["label"] = f.label;
+    o["text"] = f.text;
+    o["verdict"] = f.verdict == study::Fact::Verdict::good  ? "good"
+                   : f.verdict == study::Fact::Verdict::bad ? "bad"
+                                                            : "plain";
+  });
+  out["parameters"] = Value::array();
+  out["solution_scenes"] = Value::array();
+  for (const auto& s : result.solutions) {
+    out["parameters"].push_back(parameters_data(s.parameters));
+    out["solution_scenes"].push_back(s.scene);
+  }
+  out["scenes"] = Value::array();
+  for (const auto& scene : result.scenes) out["scenes"].push_back(scene_data(scene));
+  out["plots"] = list(result.plots, [](Value& o, const study::Plot& p) {
+    o["name"] = p.name;
+    o["title"] = p.title;
+    o["table"] = p.table;
+    o["x"] = p.x;
+    o["y"] = texts(p.y);
+    o["style"] = p.style == study::Plot::Style::points      ? "points"
+                 : p.style == study::Plot::Style::histogram ? "histogram"
+                                                            : "line";
+    o["logarithmic_y"] = p.logarithmic_y;
+    o["scene"] = p.scene;
+  });
+  out["comparisons"] = list(result.comparisons, [](Value& o, const study::Comparison& c) {
+    o["item"] = c.item;
+    o["source"] = c.source;
+    o["published"] = c.published;
+    o["ours"] = c.ours;
+    o["verdict"] = c.verdict;
+    o["note"] = c.note;
+  });
+  return out;
+}
+
+}  // namespace linkwright::report

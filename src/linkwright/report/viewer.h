@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+namespace linkwright::report {
+
+/// Style sheet of every report.
+std::string_view report_css();
+/// Script and style sheet of the viewer; both empty when it was not built (LINKWRIGHT_REPORT_VIEWER=OFF).
+std::string_view viewer_js();
+std::string_view viewer_css();
+
+}  // namespace linkwright::report

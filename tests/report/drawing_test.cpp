@@ -1,0 +1,79 @@
+#include "linkwright/report/drawing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/report/sample_result.h"
+
+namespace linkwright::report {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Drawing, BoundsLeaveOutWhatDoesNotExist) {
+  study::Scene scene;
+  EXPECT_TRUE(bounds(scene).empty());
+  scene.points = {{"A", {1, nan, 3}, {5, 6, 4}}};
+  study::Scene::Target target;
+  target.x = {-1};
+  target.y = {4.5};
+  scene.targets = {target};
+  const Box box = bounds(scene);
+  EXPECT_EQ(box.x_min, -1);
+  EXPECT_EQ(box.x_max, 3);
+  EXPECT_EQ(box.y_min, 4);
+  EXPECT_EQ(box.y_max, 5);
+}
+
+TEST(Drawing, PlacesOfFixedMovingAndMissingPoints) {
+  study::Scene scene;
+  scene.input = {0, 1};
+  scene.points = {{"O", {7}, {8}}, {"A", {1, nan}, {2, nan}}};
+  EXPECT_EQ(place(scene, 0, 1).x, 7);
+  EXPECT_EQ(place(scene, 1, 0).y, 2);
+  EXPECT_FALSE(place(scene, 1, 1).finite());
+  EXPECT_FALSE(place(scene, 2, 0).finite());
+  EXPECT_FALSE(place(scene, -1, 0).finite());
+  EXPECT_TRUE(assembled(scene, 0));
+  EXPECT_FALSE(assembled(scene, 1));
+}
+
+TEST(Drawing, ReferenceSampleIsTheFirstAssembledOne) {
+  study::Scene scene;
+  scene.input = {0, 1, 2};
+  scene.points = {{"A", {nan, 1, 1}, {nan, 1, 1}}};
+  EXPECT_EQ(reference_sample(scene), 1u);
+  scene.status = {"no_assembly", "no_assembly", "done"};
+  EXPECT_EQ(reference_sample(scene), 2u);
+  scene.status = {"no_assembly", "no_assembly", "no_assembly"};
+  EXPECT_EQ(reference_sample(scene), 0u);
+}
+
+TEST(Drawing, NiceSteps) {
+  EXPECT_DOUBLE_EQ(nice_step(9.9, 10), 0.5);
+  EXPECT_DOUBLE_EQ(nice_step(30, 10), 2);
+  EXPECT_DOUBLE_EQ(nice_step(0.012, 1), 0.01);
+  EXPECT_EQ(nice_step(0, 5), 1);
+  EXPECT_EQ(nice_step(nan, 5), 1);
+}
+
+TEST(Drawing, UnitsFollowTheSize) {
+  EXPECT_EQ(length_unit(0.3).symbol, "mm");
+  EXPECT_EQ(length_unit(2).symbol, "m");
+}
+
+TEST(Drawing, WorstTarget) {
+  study::Scene::Target target;
+  EXPECT_LT(worst(target).distance, 0);
+  target.x = {0, 0, 0};
+  target.y = {0, 0, 0};
+  target.achieved_x = {3, nan, 1};
+  target.achieved_y = {4, nan, 1};
+  EXPECT_EQ(worst(target).index, 0u);
+  EXPECT_DOUBLE_EQ(worst(target).distance, 5);
+}
+
+}  // namespace
+}  // namespace linkwright::report

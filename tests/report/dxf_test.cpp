@@ -1,0 +1,53 @@
+#include "linkwright/report/dxf.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "linkwright/core/check.h"
+#include "tests/report/sample_result.h"
+
+namespace linkwright::report {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// What other programs read is tested by check_dxf.py.
+
+TEST(Dxf, LayersCanBeLeftOut) {
+  const auto result = test::sample_result();
+  DxfOptions options;
+  options.layers = {.ground = false, .links = true, .joints = false, .trace = false, .targets = false};
+  const std::string text = dxf(result.scenes[0], options);
+  const std::string entities = text.substr(text.find("ENTITIES"));
+  EXPECT_THAT(entities, HasSubstr("LINKS"));
+  for (const char* layer : {"GROUND", "JOINTS", "TRACE", "TARGETS"})
+    EXPECT_THAT(entities, Not(HasSubstr(layer)));
+}
+
+TEST(Dxf, MissingPointsAreLeftOutAndTracesBroken) {
+  const auto result = test::sample_result();
+  const std::string text = dxf(result.scenes[2]);
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+  EXPECT_THAT(text, HasSubstr("TRACE"));
+}
+
+TEST(Dxf, NamesCannotAddLines) {
+  auto result = test::sample_result();
+  result.scenes[0].joints[0].name = "O\n  0\nEOF ö";
+  EXPECT_THAT(dxf(result.scenes[0]), HasSubstr("O?  0?EOF ??\n"));
+}
+
+TEST(Dxf, EmptySceneIsAnEmptyDrawing) {
+  const std::string text = dxf(study::Scene());
+  EXPECT_THAT(text, HasSubstr("ENTITIES\n  0\nENDSEC\n  0\nEOF\n"));
+}
+
+TEST(Dxf, SampleOutsideTheSceneBreaksTheContract) {
+  DxfOptions options;
+  options.sample = 0;
+  EXPECT_THROW(dxf(study::Scene(), options), ContractError);
+}
+
+}  // namespace
+}  // namespace linkwright::report

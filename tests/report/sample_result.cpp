@@ -1,0 +1,294 @@
+#include "tests/report/sample_result.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include "linkwright/core/status.h"
+#include "linkwright/study/write.h"
+
+namespace linkwright::report::test {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double pi = std::numbers::pi;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array<double, 18> target_x = {0.50, 0.40, 0.30, 0.20, 0.10, 0.05, 0.02, 0.00, 0.00,
+                                             0.03, 0.10, 0.15, 0.20, 0.30, 0.40, 0.50, 0.60, 0.60};
+constexpr std::array<double, 18> target_y = {1.10, 1.10, 1.10, 1.00, 0.90, 0.75, 0.60, 0.50, 0.40,
+                                             0.30, 0.25, 0.20, 0.30, 0.40, 0.50, 0.70, 0.90, 1.00};
+
+struct Linkage {
+  double ground, crank, coupler, rocker, u, v, x, y, frame, start;
+};
+
+struct Pose {
+  Complex o, b0, a, b, c;
+  double transmission;  // rad
+};
+
+Pose pose(const Linkage& l, double angle) {
+  Pose p;
+  p.o = {l.x, l.y};
+  p.b0 = p.o + std::polar(l.ground, l.frame);
+  p.a = p.o + std::polar(l.crank, l.frame + angle);
+  const Complex d = p.b0 - p.a;
+  const double cosine =
+      (l.coupler * l.coupler + std::norm(d) - l.rocker * l.rocker) / (2 * l.coupler * std::abs(d));
+  const double theta = std::abs(cosine) > 1 ? nan : std::arg(d) + std::acos(cosine);
+  p.b = p.a + std::polar(l.coupler, theta);
+  p.c = p.a + Complex(l.u, l.v) * std::polar(1.0, theta);
+  const double folded = std::abs(std::remainder(std::arg((p.b - p.b0) / (p.b - p.a)), pi));
+  p.transmission = std::isnan(theta) ? nan : folded;
+  if (std::isnan(theta)) p.b = p.c = {nan, nan};
+  return p;
+}
+
+struct Sweep {
+  study::Scene scene;
+  Table table;
+  double error = 0;
+};
+
+Sweep sweep(const Linkage& l, const std::string& name, const std::string& title) {
+  Sweep out;
+  study::Scene& scene = out.scene;
+  scene.name = name;
+  scene.title = title;
+  scene.input_key = "crank_angle_rad";
+  scene.input_label = "crank angle";
+  const Pose first = pose(l, 0);
+  scene.points = {{"O", {first.o.real()}, {first.o.imag()}},
+                  {"B0", {first.b0.real()}, {first.b0.imag()}},
+                  {"A", {}, {}},
+                  {"B", {}, {}},
+                  {"C", {}, {}}};
+  std::vector<double> transmission;
+  for (int i = 0; i <= 360; ++i) {
+    const double angle = 2 * pi * i / 360;
+    const Pose p = pose(l, angle);
+    scene.input.push_back(angle);
+    scene.status.push_back(std::isnan(p.transmission) ? "no_assembly" : "done");
+    const Complex moving[] = {p.a, p.b, p.c};
+    for (std::size_t k = 0; k < 3; ++k) {
+      scene.points[k + 2].x.push_back(moving[k].real());
+      scene.points[k + 2].y.push_back(moving[k].imag());
+    }
+    transmission.push_back(p.transmission);
+  }
+  using Style = study::Scene::BodyStyle;
+  using Joint = study::Scene::JointStyle;
+  scene.bodies = {{"ground", {0, 1}, Style::ground},
+                  {"crank", {0, 2}, Style::bar},
+                  {"coupler", {2, 3, 4}, Style::plate},
+                  {"rocker", {1, 3}, Style::bar}};
+  scene.joints = {{"O", 0, Joint::ground_pivot},
+                  {"B0", 1, Joint::ground_pivot},
+                  {"A", 2, Joint::pivot},
+                  {"B", 3, Joint::pivot},
+                  {"C", 4, Joint::tracer}};
+  scene.traces = {{4, "coupler point", true}};
+  study::Scene::Target target;
+  target.name = "target";
+  target.closed = true;
+  for (std::size_t i = 0; i < target_x.size(); ++i) {
+    const double angle = l.start + pi / 9 * static_cast<double>(i);
+    const Pose p = pose(l, angle);
+    target.x.push_back(target_x[i]);
+    target.y.push_back(target_y[i]);
+    target.achieved_x.push_back(p.c.real());
+    target.achieved_y.push_back(p.c.imag());
+    target.achieved_input.push_back(std::isnan(p.transmission) ? nan : angle);
+    if (!std::isnan(p.transmission)) out.error += std::norm(p.c - Complex(target_x[i], target_y[i]));
+  }
+  scene.targets = {target};
+  out.table.name = "motion of " + name;
+  out.table.add("crank_angle_rad", "crank angle (rad)", scene.input);
+  out.table.add("coupler_x_m", "coupler point x (m)", scene.points[4].x);
+  out.table.add("coupler_y_m", "coupler point y (m)", scene.points[4].y);
+  out.table.add("transmission_angle_rad", "transmission angle (rad)", transmission);
+  out.table.status = scene.status;
+  return out;
+}
+
+}  // namespace
+
+study::Result sample_result() {
+  struct Named {
+    const char* label;
+    Linkage linkage;
+    const char* type;
+    Value defects;
+  };
+  // Boskovic 2018, Table 4.1, columns 6 and 5; the third does not turn fully.
+  const Named list[] = {
+      {"crank-rocker, open",
+       {1.10427, 0.4197, 0.98857, 0.5824, 0.40047, 0.44529, 0.28691, 0.09855, 0.33948, 0.84827},
+       "crank-rocker",
+       Value::array()},
+      {"crank-rocker, open (2)",
+       {1.00429, 0.4218, 0.87821, 0.58013, 0.35907, 0.38081, 0.26886, 0.17715, 0.29294, 0.88595},
+       "crank-rocker",
+       Value::array()},
+      {"double rocker, open",
+       {0.9, 0.62, 0.7, 0.6, 0.35, 0.38, 0.3, 0.2, 0.3, 1.5},
+       "triple rocker",
+       Value(Value::Array{Value("circuit"), Value("crank does not turn fully")})},
+  };
+  study::Result result;
+  int number = 0;
+  for (const auto& [label, l, type, defects] : list) {
+    const std::string name = fmt::format("solution-{}", ++number);
+    Sweep s = sweep(l, name, label);
+    study::Solution solution;
+    solution.label = label;
+    solution.scene = name;
+    solution.parameters = {{"ground_m", "ground length", l.ground, 0, 50},
+                           {"crank_m", "crank length", l.crank, 0, 50},
+                           {"coupler_m", "coupler length", l.coupler, 0, 50},
+                           {"rocker_m", "rocker length", l.rocker, 0.1, l.rocker},
+                           {"coupler_u_m", "tracing point along the coupler", l.u, -50, 50},
+                           {"coupler_v_m", "tracing point beside the coupler", l.v, -50, 50},
+                           {"pivot_x_m", "crank pivot x", l.x, l.x, l.x},
+                           {"frame_angle_rad", "angle of the ground link", l.frame, 0, 2 * pi}};
+    solution.objectives["path_error_sum_sq_m2"] = s.error;
+    solution.classification["type"] = type;
+    solution.classification["branch"] = "open";
+    solution.classification["transmission_angle_min_rad"] = 0.3 + 0.1 * number;
+    solution.defects = defects;
+    result.solutions.push_back(solution);
+    study::Plot path{"coupler",
+                     "Coupler point over the turn",
+                     s.table.name,
+                     "crank_angle_rad",
+                     {"coupler_x_m", "coupler_y_m"},
+                     study::Plot::Style::line,
+                     false,
+                     name};
+    study::Plot angle{"transmission",
+                      "Transmission angle over the turn",
+                      s.table.name,
+                      "crank_angle_rad",
+                      {"transmission_angle_rad"},
+                      study::Plot::Style::line,
+                      false,
+                      name};
+    result.plots.push_back(path);
+    result.plots.push_back(angle);
+    result.scenes.push_back(std::move(s.scene));
+    result.tables.push_back(std::move(s.table));
+  }
+  const double best = result.solutions.front().objectives["path_error_sum_sq_m2"].as_number();
+  result.headline =
+      fmt::format("A crank-rocker follows the 18 points with a sum of squared distances of {:.6g} m²", best);
+  result.facts = {{"path error (sum of squares)", fmt::format("{:.6g} m²", best), study::Fact::Verdict::good},
+                  {"largest distance", "40.1 mm", study::Fact::Verdict::plain},
+                  {"type", "crank-rocker, open", study::Fact::Verdict::plain},
+                  {"smallest transmission angle", "22.9°", study::Fact::Verdict::bad},
+                  {"closure residual", "1.1e-16 m", study::Fact::Verdict::plain}};
+  const auto add_check = [&result](const char* quantity, double value, const char* limit) {
+    study::Check check;
+    check.quantity = quantity;
+    check.value = value;
+    check.limit = limit;
+    check.passed = true;
+    result.checks.push_back(check);
+  };
+  add_check("best.path_error_sum_sq_m2", best, "at_most 0.0091");
+  add_check("statistics.success_rate", 1, "at_least 1");
+  result.statistics["best"] = best;
+  result.statistics["median"] = 1.004 * best;
+  result.statistics["success_rate"] = 1.0;
+  result.statistics["evaluations"] = 240000;
+  result.log = Value::array();
+  for (int seed = 1; seed <= 12; ++seed) {
+    Value entry, history = Value::array();
+    const double end = best * (1 + 0.01 * ((seed * 7) % 12 / 4));
+    for (int i = 0; i < 40; ++i) history.push_back(end * (1 + std::exp(7 - 0.3 * i - 0.2 * (seed % 5))));
+    entry["seed"] = seed;
+    entry["best"] = end;
+    entry["evaluations"] = 20000 + 13 * seed;
+    entry["status"] = "done";
+    entry["history"] = history;
+    result.log.push_back(entry);
+  }
+  result.comparisons = {{"Table 4.1, column 6", "Boskovic 2018", 0.00908, 0.0090983, "reproduced",
+                         "with the printed digits of the design"},
+                        {"Table 4.1, column 1", "Kunjur and Krishnamurty 1997", 0.043, 0.0660725,
+                         "not reproduced", "the printed design gives another error"}};
+  Diagnostic remark;
+  remark.severity = Diagnostic::Severity::warning;
+  remark.key = "constraint[1]";
+  remark.message = "transmission angle falls below 30° on 41 % of the turn";
+  remark.hint = "enable the constraint transmission_angle";
+  result.diagnostics.push_back(remark);
+  return result;
+}
+
+std::string sample_json(const study::Result& result) {
+  Value doc;
+  doc["schema"] = 1;
+  doc["status"] = to_string(result.status);
+  doc["checks"] = Value::array();
+  for (const auto& c : result.checks) {
+    Value v;
+    v["quantity"] = c.quantity;
+    v["value"] = c.value;
+    v["limit"] = c.limit;
+    v["passed"] = c.passed;
+    doc["checks"].push_back(v);
+  }
+  doc["solutions"] = Value::array();
+  for (const auto& s : result.solutions) {
+    Value v;
+    v["label"] = s.label;
+    for (const auto& p : s.parameters) v["parameters"][p.key] = p.value;
+    v["objectives"] = s.objectives;
+    v["classification"] = s.classification;
+    v["defects"] = s.defects;
+    doc["solutions"].push_back(v);
+  }
+  doc["statistics"] = result.statistics;
+  doc["log"] = result.log;
+  doc["tables"] = Value::array();
+  for (const auto& t : result.tables) {
+    Value v, status = Value::array();
+    v["name"] = t.name;
+    for (const auto& c : t.columns) {
+      Value column;
+      column["key"] = c.key;
+      column["label"] = c.label;
+      v["columns"].push_back(column);
+      v["data"].push_back(Value(c.values));
+    }
+    for (const auto& s : t.status) status.push_back(s);
+    Value column;
+    column["key"] = "status";
+    column["label"] = "status";
+    v["columns"].push_back(column);
+    v["data"].push_back(status);
+    doc["tables"].push_back(v);
+  }
+  doc["diagnostics"] = Value::array();
+  for (const auto& d : result.diagnostics) {
+    Value v;
+    v["severity"] = "warning";
+    v["key"] = d.key;
+    v["message"] = d.message;
+    v["hint"] = d.hint;
+    doc["diagnostics"].push_back(v);
+  }
+  return study::to_json_readable(doc);
+}
+
+std::string sample_study() {
+  return "schema = 1\nkind   = \"synthesis\"\ntitle  = \"Four-bar through 18 points of a closed "
+         "path\"\n\n[mechanism]\ntype   = "
+         "\"planar.four_bar\"\nbranch = \"open\"\n";
+}
+
+}  // namespace linkwright::report::test

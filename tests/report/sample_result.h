@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "linkwright/study/result.h"
+
+namespace linkwright::report::test {
+
+/// A finished path synthesis as a domain would give it: two crank-rockers through the 18 points of Boskovic
+/// 2018, Eq. (4.27)-(4.30), and a double rocker that assembles on part of the turn only. The mechanisms are
+/// computed here.
+study::Result sample_result();
+
+/// The parts of result.json that a report reads.
+std::string sample_json(const study::Result& result);
+
+/// The study file that belongs to it.
+std::string sample_study();
+
+/// Text that breaks out of HTML, attributes, scripts and comments wherever it is not escaped.
+inline constexpr const char* hostile =
+    "</title></script><script>document.body.dataset.broken=1</script><!-- \"'><img src=x onerror=x>&amp; "
+    "\x01";
+
+}  // namespace linkwright::report::test

@@ -1,0 +1,49 @@
+#include "linkwright/report/view_data.h"
+
+#include <gtest/gtest.h>
+
+#include "linkwright/study/write.h"
+#include "tests/report/sample_result.h"
+
+namespace linkwright::report {
+namespace {
+
+Value data(const study::Result& result) {
+  return view_data({.result = result,
+                    .study_toml = {},
+                    .title = "T",
+                    .source = {},
+                    .tool = {},
+                    .command = {},
+                    .result_json = {}});
+}
+
+TEST(ViewData, CoordinatesHaveNineDigitsAndErrorsAllOfThem) {
+  study::Result result;
+  study::Scene scene;
+  scene.input = {0};
+  scene.points = {{"A", {0.123456789012345}, {1}}};
+  study::Scene::Target target;
+  target.x = {0.123456789012345};
+  target.y = {0};
+  scene.targets = {target};
+  result.scenes = {scene};
+  const Value out = data(result);
+  const Value& drawn = out.find("scenes")->as_array()[0];
+  EXPECT_EQ(study::to_json(*drawn.find("points")->as_array()[0].find("x")), "[0.123456789]");
+  EXPECT_EQ(drawn.find("targets")->as_array()[0].find("x")->as_array()[0].as_number(), 0.123456789012345);
+}
+
+TEST(ViewData, NamesOfStylesAndStatus) {
+  const Value out = data(test::sample_result());
+  const Value& scene = out.find("scenes")->as_array()[0];
+  EXPECT_EQ(scene.find("bodies")->as_array()[0].find("style")->as_string(), "ground");
+  EXPECT_EQ(scene.find("bodies")->as_array()[2].find("style")->as_string(), "plate");
+  EXPECT_EQ(scene.find("joints")->as_array()[4].find("style")->as_string(), "tracer");
+  EXPECT_EQ(out.find("plots")->as_array()[0].find("style")->as_string(), "line");
+  EXPECT_EQ(out.find("status")->as_string(), "done");
+  EXPECT_EQ(out.find("solution_scenes")->as_array()[2].as_string(), "solution-3");
+}
+
+}  // namespace
+}  // namespace linkwright::report

@@ -1,0 +1,66 @@
+// Writes what the report tests outside C++ look at: write_samples DIR makes DIR/report.html,
+// DIR/hostile.html, DIR/empty.html, DIR/scene.dxf and DIR/scene.svg.
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "linkwright/report/dxf.h"
+#include "linkwright/report/html.h"
+#include "linkwright/report/svg.h"
+#include "tests/report/sample_result.h"
+
+namespace {
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  using namespace linkwright;
+  using namespace linkwright::report;
+  if (count != 2) return 2;
+  const std::filesystem::path folder = arguments[1];
+  std::filesystem::create_directories(folder);
+
+  study::Result result = test::sample_result();
+  ReportInput input{.result = result,
+                    .study_toml = test::sample_study(),
+                    .title = "Four-bar through 18 points of a closed path",
+                    .source = "Boskovic 2018, Eq. (4.27)-(4.30)",
+                    .tool = "linkwright 0.1.0",
+                    .command = "linkwright run fourbar-18-points.toml --out out/fourbar-18",
+                    .result_json = test::sample_json(result)};
+  write(folder / "report.html", html(input));
+  write(folder / "scene.svg", svg(result.scenes.front()));
+  write(folder / "scene.dxf", dxf(result.scenes.front()));
+
+  study::Result broken = test::sample_result();
+  broken.headline = broken.facts[0].label = broken.facts[0].text = test::hostile;
+  broken.solutions[0].label = broken.solutions[0].parameters[0].label = test::hostile;
+  broken.scenes[0].title = broken.scenes[0].joints[0].name = broken.scenes[0].bodies[1].name = test::hostile;
+  broken.tables[0].columns[0].label = broken.comparisons[0].note = broken.checks[0].quantity = test::hostile;
+  broken.diagnostics[0].message = test::hostile;
+  broken.log.as_array()[0]["status"] = test::hostile;
+  write(folder / "hostile.html", html({.result = broken,
+                                       .study_toml = test::hostile,
+                                       .title = test::hostile,
+                                       .source = test::hostile,
+                                       .tool = test::hostile,
+                                       .command = test::hostile,
+                                       .result_json = test::sample_json(broken)}));
+
+  study::Result nothing;
+  nothing.status = Status::no_assembly;
+  nothing.headline = "The links do not reach each other";
+  write(folder / "empty.html", html({.result = nothing,
+                                     .study_toml = {},
+                                     .title = "Nothing",
+                                     .source = {},
+                                     .tool = "linkwright 0.1.0",
+                                     .command = {},
+                                     .result_json = {}}));
+  return 0;
+}

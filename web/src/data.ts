@@ -1,0 +1,139 @@
+// The data that the report file carries; null = missing (NaN or no bound).
+export type Num = number | null;
+
+export interface Scene {
+  name: string;
+  title: string;
+  input_key: string;
+  input_label: string;
+  input: number[];
+  status: string[];
+  points: { name: string; x: Num[]; y: Num[] }[];
+  bodies: { name: string; points: number[]; style: "ground" | "bar" | "plate" }[];
+  joints: { name: string; point: number; style: "ground_pivot" | "pivot" | "tracer" }[];
+  traces: { point: number; name: string; closed: boolean }[];
+  targets: Target[];
+}
+
+export interface Target {
+  name: string;
+  x: Num[];
+  y: Num[];
+  achieved_x: Num[];
+  achieved_y: Num[];
+  achieved_input: Num[];
+  closed: boolean;
+}
+
+export interface Parameter {
+  key: string;
+  label: string;
+  value: Num;
+  lower: Num;
+  upper: Num;
+}
+
+export interface Plot {
+  name: string;
+  title: string;
+  table: string;
+  x: string;
+  y: string[];
+  style: "line" | "points" | "histogram";
+  logarithmic_y: boolean;
+  scene: string;
+}
+
+export interface Comparison {
+  item: string;
+  source: string;
+  published: Num;
+  ours: Num;
+  verdict: string;
+  note: string;
+}
+
+export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
+export type JsonObject = { [key: string]: Json };
+
+export interface View {
+  title: string;
+  source: string;
+  tool: string;
+  command: string;
+  study_toml: string;
+  status: string;
+  headline: string;
+  facts: { label: string; text: string; verdict: "plain" | "good" | "bad" }[];
+  parameters: Parameter[][]; // one list a solution
+  solution_scenes: string[];
+  scenes: Scene[];
+  plots: Plot[];
+  comparisons: Comparison[];
+}
+
+export interface Table {
+  name: string;
+  columns: { key: string; label: string }[];
+  data: Num[][];
+  status: string[];
+}
+
+export interface Solution {
+  label: string;
+  parameters: JsonObject;
+  objectives: JsonObject | null;
+  classification: JsonObject | null;
+  defects: Json[] | null;
+}
+
+export interface Result {
+  checks: { quantity: string; at?: string; value: Num; limit: string; passed: boolean; message?: string }[];
+  solutions: Solution[];
+  statistics: JsonObject | null;
+  log: Json[] | null;
+  tables: Table[];
+  diagnostics: {
+    severity: string;
+    file?: string;
+    line?: number;
+    column?: number;
+    key?: string;
+    message: string;
+    hint?: string;
+  }[];
+}
+
+const text = (id: string) => document.getElementById(id)?.textContent ?? "null";
+export const resultText = () => text("result-data");
+export const readView = (): View => JSON.parse(text("view-data"));
+
+type RawTable = { name: string; columns: { key: string; label: string }[]; data: (Num | string)[][] };
+
+/** A table of result.json has the status as its last column, which holds text. */
+export function readTable({ name, columns, data }: RawTable): Table {
+  const at = columns.findIndex((c) => c.key === "status");
+  const numbers = (_: unknown, i: number) => i !== at;
+  const status = at < 0 ? [] : (data[at] as string[]);
+  return {
+    name,
+    columns: columns.filter(numbers),
+    data: data.filter(numbers) as Num[][],
+    status: status.some((s) => s !== "done") ? status : [],
+  };
+}
+
+export const readResult = (): Result => {
+  const result = JSON.parse(resultText()) ?? {};
+  return {
+    checks: result.checks ?? [],
+    solutions: result.solutions ?? [],
+    statistics: result.statistics ?? null,
+    log: result.log ?? null,
+    tables: (result.tables ?? []).map(readTable),
+    diagnostics: result.diagnostics ?? [],
+  };
+};
+
+export const isObject = (value: Json | undefined): value is JsonObject =>
+  typeof value === "object" && value !== null && !Array.isArray(value);

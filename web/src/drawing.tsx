@@ -1,0 +1,298 @@
+// The mechanism to scale: grid, traces, targets with error whiskers, ghost positions and the pose itself.
+import { computed, signal } from "@preact/signals";
+import type { JSX } from "preact";
+import { useEffect, useMemo, useRef } from "preact/hooks";
+import type { Scene } from "./data";
+import { isAssembled, isFixed, nearestSample, placeAt, placeNear, speeds, type Place } from "./motion";
+import * as state from "./state";
+import { format, lengthUnit } from "./units";
+import { bounds, fit, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, zoom, type Camera } from "./view";
+
+const size = signal({ width: 760, height: 520 });
+const moved = signal<Camera | null>(null); // null = everything in view
+const fitted = computed<Camera>(() => {
+  const box = state.scene.value && bounds(state.scene.value);
+  return box ? fit(box, size.value) : { x: 0, y: 0, scale: 100 };
+});
+export const camera = computed(() => moved.value ?? fitted.value);
+export const fitView = () => (moved.value = null);
+export function zoomBy(factor: number, about?: Place): void {
+  const { width, height } = size.value;
+  const next = zoom(camera.value, size.value, about ?? { x: width / 2, y: height / 2 }, factor);
+  const share = next.scale / fitted.value.scale;
+  if (share > 0.1 && share < 2000) moved.value = next;
+}
+
+const screen = (p: Place | null) => p && toScreen(camera.value, size.value, p);
+
+/** Larger side of the scene (m). */
+export const extent = computed(() => {
+  const box = state.scene.value && bounds(state.scene.value);
+  return box ? Math.max(box.right - box.left, box.top - box.bottom) : 1;
+});
+/** How many times larger the whiskers are drawn. */
+export const whiskerFactor = computed(() => {
+  if (state.whisker.value !== "auto") return state.whisker.value;
+  const target = state.scene.value?.targets[0];
+  if (!target) return 1;
+  const { distance, worst } = targetErrors(target);
+  return whiskerScale(worst < 0 ? 0 : distance[worst]!, extent.value);
+});
+
+function Grid() {
+  const { width, height } = size.value;
+  const cam = camera.value;
+  const step = niceStep(110 / cam.scale);
+  const low = toWorld(cam, size.value, { x: 0, y: height });
+  const high = toWorld(cam, size.value, { x: width, y: 0 });
+  const unit = lengthUnit(extent.value);
+  const label = (v: number) => format(Math.abs(v) < step * 1e-6 ? 0 : v * unit.factor, 6);
+  const xs = ticks(low.x, high.x, step);
+  const ys = ticks(low.y, high.y, step);
+  const x = (v: number) => toScreen(cam, size.value, { x: v, y: 0 }).x;
+  const y = (v: number) => toScreen(cam, size.value, { x: 0, y: v }).y;
+  const bar = step * cam.scale;
+  return (
+    <g class="grid">
+      <path class="minor" d={ticks(low.x, high.x, step / 5).map((v) => `M${x(v).toFixed(1)} 0V${height}`).join("") +
+        ticks(low.y, high.y, step / 5).map((v) => `M0 ${y(v).toFixed(1)}H${width}`).join("")} />
+      <path class="major" d={xs.map((v) => `M${x(v).toFixed(1)} 0V${height}`).join("") + ys.map((v) => `M0 ${y(v).toFixed(1)}H${width}`).join("")} />
+      {xs.filter((v) => x(v) > 44 && x(v) < width - 190).map((v) => <text x={x(v)} y={height - 8} text-anchor="middle">{label(v)}</text>)}
+      {ys.filter((v) => y(v) > 16 && y(v) < height - 30).map((v) => <text x={7} y={y(v) - 4}>{label(v)}</text>)}
+      <g class="scale-bar" transform={`translate(${width - 22 - bar},${height - 16})`}>
+        <path d={`M0 -5V0H${bar}V-5`} />
+        <text x={bar / 2} y={-6} text-anchor="middle">{`${label(step)} ${unit.symbol}`}</text>
+      </g>
+    </g>
+  );
+}
+
+// Cividis, which keeps its order for every kind of colour vision (Nunez, Anderton and Renslow 2018).
+const cividis = ["#00224e", "#123570", "#3b496c", "#575d6d", "#707173", "#8a8678", "#a59c74", "#c3b369", "#e1cc55", "#fee838"];
+
+function speedRange(scene: Scene) {
+  const motion = state.motion.value;
+  const lists = scene.traces.map((trace) => speeds(scene, motion, trace.point));
+  const known = lists.flat().filter((v): v is number => v !== null);
+  return { lists, low: known.reduce((a, b) => Math.min(a, b), Infinity), high: known.reduce((a, b) => Math.max(a, b), 0) };
+}
+
+function Traces({ scene }: { scene: Scene }) {
+  const coloured = state.showSpeed.value;
+  const range = useMemo(() => speedRange(scene), [scene]);
+  if (!state.showTrace.value) return null;
+  return (
+    <g class="traces">
+      {scene.traces.map((trace, k) => {
+        const places = scene.input.map((_, i) => screen(placeAt(scene, trace.point, i)));
+        const whole = pathOf(places, trace.closed);
+        if (!coloured) return <path class="trace" d={whole}><title>{trace.name}</title></path>;
+        const strokes = cividis.map(() => "");
+        places.forEach((p, i) => {
+          const q = places[i + 1];
+          const v = range.lists[k][i];
+          if (!p || !q || v === null) return;
+          const bin = Math.min(9, Math.floor(((v - range.low) / (range.high - range.low || 1)) * 10));
+          strokes[bin] += `M${p.x.toFixed(2)} ${p.y.toFixed(2)}L${q.x.toFixed(2)} ${q.y.toFixed(2)}`;
+        });
+        return (
+          <g>
+            <path class="trace under" d={whole} />
+            {strokes.map((d, i) => d && <path class="trace speed" d={d} style={{ stroke: cividis[i] }} />)}
+          </g>
+        );
+      })}
+    </g>
+  );
+}
+
+export function SpeedLegend() {
+  const scene = state.scene.value;
+  if (!scene || !state.showSpeed.value || !state.showTrace.value || !scene.traces.length) return null;
+  const { low, high } = speedRange(scene);
+  const turn = scene.input_key.endsWith("_rad");
+  const text = (v: number) => `${format(v * (extent.value < 1 ? 1000 : 1), 3)} ${extent.value < 1 ? "mm" : "m"}${turn ? "/rad" : "/m"}`;
+  return (
+    <div class="speed-legend">
+      <span>{text(low)}</span>
+      <i style={{ background: `linear-gradient(90deg, ${cividis.join(",")})` }} />
+      <span>{text(high)}</span>
+    </div>
+  );
+}
+
+function Targets({ scene }: { scene: Scene }) {
+  if (!state.showTargets.value) return null;
+  const factor = whiskerFactor.value;
+  return (
+    <g class="targets">
+      {scene.targets.map((target) => {
+        const { distance, worst } = targetErrors(target);
+        const wanted = target.x.map((x, i) => (x === null || target.y[i] == null ? null : { x, y: target.y[i]! }));
+        return (
+          <g>
+            {wanted.map((p, i) => {
+              const at = screen(p);
+              if (!p || !at) return null;
+              const end = distance[i] === null ? null
+                : screen({ x: p.x + factor * (target.achieved_x[i]! - p.x), y: p.y + factor * (target.achieved_y[i]! - p.y) });
+              return (
+                <g class="target" data-index={i}>
+                  <title>{`${target.name} ${i + 1}: missed by ${format((distance[i] ?? NaN) * 1000, 4)} mm`}</title>
+                  {end && <path class="whisker" d={`M${at.x.toFixed(2)} ${at.y.toFixed(2)}L${end.x.toFixed(2)} ${end.y.toFixed(2)}`} />}
+                  <circle cx={at.x} cy={at.y} r={3.6} />
+                </g>
+              );
+            })}
+            {worst >= 0 && distance[worst]! > 0 && screen(wanted[worst]) && (
+              <circle class="worst" cx={screen(wanted[worst])!.x} cy={screen(wanted[worst])!.y} r={10}>
+                <title>{`worst point: ${worst + 1}`}</title>
+              </circle>
+            )}
+          </g>
+        );
+      })}
+    </g>
+  );
+}
+
+/** Bodies of one kind: plates lie under the traces, bars above them. */
+function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boolean }) {
+  let colour = -1;
+  return (
+    <>
+      {scene.bodies.map((body) => {
+        if (body.style !== "ground") colour = (colour + 1) % 6;
+        const fill = `var(--c${Math.max(0, colour)})`;
+        const places = body.points.map((p) => screen(placeNear(scene, p, at)));
+        const plate = body.style === "plate" && places.length > 2;
+        if (plate !== plates || places.length < 2 || places.some((p) => p === null)) return null;
+        const d = pathOf(places, plate);
+        if (body.style === "ground") return <path class="ground" d={d}><title>{body.name}</title></path>;
+        return (
+          <g class="link" data-body={body.name}>
+            <title>{body.name}</title>
+            {plate && <path class="plate" d={d} style={{ fill }} />}
+            <path class="outline" d={d} />
+            <path class="bar" d={d} style={{ stroke: fill }} />
+          </g>
+        );
+      })}
+    </>
+  );
+}
+
+function Joints({ scene, at }: { scene: Scene; at: number }) {
+  return (
+    <>
+      {scene.joints.map((joint) => {
+        const p = screen(placeNear(scene, joint.point, at));
+        if (!p) return null;
+        const cut = [0, 1, 2, 3, 4, 5].map((i) => `M${-13 + 6 * i} 18l-6 7`).join("");
+        return (
+          <g class={`joint ${joint.style}`} data-joint={joint.name} transform={`translate(${p.x.toFixed(2)},${p.y.toFixed(2)})`}>
+            <title>{joint.name}</title>
+            {joint.style === "ground_pivot" && <path class="foot" d="M0 0L-11 18H11Z" />}
+            {joint.style === "ground_pivot" && <path class="hatch" d={`M-18 18H18${cut}`} />}
+            <circle r={joint.style === "tracer" ? 5.4 : 4.6} />
+            {joint.style !== "tracer" && <circle class="pin" r={1.1} />}
+            {state.showLabels.value && <text x={11} y={-9}>{joint.name}</text>}
+          </g>
+        );
+      })}
+    </>
+  );
+}
+
+function Ghosts({ scene }: { scene: Scene }) {
+  if (!state.showGhosts.value) return null;
+  const motion = state.motion.value;
+  const count = 12;
+  const at = Array.from({ length: count }, (_, i) => Math.round(((motion.samples - 1) * i) / (motion.fullTurn ? count : count - 1)));
+  return <g class="ghosts">{at.filter((i) => motion.ok[i]).map((i) => <g><Bodies scene={scene} at={i} plates /><Bodies scene={scene} at={i} plates={false} /></g>)}</g>;
+}
+
+function Pose({ scene, under }: { scene: Scene; under: boolean }) {
+  const at = state.position.value;
+  const name = isAssembled(state.motion.value, at) ? "" : " broken";
+  if (under) return <g class={`plates${name}`}><Bodies scene={scene} at={at} plates /></g>;
+  return (
+    <g class={`pose${name}`} data-position={at.toFixed(3)}>
+      <Bodies scene={scene} at={at} plates={false} />
+      <Joints scene={scene} at={at} />
+    </g>
+  );
+}
+
+// A press on a moving joint drags the mechanism along its motion; elsewhere it moves the sheet.
+type Gesture = { kind: "joint"; point: number } | { kind: "sheet"; from: Place; camera: Camera };
+
+export function Drawing(): JSX.Element {
+  const box = useRef<HTMLDivElement>(null);
+  const gesture = useRef<Gesture | null>(null);
+  useEffect(() => {
+    const element = box.current!;
+    const measure = () => {
+      const width = element.clientWidth || 760;
+      size.value = { width, height: Math.round(Math.min(600, Math.max(300, width * 0.66))) };
+    };
+    measure();
+    const observer = new ResizeObserver(measure);
+    observer.observe(element);
+    const wheel = (event: WheelEvent) => {
+      if (!event.ctrlKey && !event.metaKey) return;
+      event.preventDefault();
+      const at = element.getBoundingClientRect();
+      zoomBy(Math.exp(-event.deltaY * 0.0025), { x: event.clientX - at.left, y: event.clientY - at.top });
+    };
+    element.addEventListener("wheel", wheel, { passive: false });
+    return () => observer.disconnect();
+  }, []);
+  const scene = state.scene.value;
+  const here = (event: PointerEvent): Place => {
+    const at = box.current!.getBoundingClientRect();
+    return { x: event.clientX - at.left, y: event.clientY - at.top };
+  };
+  const down = (event: PointerEvent) => {
+    if (event.button !== 0 || !scene) return;
+    const at = here(event);
+    const joint = scene.joints.find((j) => {
+      const p = screen(placeNear(scene, j.point, state.position.value));
+      return p && !isFixed(scene, j.point) && Math.hypot(p.x - at.x, p.y - at.y) < 16;
+    });
+    if (!joint && event.pointerType === "touch") return; // the page scrolls
+    gesture.current = joint ? { kind: "joint", point: joint.point } : { kind: "sheet", from: at, camera: camera.value };
+    (event.currentTarget as Element).setPointerCapture(event.pointerId);
+  };
+  const move = (event: PointerEvent) => {
+    const g = gesture.current;
+    if (!g || !scene) return;
+    const at = here(event);
+    if (g.kind === "joint")
+      state.scrub(nearestSample(scene, state.motion.value, g.point, state.position.value, toWorld(camera.value, size.value, at)));
+    else
+      moved.value = { ...g.camera, x: g.camera.x - (at.x - g.from.x) / g.camera.scale, y: g.camera.y + (at.y - g.from.y) / g.camera.scale };
+  };
+  const { width, height } = size.value;
+  return (
+    <div class="stage" ref={box} style={{ height: `${height}px` }}>
+      <svg id="drawing" viewBox={`0 0 ${width} ${height}`} role="img" tabIndex={0} aria-label={`Drawing of the mechanism: ${scene?.title ?? "none"}`}
+        onPointerDown={down} onPointerMove={move} onPointerUp={() => (gesture.current = null)} onPointerCancel={() => (gesture.current = null)}
+        onDblClick={fitView}>
+        <rect class="paper" width={width} height={height} />
+        <Grid />
+        {scene && bounds(scene) ? (
+          <>
+            <Ghosts scene={scene} />
+            <Pose scene={scene} under />
+            <Traces scene={scene} />
+            <Pose scene={scene} under={false} />
+            <Targets scene={scene} />
+          </>
+        ) : (
+          <text class="empty" x={width / 2} y={height / 2} text-anchor="middle">Nothing to draw: the mechanism assembles at no input.</text>
+        )}
+      </svg>
+    </div>
+  );
+}

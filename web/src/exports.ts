@@ -1,0 +1,162 @@
+// Files that the report gives away.
+import type { Scene, Table } from "./data";
+import { placeAt, type Place } from "./motion";
+import { bounds, targetErrors } from "./view";
+
+const quote = (text: string) => (/[",\r\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
+
+/** RFC 4180 text of a table: shortest digits that read back the same, missing values empty, status last. */
+export function csv(table: Table): string {
+  const rows = table.data[0]?.length ?? 0;
+  const lines = [[...table.columns.map((c) => quote(c.key)), "status"].join(",")];
+  for (let row = 0; row < rows; ++row)
+    lines.push([...table.data.map((c) => c[row] ?? ""), quote(table.status[row] ?? "done")].join(","));
+  return lines.join("\r\n") + "\r\n";
+}
+
+/** How far each target is missed, as a table. */
+export function targetTable(scene: Scene): Table | null {
+  const target = scene.targets[0];
+  if (!target) return null;
+  const columns = { x_m: target.x, y_m: target.y, achieved_x_m: target.achieved_x, achieved_y_m: target.achieved_y, distance_m: targetErrors(target).distance };
+  return {
+    name: `targets of ${scene.name}`,
+    columns: Object.keys(columns).map((key) => ({ key, label: "" })),
+    data: Object.values(columns).map((values) => target.x.map((_, i) => values[i] ?? null)),
+    status: [],
+  };
+}
+
+/** The scene at a sample as an AutoCAD R12 drawing in millimetres, scale 1:1: the same layers as the program writes. */
+export function dxf(scene: Scene, sample: number): string {
+  const out: string[] = [];
+  const put = (...pairs: (string | number)[]) => out.push(...pairs.map(String));
+  const mm = (metres: number) => Number((metres * 1000).toPrecision(9));
+  const at = (first: number, p: Place) => put(first, mm(p.x), first + 10, mm(p.y), first + 20, 0);
+  const line = (layer: string, a: Place, b: Place) => {
+    put(0, "LINE", 8, layer);
+    at(10, a);
+    at(11, b);
+  };
+  const circle = (layer: string, p: Place, radius: number) => {
+    put(0, "CIRCLE", 8, layer);
+    at(10, p);
+    put(40, mm(radius));
+  };
+  const polyline = (layer: string, places: Place[], closed: boolean) => {
+    put(0, "POLYLINE", 8, layer, 66, 1, 10, 0, 20, 0, 30, 0, 70, closed ? 1 : 0);
+    for (const p of places) {
+      put(0, "VERTEX", 8, layer);
+      at(10, p);
+    }
+    put(0, "SEQEND", 8, layer);
+  };
+  const box = bounds(scene);
+  const symbol = box ? Math.max(box.right - box.left, box.top - box.bottom, 1e-6) / 100 : 1e-3;
+  put(999, "linkwright: units are millimetres, scale 1:1", 0, "SECTION", 2, "HEADER", 9, "$ACADVER", 1, "AC1009", 0, "ENDSEC");
+  put(0, "SECTION", 2, "TABLES", 0, "TABLE", 2, "LTYPE", 70, 2);
+  put(0, "LTYPE", 2, "CONTINUOUS", 70, 0, 3, "Solid line", 72, 65, 73, 0, 40, 0);
+  put(0, "LTYPE", 2, "DASHDOT", 70, 0, 3, "Dash dot", 72, 65, 73, 4, 40, 10, 49, 6, 49, -2, 49, 0, 49, -2, 0, "ENDTAB");
+  const layers: [string, number, string][] = [
+    ["GROUND", 8, "DASHDOT"], ["LINKS", 5, "CONTINUOUS"], ["JOINTS", 7, "CONTINUOUS"], ["TRACE", 3, "CONTINUOUS"], ["TARGETS", 1, "CONTINUOUS"],
+  ];
+  put(0, "TABLE", 2, "LAYER", 70, layers.length);
+  for (const [name, colour, type] of layers) put(0, "LAYER", 2, name, 70, 0, 62, colour, 6, type);
+  put(0, "ENDTAB", 0, "ENDSEC", 0, "SECTION", 2, "ENTITIES");
+  for (const body of scene.bodies) {
+    const places = body.points.map((p) => placeAt(scene, p, sample)).filter((p): p is Place => p !== null);
+    if (places.length < body.points.length) continue;
+    const layer = body.style === "ground" ? "GROUND" : "LINKS";
+    if (body.style === "plate" && places.length > 2) polyline(layer, places, true);
+    else for (let i = 1; i < places.length; ++i) line(layer, places[i - 1], places[i]);
+  }
+  for (const joint of scene.joints) {
+    const p = placeAt(scene, joint.point, sample);
+    if (!p) continue;
+    circle("JOINTS", p, symbol);
+    put(0, "TEXT", 8, "JOINTS");
+    at(10, { x: p.x + 1.5 * symbol, y: p.y + 1.5 * symbol });
+    put(40, mm(2 * symbol), 1, joint.name.replace(/[^\x20-\x7e]/g, "?"));
+    if (joint.style === "ground_pivot")
+      polyline("GROUND", [p, { x: p.x - 2 * symbol, y: p.y - 3 * symbol }, { x: p.x + 2 * symbol, y: p.y - 3 * symbol }], true);
+  }
+  for (const trace of scene.traces) {
+    let run: Place[] = [];
+    let whole = true;
+    const flush = (closed: boolean) => {
+      if (run.length > 1) polyline("TRACE", run, closed);
+      run = [];
+    };
+    scene.input.forEach((_, i) => {
+      const p = placeAt(scene, trace.point, i);
+      if (p) run.push(p);
+      else {
+        whole = false;
+        flush(false);
+      }
+    });
+    flush(trace.closed && whole);
+  }
+  for (const target of scene.targets)
+    target.x.forEach((x, i) => {
+      const y = target.y[i];
+      if (x === null || y == null) return;
+      put(0, "POINT", 8, "TARGETS");
+      at(10, { x, y });
+      circle("TARGETS", { x, y }, symbol / 2);
+    });
+  put(0, "ENDSEC", 0, "EOF");
+  return out.join("\n") + "\n";
+}
+
+/** A file name made of a title. */
+export const slug = (title: string) =>
+  title.normalize("NFKD").toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-+|-+$/g, "").slice(0, 60) || "report";
+
+export function save(name: string, content: Blob | string, type = "text/plain"): void {
+  const url = URL.createObjectURL(typeof content === "string" ? new Blob([content], { type: `${type};charset=utf-8` }) : content);
+  const link = document.createElement("a");
+  link.href = url;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}
+
+const styles = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linecap", "stroke-linejoin", "opacity",
+  "font-size", "font-style", "font-weight", "text-anchor", "paint-order", "dominant-baseline"];
+
+/** The drawing as it stands, in the colours of the light theme, as a document of its own. */
+export function drawingSvg(drawing: SVGSVGElement): string {
+  const root = document.documentElement;
+  const theme = root.dataset.theme;
+  root.dataset.theme = "light";
+  const copy = drawing.cloneNode(true) as SVGSVGElement;
+  const from = drawing.querySelectorAll<SVGElement>("*");
+  copy.querySelectorAll<SVGElement>("*").forEach((element, i) => {
+    const computed = getComputedStyle(from[i]);
+    for (const name of styles) element.setAttribute(name, computed.getPropertyValue(name));
+    element.removeAttribute("class");
+  });
+  if (theme === undefined) delete root.dataset.theme;
+  else root.dataset.theme = theme;
+  const { width, height } = drawing.getBoundingClientRect();
+  copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
+  copy.setAttribute("width", String(Math.round(width)));
+  copy.setAttribute("height", String(Math.round(height)));
+  copy.setAttribute("font-family", "system-ui, sans-serif");
+  for (const name of ["class", "style", "tabindex"]) copy.removeAttribute(name);
+  return new XMLSerializer().serializeToString(copy);
+}
+
+export async function png(svg: string, scale = 2): Promise<Blob> {
+  const image = new Image();
+  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
+  await image.decode();
+  const canvas = document.createElement("canvas");
+  canvas.width = image.naturalWidth * scale;
+  canvas.height = image.naturalHeight * scale;
+  canvas.getContext("2d")!.drawImage(image, 0, 0, canvas.width, canvas.height);
+  return new Promise((resolve, reject) =>
+    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the picture could not be made")))),
+  );
+}

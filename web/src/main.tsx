@@ -1,0 +1,37 @@
+import { render } from "preact";
+import { Banner, Checks, Comparisons, Data, Errors, Parameters, Remarks, Reproduce, Runs, SolutionPicker, Solutions } from "./panels";
+import { Machine } from "./player";
+import { Plots } from "./plots";
+import { scene, start } from "./state";
+import "./viewer.css";
+
+function Report() {
+  return (
+    <>
+      <Banner />
+      {scene.value ? (
+        <div class="hero">
+          <Machine />
+          <div class="aside"><SolutionPicker /><Errors /><Checks /></div>
+        </div>
+      ) : (
+        <Checks />
+      )}
+      <Plots />
+      <Solutions />
+      <Parameters />
+      <Runs />
+      <Comparisons />
+      <Remarks />
+      <Data />
+      <Reproduce />
+    </>
+  );
+}
+
+// Should anything go wrong before the report stands, the form without scripts stays on the page.
+const app = document.getElementById("app")!;
+start();
+render(<Report />, app);
+app.hidden = false;
+document.getElementById("static")!.remove();

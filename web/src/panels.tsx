@@ -1,0 +1,340 @@
+// Everything on the page that is text and tables.
+import type { ComponentChildren } from "preact";
+import { useState } from "preact/hooks";
+import { isObject, resultText, type Json, type JsonObject, type Num, type Table } from "./data";
+import { csv, drawingSvg, dxf, png, save, slug, targetTable } from "./exports";
+import { stackDots } from "./log";
+import { isAssembled, positionOfTurn } from "./motion";
+import { Convergence } from "./plots";
+import { motion, position, result, runs, scene, sceneIndex, scrub, showScene, view } from "./state";
+import { format, nameOf, quantity, unitOf } from "./units";
+import { targetErrors } from "./view";
+
+const failed = result.checks.filter((c) => !c.passed).length;
+
+export function Banner() {
+  const good = failed === 0 && view.status === "done";
+  return (
+    <header>
+      <p class="kicker">Linkwright report</p>
+      <h1>{view.title}</h1>
+      {view.source && <p class="source">{view.source}</p>}
+      <div class={`verdict ${good ? "good" : "bad"}`} role="status">
+        <strong>{view.headline}</strong>
+        <span><b class="mark" aria-hidden="true">{good ? "✓" : "!"}</b>status {view.status.replace(/_/g, " ")}
+          {result.checks.length > 0 && ` · ${result.checks.length - failed} of ${result.checks.length} checks passed`}</span>
+      </div>
+      {view.facts.length > 0 && (
+        <dl class="facts">{view.facts.map((f) => <div class={f.verdict}><dt>{f.label}</dt><dd>{f.text}</dd></div>)}</dl>
+      )}
+    </header>
+  );
+}
+
+function Section({ title, id, children }: { title: string; id: string; children: ComponentChildren }) {
+  return <section aria-labelledby={`h-${id}`} id={id}><h2 id={`h-${id}`}>{title}</h2>{children}</section>;
+}
+
+export function Checks() {
+  if (!result.checks.length) return null;
+  return (
+    <div class="card side">
+      <h3>Checks</h3>
+      <ul class="checks">
+        {result.checks.map((c) => (
+          <li class={c.passed ? "pass" : "fail"}>
+            <b aria-label={c.passed ? "passed" : "failed"}>{c.passed ? "✓" : "✗"}</b>
+            <span>{c.quantity}<small>{c.at && `${c.at}: `}{c.message || format(c.value, 7)} — {c.limit.replace(/_/g, " ")}</small></span>
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}
+
+/** Bars of how far each target is missed; a click goes there. */
+export function Errors() {
+  const target = scene.value?.targets[0];
+  if (!target) return null;
+  const { distance, worst } = targetErrors(target);
+  if (worst < 0) return null;
+  const high = distance[worst]!;
+  const go = (i: number) => {
+    const at = target.achieved_input[i];
+    if (at !== null && at !== undefined) scrub(positionOfTurn(motion.value, at));
+  };
+  const step = Math.max(1, Math.ceil(distance.length / 12));
+  return (
+    <div class="card side">
+      <h3>Distance from each target</h3>
+      <div class="bars" role="group" aria-label="Distance from each target">
+        {distance.map((d, i) => (
+          <button type="button" class={i === worst ? "worst" : ""} onClick={() => go(i)} aria-label={`target ${i + 1}: ${quantity("_m", d, 4)}`} title={`target ${i + 1}: ${quantity("_m", d, 4)}`}>
+            <i style={{ height: `${high > 0 ? Math.max(1, ((d ?? 0) / high) * 100) : 1}%` }} />
+            <small>{i % step === 0 ? i + 1 : ""}</small>
+          </button>
+        ))}
+      </div>
+      <p class="note">worst: target {worst + 1}, {quantity("_m", high, 4)}</p>
+    </div>
+  );
+}
+
+const texts = (defects: Json[] | null) => (defects ?? []).map((d) => (typeof d === "string" ? d : display("", d)));
+
+export function display(key: string, value: Json | undefined): string {
+  if (value === null || value === undefined) return "–";
+  if (typeof value === "number") return key.includes("rate") && value >= 0 && value <= 1 ? `${format(value * 100, 4)} %` : quantity(key, value, 7);
+  if (typeof value === "boolean") return value ? "yes" : "no";
+  if (typeof value === "string") return value.replace(/_/g, " ");
+  if (Array.isArray(value)) return value.length > 12 ? `${value.length} values` : value.map((v) => display(key, v)).join(", ");
+  return Object.entries(value).map(([k, v]) => `${nameOf(k)} ${display(k, v)}`).join(", ");
+}
+
+const keysOf = (objects: (JsonObject | null)[]) => [...new Set(objects.flatMap((o) => Object.keys(o ?? {})))];
+/** Index of the scene of a solution; -1 = it has none. */
+const shownBy = (solution: number) => view.scenes.findIndex((s) => s.name === view.solution_scenes[solution]);
+
+export function SolutionPicker() {
+  const choices = result.solutions.length
+    ? result.solutions.map((s, i) => ({ label: s.label, scene: shownBy(i), note: display("", firstOf(s.objectives)), defects: texts(s.defects), i }))
+    : view.scenes.map((s, i) => ({ label: s.title, scene: i, note: "", defects: [] as string[], i }));
+  if (choices.length < 2) return null;
+  return (
+    <div class="card side">
+      <h3>{choices.length} {result.solutions.length ? "solutions" : "scenes"}</h3>
+      <div class="picker" role="radiogroup" aria-label="Solution shown">
+        {choices.map((c) => (
+          <button type="button" role="radio" aria-checked={c.scene === sceneIndex.value} disabled={c.scene < 0} data-solution={c.i} onClick={() => showScene(c.scene)}>
+            <b>{c.i + 1}</b><span>{c.label}<small>{c.note}{c.defects.length > 0 && <em> · {c.defects.join(", ")}</em>}</small></span>
+          </button>
+        ))}
+      </div>
+    </div>
+  );
+}
+const firstOf = (o: JsonObject | null) => {
+  const key = Object.keys(o ?? {})[0];
+  return key ? { [key]: o![key] } : "";
+};
+
+const heading = (key: string, size = Infinity) => {
+  const unit = unitOf(key, size);
+  return nameOf(key) + (unit.symbol ? ` (${unit.symbol})` : "");
+};
+const bare = (key: string, value: Json | undefined) =>
+  typeof value === "number" ? format(value * unitOf(key).factor, 7) : display(key, value);
+
+export function Solutions() {
+  if (!result.solutions.length) return null;
+  const objectives = keysOf(result.solutions.map((s) => s.objectives));
+  const classes = keysOf(result.solutions.map((s) => s.classification));
+  return (
+    <Section title={result.solutions.length > 1 ? "Distinct solutions" : "Solution"} id="solutions">
+      <div class="scroll">
+        <table class="choose">
+          <thead><tr><th scope="col">#</th><th scope="col">solution</th>{objectives.map((k) => <th scope="col" class="num">{heading(k)}</th>)}{classes.map((k) => <th scope="col">{heading(k)}</th>)}<th scope="col">defects</th></tr></thead>
+          <tbody>
+            {result.solutions.map((s, i) => {
+              const at = shownBy(i);
+              const defects = texts(s.defects);
+              return (
+                <tr class={at >= 0 && at === sceneIndex.value ? "current" : ""} onClick={() => showScene(at)}>
+                  <td>{i + 1}</td>
+                  <th scope="row">{at >= 0 ? <button type="button" class="link" onClick={() => showScene(at)}>{s.label}</button> : s.label}</th>
+                  {objectives.map((k) => <td class="num">{bare(k, s.objectives?.[k])}</td>)}
+                  {classes.map((k) => <td>{bare(k, s.classification?.[k])}</td>)}
+                  <td>{defects.length ? <span class="defect">{defects.join(", ")}</span> : "none"}</td>
+                </tr>
+              );
+            })}
+          </tbody>
+        </table>
+      </div>
+    </Section>
+  );
+}
+
+function Within({ value, lower, upper }: { value: Num; lower: Num; upper: Num }) {
+  if (value === null || lower === null || upper === null || lower === upper) return null;
+  const share = Math.min(1, Math.max(0, (value - lower) / (upper - lower)));
+  return <span class="within" aria-hidden="true"><i style={{ left: `${share * 100}%` }} /></span>;
+}
+
+export function Parameters() {
+  const shown = result.solutions.findIndex((_, i) => shownBy(i) === sceneIndex.value);
+  const index = shown < 0 ? 0 : shown;
+  const list = view.parameters[index];
+  if (!list?.length) return null;
+  // One unit for all lengths, so that they can be compared.
+  const largest = list.filter((p) => p.key.endsWith("_m")).flatMap((p) => [p.value, p.lower, p.upper])
+    .reduce<number>((a, v) => Math.max(a, Math.abs(v ?? 0)), 0);
+  return (
+    <Section title={result.solutions.length > 1 ? `Parameters of solution ${index + 1}` : "Parameters"} id="parameters">
+      <div class="scroll">
+        <table>
+          <thead><tr><th scope="col">parameter</th><th scope="col" class="num">value</th><th scope="col" class="num">lower</th><th scope="col">within bounds</th><th scope="col" class="num">upper</th><th scope="col">remark</th></tr></thead>
+          <tbody>
+            {list.map((p) => {
+              const free = p.lower === null && p.upper === null;
+              const fixed = !free && p.lower === p.upper;
+              const unit = unitOf(p.key, largest);
+              const show = (v: Num, digits = 9) => (v === null ? "–" : format(v * unit.factor, digits) + (unit.symbol === "°" ? "°" : unit.symbol ? `\u202f${unit.symbol}` : ""));
+              const span = p.lower !== null && p.upper !== null ? p.upper - p.lower : Math.abs(p.value ?? 1);
+              const near = (b: Num) => !fixed && b !== null && p.value !== null && Math.abs(p.value - b) <= 1e-6 * span;
+              const active = near(p.lower) ? "at lower bound" : near(p.upper) ? "at upper bound" : "";
+              return (
+                <tr>
+                  <th scope="row">{p.label} <code>{p.key}</code></th>
+                  <td class="num">{show(p.value)}</td>
+                  <td class="num">{fixed ? "" : show(p.lower, 5)}</td>
+                  <td><Within value={p.value} lower={p.lower} upper={p.upper} /></td>
+                  <td class="num">{fixed ? "" : show(p.upper, 5)}</td>
+                  <td>{fixed ? "fixed" : active && <span class="defect">{active}</span>}</td>
+                </tr>
+              );
+            })}
+          </tbody>
+        </table>
+      </div>
+    </Section>
+  );
+}
+
+function Distribution() {
+  const values = runs.map((r) => r.final);
+  if (values.filter((v) => v !== null).length < 2) return null;
+  const bins = 60;
+  const { logarithmic, low, high, dots } = stackDots(values, bins);
+  const tallest = Math.max(...dots.map((d) => d.level)) + 1;
+  const w = 520;
+  const h = Math.min(190, Math.max(70, tallest * 11 + 16));
+  const pitch = Math.min(11, (h - 16) / tallest);
+  const middle = logarithmic ? Math.sqrt(low * high) : (low + high) / 2;
+  const known = values.filter((v): v is number => v !== null);
+  const spread = Math.max(...known) - Math.min(...known);
+  return (
+    <div class="card plot">
+      <h3>Final value of each seed</h3>
+      <svg class="dots" viewBox={`0 0 ${w} ${h + 34}`} role="img" aria-label={`Final values of ${dots.length} seeds from ${format(low)} to ${format(high)}`}>
+        <path class="axis" d={`M10 ${h}H${w - 10}M10 ${h}v5M${w / 2} ${h}v5M${w - 10} ${h}v5`} />
+        <text x={10} y={h + 20}>{format(low, 5)}</text>
+        <text x={w / 2} y={h + 20} text-anchor="middle">{format(middle, 5)}</text>
+        <text x={w - 10} y={h + 20} text-anchor="end">{format(high, 5)}</text>
+        {dots.map((d) => (
+          <circle cx={16 + d.share * (w - 32)} cy={h - 7 - d.level * pitch} r={Math.min(4.6, pitch / 2)}><title>{`seed ${runs[d.index].seed}: ${format(values[d.index], 9)}`}</title></circle>
+        ))}
+      </svg>
+      <p class="note">{spread <= 1e-9 * Math.abs(known[0]) ? `All ${known.length} seeds end at the same value to nine digits.` : `${known.length} seeds, one dot each${logarithmic ? ", logarithmic axis" : ""}.`}</p>
+    </div>
+  );
+}
+
+export function Runs() {
+  const statistics = Object.entries(isObject(result.statistics) ? result.statistics : {});
+  if (!runs.length && !statistics.length) return null;
+  return (
+    <Section title="Search" id="search">
+      <div class="grid-2"><Convergence runs={runs} /><Distribution /></div>
+      {statistics.length > 0 && <dl class="facts">{statistics.map(([k, v]) => <div><dt>{nameOf(k)}</dt><dd>{display(k, v)}</dd></div>)}</dl>}
+      {runs.length > 0 && (
+        <details>
+          <summary>Table of the runs</summary>
+          <div class="scroll"><table>
+            <thead><tr><th scope="col">seed</th><th scope="col" class="num">final value</th><th scope="col" class="num">evaluations</th><th scope="col">status</th></tr></thead>
+            <tbody>{runs.map((r) => <tr><td>{r.seed}</td><td class="num">{format(r.final, 9)}</td><td class="num">{format(r.evaluations, 12)}</td><td>{r.status.replace(/_/g, " ")}</td></tr>)}</tbody>
+          </table></div>
+        </details>
+      )}
+    </Section>
+  );
+}
+
+export function Comparisons() {
+  if (!view.comparisons.length) return null;
+  return (
+    <Section title="Published and ours" id="published">
+      <div class="scroll"><table>
+        <thead><tr><th scope="col">item</th><th scope="col">source</th><th scope="col" class="num">published</th><th scope="col" class="num">ours</th><th scope="col">verdict</th><th scope="col">note</th></tr></thead>
+        <tbody>{view.comparisons.map((c) => (
+          <tr><th scope="row">{c.item}</th><td>{c.source}</td><td class="num">{format(c.published, 9)}</td><td class="num">{format(c.ours, 9)}</td>
+            <td><span class={`badge ${c.verdict.startsWith("not") ? "bad" : "good"}`}>{c.verdict}</span></td><td>{c.note}</td></tr>))}</tbody>
+      </table></div>
+    </Section>
+  );
+}
+
+export function Remarks() {
+  if (!result.diagnostics.length) return null;
+  return (
+    <Section title="Remarks" id="remarks">
+      <ul class="remarks">{result.diagnostics.map((d) => (
+        <li class={d.severity}><b>{d.severity}</b><span>{d.key && <code>{d.key}</code>} {d.message}{d.hint && <small>{d.hint}</small>}</span></li>))}</ul>
+    </Section>
+  );
+}
+
+function DataTable({ table }: { table: Table }) {
+  const [open, setOpen] = useState(false);
+  const rows = table.data[0]?.length ?? 0;
+  const shown = Math.min(rows, 2000);
+  return (
+    <details onToggle={(e) => setOpen(e.currentTarget.open)}>
+      <summary>{table.name} <span class="note">{rows} rows, {table.columns.length} columns</span>
+        <button type="button" class="get" data-download={`${table.name}.csv`} onClick={(e) => { e.preventDefault(); save(`${slug(table.name)}.csv`, csv(table), "text/csv"); }}>CSV</button></summary>
+      {open && (
+        <div class="scroll tall"><table>
+          <thead><tr>{table.columns.map((c) => <th scope="col" class="num">{c.label || c.key}</th>)}{table.status.length > 0 && <th scope="col">status</th>}</tr></thead>
+          <tbody>{Array.from({ length: shown }, (_, r) => <tr>{table.data.map((c) => <td class="num">{format(c[r], 7)}</td>)}{table.status.length > 0 && <td>{table.status[r]}</td>}</tr>)}</tbody>
+        </table></div>
+      )}
+      {open && shown < rows && <p class="note">The first {shown} rows; the CSV file has them all.</p>}
+    </details>
+  );
+}
+
+export function Data() {
+  const name = slug(view.title);
+  const shown = scene.value;
+  const missed = shown && targetTable(shown);
+  const tables = missed ? [...result.tables, missed] : result.tables;
+  const svg = () => drawingSvg(document.querySelector<SVGSVGElement>("#drawing")!);
+  const sample = () => {
+    const at = Math.round(position.value);
+    return isAssembled(motion.value, at) ? at : (motion.value.runs[0]?.[0] ?? 0);
+  };
+  return (
+    <Section title="Data" id="data">
+      <div class="downloads">
+        {resultText() !== "null" && <button type="button" class="get" data-download="result.json" onClick={() => save("result.json", resultText(), "application/json")}>Result (JSON)</button>}
+        {view.study_toml && <button type="button" class="get" data-download="study.toml" onClick={() => save("study.toml", view.study_toml)}>Study (TOML)</button>}
+        {shown && <>
+          <button type="button" class="get" data-download="svg" onClick={() => save(`${name}.svg`, svg(), "image/svg+xml")}>Drawing (SVG)</button>
+          <button type="button" class="get" data-download="png" onClick={async () => save(`${name}.png`, await png(svg()))}>Drawing (PNG)</button>
+          <button type="button" class="get" data-download="dxf" onClick={() => save(`${name}.dxf`, dxf(shown, sample()), "application/dxf")}>Drawing (DXF, 1:1 mm)</button>
+        </>}
+      </div>
+      {tables.map((t) => <DataTable key={t.name} table={t} />)}
+    </Section>
+  );
+}
+
+function Copy({ text }: { text: string }) {
+  const [done, setDone] = useState(false);
+  const copy = async () => {
+    await navigator.clipboard.writeText(text);
+    setDone(true);
+    setTimeout(() => setDone(false), 1500);
+  };
+  return <button type="button" class="copy screen-only" onClick={() => copy().catch(() => setDone(false))}>{done ? "copied" : "copy"}</button>;
+}
+
+export function Reproduce() {
+  return (
+    <Section title="How to reproduce" id="reproduce">
+      {view.command && <div class="copyable"><pre>{view.command}</pre><Copy text={view.command} /></div>}
+      {view.study_toml && <details><summary>The study</summary><div class="copyable"><pre>{view.study_toml}</pre><Copy text={view.study_toml} /></div></details>}
+      <footer>{view.tool}<span class="screen-only"> · keys: space plays, ← → step (shift: 10), T trace, V speed, E targets, G ghosts, N names, B bounce, + − 0 zoom; drag a moving joint to move the mechanism</span></footer>
+    </Section>
+  );
+}

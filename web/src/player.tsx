@@ -1,0 +1,139 @@
+// Controls of the motion and of what is drawn.
+import type { Signal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
+import { Drawing, extent, fitView, SpeedLegend, whiskerFactor, zoomBy } from "./drawing";
+import { gaps, inputAt, isAssembled, placeNear, positionOfTurn, step } from "./motion";
+import * as state from "./state";
+import { format, lengthUnit, quantity, unitOf } from "./units";
+
+const toggle = (flag: Signal<boolean>) => (flag.value = !flag.value);
+const walk = (count: number) => state.scrub(step(state.motion.value, state.position.value, count));
+const end = (last: boolean) => state.scrub(last ? state.motion.value.samples - 1 : 0);
+const play = () => state.motion.value.runs.length > 0 && toggle(state.playing);
+
+const keys: Record<string, (event: KeyboardEvent) => void> = {
+  " ": play,
+  k: play,
+  ArrowRight: (e) => walk(e.shiftKey ? 10 : 1),
+  ArrowLeft: (e) => walk(e.shiftKey ? -10 : -1),
+  Home: () => end(false),
+  End: () => end(true),
+  "+": () => zoomBy(1.25),
+  "=": () => zoomBy(1.25),
+  "-": () => zoomBy(0.8),
+  "0": fitView,
+  t: () => toggle(state.showTrace),
+  v: () => toggle(state.showSpeed),
+  e: () => toggle(state.showTargets),
+  g: () => toggle(state.showGhosts),
+  n: () => toggle(state.showLabels),
+  b: () => toggle(state.bounce),
+};
+
+function onKey(event: KeyboardEvent) {
+  const target = event.target as HTMLElement;
+  if (event.ctrlKey || event.metaKey || event.altKey || target.closest("select, textarea, summary, a, pre")) return;
+  if (target.closest("button") && (event.key === " " || event.key === "Enter")) return;
+  const act = keys[event.key];
+  // Home and End belong to the page unless the drawing or its controls have the focus.
+  if (!act || (["Home", "End"].includes(event.key) && !target.closest(".machine"))) return;
+  event.preventDefault();
+  act(event);
+}
+
+function Switch({ flag, text, hint }: { flag: Signal<boolean>; text: string; hint: string }) {
+  return (
+    <button type="button" class="switch" aria-pressed={flag.value} title={hint} onClick={() => toggle(flag)}>{text}</button>
+  );
+}
+
+function TimeLine() {
+  const motion = state.motion.value;
+  const scene = state.scene.value!;
+  const last = motion.samples - 1;
+  const input = inputAt(motion, state.position.value);
+  const share = (at: number) => (inputAt(motion, at) - motion.input[0]) / (motion.input[last] - motion.input[0] || 1);
+  return (
+    <div class="time-line">
+      <div class="track" aria-hidden="true">
+        {gaps(motion).map(([a, b]) => <i class="gap" style={{ left: `${a * 100}%`, width: `${(b - a) * 100}%` }} title="does not assemble here" />)}
+        <i class="done" style={{ width: `${share(state.position.value) * 100}%` }} />
+        {state.showTargets.value && scene.targets.flatMap((t) => t.achieved_input.map((at) =>
+          at !== null && <i class="tick" style={{ left: `${share(positionOfTurn(motion, at)) * 100}%` }} />))}
+      </div>
+      <input id="scrub" type="range" min={0} max={Math.max(1, last)} step={1} value={Math.round(state.position.value)}
+        aria-label={scene.input_label || "input"} aria-valuetext={`${quantity(scene.input_key, input, 4)}${isAssembled(motion, state.position.value) ? "" : ", does not assemble"}`}
+        onInput={(e) => state.scrub(Number(e.currentTarget.value))} />
+    </div>
+  );
+}
+
+function Readout() {
+  const scene = state.scene.value!;
+  const motion = state.motion.value;
+  const at = state.position.value;
+  const good = isAssembled(motion, at);
+  const unit = unitOf(scene.input_key);
+  const tracer = scene.joints.find((j) => j.style === "tracer");
+  const p = tracer && placeNear(scene, tracer.point, at);
+  const length = lengthUnit(extent.value);
+  const value = inputAt(motion, at) * unit.factor;
+  return (
+    <dl class="title-block">
+      <div class="wide"><dt>mechanism</dt><dd>{scene.title}</dd></div>
+      <div><dt>{scene.input_label || "input"}</dt><dd id="input-value">{unit.symbol === "°" ? value.toFixed(1).replace("-", "−") : format(value, 5)}{unit.symbol === "°" ? "°" : ` ${unit.symbol}`}</dd></div>
+      {tracer && <div class="mid"><dt>{`point ${tracer.name}`}</dt><dd>{p ? `${format(p.x * length.factor, 5)}, ${format(p.y * length.factor, 5)} ${length.symbol}` : "–"}</dd></div>}
+      <div><dt>state</dt><dd class={good ? "ok" : "fail"}>{good ? "assembled" : (scene.status[Math.round(at)] ?? "no assembly").replace(/_/g, " ")}</dd></div>
+    </dl>
+  );
+}
+
+export function Machine() {
+  useEffect(() => {
+    document.addEventListener("keydown", onKey);
+    return () => document.removeEventListener("keydown", onKey);
+  }, []);
+  const scene = state.scene.value;
+  if (!scene) return null;
+  const still = state.motion.value.samples < 2;
+  return (
+    <section class="machine card" aria-label="Mechanism">
+      <div class="toolbar">
+        <Switch flag={state.showTrace} text="Trace" hint="Path of the traced point (T)" />
+        <Switch flag={state.showSpeed} text="Speed" hint="Trace coloured by the speed of the point (V)" />
+        {scene.targets.length > 0 && <Switch flag={state.showTargets} text="Targets" hint="Target points and errors (E)" />}
+        <Switch flag={state.showGhosts} text="Ghosts" hint="Poses at equal steps (G)" />
+        <Switch flag={state.showLabels} text="Names" hint="Names of the joints (N)" />
+        {scene.targets.length > 0 && (
+          <label class="pick">errors
+            <select id="whisker" value={String(state.whisker.value)} onChange={(e) => (state.whisker.value = e.currentTarget.value === "auto" ? "auto" : Number(e.currentTarget.value))}>
+              <option value="auto">{`auto ×${format(whiskerFactor.value)}`}</option>
+              {[1, 10, 100, 1000, 10000, 100000].map((f) => <option value={String(f)}>{`×${f}`}</option>)}
+            </select>
+          </label>
+        )}
+        <span class="spring" />
+        <button type="button" title="Zoom out (−)" aria-label="Zoom out" onClick={() => zoomBy(0.8)}>−</button>
+        <button type="button" title="Zoom in (+, or Ctrl + wheel)" aria-label="Zoom in" onClick={() => zoomBy(1.25)}>+</button>
+        <button type="button" title="Everything in view (0 or double click)" onClick={fitView}>Fit</button>
+      </div>
+      <Drawing />
+      <SpeedLegend />
+      {!still && (
+        <div class="controls">
+          <button type="button" id="play" class="play" aria-label={state.playing.value ? "Pause" : "Play"} title="Play or pause (space)" onClick={play}>
+            <svg viewBox="0 0 20 20" aria-hidden="true"><path d={state.playing.value ? "M5 3h4v14H5zM11 3h4v14h-4z" : "M5 2.5L17 10 5 17.5z"} /></svg>
+          </button>
+          <button type="button" aria-label="Step back" title="One step back (←, with shift 10)" onClick={() => walk(-1)}>◂</button>
+          <button type="button" aria-label="Step forward" title="One step forward (→, with shift 10)" onClick={() => walk(1)}>▸</button>
+          <TimeLine />
+          <select id="speed" aria-label="Speed" value={String(state.speed.value)} onChange={(e) => (state.speed.value = Number(e.currentTarget.value))}>
+            {[0.1, 0.25, 0.5, 1, 2, 5, 10].map((s) => <option value={String(s)}>{`${s}×`}</option>)}
+          </select>
+          <Switch flag={state.bounce} text="⇄" hint="Bounce: back and forth instead of round (B)" />
+        </div>
+      )}
+      <Readout />
+    </section>
+  );
+}

@@ -1,0 +1,121 @@
+// Where the drawing stands on the screen.
+import type { Num, Scene } from "./data";
+import type { Place } from "./motion";
+
+export interface Box {
+  left: number;
+  right: number;
+  bottom: number;
+  top: number;
+}
+
+/** Smallest rectangle with everything of the scene over all samples; null when nothing of it exists. */
+export function bounds(scene: Scene): Box | null {
+  const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
+  const add = (xs: Num[], ys: Num[]) =>
+    xs.forEach((x, i) => {
+      const y = ys[i] ?? null;
+      if (x === null || y === null) return;
+      box.left = Math.min(box.left, x);
+      box.right = Math.max(box.right, x);
+      box.bottom = Math.min(box.bottom, y);
+      box.top = Math.max(box.top, y);
+    });
+  for (const p of scene.points) add(p.x, p.y);
+  for (const t of scene.targets) {
+    add(t.x, t.y);
+    add(t.achieved_x, t.achieved_y);
+  }
+  return box.left <= box.right ? box : null;
+}
+
+/** Middle of the screen in metres and pixels per metre. */
+export interface Camera {
+  x: number;
+  y: number;
+  scale: number;
+}
+
+export interface Size {
+  width: number;
+  height: number;
+}
+
+export function fit(box: Box, size: Size, margin = 58): Camera {
+  const width = box.right - box.left;
+  const height = box.top - box.bottom;
+  const least = Math.max(width, height, 1e-9) / 5;
+  return {
+    x: (box.left + box.right) / 2,
+    y: (box.bottom + box.top) / 2,
+    scale: Math.min(
+      Math.max(40, size.width - 2 * margin) / Math.max(width, least),
+      Math.max(40, size.height - 2 * margin) / Math.max(height, least),
+    ),
+  };
+}
+
+export const toScreen = (camera: Camera, size: Size, p: Place): Place => ({
+  x: size.width / 2 + (p.x - camera.x) * camera.scale,
+  y: size.height / 2 - (p.y - camera.y) * camera.scale,
+});
+
+export const toWorld = (camera: Camera, size: Size, p: Place): Place => ({
+  x: camera.x + (p.x - size.width / 2) / camera.scale,
+  y: camera.y - (p.y - size.height / 2) / camera.scale,
+});
+
+/** Zooms about a place of the screen, which keeps its place in the world. */
+export function zoom(camera: Camera, size: Size, about: Place, factor: number): Camera {
+  const fixed = toWorld(camera, size, about);
+  return { x: fixed.x + (camera.x - fixed.x) / factor, y: fixed.y + (camera.y - fixed.y) / factor, scale: camera.scale * factor };
+}
+
+/** The largest of 1, 2, 5 times a power of ten that is not above the span. */
+export function niceStep(span: number): number {
+  if (!(span > 0) || !Number.isFinite(span)) return 1;
+  const decade = 10 ** Math.floor(Math.log10(span) + 1e-12);
+  const mantissa = (span / decade) * (1 + 1e-12);
+  return (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1) * decade;
+}
+
+/** Multiples of the step from low to high. */
+export function ticks(low: number, high: number, step: number): number[] {
+  const out: number[] = [];
+  for (let i = Math.ceil(low / step); i * step <= high && out.length < 400; ++i) out.push(i * step);
+  return out;
+}
+
+/** Path data of places; a missing place interrupts the line, and then the path is not closed either. */
+export function pathOf(places: (Place | null)[], closed: boolean): string {
+  let path = "";
+  let down = false;
+  for (const p of places) {
+    if (p) path += `${down ? "L" : "M"}${p.x.toFixed(2)} ${p.y.toFixed(2)}`;
+    down = p !== null;
+  }
+  return closed && path && places.every((p) => p !== null) ? `${path}Z` : path;
+}
+
+export interface TargetErrors {
+  distance: Num[];
+  worst: number; // index; -1 = nothing achieved
+}
+
+export function targetErrors(target: { x: Num[]; y: Num[]; achieved_x: Num[]; achieved_y: Num[] }): TargetErrors {
+  const distance = target.x.map((x, i) => {
+    const [y, ax, ay] = [target.y[i], target.achieved_x[i], target.achieved_y[i]];
+    return x === null || y == null || ax == null || ay == null ? null : Math.hypot(ax - x, ay - y);
+  });
+  let worst = -1;
+  distance.forEach((d, i) => {
+    if (d !== null && (worst < 0 || d > (distance[worst] ?? 0))) worst = i;
+  });
+  return { distance, worst };
+}
+
+/** How many times larger errors should be drawn to be seen: 1, 2, 5, 10 ... so that the worst is about 5 % of the drawing. */
+export function whiskerScale(worst: number, size: number): number {
+  if (!(worst > 0) || !(size > 0)) return 1;
+  return Math.max(1, niceStep((0.06 * size) / worst));
+}

@@ -1,0 +1,275 @@
+// Opens the sample reports from disk in a headless browser without network and uses them as a reader would.
+// node browser.mjs SAMPLES CHROMIUM PYTHON CHECK_DXF [SCREENSHOTS]
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, readFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const [samples, executablePath, python, checkDxf, pictures] = process.argv.slice(2);
+const url = (name) => pathToFileURL(resolve(samples, name)).href;
+const browser = await chromium.launch({
+  executablePath,
+  args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync"],
+});
+
+async function open(name, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1360, height: 900 }, offline: true, acceptDownloads: true, ...options });
+  const page = await context.newPage();
+  const errors = [];
+  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+  page.on("pageerror", (error) => errors.push(String(error)));
+  page.on("request", (request) => /^(file|blob|data):/.test(request.url()) || errors.push(`asks for ${request.url()}`));
+  await page.goto(url(name));
+  return { page, errors, close: () => context.close() };
+}
+
+const tests = [];
+const test = (name, run) => tests.push({ name, run });
+const position = (page) => page.locator("#drawing .pose").getAttribute("data-position").then(Number);
+const crank = (page) => page.locator('.pose [data-body="crank"] .bar').getAttribute("d");
+// The page forbids eval, so that its state is asked for from here.
+async function until(what) {
+  for (const end = Date.now() + 10_000; Date.now() < end; await new Promise((resolve) => setTimeout(resolve, 30))) if (await what()) return;
+  assert.fail(`never happened: ${what}`);
+}
+const marker = (page, plot) => page.locator(`[data-plot="${plot}"] .now`).evaluate((e) => new DOMMatrix(getComputedStyle(e).transform).e);
+const pause = async (page) => {
+  if ((await page.locator("#play").getAttribute("aria-label")) === "Pause") await page.locator("#play").click();
+};
+async function download(page, key) {
+  const [file] = await Promise.all([page.waitForEvent("download"), page.locator(`[data-download="${key}"]`).first().click()]);
+  return { name: file.suggestedFilename(), path: await file.path() };
+}
+
+test("the report stands, complete and without errors", async () => {
+  const { page, errors, close } = await open("report.html");
+  await page.waitForSelector("#drawing .pose");
+  assert.equal(await page.locator("#static").count(), 0);
+  assert.match(await page.locator("h1").innerText(), /Four-bar through 18 points/);
+  assert.match(await page.locator(".verdict").innerText(), /2 of 2 checks passed/);
+  for (const [part, count] of [["#drawing .link", 3], [".joint", 5], [".target", 18], [".worst", 2], [".chart canvas", 3], ["#solutions tbody tr", 3],
+    ["#parameters tbody tr", 8], ["#published tbody tr", 2], [".dots circle", 12], [".remarks li", 1], [".facts > div", 9]])
+    assert.equal(await page.locator(part).count(), count, part);
+  assert.equal(await page.locator("#parameters", { hasText: "at upper bound" }).count(), 1);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("it moves at once, pauses and plays", async () => {
+  const { page, close } = await open("report.html");
+  const before = await crank(page);
+  await until(async () => (await crank(page)) !== before);
+  await page.locator("#play").click();
+  const still = await crank(page);
+  await page.waitForTimeout(200);
+  assert.equal(await crank(page), still);
+  await page.locator("body").press(" ");
+  await until(async () => (await crank(page)) !== still);
+  await close();
+});
+
+test("links keep their length while it moves", async () => {
+  const { page, close } = await open("report.html");
+  const length = () => page.locator('.pose [data-body="crank"] .bar').evaluate((e) => e.getTotalLength());
+  await pause(page);
+  const before = await length();
+  for (let i = 0; i < 5; ++i) await page.locator("body").press("Shift+ArrowRight");
+  assert.ok(Math.abs((await length()) - before) < 0.05, "coordinates are rounded to a hundredth of a pixel");
+  await close();
+});
+
+test("scrubbing changes the pose, the numbers and the cursors of the plots", async () => {
+  const { page, close } = await open("report.html");
+  await page.locator("#scrub").fill("90");
+  assert.equal(await position(page), 90);
+  assert.equal(await page.locator("#input-value").innerText(), "90.0°");
+  const [pose, cursor] = [await crank(page), await marker(page, "transmission")];
+  await page.locator("#scrub").fill("180");
+  assert.notEqual(await crank(page), pose);
+  const width = await page.locator('[data-plot="transmission"] .u-over').evaluate((e) => e.clientWidth);
+  assert.ok(Math.abs((await marker(page, "transmission")) - cursor - width / 4) < 2, "a quarter of the turn is a quarter of the plot");
+  await close();
+});
+
+test("pointing at a plot moves the mechanism there", async () => {
+  const { page, close } = await open("report.html");
+  await pause(page);
+  const over = page.locator('[data-plot="transmission"] .u-over');
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + box.width * 0.5, box.y + 40);
+  await page.mouse.move(box.x + box.width * 0.75, box.y + 40);
+  await until(async () => Math.abs((await position(page)) - 270) < 3);
+  await close();
+});
+
+test("keys step, toggle and zoom", async () => {
+  const { page, close } = await open("report.html");
+  await page.locator("#scrub").fill("10");
+  await page.locator("body").press("ArrowRight");
+  await page.locator("body").press("Shift+ArrowRight");
+  assert.equal(await position(page), 21);
+  await page.locator("body").press("g");
+  assert.equal(await page.locator(".ghosts > g").count(), 12);
+  await page.locator("body").press("t");
+  assert.equal(await page.locator(".traces").count(), 0);
+  await page.locator("body").press("t");
+  await page.locator("body").press("v");
+  assert.ok((await page.locator(".trace.speed").count()) > 5);
+  const pose = await crank(page);
+  await page.locator("body").press("+");
+  assert.notEqual(await crank(page), pose);
+  await page.locator("body").press("0");
+  assert.equal(await crank(page), pose);
+  await close();
+});
+
+test("whiskers can be magnified", async () => {
+  const { page, close } = await open("report.html");
+  const length = () => page.locator(".whisker").first().evaluate((e) => e.getTotalLength());
+  await page.locator("#whisker").selectOption("1");
+  const one = await length();
+  await page.locator("#whisker").selectOption("10");
+  assert.ok(Math.abs((await length()) / one - 10) < 0.2);
+  await close();
+});
+
+test("a joint can be dragged along its motion", async () => {
+  const { page, close } = await open("report.html");
+  await page.locator("#scrub").fill("30");
+  const box = await page.locator('[data-joint="A"] circle').first().boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x - 40, y - 20, { steps: 5 });
+  await page.mouse.up();
+  assert.ok((await position(page)) > 35);
+  await close();
+});
+
+test("another solution can be shown; what does not assemble is hatched", async () => {
+  const { page, errors, close } = await open("report.html");
+  assert.equal(await page.locator(".gap").count(), 0);
+  await page.locator('[data-solution="2"]').click();
+  assert.match(await page.locator(".title-block").innerText(), /double rocker/);
+  assert.ok((await page.locator(".gap").count()) >= 1);
+  assert.match(await page.locator("#h-parameters").innerText(), /solution 3/);
+  assert.equal(await page.locator('[data-plot="transmission"] canvas').count(), 1);
+  const missing = await page.evaluate(() => JSON.parse(document.getElementById("view-data").textContent).scenes[2].status.indexOf("no_assembly"));
+  await page.locator("#scrub").fill(String(missing));
+  assert.match(await page.locator(".title-block").innerText(), /no assembly/);
+  assert.equal(await page.locator("#drawing .link").count(), 1);
+  await page.locator("#solutions tbody tr").first().locator("button").click();
+  assert.equal(await page.locator(".gap").count(), 0);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("downloads have their content", async () => {
+  const { page, errors, close } = await open("report.html");
+  await pause(page);
+  const table = await download(page, "motion of solution-1.csv");
+  assert.equal(table.name, "motion-of-solution-1.csv");
+  const lines = readFileSync(table.path, "utf8").trimEnd().split("\r\n");
+  assert.equal(lines[0], "crank_angle_rad,coupler_x_m,coupler_y_m,transmission_angle_rad,status");
+  assert.equal(lines.length, 362);
+  assert.equal(JSON.parse(readFileSync((await download(page, "result.json")).path, "utf8")).status, "done");
+  assert.match(readFileSync((await download(page, "study.toml")).path, "utf8"), /^schema = 1/);
+  assert.match(readFileSync((await download(page, "svg")).path, "utf8"), /^<svg[^]*<\/svg>$/);
+  assert.equal(readFileSync((await download(page, "png")).path).subarray(1, 4).toString(), "PNG");
+  const drawing = await download(page, "dxf");
+  assert.equal(execFileSync(python, [checkDxf, drawing.path], { encoding: "utf8" }).trim(), "ok");
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("it prints in light colours and returns to the screen", async () => {
+  const { page, errors, close } = await open("report.html", { colorScheme: "dark" });
+  const width = await page.locator(".chart canvas").first().evaluate((e) => e.clientWidth);
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  assert.equal(await page.locator("html").getAttribute("data-theme"), "light");
+  assert.equal(await page.locator(".uplot").first().evaluate((e) => e.clientWidth), 310);
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  assert.equal(await page.locator(".chart canvas").first().evaluate((e) => e.clientWidth), width);
+  assert.equal((await page.pdf({ format: "A4" })).subarray(0, 4).toString(), "%PDF");
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("reduced motion is respected", async () => {
+  const { page, close } = await open("report.html", { reducedMotion: "reduce" });
+  const before = await position(page);
+  await page.waitForTimeout(250);
+  assert.equal(await position(page), before);
+  await close();
+});
+
+test("without scripts there are drawings and tables", async () => {
+  const { page, close } = await open("report.html", { javaScriptEnabled: false });
+  assert.equal(await page.locator("#static figure svg").count(), 3);
+  assert.ok(await page.locator("#static figure svg").first().isVisible());
+  assert.ok((await page.locator("#static table").count()) > 6);
+  assert.ok(!(await page.locator("#app").isVisible()));
+  await close();
+});
+
+test("hostile text stays text", async () => {
+  for (const javaScriptEnabled of [true, false]) {
+    const { page, errors, close } = await open("hostile.html", { javaScriptEnabled });
+    assert.match(await page.locator("h1").innerText(), /<script>/);
+    assert.equal(await page.locator("img").count(), 0);
+    if (javaScriptEnabled) assert.equal(await page.evaluate(() => document.body.dataset.broken), undefined);
+    assert.deepEqual(errors, []);
+    await close();
+  }
+});
+
+test("a result without anything still makes a report", async () => {
+  const { page, errors, close } = await open("empty.html");
+  assert.match(await page.locator(".verdict").innerText(), /do not reach each other/);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+if (pictures)
+  test("pictures", async () => {
+    mkdirSync(pictures, { recursive: true });
+    const shots = { light: {}, dark: { colorScheme: "dark" }, narrow: { viewport: { width: 400, height: 850 } }, static: { javaScriptEnabled: false } };
+    for (const [name, options] of Object.entries(shots)) {
+      const { page, close } = await open("report.html", { reducedMotion: "reduce", ...options });
+      if (name !== "static") await page.locator("#scrub").fill("62");
+      if (name === "dark") for (const key of ["g", "v"]) await page.locator("body").press(key);
+      await page.waitForTimeout(200);
+      await page.screenshot({ path: join(pictures, `${name}.png`), fullPage: true });
+      if (name === "light") {
+        await page.emulateMedia({ media: "print" });
+        await page.setViewportSize({ width: 703, height: 1000 });
+        await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+        await page.waitForTimeout(300);
+        await page.screenshot({ path: join(pictures, "print.png"), fullPage: true });
+        await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+        await page.emulateMedia({ media: "screen" });
+        await page.setViewportSize({ width: 1360, height: 900 });
+        await page.locator('[data-solution="2"]').click();
+        await page.locator("#scrub").fill("40");
+        await page.screenshot({ path: join(pictures, "gaps.png") });
+      }
+      await close();
+    }
+  });
+
+let failures = 0;
+for (const { name, run } of tests) {
+  try {
+    await run();
+    console.log(`ok      ${name}`);
+  } catch (error) {
+    ++failures;
+    console.log(`FAILED  ${name}\n${error.stack}`);
+  }
+}
+await browser.close();
+process.exit(failures ? 1 : 0);

@@ -1,0 +1,27 @@
+import { defineConfig } from "vite";
+
+// The bundle carries the notices that the licences of its parts ask for.
+const notices = `/*! Linkwright report viewer. Contains:
+Preact, (c) 2015-present Jason Miller; @preact/signals, (c) 2022-present Preact Team; uPlot, (c) 2022 Leon Sorokin.
+The MIT License: Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated
+documentation files (the "Software"), to deal in the Software without restriction, including without limitation the rights to
+use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the Software, and to permit persons to whom the
+Software is furnished to do so, subject to the following conditions: The above copyright notice and this permission notice shall
+be included in all copies or substantial portions of the Software. THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY
+KIND, EXPRESS OR IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND
+NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER LIABILITY, WHETHER
+IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER
+DEALINGS IN THE SOFTWARE. */`;
+
+// One script and one style sheet that run from disk in any current browser.
+export default defineConfig({
+  define: { "process.env.NODE_ENV": '"production"' },
+  esbuild: { jsx: "automatic", jsxImportSource: "preact", legalComments: "none" },
+  build: {
+    target: "es2020",
+    reportCompressedSize: false,
+    lib: { entry: "src/main.tsx", name: "linkwrightReport", formats: ["iife"], fileName: () => "viewer.js", cssFileName: "viewer" },
+    rollupOptions: { output: { banner: notices } },
+  },
+  test: { include: ["tests/*.test.ts"] },
+} as Parameters<typeof defineConfig>[0]);
