@@ -16,7 +16,6 @@ constexpr double pi = std::numbers::pi;
 
 // Whether the crank can go from `a` to `b` (unwrapped) within one interval of inputs that assemble.
 bool reachable(const FourBarClass& type, double a, double b) {
-  if (type.crank_rotates_fully) return true;
   const double low = std::min(a, b), high = std::max(a, b);
   for (const AngleInterval& interval : type.inputs) {
     // Whole turns that bring the middle of the way next to the middle of the interval.
@@ -48,7 +47,11 @@ std::vector<Defect> defects(const PathProblem& problem, const PathDesign& design
                                            math::degrees(math::wrap_angle(design.angles[k])))});
     }
   }
-  const FourBarClass type = classify(design.linkage);
+  const FourBar& l = design.linkage;
+  const FourBarClass type = classify(l);
+  // With the tolerance of the constraint: a synthesis may end on the change point.
+  const bool turns =
+      type.crank_margin >= -tolerance::feasibility * (l.ground + l.crank + l.coupler + l.rocker);
   const std::size_t steps = problem.closed ? n : n - 1;
   // Prescribed angles tell themselves which way the crank turns.
   const double direction = problem.timing == Timing::free
@@ -63,7 +66,7 @@ std::vector<Defect> defects(const PathProblem& problem, const PathDesign& design
     turned += forward;
     if (forward > pi && forward > 2 * pi - 1)
       ++backwards;  // a short way back counts as nearly a turn forward
-    if (everywhere && !reachable(type, design.angles[k], design.angles[k] + direction * forward))
+    if (everywhere && !turns && !reachable(type, design.angles[k], design.angles[k] + direction * forward))
       out.push_back(
           {DefectKind::circuit,
            fmt::format(

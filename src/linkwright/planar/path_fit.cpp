@@ -289,7 +289,8 @@ bool PathFitter::solve_step(double lambda) {
           a(i, j) -= coupling_[k * shared + i] * eliminated_[k * columns + j];
       }
   for (std::size_t i = 0; i < shared; ++i) {
-    a(i, i) += lambda * scale[i] + 1e-14;
+    // What keeps the matrix regular has the units of its entry.
+    a(i, i) += lambda * scale[i] + (i < index(P::frame_angle) ? 1e-14 / (size_ * size_) : 1e-14);
     if (!variable_[i] || held_[i]) {
       a.row(i).setZero();
       a.col(i).setZero();

@@ -78,9 +78,10 @@ class Search {
       for (Branch branch : {Branch::open, Branch::crossed}) {
         if (!(branch == Branch::open ? problem_.search_open : problem_.search_crossed)) continue;
         // With prescribed timing the cognate on the other branch has the same error, so one branch tells all,
-        // unless bounds or other limits that the cognate need not meet are in play: that shows when the best
-        // is measured.
-        if (branch == Branch::crossed && problem_.search_open && separable_ && any_feasible()) continue;
+        // unless a better candidate failed on bounds or other limits that its cognate need not fail on.
+        if (branch == Branch::crossed && problem_.search_open && separable_ &&
+            lowest_feasible() <= lowest_failed_)
+          continue;
         for (RatioKind kind : kinds) {
           if (stopped()) return finish();
           if (problem_.timing == Timing::free) {
@@ -118,6 +119,13 @@ class Search {
                        [](const PathDesign& d) { return d.violations.empty(); });
   }
 
+  double lowest_feasible() const {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const PathDesign& d : out_.designs)
+      if (d.violations.empty()) lowest = std::min(lowest, d.error);
+    return lowest;
+  }
+
   int starts(int usual) const { return options_.starts > 0 ? options_.starts : usual; }
 
   void note(double error) {
@@ -143,10 +151,14 @@ class Search {
     local.step_clip = 2;
     local.damping = math::Damping::identity;
     const double size = path_size(problem_);
-    local.decrease_tolerance = 1e-13 * size * size;
+    local.decrease_tolerance = 1e-13;
     std::vector<double> residual(m);
+    // In units of the path, or the damping would act differently on small and on large ones.
     const auto function = [&](std::span<const double> q, std::span<double> r, std::span<double> jacobian) {
-      return projection.evaluate(q, r, jacobian);
+      if (!projection.evaluate(q, r, jacobian)) return false;
+      for (double& value : r) value /= size;
+      for (double& value : jacobian) value /= size;
+      return true;
     };
     std::vector<Candidate> found;
     const int count = starts(separable_starts);
@@ -220,13 +232,15 @@ class Search {
           keep(std::move(design));
           continue;
         }
+        lowest_failed_ = std::min(lowest_failed_, candidate.merit);
       }
       if (context_.interrupted() && !out_.designs.empty()) break;
       const PathFit fit = fitter.fit(candidate.linkage, candidate.angles, {.iterations = 200, .passes = 30});
       out_.evaluations += fit.evaluations;
       if (!std::isfinite(fit.error)) continue;
-      keep(measure(problem_, fit.linkage, sense, fit.angles));
-      if (out_.designs.back().violations.empty()) note(out_.designs.back().error);
+      PathDesign design = measure(problem_, fit.linkage, sense, fit.angles);
+      if (design.violations.empty()) note(design.error);
+      keep(std::move(design));
     }
   }
 
@@ -259,6 +273,7 @@ class Search {
   RunContext& context_;
   const PathProblem relaxed_;
   const bool separable_ = problem_.timing != Timing::free;
+  double lowest_failed_ = std::numeric_limits<double>::infinity();  // error of a candidate beyond some limit
   PathSynthesis out_;
 };
 
