@@ -11,8 +11,12 @@
 #include <cstring>
 #include <fstream>
 
+#include "linkwright/app/catalogue.h"
 #include "linkwright/app/overrides.h"
 #include "linkwright/core/table.h"
+#include "linkwright/report/dxf.h"
+#include "linkwright/report/html.h"
+#include "linkwright/report/svg.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
 
@@ -114,10 +118,23 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
   const auto write = [&](const std::string& name, std::string_view text) {
     if (write_whole(folder / name, text, diagnostics)) written.push_back(folder / name);
   };
-  if (wants(study, study::Format::json))
-    write("result.json", study::to_json_readable(result_json(study, outcome.result, outcome.record)));
+  const study::Result& result = outcome.result;
+  const std::string json = study::to_json_readable(result_json(study, result, outcome.record));
+  if (wants(study, study::Format::json)) write("result.json", json);
   if (wants(study, study::Format::csv))
-    for (const Table& table : outcome.result.tables) write(table.name + ".csv", to_csv(table));
+    for (const Table& table : result.tables) write(table.name + ".csv", to_csv(table));
+  if (wants(study, study::Format::svg))
+    for (const study::Scene& scene : result.scenes) write(scene.name + ".svg", report::svg(scene));
+  if (wants(study, study::Format::dxf))
+    for (const study::Scene& scene : result.scenes) write(scene.name + ".dxf", report::dxf(scene));
+  if (wants(study, study::Format::html))
+    write("report.html", report::html({.result = result,
+                                       .study_toml = study::to_toml(study.canonical),
+                                       .title = study.common.title,
+                                       .source = study.common.source,
+                                       .tool = fmt::format("linkwright {}", version()),
+                                       .command = outcome.command,
+                                       .result_json = json}));
   return written;
 }
 

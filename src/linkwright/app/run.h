@@ -38,6 +38,7 @@ bool prepare_folder(const std::filesystem::path& folder, Diagnostics& diagnostic
 struct RunOutcome {
   study::Result result;
   RunRecord record;
+  std::string command;  ///< command line that does it again, for the report
 };
 
 /// Runs a study, checks included, and notes what `run` of result.json holds.

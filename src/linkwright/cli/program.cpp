@@ -99,6 +99,14 @@ std::string summary(const study::Study& study, const study::Result& result,
   return text;
 }
 
+/// The command line, without what does not change the result.
+std::string command_of(const Arguments& arguments) {
+  std::string command = "linkwright run " + arguments.study;
+  if (arguments.seed) command += fmt::format(" --seed {}", *arguments.seed);
+  for (const std::string& change : arguments.set) command += fmt::format(" --set '{}'", change);
+  return command;
+}
+
 int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   RunContext context;
   const Interruptible guard(context);
@@ -117,6 +125,7 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
     const ProgressBar bar(context);
     outcome = app::run_and_record(*study, context);
   }
+  outcome.command = command_of(arguments);
   // What was remarkable about the study belongs to its evidence.
   outcome.result.diagnostics.insert(outcome.result.diagnostics.begin(), diagnostics.begin(),
                                     diagnostics.end());

@@ -24,19 +24,16 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // within reach, a share of the squared size of the path.
 constexpr double success_share = 1e-4, success_of_size = 1e-12;
 
-constexpr std::size_t most_seed_curves = 30;
-
 struct SeedRun {
   Status status = Status::done;
   std::vector<PathDesign> designs;  // best first
-  std::vector<double> at, best;     // convergence: evaluations or searches, best feasible error so far
+  std::vector<SearchPoint> history;
   std::int64_t evaluations = 0;
 };
 
 struct Run {
   Status status = Status::done;
   std::string method;
-  std::string progress_unit;  // what SeedRun::at counts
   std::vector<std::uint64_t> seeds;
   std::vector<SeedRun> runs;
 };
@@ -55,9 +52,7 @@ SeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_t se
   PathSynthesisOptions options = method.options;
   options.seed = seed;
   PathSynthesis answer = synthesise_path(s.problem, options, context);
-  SeedRun out{answer.status, std::move(answer.designs), {}, std::move(answer.history), answer.evaluations};
-  for (std::size_t i = 0; i < out.best.size(); ++i) out.at.push_back(static_cast<double>(i + 1));
-  return out;
+  return {answer.status, std::move(answer.designs), std::move(answer.history), answer.evaluations};
 }
 
 template <class Options>
@@ -79,12 +74,11 @@ SeedRun run_seed(const PopulationMethod<Options>& method, const PathStudy& s, st
     if (report.status == Status::cancelled || report.status == Status::deadline) out.status = report.status;
     PathDesign design = path_design(s.problem, branch, sense, report.x);
     if (out.designs.empty() || better_design(design, out.designs[0])) {
-      out.at.clear();
-      out.best.clear();
-      for (const auto& generation : report.log) {
-        out.at.push_back(static_cast<double>(generation.evaluations));
-        out.best.push_back(generation.best_violation > 0 ? nan : generation.best_cost);
-      }
+      out.history.clear();
+      for (const auto& generation : report.log)
+        if (generation.best_violation == 0 &&
+            (out.history.empty() || generation.best_cost < out.history.back().best))
+          out.history.push_back({generation.evaluations, generation.best_cost});
     }
     out.designs.push_back(std::move(design));
     out.evaluations += report.evaluations;
@@ -97,8 +91,6 @@ SeedRun run_seed(const PopulationMethod<Options>& method, const PathStudy& s, st
 Run run_seeds(const PathStudy& s, const study::Common& common, RunContext& context) {
   Run out;
   out.method = std::string(std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method));
-  out.progress_unit =
-      std::holds_alternative<Recommended>(s.optimiser.method) ? "local searches" : "evaluations";
   const auto count = static_cast<std::size_t>(common.seeds.count);
   std::vector<SeedRun> all(count);
   const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
@@ -254,36 +246,6 @@ void add_tables(study::Result& result, const PathStudy& s, const study::Common& 
   seeds.add("path_error_sum_sq_m2", "path error, sum of squares (m2)", error);
   seeds.add("evaluations", "evaluations", evaluations);
   result.tables.push_back(std::move(seeds));
-  result.plots.push_back({.name = "seeds",
-                          .title = "Error that each seed came to",
-                          .table = "seeds",
-                          .x = "",
-                          .y = {"path_error_sum_sq_m2"},
-                          .style = study::Plot::Style::histogram});
-
-  // Convergence: one column a seed over the longest axis; seeds that ended earlier keep their last value.
-  Table convergence{.name = "convergence"};
-  std::vector<double> axis;
-  for (const SeedRun& seed : run.runs)
-    if (seed.at.size() > axis.size()) axis = seed.at;
-  if (!axis.empty()) {
-    convergence.add(run.progress_unit == "evaluations" ? "evaluations" : "searches", run.progress_unit, axis);
-    std::vector<std::string> keys;
-    for (std::size_t i = 0; i < std::min(run.runs.size(), most_seed_curves); ++i) {
-      std::vector<double> best = run.runs[i].best;
-      best.resize(axis.size(), best.empty() ? nan : best.back());
-      keys.push_back(fmt::format("seed_{}_m2", run.seeds[i]));
-      convergence.add(keys.back(), fmt::format("seed {}", run.seeds[i]), std::move(best));
-    }
-    const std::string x = convergence.columns[0].key;
-    result.tables.push_back(std::move(convergence));
-    result.plots.push_back({.name = "convergence",
-                            .title = "Best error so far, one line a seed",
-                            .table = "convergence",
-                            .x = x,
-                            .y = keys,
-                            .logarithmic_y = true});
-  }
 }
 
 double add_statistics(study::Result& result, const Run& run, double best, double size) {
@@ -297,12 +259,19 @@ double add_statistics(study::Result& result, const Run& run, double best, double
     Value entry;
     entry["seed"] = static_cast<std::int64_t>(run.seeds[i]);
     entry["status"] = to_string(seed.status);
-    entry["path_error_sum_sq_m2"] = error;
+    entry["best"] = violation > 0 ? nan : error;  // sum of squared distances (m2)
     entry["violation"] = violation;
     entry["evaluations"] = seed.evaluations;
     if (!seed.designs.empty()) {
       entry["violations"] = Value::array();
       for (const auto& v : seed.designs[0].violations) entry["violations"].push_back(v.reason);
+    }
+    entry["history"] = Value::array();
+    for (const SearchPoint& point : seed.history) {
+      Value step;
+      step["evaluations"] = point.evaluations;
+      step["best"] = point.best;
+      entry["history"].push_back(std::move(step));
     }
     result.log.push_back(std::move(entry));
   }

@@ -15,7 +15,6 @@
 namespace linkwright::planar {
 namespace {
 
-
 // Local searches per kind, branch and sense when the options leave it open. Prescribed timing has few local
 // optima and cheap searches; free timing has many.
 constexpr int separable_starts = 20, joint_starts = 60;
@@ -128,10 +127,12 @@ class Search {
 
   int starts(int usual) const { return options_.starts > 0 ? options_.starts : usual; }
 
-  void note(double error) {
-    const double before =
-        out_.history.empty() ? std::numeric_limits<double>::infinity() : out_.history.back();
-    out_.history.push_back(std::min(before, error));
+  double best_so_far() const {
+    return out_.history.empty() ? std::numeric_limits<double>::infinity() : out_.history.back().best;
+  }
+
+  void note(double feasible_error) {
+    if (feasible_error < best_so_far()) out_.history.push_back({out_.evaluations, feasible_error});
   }
 
   void keep(PathDesign design) {
@@ -178,12 +179,12 @@ class Search {
       if (best.empty()) continue;
       const auto report = math::minimise_least_squares(function, m, best, local, workspace);
       out_.evaluations += report.evaluations;
-      PathDesign design = projection.design(relaxed_, best);
-      note(design.error);
+      const PathDesign design = projection.design(problem_, best);
+      if (design.violations.empty()) note(design.error);
       found.push_back({design.linkage, sense, design.angles, design.error});
       context_.report({.stage = "recommended",
                        .fraction = static_cast<double>(start + 1) / count,
-                       .best = out_.history.back()});
+                       .best = best_so_far()});
     }
     finish_candidates(std::move(found), sense);
   }
@@ -205,10 +206,10 @@ class Search {
       const double size = path_size(problem_);
       found.push_back(
           {fit.linkage, sense, fit.angles, fit.error + size * size * fit.violation * fit.violation});
-      note(fit.error);
+      if (fit.violation <= tolerance::feasibility) note(fit.error);
       context_.report({.stage = "recommended",
                        .fraction = static_cast<double>(start + 1) / count,
-                       .best = out_.history.back()});
+                       .best = best_so_far()});
     }
     finish_candidates(std::move(found), sense);
   }

@@ -27,12 +27,19 @@ void fields(Visitor&& visit, PathSynthesisOptions& o) {
         o.max_solutions);
 }
 
+/// One step of a search's progress.
+struct SearchPoint {
+  std::int64_t evaluations = 0;  ///< so far
+  double best = 0;               ///< least error of a feasible design so far (m2)
+  friend bool operator==(const SearchPoint&, const SearchPoint&) = default;
+};
+
 /// Answer of one seed.
 struct PathSynthesis {
   Status status = Status::done;     ///< done, infeasible, deadline or cancelled
   std::vector<PathDesign> designs;  ///< distinct, best first; feasible ones before infeasible ones
   std::int64_t evaluations = 0;
-  std::vector<double> history;  ///< best error after each local search
+  std::vector<SearchPoint> history;  ///< one entry for each better feasible design
 };
 
 /// The recommended method. Prescribed and relative timing: the linear unknowns (scale, rotation, position,

@@ -16,11 +16,13 @@
 
 namespace linkwright::study {
 
-enum class Format { json, csv, html };
-constexpr std::array<EnumName<Format>, 3> names(Format) {
+enum class Format { json, csv, html, svg, dxf };
+constexpr std::array<EnumName<Format>, 5> names(Format) {
   return {{{Format::json, "json", "result.json: everything"},
            {Format::csv, "csv", "one file for each table"},
-           {Format::html, "html", "report.html: the report for people"}}};
+           {Format::html, "html", "report.html: the report for people"},
+           {Format::svg, "svg", "a drawing of each solution"},
+           {Format::dxf, "dxf", "a drawing of each solution for CAD, in millimetres, 1:1"}}};
 }
 
 /// `[output]` of a study.

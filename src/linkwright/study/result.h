@@ -77,7 +77,9 @@ struct Result {
   std::vector<Fact> facts;
   std::vector<Solution> solutions;  ///< best first
   Value statistics;                 ///< object: best, median, worst, success_rate, evaluations, ...
-  Value log;                        ///< array of objects: one a seed
+  /// Array of objects, one a seed: `seed`, `status`, `best` (final cost, null if infeasible), `evaluations`, and
+  /// `history`, an array of { evaluations, best } for each better candidate.
+  Value log;
   std::vector<Table> tables;
   std::vector<Scene> scenes;
   std::vector<Plot> plots;
