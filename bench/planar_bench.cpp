@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "linkwright/core/random.h"
+#include "linkwright/optimise/minimise.h"
 #include "linkwright/planar/path_objective.h"
 #include "linkwright/planar/path_synthesis.h"
 
@@ -86,6 +87,22 @@ void four_bar_position(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(four_bar_position);
+
+// The published ten-unknown problem as a population method sees it, all included: 100 000 evaluations.
+void differential_evolution_100k(benchmark::State& state) {
+  const optimise::Problem problem = path_population_problem(eighteen_points(), Branch::open, 1);
+  optimise::OptimiserOptions method;
+  method.differential_evolution.population = 100;
+  method.differential_evolution.generations = 1000;
+  std::uint64_t seed = 0;
+  for (auto _ : state) {
+    RunContext context;
+    context.set_threads(1);
+    benchmark::DoNotOptimize(optimise::minimise(problem, method, {.log = false}, {.seed = ++seed}, context));
+  }
+  state.SetItemsProcessed(state.iterations() * 100000);
+}
+BENCHMARK(differential_evolution_100k)->Unit(benchmark::kMillisecond);
 
 void recommended_eighteen_points(benchmark::State& state) {
   const PathProblem problem = eighteen_points();

@@ -1,5 +1,6 @@
 #include "linkwright/planar/path_projection.h"
 
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
 
@@ -12,21 +13,17 @@ namespace {
 // Columns closer to the span of the earlier ones than this are dropped: the unknown does not matter there.
 constexpr double rank_tolerance = 1e-10;
 
+using Column = Eigen::Map<Eigen::VectorXd>;
+using ConstColumn = Eigen::Map<const Eigen::VectorXd>;
+
 double dot(const double* a, const double* b, std::size_t n) {
-  double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
-  std::size_t i = 0;
-  for (; i + 4 <= n; i += 4) {
-    s0 += a[i] * b[i];
-    s1 += a[i + 1] * b[i + 1];
-    s2 += a[i + 2] * b[i + 2];
-    s3 += a[i + 3] * b[i + 3];
-  }
-  for (; i < n; ++i) s0 += a[i] * b[i];
-  return (s0 + s1) + (s2 + s3);
+  const auto size = static_cast<Eigen::Index>(n);
+  return ConstColumn(a, size).dot(ConstColumn(b, size));
 }
 
 void subtract(double* a, double factor, const double* b, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) a[i] -= factor * b[i];
+  const auto size = static_cast<Eigen::Index>(n);
+  Column(a, size) -= factor * ConstColumn(b, size);
 }
 
 }  // namespace
