@@ -57,6 +57,7 @@ export function Chart({ label, options, data, linked = false, factor = 1, units 
                 if (!linked) return;
                 now = u.over.appendChild(document.createElement("div"));
                 now.className = "now";
+                queueMicrotask(follow); // after the scales are set
                 u.over.addEventListener("pointerenter", () => (inside = state.held.value = true));
                 u.over.addEventListener("pointerleave", () => (inside = state.held.value = false));
               },
@@ -79,20 +80,23 @@ export function Chart({ label, options, data, linked = false, factor = 1, units 
       now = null;
       plot = build();
     });
-    const stop = effect(() => {
-      state.theme.value;
-      const at = state.position.value;
-      if (!linked || !now || !plot) return;
-      now.style.transform = `translateX(${plot.valToPos(inputAt(state.motion.value, at) * factor, "x").toFixed(1)}px)`;
+    const follow = () => {
+      if (!now || !plot) return;
+      const input = inputAt(state.motion.peek(), state.position.peek()) * factor;
+      now.style.transform = `translateX(${plot.valToPos(input, "x").toFixed(1)}px)`;
+      const row = nearestRow(data[0] as number[], input);
       values.current.forEach((span, i) => {
-        const v = data[i + 1]?.[nearestRow(data[0] as number[], inputAt(state.motion.value, at) * factor)];
-        if (span) span.textContent = `${format(v ?? null, 5)}${units[i]?.symbol ? ` ${units[i].symbol}` : ""}`;
+        span.textContent = `${format(data[i + 1]?.[row] ?? null, 5)}${units[i]?.symbol ? ` ${units[i].symbol}` : ""}`;
       });
+    };
+    const stop = effect(() => {
+      state.position.value;
+      follow();
     });
     const observer = new ResizeObserver(() => {
       if (!plot || !element.clientWidth || element.clientWidth === plot.width) return;
       plot.setSize({ width: element.clientWidth, height });
-      if (now && linked) now.style.transform = `translateX(${plot.valToPos(inputAt(state.motion.peek(), state.position.peek()) * factor, "x").toFixed(1)}px)`;
+      follow();
     });
     observer.observe(element);
     return () => {
