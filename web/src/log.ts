@@ -18,7 +18,7 @@ export function costKey(entry: JsonObject): string | undefined {
   const numeric = Object.keys(entry).filter((key) => typeof entry[key] === "number");
   return (
     costNames.find((name) => numeric.includes(name)) ??
-    numeric.find((key) => costNames.some((name) => key.startsWith(name)))
+    numeric.find((key) => key.split("_").some((word) => costNames.includes(word)))
   );
 }
 

@@ -3,9 +3,8 @@ import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import { isObject, resultText, type Json, type JsonObject, type Num, type Table } from "./data";
 import { csv, drawingSvg, dxf, png, save, slug, targetTable } from "./exports";
-import { stackDots } from "./log";
 import { isAssembled, positionOfTurn } from "./motion";
-import { Convergence } from "./plots";
+import { Convergence, Dots, hasHistogram, hasLoosePlots, LoosePlots } from "./plots";
 import { motion, position, result, runs, scene, sceneIndex, scrub, showScene, view } from "./state";
 import { format, nameOf, quantity, unitOf } from "./units";
 import { targetErrors } from "./view";
@@ -203,39 +202,21 @@ export function Parameters() {
 
 function Distribution() {
   const values = runs.map((r) => r.final);
-  if (values.filter((v) => v !== null).length < 2) return null;
-  const bins = 60;
-  const { logarithmic, low, high, dots } = stackDots(values, bins);
-  const tallest = Math.max(...dots.map((d) => d.level)) + 1;
-  const w = 520;
-  const h = Math.min(190, Math.max(70, tallest * 11 + 16));
-  const pitch = Math.min(11, (h - 16) / tallest);
-  const middle = logarithmic ? Math.sqrt(low * high) : (low + high) / 2;
-  const known = values.filter((v): v is number => v !== null);
-  const spread = Math.max(...known) - Math.min(...known);
+  if (hasHistogram || values.filter((v) => v !== null).length < 2) return null;
   return (
     <div class="card plot">
       <h3>Final value of each seed</h3>
-      <svg class="dots" viewBox={`0 0 ${w} ${h + 34}`} role="img" aria-label={`Final values of ${dots.length} seeds from ${format(low)} to ${format(high)}`}>
-        <path class="axis" d={`M10 ${h}H${w - 10}M10 ${h}v5M${w / 2} ${h}v5M${w - 10} ${h}v5`} />
-        <text x={10} y={h + 20}>{format(low, 5)}</text>
-        <text x={w / 2} y={h + 20} text-anchor="middle">{format(middle, 5)}</text>
-        <text x={w - 10} y={h + 20} text-anchor="end">{format(high, 5)}</text>
-        {dots.map((d) => (
-          <circle cx={16 + d.share * (w - 32)} cy={h - 7 - d.level * pitch} r={Math.min(4.6, pitch / 2)}><title>{`seed ${runs[d.index].seed}: ${format(values[d.index], 9)}`}</title></circle>
-        ))}
-      </svg>
-      <p class="note">{spread <= 1e-9 * Math.abs(known[0]) ? `All ${known.length} seeds end at the same value to nine digits.` : `${known.length} seeds, one dot each${logarithmic ? ", logarithmic axis" : ""}.`}</p>
+      <Dots values={values} names={runs.map((r) => `seed ${r.seed}`)} label="best" />
     </div>
   );
 }
 
 export function Runs() {
   const statistics = Object.entries(isObject(result.statistics) ? result.statistics : {});
-  if (!runs.length && !statistics.length) return null;
+  if (!runs.length && !statistics.length && !hasLoosePlots) return null;
   return (
-    <Section title="Search" id="search">
-      <div class="grid-2"><Convergence runs={runs} /><Distribution /></div>
+    <Section title={runs.length ? "Search" : "Overview"} id="search">
+      <div class="grid-2"><LoosePlots /><Convergence runs={runs} /><Distribution /></div>
       {statistics.length > 0 && <dl class="facts">{statistics.map(([k, v]) => <div><dt>{nameOf(k)}</dt><dd>{display(k, v)}</dd></div>)}</dl>}
       {runs.length > 0 && (
         <details>

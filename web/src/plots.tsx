@@ -4,8 +4,9 @@ import { useEffect, useMemo, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Num, Plot, Table } from "./data";
-import { histogram, readLog, type Run } from "./log";
-import { inputAt, positionOf } from "./motion";
+import { histogram, stackDots, type Run } from "./log";
+import { inputAt, positionOf, positionOfTurn } from "./motion";
+import { nearestRow, sortedRows } from "./rows";
 import * as state from "./state";
 import { format, labelWith, unitOf } from "./units";
 
@@ -56,6 +57,7 @@ export function Chart({ label, options, data, linked = false, factor = 1, units 
                 if (!linked) return;
                 now = u.over.appendChild(document.createElement("div"));
                 now.className = "now";
+                queueMicrotask(follow); // after the scales are set
                 u.over.addEventListener("pointerenter", () => (inside = state.held.value = true));
                 u.over.addEventListener("pointerleave", () => (inside = state.held.value = false));
               },
@@ -78,20 +80,23 @@ export function Chart({ label, options, data, linked = false, factor = 1, units 
       now = null;
       plot = build();
     });
-    const stop = effect(() => {
-      state.theme.value;
-      const at = state.position.value;
-      if (!linked || !now || !plot) return;
-      now.style.transform = `translateX(${plot.valToPos(inputAt(state.motion.value, at) * factor, "x").toFixed(1)}px)`;
+    const follow = () => {
+      if (!now || !plot) return;
+      const input = inputAt(state.motion.peek(), state.position.peek()) * factor;
+      now.style.transform = `translateX(${plot.valToPos(input, "x").toFixed(1)}px)`;
+      const row = nearestRow(data[0] as number[], input);
       values.current.forEach((span, i) => {
-        const v = data[i + 1]?.[Math.round(at)];
-        if (span) span.textContent = `${format(v ?? null, 5)}${units[i]?.symbol ? ` ${units[i].symbol}` : ""}`;
+        span.textContent = `${format(data[i + 1]?.[row] ?? null, 5)}${units[i]?.symbol ? ` ${units[i].symbol}` : ""}`;
       });
+    };
+    const stop = effect(() => {
+      state.position.value;
+      follow();
     });
     const observer = new ResizeObserver(() => {
       if (!plot || !element.clientWidth || element.clientWidth === plot.width) return;
       plot.setSize({ width: element.clientWidth, height });
-      if (now && linked) now.style.transform = `translateX(${plot.valToPos(inputAt(state.motion.peek(), state.position.peek()) * factor, "x").toFixed(1)}px)`;
+      follow();
     });
     observer.observe(element);
     return () => {
@@ -120,77 +125,140 @@ export function Chart({ label, options, data, linked = false, factor = 1, units 
 const scaled = (values: Num[], factor: number, log: boolean) => values.map((v) => (v === null || (log && v <= 0) ? null : v * factor));
 const largest = (lists: Num[][]) => lists.flat().reduce<number>((a, v) => Math.max(a, Math.abs(v ?? 0)), 0);
 
+const many = 7; // more lines than this are one bundle: same colour, no legend
+
 function TablePlot({ plot, table }: { plot: Plot; table: Table }) {
   const column = (key: string) => table.columns.findIndex((c) => c.key === key);
-  const linked = plot.style !== "histogram" && plot.scene !== "" && plot.scene === state.scene.value?.name;
+  const linked = plot.scene !== "" && plot.scene === state.scene.value?.name;
   const made = useMemo(() => {
     const ys = plot.y.map(column).filter((i) => i >= 0);
     const unit = unitOf(plot.y[0] ?? "", largest(ys.map((i) => table.data[i])));
     const labels = ys.map((i) => labelWith(table.columns[i].label, table.columns[i].key, unit));
-    if (plot.style === "histogram") {
-      const { middles, counts } = histogram(scaled(ys.flatMap((i) => table.data[i]), unit.factor, false));
-      return {
-        data: [middles, counts] as uPlot.AlignedData, units: [], factor: 1,
-        options: () => ({
-          scales: { x: { time: false }, y: { range: (_: uPlot, __: number, high: number): uPlot.Range.MinMax => [0, Math.max(1, high * 1.1)] } },
-          axes: [axis(labels.join(", ")), axis("count")],
-          series: [{}, { fill: css("--c0"), stroke: css("--c0"), width: 0, paths: uPlot.paths.bars!({ size: [0.92] }), points: { show: false } }],
-          cursor: { drag: { setScale: false } },
-        }),
-      };
-    }
     const x = column(plot.x);
-    const xs = table.data[x] ?? [];
+    const motion = state.motion.peek();
+    const { xs, order } = sortedRows(table.data[x] ?? [], (v) => (linked ? inputAt(motion, positionOfTurn(motion, v)) : v));
     const xUnit = unitOf(plot.x, largest([xs]));
-    const multiple = labels.length > 1;
+    const points = plot.style === "points";
+    const bundle = labels.length > many;
     return {
-      data: [xs.map((v) => (v ?? 0) * xUnit.factor), ...ys.map((i) => scaled(table.data[i], unit.factor, plot.logarithmic_y))] as uPlot.AlignedData,
-      units: labels.map((l) => ({ label: l.replace(/ \([^()]*\)$/, ""), symbol: unit.symbol })),
+      data: [
+        xs.map((v) => v * xUnit.factor),
+        ...ys.map((i) => scaled(order.map((row) => table.data[i][row]), unit.factor, plot.logarithmic_y)),
+      ] as uPlot.AlignedData,
+      units: bundle ? [] : labels.map((l) => ({ label: l.replace(/ \([^()]*\)$/, ""), symbol: unit.symbol })),
       factor: xUnit.factor,
       options: () => ({
         scales: { x: { time: false }, y: { distr: plot.logarithmic_y ? (3 as const) : (1 as const) } },
-        axes: [axis(labelWith(table.columns[x]?.label ?? "", plot.x, xUnit)), axis(multiple ? unit.symbol : labels[0] ?? "", plot.logarithmic_y)],
+        axes: [axis(labelWith(table.columns[x]?.label ?? "", plot.x, xUnit)), axis(labels.length > 1 ? unit.symbol : (labels[0] ?? ""), plot.logarithmic_y)],
         series: [
           {},
-          ...labels.map((l, i) => ({
-            label: l, stroke: css(seriesColours[i % 6]), width: plot.style === "points" ? 0 : 2, dash: dashes[i % 6],
-            paths: plot.style === "points" ? () => null : undefined, points: { show: plot.style === "points", size: 6, fill: css(seriesColours[i % 6]) },
-          })),
+          ...labels.map((l, i) => {
+            const colour = css(bundle ? "--accent" : seriesColours[i % 6]);
+            return {
+              label: l, stroke: colour, width: points ? 0 : bundle ? 1.5 : 2, alpha: bundle ? 0.5 : 1, dash: bundle ? [] : dashes[i % 6],
+              paths: points ? () => null : undefined, points: { show: points, size: 7, fill: colour },
+            };
+          }),
         ],
-        cursor: { drag: { setScale: false }, y: false, points: { size: 7 } },
+        focus: { alpha: bundle ? 0.15 : 1 },
+        cursor: { drag: { setScale: false }, y: false, points: { size: 7, show: !bundle }, focus: { prox: bundle ? 24 : -1 } },
       }),
     };
-  }, [plot, table]);
+  }, [plot, table, linked]);
   return <Chart label={plot.title} data={made.data} options={made.options} linked={linked} factor={made.factor} units={made.units} />;
 }
 
-export function Plots() {
-  const name = state.scene.value?.name ?? "";
-  const shown = state.view.plots.filter((p) => p.scene === "" || p.scene === name);
-  const known = shown.flatMap((plot) => {
+const maximumOfDots = 200;
+
+function Histogram({ plot, table }: { plot: Plot; table: Table }) {
+  const made = useMemo(() => {
+    const columns = table.columns.flatMap((c, i) => (plot.y.includes(c.key) ? [i] : []));
+    const unit = unitOf(plot.y[0] ?? "", largest(columns.map((i) => table.data[i])));
+    const values = scaled(columns.flatMap((i) => table.data[i]), unit.factor, false);
+    const label = columns.map((i) => labelWith(table.columns[i].label, table.columns[i].key, unit)).join(", ");
+    const { middles, counts } = histogram(values);
+    return {
+      values, label, data: [middles, counts] as uPlot.AlignedData,
+      options: () => ({
+        scales: { x: { time: false }, y: { range: (_: uPlot, __: number, high: number): uPlot.Range.MinMax => [0, Math.max(1, high * 1.1)] } },
+        axes: [axis(label), axis("count")],
+        series: [{}, { fill: css("--c0"), stroke: css("--c0"), width: 0, paths: uPlot.paths.bars!({ size: [0.92] }), points: { show: false } }],
+        cursor: { drag: { setScale: false } },
+      }),
+    };
+  }, [plot, table]);
+  if (made.values.length <= maximumOfDots)
+    return <Dots values={made.values} names={made.values.map((_, i) => `row ${i + 1}`)} label={made.label} />;
+  return <Chart label={plot.title} data={made.data} options={made.options} />;
+}
+
+/** A dot a value: shows how often a search comes to the same answer. */
+export function Dots({ values, names, label }: { values: Num[]; names: string[]; label: string }) {
+  const known = values.filter((v): v is number => v !== null);
+  if (known.length === 0) return <p class="note">No values.</p>;
+  const { logarithmic, low, high, dots } = stackDots(values, 60);
+  const tallest = Math.max(...dots.map((d) => d.level)) + 1;
+  const w = 520;
+  const h = Math.min(190, Math.max(70, tallest * 11 + 16));
+  const pitch = Math.min(11, (h - 16) / tallest);
+  const middle = logarithmic ? Math.sqrt(low * high) : (low + high) / 2;
+  const spread = known.reduce((a, b) => Math.max(a, b)) - known.reduce((a, b) => Math.min(a, b));
+  return (
+    <>
+      <svg class="dots" viewBox={`0 0 ${w} ${h + 50}`} role="img" aria-label={`${dots.length} values of ${label} from ${format(low)} to ${format(high)}`}>
+        <path class="axis" d={`M10 ${h}H${w - 10}M10 ${h}v5M${w / 2} ${h}v5M${w - 10} ${h}v5`} />
+        <text x={10} y={h + 20}>{format(low, 5)}</text>
+        <text x={w / 2} y={h + 20} text-anchor="middle">{format(middle, 5)}</text>
+        <text x={w - 10} y={h + 20} text-anchor="end">{format(high, 5)}</text>
+        <text x={w / 2} y={h + 42} text-anchor="middle">{label}</text>
+        {dots.map((d) => (
+          <circle cx={16 + d.share * (w - 32)} cy={h - 7 - d.level * pitch} r={Math.min(4.6, pitch / 2)}><title>{`${names[d.index]}: ${format(values[d.index], 9)}`}</title></circle>
+        ))}
+      </svg>
+      <p class="note">{known.length > 1 && spread <= 1e-9 * Math.abs(known[0]) ? `All ${known.length} have the same value to nine digits.` : `${known.length} values, one dot each${logarithmic ? ", logarithmic axis" : ""}.`}{known.length < values.length && ` ${values.length - known.length} without a value.`}</p>
+    </>
+  );
+}
+
+const withTable = (plots: Plot[]) =>
+  plots.flatMap((plot) => {
     const table = state.result.tables.find((t) => t.name === plot.table);
     return table ? [{ plot, table }] : [];
   });
-  if (known.length === 0) return null;
+
+const Cards = ({ plots }: { plots: Plot[] }) => (
+  <>
+    {withTable(plots).map(({ plot, table }) => (
+      <div class="card plot" key={`${plot.name}/${plot.scene}`} data-plot={plot.name}>
+        <h3>{plot.title}</h3>
+        {plot.style === "histogram" ? <Histogram plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />}
+      </div>
+    ))}
+  </>
+);
+
+/** Plots over the input of the scene that is shown. */
+export function Plots() {
+  const shown = state.view.plots.filter((p) => p.scene !== "" && p.scene === state.scene.value?.name);
+  if (withTable(shown).length === 0) return null;
   return (
     <section aria-labelledby="h-plots">
       <h2 id="h-plots">Over the motion</h2>
       <p class="note screen-only">Point at a diagram and the mechanism moves there.</p>
-      <div class="grid-2">
-        {known.map(({ plot, table }) => (
-          <div class="card plot" key={`${plot.name}/${plot.scene}`} data-plot={plot.name}>
-            <h3>{plot.title}</h3>
-            <TablePlot plot={plot} table={table} />
-          </div>
-        ))}
-      </div>
+      <div class="grid-2"><Cards plots={shown} /></div>
     </section>
   );
 }
 
+const loose = state.view.plots.filter((p) => p.scene === "");
+export const hasLoosePlots = withTable(loose).length > 0;
+export const hasHistogram = withTable(loose).some(({ plot }) => plot.style === "histogram");
+/** Plots that belong to no scene. */
+export const LoosePlots = () => <Cards plots={loose} />;
+
 /** Best cost against effort, one line a seed. */
-export function Convergence({ runs }: { runs: ReturnType<typeof readLog> }) {
-  const lines = runs.filter((run: Run) => run.x.length > 1 && run.y.some((v) => v > 0));
+export function Convergence({ runs }: { runs: Run[] }) {
+  const lines = runs.filter((run) => run.x.length > 1 && run.y.some((v) => v > 0));
   const data = useMemo<uPlot.AlignedData>(
     () => (lines.length ? uPlot.join(lines.map((r) => [r.x, r.y.map((v) => (v > 0 ? v : null))] as uPlot.AlignedData)) : [[]]),
     [runs],

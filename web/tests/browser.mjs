@@ -86,6 +86,7 @@ test("scrubbing changes the pose, the numbers and the cursors of the plots", asy
   await page.locator("#scrub").fill("90");
   assert.equal(await position(page), 90);
   assert.equal(await page.locator("#input-value").innerText(), "90.0°");
+  assert.match(await page.locator('[data-plot="coupler"] .legend').innerText(), /coupler point x [0-9.]+ m/);
   const [pose, cursor] = [await crank(page), await marker(page, "transmission")];
   await page.locator("#scrub").fill("180");
   assert.notEqual(await crank(page), pose);
@@ -201,6 +202,7 @@ test("it prints in light colours and returns to the screen", async () => {
 
 test("reduced motion is respected", async () => {
   const { page, close } = await open("report.html", { reducedMotion: "reduce" });
+  await until(async () => /transmission angle [0-9.]+ °/.test(await page.locator('[data-plot="transmission"] .legend').innerText()));
   const before = await position(page);
   await page.waitForTimeout(250);
   assert.equal(await position(page), before);

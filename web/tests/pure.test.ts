@@ -2,6 +2,7 @@ import { describe, expect, it } from "vitest";
 import { readTable, type Scene } from "../src/data";
 import { csv, dxf, slug } from "../src/exports";
 import { histogram, readLog, stackDots } from "../src/log";
+import { nearestRow, sortedRows } from "../src/rows";
 import { format, labelWith, nameOf, quantity, unitOf } from "../src/units";
 import { fit, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, zoom } from "../src/view";
 
@@ -60,16 +61,31 @@ describe("view", () => {
   });
 });
 
+describe("table plots", () => {
+  it("sorts rows by x and wraps inputs into the turn that is shown", () => {
+    const { xs, order } = sortedRows([3, 1, null, 2 * Math.PI + 0.5], (x) => x % (2 * Math.PI));
+    expect(order).toEqual([3, 1, 0]);
+    expect(xs[0]).toBeCloseTo(0.5, 12);
+    expect(xs.slice(1)).toEqual([1, 3]);
+  });
+  it("finds the nearest row", () => {
+    expect([-1, 0.4, 0.6, 9].map((x) => nearestRow([0, 1, 2], x))).toEqual([0, 0, 1, 2]);
+    expect(nearestRow([], 1)).toBe(-1);
+  });
+});
+
 describe("log", () => {
   it("reads numbers, objects and entries without history", () => {
     const runs = readLog([
       { seed: 3, best: 0.1, evaluations: 50, status: "done", history: [5, 1, 0.1] },
-      { seed: 4, path_error: 1, best_cost: 0.2, history: [{ evaluations: 10, cost: 7 }, { evaluations: 20, cost: 0.2 }] },
+      { seed: 4, best: 0.2, history: [{ evaluations: 10, cost: 7 }, { evaluations: 20, cost: 0.2 }] },
       { seed: 5, status: "cancelled" },
+      { seed: 6, violation: 0, path_error_sum_sq_m2: 0.5 },
     ]);
     expect(runs[0]).toMatchObject({ seed: "3", final: 0.1, x: [1, 2, 3], y: [5, 1, 0.1], counts: "steps" });
     expect(runs[1]).toMatchObject({ final: 0.2, x: [10, 20], y: [7, 0.2], counts: "evaluations" });
     expect(runs[2]).toMatchObject({ final: null, x: [] });
+    expect(runs[3].final).toBe(0.5);
     expect(readLog(null)).toEqual([]);
   });
   it("stacks equal values", () => {
