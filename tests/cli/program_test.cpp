@@ -90,7 +90,8 @@ TEST_F(Program, RunWritesAndSummarises) {
             "  passed  best.height_mm = 400  (equals 400 within 1e-09)\n"
             "results in out/s:\n"
             "  result.json\n"
-            "  sweep.csv\n");
+            "  sweep.csv\n"
+            "  report.html\n");
   EXPECT_EQ(result("out/s/result.json").find("status")->as_string(), "done");
 }
 

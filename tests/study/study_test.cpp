@@ -118,7 +118,8 @@ TEST(Study, UnknownKeysOnEveryLevel) {
 
 TEST(Study, OutputWords) {
   EXPECT_EQ(messages("[optimiser]", "[output]\nformats = ['jsn']\n[optimiser]"),
-            "s.toml:15:12: error: output.formats[0]: is 'jsn', must be one of: json, csv, html; did you mean "
+            "s.toml:15:12: error: output.formats[0]: is 'jsn', must be one of: json, csv, html, svg, dxf; "
+            "did you mean "
             "'json'?\n");
   EXPECT_EQ(
       messages("[optimiser]", "[output]\nquantities = ['hight']\n[optimiser]"),

@@ -131,9 +131,9 @@ std::vector<PathDesign> distinct_designs(const PathStudy& s, const Run& run) {
       for (const Defect& defect : defects(s.problem, d))
         d.violations.push_back({std::string(name_of(defect.kind)), 1});
   std::stable_sort(all.begin(), all.end(), better_design);
-  std::size_t most = 8;
-  if (const auto* recommended = std::get_if<Recommended>(&s.optimiser.method))
-    most = static_cast<std::size_t>(recommended->options.max_solutions);
+  const auto* recommended = std::get_if<Recommended>(&s.optimiser.method);
+  const PathSynthesisOptions options = recommended ? recommended->options : PathSynthesisOptions();
+  const auto most = static_cast<std::size_t>(options.max_solutions);
   std::vector<PathDesign> out;
   for (PathDesign& d : all) {
     if (out.size() == most) break;
@@ -210,27 +210,31 @@ study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t
 
 void add_tables(study::Result& result, const PathStudy& s, const study::Common& common,
                 const std::vector<PathDesign>& designs, const Run& run) {
-  result.tables.push_back(point_table(s.problem, designs[0], "points"));
-  result.tables.push_back(motion_table(designs[0], "motion", common.output.samples));
-  result.plots.push_back({.name = "errors",
-                          .title = "Distance from the target points",
-                          .table = "points",
-                          .x = "crank_angle_rad",
-                          .y = {"distance_m"},
-                          .style = study::Plot::Style::points,
-                          .scene = "solution-1"});
-  result.plots.push_back({.name = "transmission",
-                          .title = "Transmission angle",
-                          .table = "motion",
-                          .x = "crank_angle_rad",
-                          .y = {"transmission_angle_rad"},
-                          .scene = "solution-1"});
-  result.plots.push_back({.name = "angles",
-                          .title = "Coupler and rocker angle",
-                          .table = "motion",
-                          .x = "crank_angle_rad",
-                          .y = {"coupler_angle_rad", "rocker_angle_rad"},
-                          .scene = "solution-1"});
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    // The best design's tables have plain names, those of the others carry the number of the solution.
+    const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result.solutions[i].scene;
+    result.tables.push_back(point_table(s.problem, designs[i], "points" + suffix));
+    result.tables.push_back(motion_table(designs[i], "motion" + suffix, common.output.samples));
+    result.plots.push_back({.name = "errors" + suffix,
+                            .title = "Distance from the target points",
+                            .table = "points" + suffix,
+                            .x = "crank_angle_rad",
+                            .y = {"distance_m"},
+                            .style = study::Plot::Style::points,
+                            .scene = scene});
+    result.plots.push_back({.name = "transmission" + suffix,
+                            .title = "Transmission angle",
+                            .table = "motion" + suffix,
+                            .x = "crank_angle_rad",
+                            .y = {"transmission_angle_rad"},
+                            .scene = scene});
+    result.plots.push_back({.name = "angles" + suffix,
+                            .title = "Coupler and rocker angle",
+                            .table = "motion" + suffix,
+                            .x = "crank_angle_rad",
+                            .y = {"coupler_angle_rad", "rocker_angle_rad"},
+                            .scene = scene});
+  }
 
   Table seeds{.name = "seeds"};
   std::vector<double> number, error, evaluations;
@@ -322,7 +326,7 @@ void add_published(study::Result& result, const PathProblem& p, double best) {
 std::string metres(double value) {
   if (value >= 0.1) return fmt::format("{:.4g} m", value);
   if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
-  return fmt::format("{:.3g} um", value * 1e6);
+  return fmt::format("{:.3g} µm", value * 1e6);
 }
 
 void add_cognates(study::Result& result, const PathDesign& best) {
@@ -386,12 +390,12 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
   }
   result.facts = {
       {"path error (sum of squares)",
-       best.error >= 1e-4 ? fmt::format("{:.8f} m2", best.error) : fmt::format("{:.4g} m2", best.error),
+       best.error >= 1e-4 ? fmt::format("{:.8f} m²", best.error) : fmt::format("{:.4g} m²", best.error),
        feasible ? Verdict::good : Verdict::bad},
       {"root mean square distance", metres(rms)},
       {"worst point", fmt::format("{} at point {}", metres(*worst), worst - errors.distance.begin() + 1)},
       {"type", result.solutions[0].label},
-      {"least transmission angle", fmt::format("{:.1f} deg", mu), mu < 20 ? Verdict::bad : Verdict::plain},
+      {"least transmission angle", fmt::format("{:.1f}°", mu), mu < 20 ? Verdict::bad : Verdict::plain},
       {"method", run.method},
       {"seeds that reached the best",
        fmt::format("{:.0f} of {}", success * static_cast<double>(run.runs.size()), run.runs.size()),
@@ -412,8 +416,7 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
          {},
          {},
          {},
-         fmt::format("the transmission angle falls to {:.1f} deg: the linkage transmits force badly there",
-                     mu),
+         fmt::format("the transmission angle falls to {:.1f}°: the linkage transmits force badly there", mu),
          "limit it: [[constraint]] type = \"transmission_angle\", min_deg = 30"});
   return result;
 }

@@ -18,8 +18,6 @@ namespace {
 // Local searches per kind, branch and sense when the options leave it open. Prescribed timing has few local
 // optima and cheap searches; free timing has many.
 constexpr int separable_starts = 20, joint_starts = 60;
-constexpr std::size_t polished_ends =
-    12;  // of the local searches of a kind, how many are carried to the last digit
 constexpr int tries_per_separable_start = 6;  // random ratios of which the best starts a search
 constexpr int linkages_per_joint_start = 48;  // random curves of which the best match starts a search
 constexpr std::size_t finished_starts =
@@ -155,8 +153,6 @@ class Search {
     local.damping = math::Damping::identity;
     const double size = path_size(problem_);
     local.decrease_tolerance = 1e-13;
-    math::LeastSquaresOptions rough = local;
-    rough.relative_decrease_tolerance = 1e-3;
     std::vector<double> residual(m);
     // In units of the path, or the damping would act differently on small and on large ones.
     const auto function = [&](std::span<const double> q, std::span<double> r, std::span<double> jacobian) {
@@ -165,11 +161,7 @@ class Search {
       for (double& value : jacobian) value /= size;
       return true;
     };
-    struct End {
-      double cost;
-      std::vector<double> q;
-    };
-    std::vector<End> ends;
+    std::vector<Candidate> found;
     const int count = starts(separable_starts);
     for (int start = 0; start < count && !stopped(); ++start) {
       RandomStream stream(
@@ -185,22 +177,13 @@ class Search {
         if (sum < lowest) lowest = sum, best = std::move(q);
       }
       if (best.empty()) continue;
-      const auto report = math::minimise_least_squares(function, m, best, rough, workspace);
-      out_.evaluations += report.evaluations;
-      ends.push_back({report.cost, std::move(best)});
+      out_.evaluations += math::minimise_least_squares(function, m, best, local, workspace).evaluations;
+      const PathDesign design = projection.design(problem_, best);
+      if (design.violations.empty()) note(design.error);
+      found.push_back({design.linkage, sense, design.angles, design.error});
       context_.report({.stage = "recommended",
                        .fraction = static_cast<double>(start + 1) / count,
                        .best = best_so_far()});
-    }
-    // Most of them end in the same few optima: only the best are carried to the last digit.
-    std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.cost < b.cost; });
-    if (ends.size() > polished_ends) ends.resize(polished_ends);
-    std::vector<Candidate> found;
-    for (End& end : ends) {
-      out_.evaluations += math::minimise_least_squares(function, m, end.q, local, workspace).evaluations;
-      const PathDesign design = projection.design(problem_, end.q);
-      if (design.violations.empty()) note(design.error);
-      found.push_back({design.linkage, sense, design.angles, design.error});
     }
     finish_candidates(std::move(found), sense);
   }

@@ -14,7 +14,7 @@ namespace linkwright::planar {
 struct PathSynthesisOptions {
   std::uint64_t seed = 1;
   int starts = 0;         ///< local searches per kind and sense; 0 = chosen from the timing
-  int max_solutions = 8;  ///< distinct designs to return
+  int max_solutions = 4;  ///< distinct designs to return
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathSynthesisOptions& o) {
