@@ -4,13 +4,16 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <span>
 
 #include "linkwright/core/random.h"
+#include "linkwright/math/differences.h"
 #include "linkwright/math/simd.h"
 #include "planar/four_bars.h"
 #include "planar/path_cases.h"
@@ -72,22 +75,25 @@ RC_GTEST_PROP(FourBarKernel, JetsAgreeWithDifferences, ()) {
       l.ground + l.crank + l.coupler + l.rocker + std::abs(l.coupler_u) + std::abs(l.coupler_v);
   const double shortest = std::min({l.ground, l.crank, l.coupler, l.rocker});
   const double distance = std::abs(rocker_pivot(l) - pose.crank_pin);
+  // Lengths over which the point bends: the triangle's sides and height.
+  const double bend = std::min({shortest, distance, 1.0}) * std::sin(pose.transmission_angle);
+  std::array<double, quantities> scale;
+  for (std::size_t j = 0; j < quantities; ++j) scale[j] = j < 8 ? bend : bend / (1 + size);
+  const auto point = [&](std::span<const double> at, std::span<double> c, std::span<double>) {
+    std::array<double, quantities> moved;
+    std::copy(at.begin(), at.end(), moved.begin());
+    const auto found = coupler_point(moved, branch);
+    std::copy(found.begin(), found.end(), c.begin());
+    return true;
+  };
+  std::array<double, 2 * quantities> differences;
+  RC_ASSERT(math::central_jacobian(point, 2, q, differences, scale) == Status::done);
   const auto exact = derivatives(q, branch);
-  for (std::size_t j = 0; j < quantities; ++j) {
-    // Lengths over which the point bends: the triangle's sides and height. Truncation is of the order
-    // (h / bend)^2, rounding eps size / h: h = eps^(1/3) bend, error near eps^(2/3) = 4e-11 of size / bend.
-    const double bend = std::min({shortest, distance, 1.0}) * std::sin(pose.transmission_angle) *
-                        (j < 8 ? 1 : 1 / (1 + size));
-    const double step = 6e-6 * bend;
-    auto low = q, high = q;
-    low[j] -= step;
-    high[j] += step;
-    const auto a = coupler_point(low, branch), b = coupler_point(high, branch);
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const double difference = (b[axis] - a[axis]) / (high[j] - low[j]);
-      RC_ASSERT(std::abs(difference - exact[axis].v[static_cast<int>(j)]) < 1e-7 * (1 + size / bend));
-    }
-  }
+  // The error of differences is some eps^(2/3) = 4e-11 of size / bend.
+  for (std::size_t j = 0; j < quantities; ++j)
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      RC_ASSERT(std::abs(differences[2 * j + axis] - exact[axis].v[static_cast<int>(j)]) <
+                1e-7 * (1 + size / bend));
 }
 
 TEST(FourBarKernel, BatchesGiveTheBitsOfTheScalar) {
