@@ -27,7 +27,7 @@ TEST(ResultJson, HoldsWhatItsReadersCountOn) {
   for (const Value::Member& member : v.as_object()) keys += member.key + " ";
   EXPECT_EQ(
       keys,
-      "schema tool study study_sha256 status checks best solutions statistics log tables diagnostics run ");
+      "schema tool study study_sha256 status checks best solutions comparisons statistics log tables diagnostics run ");
   EXPECT_EQ(v.find("tool")->as_string(), "linkwright 0.1.0");
   EXPECT_EQ(v.find("study_sha256")->as_string(), sha256(study::to_json(study.canonical)));
   EXPECT_EQ(

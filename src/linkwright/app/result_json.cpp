@@ -35,6 +35,17 @@ Value to_value(const study::Check& check) {
   return v;
 }
 
+Value to_value(const study::Comparison& comparison) {
+  Value v;
+  v["item"] = comparison.item;
+  v["source"] = comparison.source;
+  v["published"] = comparison.published;
+  v["ours"] = comparison.ours;
+  v["verdict"] = comparison.verdict;
+  v["note"] = comparison.note;
+  return v;
+}
+
 /// Column arrays; like in CSV, `status` is the last column.
 Value to_value(const Table& table) {
   Value v;
@@ -96,6 +107,7 @@ Value result_json(const study::Study& study, const study::Result& result, const 
   v["checks"] = all(result.checks);
   v["best"] = result.solutions.empty() ? Value() : to_value(result.solutions.front());
   v["solutions"] = all(result.solutions);
+  v["comparisons"] = all(result.comparisons);  // with published numbers; empty when the study cites none
   v["statistics"] = or_empty(result.statistics, Value::object());
   v["log"] = or_empty(result.log, Value::array());
   v["tables"] = all(result.tables);
