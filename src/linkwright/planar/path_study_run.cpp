@@ -48,16 +48,18 @@ bool better_design(const PathDesign& a, const PathDesign& b) {
   return optimise::better(a.error, total_violation(a), b.error, total_violation(b));
 }
 
-SeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_t seed, RunContext& context) {
+SeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_t seed, bool only_seed,
+                 RunContext& context) {
   PathSynthesisOptions options = method.options;
   options.seed = seed;
+  options.progress = only_seed;  // several at once are told by the loop over them
   PathSynthesis answer = synthesise_path(s.problem, options, context);
   return {answer.status, std::move(answer.designs), std::move(answer.history), answer.evaluations};
 }
 
 template <class Options>
 SeedRun run_seed(const PopulationMethod<Options>& method, const PathStudy& s, std::uint64_t seed,
-                 RunContext& context) {
+                 bool only_seed, RunContext& context) {
   SeedRun out;
   std::uint32_t part = 0;
   for (double sense : {1.0, -1.0}) {
@@ -66,7 +68,7 @@ SeedRun run_seed(const PopulationMethod<Options>& method, const PathStudy& s, st
     const Branch branch = s.problem.search_open ? Branch::open : Branch::crossed;
     const optimise::Problem problem = path_population_problem(s.problem, branch, sense);
     optimise::MinimiseOptions minimise = method.minimise;
-    minimise.progress = false;
+    minimise.progress = only_seed;
     const auto optimiser =
         optimise::make_optimiser(problem.variables, method.options, {.seed = seed, .run = part++});
     const optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
@@ -96,8 +98,9 @@ Run run_seeds(const PathStudy& s, const study::Common& common, RunContext& conte
   const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
   const optimise::SeedLoop loop =
       optimise::for_each_seed(seeds, context, out.method, [&](std::size_t i, std::uint64_t seed) {
-        all[i] = std::visit([&](const auto& method) { return run_seed(method, s, seed, context); },
-                            s.optimiser.method);
+        all[i] =
+            std::visit([&](const auto& method) { return run_seed(method, s, seed, count == 1, context); },
+                       s.optimiser.method);
         return all[i].designs.empty() || !all[i].designs[0].violations.empty() ? infinity
                                                                                : all[i].designs[0].error;
       });

@@ -131,6 +131,11 @@ class Search {
     return out_.history.empty() ? std::numeric_limits<double>::infinity() : out_.history.back().best;
   }
 
+  void tell(double fraction) {
+    if (options_.progress)
+      context_.report({.stage = "recommended", .fraction = fraction, .best = best_so_far()});
+  }
+
   void note(double feasible_error) {
     if (feasible_error < best_so_far()) out_.history.push_back({out_.evaluations, feasible_error});
   }
@@ -181,9 +186,7 @@ class Search {
       const PathDesign design = projection.design(problem_, best);
       if (design.violations.empty()) note(design.error);
       found.push_back({design.linkage, sense, design.angles, design.error});
-      context_.report({.stage = "recommended",
-                       .fraction = static_cast<double>(start + 1) / count,
-                       .best = best_so_far()});
+      tell(static_cast<double>(start + 1) / count);
     }
     finish_candidates(std::move(found), sense);
   }
@@ -206,9 +209,7 @@ class Search {
       found.push_back(
           {fit.linkage, sense, fit.angles, fit.error + size * size * fit.violation * fit.violation});
       if (fit.violation <= tolerance::feasibility) note(fit.error);
-      context_.report({.stage = "recommended",
-                       .fraction = static_cast<double>(start + 1) / count,
-                       .best = best_so_far()});
+      tell(static_cast<double>(start + 1) / count);
     }
     finish_candidates(std::move(found), sense);
   }

@@ -15,6 +15,7 @@ struct PathSynthesisOptions {
   std::uint64_t seed = 1;
   int starts = 0;         ///< local searches per kind and sense; 0 = chosen from the timing
   int max_solutions = 4;  ///< distinct designs to return
+  bool progress = true;   ///< report to the run context
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathSynthesisOptions& o) {
