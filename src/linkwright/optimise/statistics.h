@@ -19,12 +19,6 @@ struct SeedRange {
   std::uint64_t first = 1;
   int count = 1;
 };
-template <class Visitor>
-void fields(Visitor&& visit, SeedRange& o) {
-  visit(Field{.key = "first", .summary = "first seed", .minimum = 0}, o.first);
-  visit(Field{.key = "count", .summary = "number of seeds", .minimum = 1, .maximum = 1e6}, o.count);
-}
-
 /// What one seed came to.
 struct SeedOutcome {
   double cost = std::numeric_limits<double>::infinity();

@@ -104,6 +104,16 @@ struct PathDesign {
 PathDesign measure(const PathProblem& problem, const FourBar& linkage, double sense,
                    std::vector<double> angles);
 
+/// Sum of its violations; 0 = feasible.
+double total_violation(const PathDesign& design);
+
+/// Whether two linkages are the same within tolerance::same_design of their size; angles follow from the
+/// lengths and are not compared.
+bool same_linkage(const FourBar& a, const FourBar& b);
+
+/// Best first, by the feasibility rules; among equals, as timed cognates are, the open branch first.
+void rank(std::vector<PathDesign>& designs);
+
 /// Coupler point at each target (m), and its distance to it (m); NaN where it does not assemble.
 struct PathErrors {
   std::vector<double> x, y, distance;

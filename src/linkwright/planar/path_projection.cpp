@@ -28,6 +28,19 @@ void subtract(double* a, double factor, const double* b, std::size_t n) {
 
 }  // namespace
 
+std::array<double, 3> link_ratios(RatioKind kind, std::span<const double> q) {
+  const double a1 = std::exp(q[0]), a2 = std::exp(q[1]), a3 = std::exp(q[2]);
+  switch (kind) {
+    case RatioKind::crank_rocker:
+      return {1 + 0.5 * (a2 + a3), 1 + 0.5 * (a1 + a2), 1 + 0.5 * (a1 + a3)};
+    case RatioKind::double_crank:
+      return {1 - 0.5 * (a2 + a3), 1 + 0.5 * (a1 - a3), 1 + 0.5 * (a1 - a2)};
+    case RatioKind::any:
+      break;
+  }
+  return {a1, a2, a3};
+}
+
 bool PathProjection::applies(const PathProblem& p) {
   const auto fixed = [&](FourBarParameter j) { return p.bounds[index(j)].fixed(); };
   using P = FourBarParameter;
@@ -66,18 +79,7 @@ PathProjection::PathProjection(const PathProblem& p, RatioKind kind, Branch bran
 
 bool PathProjection::project(std::span<const double> q) {
   const std::size_t n = x_.size(), m = 2 * n;
-  const double a1 = std::exp(q[0]), a2 = std::exp(q[1]), a3 = std::exp(q[2]);
-  switch (kind_) {
-    case RatioKind::crank_rocker:
-      ratio_ = {1 + 0.5 * (a2 + a3), 1 + 0.5 * (a1 + a2), 1 + 0.5 * (a1 + a3)};
-      break;
-    case RatioKind::double_crank:
-      ratio_ = {1 - 0.5 * (a2 + a3), 1 + 0.5 * (a1 - a3), 1 + 0.5 * (a1 - a2)};
-      break;
-    case RatioKind::any:
-      ratio_ = {a1, a2, a3};
-      break;
-  }
+  ratio_ = link_ratios(kind_, q);
   const auto [r1, r3, r4] = ratio_;
   if (!(r1 > 0 && r3 > 0 && r4 > 0 && r1 < 1e6 && r3 < 1e6 && r4 < 1e6)) return false;
 

@@ -12,6 +12,10 @@ namespace linkwright::planar {
 /// Which linkages the ratios stand for.
 enum class RatioKind { crank_rocker, double_crank, any };
 
+/// Link ratios r1, r3, r4 = L1/L2, L3/L2, L4/L2 of a kind at q (three logarithms), see PathProjection; not
+/// all positive when q is no linkage.
+std::array<double, 3> link_ratios(RatioKind kind, std::span<const double> q);
+
 /// A path problem with prescribed or relative timing in separable form. For given link ratios r_j = L_j / L2
 /// and crank angles, the coupler point C_k = p + a u_k + b v_k is linear in the complex numbers p (pivot), a
 /// (scale and rotation) and b (tracing point), so these come from a linear least-squares problem and only q =

@@ -108,12 +108,7 @@ std::optional<PathStart> PathMatcher::best_of(int linkages, RatioKind kind, Rand
   bool found = false;
   for (int i = 0; i < linkages; ++i) {
     const std::vector<double> q = random_ratios(kind, 3, stream);
-    const double a1 = std::exp(q[0]), a2 = std::exp(q[1]), a3 = std::exp(q[2]);
-    double l1 = a1, l3 = a2, l4 = a3;
-    if (kind == RatioKind::crank_rocker)
-      l1 = 1 + 0.5 * (a2 + a3), l3 = 1 + 0.5 * (a1 + a2), l4 = 1 + 0.5 * (a1 + a3);
-    if (kind == RatioKind::double_crank)
-      l1 = 1 - 0.5 * (a2 + a3), l3 = 1 + 0.5 * (a1 - a3), l4 = 1 + 0.5 * (a1 - a2);
+    const auto [l1, l3, l4] = link_ratios(kind, q);
     const Complex point =
         l3 * (0.5 + std::polar(0.1 * std::exp(stream.uniform(0, 3.4)), stream.uniform(0, 2 * pi)));
     if (!(l1 > 0 && l3 > 0 && l4 > 0)) continue;

@@ -38,16 +38,6 @@ struct Run {
   std::vector<SeedRun> runs;
 };
 
-double total_violation(const PathDesign& d) {
-  double sum = 0;
-  for (const auto& violation : d.violations) sum += violation.amount;
-  return sum;
-}
-
-bool better_design(const PathDesign& a, const PathDesign& b) {
-  return optimise::better(a.error, total_violation(a), b.error, total_violation(b));
-}
-
 SeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_t seed, bool only_seed,
                  RunContext& context) {
   PathSynthesisOptions options = method.options;
@@ -75,7 +65,8 @@ SeedRun run_seed(const PopulationMethod<Options>& method, const PathStudy& s, st
                                                        choice_word(method).name, minimise, context);
     if (report.status == Status::cancelled || report.status == Status::deadline) out.status = report.status;
     PathDesign design = path_design(s.problem, branch, sense, report.x);
-    if (out.designs.empty() || better_design(design, out.designs[0])) {
+    if (out.designs.empty() || optimise::better(design.error, total_violation(design), out.designs[0].error,
+                                                total_violation(out.designs[0]))) {
       out.history.clear();
       for (const auto& generation : report.log)
         if (generation.best_violation == 0 &&
@@ -85,7 +76,7 @@ SeedRun run_seed(const PopulationMethod<Options>& method, const PathStudy& s, st
     out.designs.push_back(std::move(design));
     out.evaluations += report.evaluations;
   }
-  std::stable_sort(out.designs.begin(), out.designs.end(), better_design);
+  rank(out.designs);
   if (out.status == Status::done && !out.designs[0].violations.empty()) out.status = Status::infeasible;
   return out;
 }
@@ -116,15 +107,6 @@ Run run_seeds(const PathStudy& s, const study::Common& common, RunContext& conte
   return out;
 }
 
-bool same_design(const PathDesign& a, const PathDesign& b) {
-  const FourBar &p = a.linkage, &q = b.linkage;
-  const double size = p.ground + p.crank + p.coupler + p.rocker;
-  const auto near = [&](double x, double y) { return std::abs(x - y) <= tolerance::same_design * size; };
-  return p.branch == q.branch && a.sense == b.sense && near(p.ground, q.ground) && near(p.crank, q.crank) &&
-         near(p.coupler, q.coupler) && near(p.rocker, q.rocker) && near(p.coupler_u, q.coupler_u) &&
-         near(p.coupler_v, q.coupler_v) && near(p.pivot_x, q.pivot_x) && near(p.pivot_y, q.pivot_y);
-}
-
 // Distinct designs of all seeds, best first.
 std::vector<PathDesign> distinct_designs(const PathStudy& s, const Run& run) {
   std::vector<PathDesign> all;
@@ -133,7 +115,7 @@ std::vector<PathDesign> distinct_designs(const PathStudy& s, const Run& run) {
     for (PathDesign& d : all)
       for (const Defect& defect : defects(s.problem, d))
         d.violations.push_back({std::string(name_of(defect.kind)), 1});
-  std::stable_sort(all.begin(), all.end(), better_design);
+  rank(all);
   const auto* recommended = std::get_if<Recommended>(&s.optimiser.method);
   const PathSynthesisOptions options = recommended ? recommended->options : PathSynthesisOptions();
   const auto most = static_cast<std::size_t>(options.max_solutions);
@@ -141,14 +123,11 @@ std::vector<PathDesign> distinct_designs(const PathStudy& s, const Run& run) {
   for (PathDesign& d : all) {
     if (out.size() == most) break;
     if (!out.empty() && !d.violations.empty()) break;  // one infeasible answer only when there is no other
-    if (!std::any_of(out.begin(), out.end(), [&](const PathDesign& o) { return same_design(o, d); }))
+    if (!std::any_of(out.begin(), out.end(), [&](const PathDesign& o) {
+          return o.sense == d.sense && same_linkage(o.linkage, d.linkage);
+        }))
       out.push_back(std::move(d));
   }
-  // Among equals, as timed cognates are, the open branch first.
-  for (std::size_t i = 0; i + 1 < out.size(); ++i)
-    if (out[i + 1].error - out[i].error <= tolerance::equal_cost * out[i].error &&
-        out[i].linkage.branch == Branch::crossed && out[i + 1].linkage.branch == Branch::open)
-      std::swap(out[i], out[i + 1]);
   return out;
 }
 

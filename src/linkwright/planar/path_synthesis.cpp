@@ -30,37 +30,8 @@ struct Candidate {
   double merit = 0;  // error (m2), with soft constraint violations
 };
 
-bool same_linkage(const FourBar& a, const FourBar& b) {
-  if (a.branch != b.branch) return false;
-  const double size =
-      std::max(a.ground + a.crank + a.coupler + a.rocker, b.ground + b.crank + b.coupler + b.rocker);
-  const double difference[] = {a.ground - b.ground,   a.crank - b.crank,         a.coupler - b.coupler,
-                               a.rocker - b.rocker,   a.coupler_u - b.coupler_u, a.coupler_v - b.coupler_v,
-                               a.pivot_x - b.pivot_x, a.pivot_y - b.pivot_y};
-  for (double d : difference)
-    if (std::abs(d) > tolerance::same_design * size) return false;
-  return true;
-}
-
-double total_violation(const PathDesign& design) {
-  double sum = 0;
-  for (const auto& violation : design.violations) sum += violation.amount;
-  return sum;
-}
-
 bool better_design(const PathDesign& a, const PathDesign& b) {
   return optimise::better(a.error, total_violation(a), b.error, total_violation(b));
-}
-
-// Best first; among equals, as timed cognates are, the open branch first.
-void rank(std::vector<PathDesign>& designs) {
-  std::stable_sort(designs.begin(), designs.end(), better_design);
-  for (std::size_t i = 0; i + 1 < designs.size(); ++i) {
-    const double difference = designs[i + 1].error - designs[i].error;
-    if (difference <= tolerance::equal_cost * designs[i].error &&
-        designs[i].linkage.branch == Branch::crossed && designs[i + 1].linkage.branch == Branch::open)
-      std::swap(designs[i], designs[i + 1]);
-  }
 }
 
 class Search {
