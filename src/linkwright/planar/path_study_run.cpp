@@ -253,7 +253,9 @@ double add_statistics(study::Result& result, const Run& run, double best, double
       for (const auto& v : seed.designs[0].violations) entry["violations"].push_back(v.reason);
     }
     entry["history"] = Value::array();
-    for (const SearchPoint& point : seed.history) {
+    std::vector<SearchPoint> history = seed.history;
+    if (!history.empty()) history.push_back({seed.evaluations, history.back().best});  // to the end of the run
+    for (const SearchPoint& point : history) {
       Value step;
       step["evaluations"] = point.evaluations;
       step["best"] = point.best;
