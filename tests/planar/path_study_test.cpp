@@ -95,6 +95,23 @@ TEST(PathStudyRead, ParametersNeedUnitsAndOrder) {
   EXPECT_THAT(problems(head + parameters + "crank_m = -1\n" + rest), HasSubstr("crank_m"));
 }
 
+TEST(PathStudyRead, ConstraintsAreReadByType) {
+  const std::string path = target(std::string("closed = true\n") + square);
+  std::string messages;
+  EXPECT_TRUE(prepare(path + "[[constraint]]\ntype = \"order\"\n[[constraint]]\ntype = \"packaging\"\n"
+                             "x_mm = { min = -500, max = 500 }\ny_m = { min = 0, max = 1 }\n",
+                      messages))
+      << messages;
+  EXPECT_THAT(problems(path + "[[constraint]]\ntype = \"order\"\nenabled = false\n"),
+              HasSubstr("the order of the points cannot be given up"));
+  EXPECT_THAT(problems(path + "[[constraint]]\ntype = \"transmission_angle\"\n"), HasSubstr("min"));
+  EXPECT_THAT(problems(path + "[[constraint]]\ntype = \"transmission_angle\"\nmin_deg = 100\n"),
+              HasSubstr("90"));
+  EXPECT_THAT(
+      problems(path + "[[constraint]]\ntype = \"packaging\"\nx_m = 1.0\ny_m = { min = 0, max = 1 }\n"),
+      HasSubstr("the packaging box has no width"));
+}
+
 TEST(PathStudyRead, ReadsPointsFromCsvInAnyLengthUnit) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "linkwright_path_study_test";
   std::filesystem::create_directories(folder);

@@ -172,6 +172,14 @@ void fields(Visitor&& visit, PackagingLimit& p) {
 }
 constexpr Word choice_word(const PackagingLimit&) { return {"packaging", "both fixed pivots inside a box"}; }
 
+/// Always holds for an answer; a study may say so.
+struct InOrder {};
+template <class Visitor>
+void fields(Visitor&&, InOrder&) {}
+constexpr Word choice_word(const InOrder&) {
+  return {"order", "the points are met one after the other within one turn (always required)"};
+}
+
 struct NoDefects {};
 template <class Visitor>
 void fields(Visitor&&, NoDefects&) {}
@@ -180,7 +188,7 @@ constexpr Word choice_word(const NoDefects&) {
 }
 
 struct PathConstraint {
-  std::variant<CrankRotatesFully, TransmissionLimit, PackagingLimit, NoDefects> limit;
+  std::variant<CrankRotatesFully, InOrder, TransmissionLimit, PackagingLimit, NoDefects> limit;
   bool enabled = true;
 };
 template <class Visitor>

@@ -182,7 +182,12 @@ void set_constraints(study::ObjectReader& document, PathStudy& s) {
   PathProblem& p = s.problem;
   p.crank_rotates_fully = false;
   for (const PathConstraint& constraint : s.constraints) {
-    if (!constraint.enabled) continue;
+    if (!constraint.enabled) {
+      if (std::holds_alternative<InOrder>(constraint.limit))
+        document.error("constraint", "the order of the points cannot be given up",
+                       "remove the constraint, or enabled = false");
+      continue;
+    }
     if (std::holds_alternative<CrankRotatesFully>(constraint.limit)) p.crank_rotates_fully = true;
     if (std::holds_alternative<NoDefects>(constraint.limit)) s.no_defects = true;
     if (const auto* limit = std::get_if<TransmissionLimit>(&constraint.limit))
