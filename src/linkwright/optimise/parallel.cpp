@@ -1,7 +1,10 @@
 #include "linkwright/optimise/parallel.h"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include <algorithm>
 
 #include "linkwright/core/check.h"
 
@@ -14,7 +17,9 @@ void parallel_for(std::size_t count, int threads, math::FunctionRef<void(std::si
     return;
   }
   // An arena of its own bounds the threads, and keeps a waiting thread from taking up work of an outer loop.
-  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
+  // More threads than processors would not be given, and complained about on stderr.
+  const int available = tbb::info::default_concurrency();
+  tbb::task_arena arena(threads == 0 ? available : std::min(threads, available));
   arena.execute([&] {
     tbb::parallel_for(
         std::size_t{0}, count, [&](std::size_t i) { body(i); }, tbb::simple_partitioner());
