@@ -201,6 +201,8 @@ TEST(ReactionsStudyRun, OfThePublishedMechanismPassesItsCheck) {
   EXPECT_LT(largest("closure_residual_m"), 1e-15);
 
   EXPECT_THAT(fact(result, "largest drive torque"), HasSubstr("14.714 N m at "));
+  EXPECT_EQ(fact(result, "drive torque, root mean square"), "5.9465 N m");
+  EXPECT_THAT(fact(result, "work of the drive over the turn"), HasSubstr(" J to and fro"));
   EXPECT_THAT(fact(result, "type"), "crank-rocker, open");
   EXPECT_THAT(result.headline, HasSubstr("14.714 N m"));
   // Every plot finds its columns, and those over the crank angle follow the scene.

@@ -22,8 +22,9 @@ FourBarRates rates(const FourBar& linkage, double crank_angle, double crank_spee
   const double angle = linkage.frame_angle + crank_angle;
   const double e1x = std::cos(angle), e1y = std::sin(angle);
   out.crank_direction = {e1x, e1y};
-  const double gx = linkage.ground * std::cos(linkage.frame_angle),
-               gy = linkage.ground * std::sin(linkage.frame_angle);
+  const double fx = std::cos(linkage.frame_angle), fy = std::sin(linkage.frame_angle);
+  out.ground_direction = {fx, fy};
+  const double gx = linkage.ground * fx, gy = linkage.ground * fy;
   const double wx = linkage.crank * e1x, wy = linkage.crank * e1y;
   const double l2 = linkage.coupler, l3 = linkage.rocker;
   const Closure<double> closure = close_loop(gx, gy, wx, wy, l2, l3, sign(linkage.branch));

@@ -14,7 +14,8 @@ struct FourBarRates {
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Status status =
       Status::done;  ///< done, no_assembly, or singular (dead point: the speeds are not determined)
-  std::complex<double> crank_direction;                 ///< unit vector along O -> A
+  std::complex<double> ground_direction;                ///< unit vector along O -> B0
+  std::complex<double> crank_direction;                 ///< along O -> A
   std::complex<double> coupler_direction = {nan, nan};  ///< along A -> B
   std::complex<double> rocker_direction = {nan, nan};   ///< along B0 -> B
   double transmission_sine = nan;  ///< sin(rocker angle - coupler angle); its sign is that of the branch

@@ -74,8 +74,8 @@ void require_masses(const FourBarMasses& masses, double gravity) {
 }
 
 // What the ground feels, from the forces on it.
-void add_shaking(FourBarReactions& out, const FourBar& linkage) {
-  const Vector ground = linkage.ground * Vector{std::cos(linkage.frame_angle), std::sin(linkage.frame_angle)};
+void add_shaking(FourBarReactions& out, const FourBar& linkage, const FourBarRates& rates) {
+  const Vector ground = linkage.ground * vector(rates.ground_direction);
   out.shaking_force = -(out.ground_on_crank + out.ground_on_rocker);
   out.shaking_moment = -cross(ground, vector(out.ground_on_rocker));
   out.shaking_moment_with_drive = out.shaking_moment - out.drive_torque;
@@ -109,7 +109,7 @@ FourBarReactions reactions(const FourBar& linkage, const FourBarMasses& masses, 
   out.ground_on_rocker = number(load3 + r3);
   out.drive_torque = masses.crank.inertia * b.crank.angular_acceleration + cross(b.crank.arm, load1) +
                      cross(b.crank.line, r2);
-  add_shaking(out, linkage);
+  add_shaking(out, linkage, rates);
   return out;
 }
 
@@ -155,7 +155,7 @@ FourBarReactions reactions_newton_euler(const FourBar& linkage, const FourBarMas
   out.rocker_on_coupler = {x[4], x[5]};
   out.ground_on_rocker = {x[6], x[7]};
   out.drive_torque = x[8];
-  add_shaking(out, linkage);
+  add_shaking(out, linkage, rates);
   return out;
 }
 

@@ -236,24 +236,21 @@ void add_facts(study::Result& result, const ReactionsStudy& s, const std::vector
     if (q.drive_torque) {
       result.facts.push_back({"largest drive torque",
                               text(peak(rows, [](const Row& r) { return r.forces.drive_torque; }), "N m")});
-      double squares = 0, sum = 0, work = 0, size = 0;
+      double squares = 0, work = 0, moved = 0;
       for (std::size_t i = 1; i < rows.size(); ++i) {
         const double a = rows[i - 1].forces.drive_torque, b = rows[i].forces.drive_torque;
         squares += b * b;
-        sum += b;
         work += (a + b) / 2 * (rows[i].angle - rows[i - 1].angle);
-        size += (std::abs(a) + std::abs(b)) / 2 * std::abs(rows[i].angle - rows[i - 1].angle);
+        moved += (std::abs(a) + std::abs(b)) / 2 * std::abs(rows[i].angle - rows[i - 1].angle);
       }
-      const auto n = static_cast<double>(rows.size() - 1);
       if (complete && whole_turns(rows)) {
-        result.facts.push_back(
-            {"drive torque over the turn",
-             fmt::format("mean {:.4g} N m, root mean square {:.5g} N m", sum / n, std::sqrt(squares / n))});
+        const double rms = std::sqrt(squares / static_cast<double>(rows.size() - 1));
+        result.facts.push_back({"drive torque, root mean square", fmt::format("{:.5g} N m", rms)});
         // At even speed a turn gives back what it takes.
         if (s.drive.acceleration == 0)
           result.facts.push_back({"work of the drive over the turn",
-                                  fmt::format("{:.3g} J (0 for enough samples)", work),
-                                  std::abs(work) <= 1e-3 * size ? Verdict::good : Verdict::plain});
+                                  fmt::format("{:.2g} J of {:.4g} J to and fro", work, moved),
+                                  std::abs(work) <= 1e-3 * moved ? Verdict::good : Verdict::plain});
       }
     }
     if (q.reactions)
