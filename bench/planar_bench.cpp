@@ -6,6 +6,7 @@
 
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/minimise.h"
+#include "linkwright/planar/four_bar_reactions.h"
 #include "linkwright/planar/path_objective.h"
 #include "linkwright/planar/path_synthesis.h"
 
@@ -87,6 +88,20 @@ void four_bar_position(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(four_bar_position);
+
+// One position of a crank turn with everything: motion, four joint forces, drive torque, shaking force and
+// moments.
+template <auto reactions_by>
+void four_bar_reactions(benchmark::State& state) {
+  const FourBar linkage{.ground = 0.6, .crank = 0.1, .coupler = 0.4, .rocker = 0.32};
+  const FourBarMasses masses{{0.36, 4.13e-4, 0.05, 0}, {1.296, 1.87e-2, 0.2, 0.1}, {1.046, 9.85e-3, 0.16, 3}};
+  double angle = 0;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(reactions_by(linkage, masses, rates(linkage, angle += 0.01, 31.4), 9.81));
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(four_bar_reactions<reactions>)->Name("four_bar_reactions/closed_form");
+BENCHMARK(four_bar_reactions<reactions_newton_euler>)->Name("four_bar_reactions/newton_euler");
 
 // The published ten-unknown problem as a population method sees it, all included: 100 000 evaluations.
 void differential_evolution_100k(benchmark::State& state) {

@@ -147,7 +147,7 @@ TEST(PathStudyRead, EveryExampleReads) {
     EXPECT_TRUE(diagnostics.empty()) << to_string(diagnostics[0]);
     ++read;
   }
-  EXPECT_GE(read, 11);
+  EXPECT_GE(read, 12);
   std::string messages;
   EXPECT_TRUE(prepare(kinds[0].example, messages)) << messages;
 }

@@ -39,6 +39,20 @@ TEST(PathScene, KeepsTheLinksTheirLengths) {
   EXPECT_NEAR(scene.input.back() - scene.input.front(), 2 * pi, 1e-12);
 }
 
+TEST(FourBarScene, DrawsTheCouplerPointOnRequest) {
+  const FourBar linkage{.ground = 3, .crank = 1, .coupler = 2.5, .rocker = 2, .coupler_u = 1, .pivot_x = 5};
+  const study::Scene with = four_bar_scene(linkage, {0, 1, 2}, "a", "b", true);
+  EXPECT_EQ(with.points.size(), 5u);
+  EXPECT_EQ(with.bodies[2].style, study::Scene::BodyStyle::plate);
+  ASSERT_EQ(with.traces.size(), 1u);
+  const study::Scene without = four_bar_scene(linkage, {0, 1, 2}, "a", "b", false, {"O1", "O2", "O3", "O4"});
+  EXPECT_EQ(without.points.size(), 4u);
+  EXPECT_EQ(without.bodies[2].style, study::Scene::BodyStyle::bar);
+  EXPECT_TRUE(without.traces.empty());
+  EXPECT_EQ(without.joints[1].name, "O4");
+  EXPECT_NEAR(without.points[1].x[0], 8, 1e-15);
+}
+
 TEST(ShownAngles, StayInsideTheInputRangeOfARocker) {
   PathDesign design;
   design.linkage = {.ground = 2.5, .crank = 1, .coupler = 1.2, .rocker = 1.4};
@@ -47,7 +61,8 @@ TEST(ShownAngles, StayInsideTheInputRangeOfARocker) {
   const std::vector<double> angles = shown_angles(design, 11);
   EXPECT_GT(angles.front(), angles.back());
   for (double angle : angles) {
-    EXPECT_NE(position(design.linkage, 2 * pi + (angle - 2 * pi) * (1 - 1e-9)).status, Status::no_assembly) << angle;
+    EXPECT_NE(position(design.linkage, 2 * pi + (angle - 2 * pi) * (1 - 1e-9)).status, Status::no_assembly)
+        << angle;
     EXPECT_NEAR(angle, 2 * pi, pi);
   }
 }

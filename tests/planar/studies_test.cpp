@@ -2,15 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include "linkwright/study/study.h"
+
 namespace linkwright::planar {
 namespace {
 
-TEST(Studies, ArePathSynthesisWithAnExample) {
+TEST(Studies, ArePathSynthesisAndTheAnalysisOfAFourBar) {
   const auto kinds = studies();
-  ASSERT_EQ(kinds.size(), 1u);
-  EXPECT_EQ(kinds[0].mechanism, "planar.four_bar");
-  EXPECT_EQ(kinds[0].target, "path_points");
+  ASSERT_EQ(kinds.size(), 2u);
+  EXPECT_EQ(study::name_of(kinds[0]), "synthesis/planar.four_bar/path_points");
   EXPECT_TRUE(kinds[0].seeded);
+  EXPECT_EQ(study::name_of(kinds[1]), "analysis/planar.four_bar");
+  EXPECT_FALSE(kinds[1].seeded);
 }
 
 }  // namespace

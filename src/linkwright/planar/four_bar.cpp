@@ -39,16 +39,12 @@ FourBarPosition position(const FourBar& linkage, double crank_angle) {
   out.crank_pin = crank_pivot(linkage) + frame * crank;
 
   const double distance = std::sqrt(closure.r2);
-  const double reach = linkage.coupler + linkage.rocker, fold = std::abs(linkage.coupler - linkage.rocker);
-  // Rounding may push a toggle position just outside; beyond that the gap is real and is reported, never
-  // clamped.
-  const double rounding = tolerance::closure * (distance + reach);
-  if (distance > reach + rounding || distance < fold - rounding) {
+  out.gap = loop_gap(distance, linkage.coupler, linkage.rocker);
+  if (out.gap > 0) {
     out.status = Status::no_assembly;
-    out.gap = distance > reach ? distance - reach : fold - distance;
     return out;
   }
-  if (distance <= tolerance::closure * reach) {
+  if (distance <= tolerance::closure * (linkage.coupler + linkage.rocker)) {
     out.status = Status::singular;  // A on B0: the coupler direction is not determined
     return out;
   }

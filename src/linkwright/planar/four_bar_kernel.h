@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "linkwright/core/tolerance.h"
 #include "linkwright/math/scalar.h"
 
 namespace linkwright::planar {
@@ -47,6 +48,16 @@ template <class T>
 LINKWRIGHT_KERNEL Direction<T> coupler_direction(const Closure<T>& closure, const T& coupler) {
   const T scale = T(0.5) / (coupler * closure.r2);
   return {closure.nx * scale, closure.ny * scale};
+}
+
+/// How far a loop is from closing, in metres: 0 = it closes, up to the rounding that may push a toggle just
+/// outside; positive = coupler and rocker are together too short, or differ too much, for A and B0 at
+/// `distance`. Never clamped: beyond rounding the gap is real.
+inline double loop_gap(double distance, double coupler, double rocker) {
+  const double reach = coupler + rocker, fold = std::abs(coupler - rocker);
+  const double rounding = tolerance::closure * (distance + reach);
+  if (distance <= reach + rounding && distance >= fold - rounding) return 0;
+  return distance > reach ? distance - reach : fold - distance;
 }
 
 }  // namespace linkwright::planar

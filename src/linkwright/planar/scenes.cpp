@@ -39,24 +39,25 @@ std::vector<double> shown_angles(const PathDesign& design, int samples) {
   return out;
 }
 
-study::Scene path_scene(const PathProblem& problem, const PathDesign& design, std::string name,
-                        std::string title, int samples) {
+study::Scene four_bar_scene(const FourBar& linkage, std::vector<double> crank_angles, std::string name,
+                            std::string title, bool coupler_point, const JointNames& joints) {
   study::Scene scene;
   scene.name = std::move(name);
   scene.title = std::move(title);
   scene.input_key = "crank_angle_rad";
   scene.input_label = "crank angle";
-  scene.input = shown_angles(design, samples);
+  scene.input = std::move(crank_angles);
   enum { O, B0, A, B, C };
-  scene.points = {{"O", {}, {}}, {"B0", {}, {}}, {"A", {}, {}}, {"B", {}, {}}, {"C", {}, {}}};
+  const std::string o(joints[0]), a(joints[1]), b(joints[2]), b0(joints[3]);
+  scene.points = {{o, {}, {}}, {b0, {}, {}}, {a, {}, {}}, {b, {}, {}}, {"C", {}, {}}};
   const auto put = [&](int point, std::complex<double> at, bool there) {
     scene.points[static_cast<std::size_t>(point)].x.push_back(there ? at.real() : nan);
     scene.points[static_cast<std::size_t>(point)].y.push_back(there ? at.imag() : nan);
   };
-  put(O, crank_pivot(design.linkage), true);
-  put(B0, rocker_pivot(design.linkage), true);
+  put(O, crank_pivot(linkage), true);
+  put(B0, rocker_pivot(linkage), true);
   for (double angle : scene.input) {
-    const FourBarPosition pose = position(design.linkage, angle);
+    const FourBarPosition pose = position(linkage, angle);
     put(A, pose.crank_pin, true);
     put(B, pose.coupler_pin, assembled(pose));
     put(C, pose.coupler_point, assembled(pose));
@@ -65,15 +66,25 @@ study::Scene path_scene(const PathProblem& problem, const PathDesign& design, st
   using Body = study::Scene::BodyStyle;
   scene.bodies = {{"ground", {O, B0}, Body::ground},
                   {"crank", {O, A}, Body::bar},
-                  {"coupler", {A, B, C}, Body::plate},
+                  {"coupler", {A, B}, Body::bar},
                   {"rocker", {B0, B}, Body::bar}};
   using Joint = study::Scene::JointStyle;
-  scene.joints = {{"O", O, Joint::ground_pivot},
-                  {"B0", B0, Joint::ground_pivot},
-                  {"A", A, Joint::pivot},
-                  {"B", B, Joint::pivot},
-                  {"C", C, Joint::tracer}};
-  scene.traces = {{C, "coupler curve", classify(design.linkage).crank_rotates_fully}};
+  scene.joints = {
+      {o, O, Joint::ground_pivot}, {b0, B0, Joint::ground_pivot}, {a, A, Joint::pivot}, {b, B, Joint::pivot}};
+  if (coupler_point) {
+    scene.bodies[2] = {"coupler", {A, B, C}, Body::plate};
+    scene.joints.push_back({"C", C, Joint::tracer});
+    scene.traces = {{C, "coupler curve", classify(linkage).crank_rotates_fully}};
+  } else {
+    scene.points.pop_back();
+  }
+  return scene;
+}
+
+study::Scene path_scene(const PathProblem& problem, const PathDesign& design, std::string name,
+                        std::string title, int samples) {
+  study::Scene scene =
+      four_bar_scene(design.linkage, shown_angles(design, samples), std::move(name), std::move(title), true);
   const PathErrors errors = path_errors(problem, design);
   scene.targets = {
       {"target points", problem.x, problem.y, errors.x, errors.y, design.angles, problem.closed}};

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/core/table.h"
 #include "linkwright/planar/path_problem.h"
@@ -12,6 +15,15 @@ namespace linkwright::planar {
 /// or, when the crank does not turn fully, the interval of inputs that holds the first point. `samples` >= 2
 /// angles in radians.
 std::vector<double> shown_angles(const PathDesign& design, int samples);
+
+/// Names of the joints O, A, B, B0 in a drawing.
+using JointNames = std::array<std::string_view, 4>;
+
+/// Drawing of a linkage over the given crank angles (rad, from the ground link), without targets.
+/// `coupler_point`: the coupler point C and its curve are drawn, too.
+study::Scene four_bar_scene(const FourBar& linkage, std::vector<double> crank_angles, std::string name,
+                            std::string title, bool coupler_point,
+                            const JointNames& joints = {"O", "A", "B", "B0"});
 
 /// Drawing of a design in motion with the target path.
 study::Scene path_scene(const PathProblem& problem, const PathDesign& design, std::string name,

@@ -1,9 +1,10 @@
 #include "linkwright/planar/studies.h"
 
 #include "linkwright/planar/path_study.h"
+#include "linkwright/planar/reactions_study.h"
 
 namespace linkwright::planar {
 
-std::vector<study::Kind> studies() { return {path_kind()}; }
+std::vector<study::Kind> studies() { return {path_kind(), reactions_kind()}; }
 
 }  // namespace linkwright::planar

@@ -1,0 +1,310 @@
+#include "linkwright/planar/reactions_study.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "linkwright/planar/studies.h"
+#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
+#include "linkwright/study/write.h"
+
+namespace linkwright::planar {
+namespace {
+
+using ::testing::ElementsAreArray;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double pi = std::numbers::pi;
+
+// Parts of a good study, any of which a test may replace.
+std::string study_text(const std::map<std::string, std::string>& changed = {}) {
+  std::map<std::string, std::string> parts = {
+      {"1 head", "schema = 1\nkind = \"analysis\"\n"},
+      {"2 mechanism", "[mechanism]\ntype = \"planar.four_bar\"\nbranch = \"open\"\n"},
+      {"3 parameters",
+       "[mechanism.parameters]\nground_m = 0.6\ncrank_m = 0.1\ncoupler_m = 0.4\nrocker_m = 0.32\n"},
+      {"4 mass",
+       "[mechanism.mass]\n"
+       "crank = { mass_kg = 0.36, inertia_kg_m2 = 4.13e-4, centre_distance_m = 0.05 }\n"
+       "coupler = { mass_kg = 1.296, inertia_kg_m2 = 1.87e-2, centre_distance_m = 0.2 }\n"
+       "rocker = { mass_kg = 1.046, inertia_kg_m2 = 9.85e-3, centre_distance_m = 0.16 }\n"},
+      {"5 drive", "[drive]\ninput = \"crank\"\nspeed_rpm = 300.0\n"},
+      {"6 sweep", "[sweep]\ntype = \"grid\"\ncrank_angle = { from_deg = 0, to_deg = 360, samples = 9 }\n"}};
+  for (const auto& [name, text] : changed) parts[name] = text;
+  std::string all;
+  for (const auto& [name, text] : parts) all += text;
+  return all;
+}
+
+std::optional<study::Study> prepare(const std::string& text, std::string& messages) {
+  static const std::vector<study::Kind> kinds = studies();
+  Diagnostics diagnostics;
+  const Value document = study::read_text(text, study::Syntax::toml, "study.toml", diagnostics);
+  auto prepared = study::prepare(document, "study.toml", ".", kinds, diagnostics);
+  for (const Diagnostic& d : diagnostics) messages += to_string(d) + "\n";
+  return prepared;
+}
+
+std::string problems(const std::map<std::string, std::string>& changed) {
+  std::string messages;
+  EXPECT_FALSE(prepare(study_text(changed), messages));
+  return messages;
+}
+
+study::Result run(const std::map<std::string, std::string>& changed = {}) {
+  std::string messages;
+  const auto study = prepare(study_text(changed), messages);
+  EXPECT_TRUE(study) << messages;
+  RunContext context;
+  return study ? study::run_study(*study, context) : study::Result();
+}
+
+std::vector<std::string> keys(const Table& table) {
+  std::vector<std::string> out;
+  for (const Column& column : table.columns) out.push_back(column.key);
+  return out;
+}
+
+std::string fact(const study::Result& result, std::string_view label) {
+  for (const study::Fact& f : result.facts)
+    if (f.label == label) return f.text;
+  return "no fact";
+}
+
+TEST(ReactionsStudyRead, NamesWhatIsWrongWithTheLinkage) {
+  const auto parameters = [](const std::string& text) {
+    return problems({{"3 parameters", "[mechanism.parameters]\n" + text}});
+  };
+  EXPECT_THAT(parameters("ground_m = 0.6\ncrank_m = 0\ncoupler_m = 0.4\nrocker_m = 0.32\n"),
+              HasSubstr("mechanism.parameters.crank_m: is 0 m, must be more than 0 m"));
+  EXPECT_THAT(parameters("ground_m = 0.6\ncrank_m = 1e-30\ncoupler_m = 0.4\nrocker_m = 0.32\n"),
+              HasSubstr("is 1e-30 m, a link must be at least 1e-9 m long; check the unit"));
+  EXPECT_THAT(parameters("ground_m = 0.6\ncrank_m = 0.1\ncoupler_m = 0.4\n"),
+              HasSubstr("mechanism.parameters.rocker_m: this key is missing"));
+  EXPECT_THAT(problems({{"3 parameters", ""}}), HasSubstr("mechanism.parameters: this key is missing"));
+  EXPECT_THAT(problems({{"2 mechanism", "[mechanism]\ntype = \"planar.four_bar\"\nbranch = \"any\"\n"}}),
+              HasSubstr("is 'any', must be one of: open, crossed"));
+}
+
+TEST(ReactionsStudyRead, NamesWhatIsWrongWithTheMasses) {
+  EXPECT_THAT(problems({{"4 mass",
+                         "[mechanism.mass]\n"
+                         "crank = { mass_kg = -0.36, inertia_kg_m2 = 4.13e-4, centre_distance_m = 0.05 }\n"
+                         "coupler = { mass_kg = 1, inertia_kg_m2 = 1.87e-2 }\n"}}),
+              ::testing::AllOf(HasSubstr("mechanism.mass.crank.mass_kg: is -0.36 kg, must be at least 0 kg"),
+                               HasSubstr("mechanism.mass.coupler.centre_distance_m: this key is missing"),
+                               HasSubstr("mechanism.mass.rocker: this key is missing")));
+  EXPECT_THAT(problems({{"4 mass", ""}}), HasSubstr("forces and torques need the masses of the links; add "
+                                                    "[mechanism.mass.crank], "));
+  std::string messages;
+  EXPECT_TRUE(
+      prepare(study_text({{"4 mass", ""}, {"7 output", "[output]\nquantities = [\"rates\"]\n"}}), messages))
+      << messages;
+}
+
+TEST(ReactionsStudyRead, NamesWhatIsWrongWithDriveSweepAndOutput) {
+  EXPECT_THAT(problems({{"5 drive", "[drive]\ninput = \"rocker\"\nspeed_rpm = 300.0\n"}}),
+              HasSubstr("is 'rocker', must be one of: crank"));
+  EXPECT_THAT(problems({{"5 drive", "[drive]\nspeed = 300.0\n"}}), HasSubstr("speed_rpm"));
+  EXPECT_THAT(problems({{"5 drive", ""}}), HasSubstr("drive: this key is missing"));
+  const auto sweep = [](const std::string& text) {
+    return problems({{"6 sweep", "[sweep.crank_angle]\n" + text}});
+  };
+  EXPECT_THAT(sweep("from_deg = 0\nto_deg = 360\nsamples = 1\n"),
+              HasSubstr("sweep.crank_angle.samples: is 1, must be at least 2"));
+  EXPECT_THAT(sweep("from_deg = 90\nto_deg = 90\nsamples = 5\n"),
+              HasSubstr("the sweep ends where it begins"));
+  EXPECT_THAT(sweep("from_deg = 90\nsamples = 5\n"),
+              HasSubstr("sweep.crank_angle.to_rad: this key is missing"));
+  EXPECT_THAT(problems({{"6 sweep", "[sweep]\ntype = \"grid\"\n"}}),
+              HasSubstr("sweep.crank_angle: this key is missing"));
+  EXPECT_THAT(problems({{"7 output", "[output]\nquantities = [\"position\", \"reaction\"]\n"}}),
+              HasSubstr("'reaction' is none of: position, rates, reactions, drive_torque, shaking, "
+                        "transmission_angle; did you mean 'reactions'?"));
+  EXPECT_THAT(problems({{"7 gravity", "[environment]\ngravity_m_per_s2 = -9.81\n"}}),
+              HasSubstr("must be at least 0 m/s2"));
+}
+
+TEST(ReactionsStudyRead, CanonicalStudyReadsBackToItself) {
+  std::string messages;
+  const auto first = prepare(study_text({{"7 output", "[output]\nquantities = [\"shaking\"]\n"}}), messages);
+  ASSERT_TRUE(first) << messages;
+  EXPECT_NEAR(first->canonical.find("drive")->find("speed_rad_per_s")->as_number(), 10 * pi, 1e-13);
+  EXPECT_EQ(first->canonical.find("environment")->find("gravity_m_per_s2")->as_number(), 9.81);
+  const auto second = prepare(study::to_toml(first->canonical), messages);
+  ASSERT_TRUE(second) << messages;
+  EXPECT_EQ(first->canonical, second->canonical);
+}
+
+TEST(ReactionsStudyRun, OfThePublishedMechanismPassesItsCheck) {
+  const std::filesystem::path file =
+      std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples/studies/fourbar-reactions.toml";
+  const std::vector<study::Kind> kinds = studies();
+  Diagnostics diagnostics;
+  const auto study = study::prepare(study::read_file(file, diagnostics), file.string(), file.parent_path(),
+                                    kinds, diagnostics);
+  ASSERT_TRUE(study);
+  EXPECT_THAT(diagnostics, IsEmpty());
+  RunContext context;
+  const study::Result result = study::run_study(*study, context);
+  EXPECT_EQ(result.status, Status::done);
+  EXPECT_THAT(result.diagnostics, IsEmpty());
+  ASSERT_EQ(result.checks.size(), 1u);
+  EXPECT_TRUE(result.checks[0].passed) << result.checks[0].value;
+  EXPECT_NEAR(result.checks[0].value, 14.7136372, 1e-7);
+
+  ASSERT_EQ(result.tables.size(), 1u);
+  const Table& sweep = result.tables[0];
+  EXPECT_EQ(sweep.name, "sweep");
+  EXPECT_EQ(sweep.rows(), 201u);
+  std::vector<std::string> names = keys(sweep);
+  names.resize(22);
+  EXPECT_THAT(names, ElementsAreArray({"crank_angle_rad",
+                                       "coupler_angle_rad",
+                                       "rocker_angle_rad",
+                                       "coupler_speed_rad_per_s",
+                                       "rocker_speed_rad_per_s",
+                                       "coupler_acceleration_rad_per_s2",
+                                       "rocker_acceleration_rad_per_s2",
+                                       "O1_x_N",
+                                       "O1_y_N",
+                                       "O2_x_N",
+                                       "O2_y_N",
+                                       "O3_x_N",
+                                       "O3_y_N",
+                                       "O4_x_N",
+                                       "O4_y_N",
+                                       "drive_torque_N_m",
+                                       "shaking_force_x_N",
+                                       "shaking_force_y_N",
+                                       "shaking_moment_N_m",
+                                       "shaking_moment_with_drive_N_m",
+                                       "transmission_angle_rad",
+                                       "closure_residual_m"}));
+  // Largest values of 201 samples, independently computed.
+  const auto largest = [&](std::string_view key) {
+    double most = 0;
+    for (double v : sweep.find(key)->values) most = std::max(most, std::abs(v));
+    return most;
+  };
+  EXPECT_NEAR(largest("O1_x_N"), 416.148105, 1e-6);
+  EXPECT_NEAR(largest("O3_y_N"), 32.8136345, 1e-7);
+  EXPECT_NEAR(largest("shaking_moment_N_m"), 65.7736707, 1e-7);
+  EXPECT_NEAR(largest("shaking_moment_with_drive_N_m"), 54.9623514, 1e-7);
+  EXPECT_LT(largest("closure_residual_m"), 1e-15);
+
+  EXPECT_THAT(fact(result, "largest drive torque"), HasSubstr("14.714 N m at "));
+  EXPECT_EQ(fact(result, "drive torque, root mean square"), "5.9465 N m");
+  EXPECT_THAT(fact(result, "work of the drive over the turn"), HasSubstr(" J to and fro"));
+  EXPECT_THAT(fact(result, "type"), "crank-rocker, open");
+  EXPECT_THAT(result.headline, HasSubstr("14.714 N m"));
+  // Every plot finds its columns, and those over the crank angle follow the scene.
+  ASSERT_EQ(result.scenes.size(), 1u);
+  EXPECT_EQ(result.scenes[0].input, sweep.columns[0].values);
+  EXPECT_EQ(result.scenes[0].points[2].name, "O2");
+  for (const study::Plot& plot : result.plots) {
+    EXPECT_NE(sweep.find(plot.x), nullptr) << plot.name;
+    for (const std::string& y : plot.y) EXPECT_NE(sweep.find(y), nullptr) << plot.name << " " << y;
+    EXPECT_EQ(plot.scene, plot.x == "crank_angle_rad" ? "motion" : "") << plot.name;
+  }
+}
+
+TEST(ReactionsStudyRun, HoldsWhatWasAskedFor) {
+  const study::Result result =
+      run({{"4 mass", ""}, {"7 output", "[output]\nquantities = [\"transmission_angle\", \"position\"]\n"}});
+  EXPECT_THAT(
+      keys(result.tables[0]),
+      ElementsAreArray({"crank_angle_rad", "coupler_angle_rad", "rocker_angle_rad", "transmission_angle_rad",
+                        "closure_residual_m", "O2_x_m", "O2_y_m", "O3_x_m", "O3_y_m"}));
+  EXPECT_EQ(result.headline, "9 of 9 positions from 0° to 360° computed.");
+}
+
+// A turn of the whole mechanism turns the forces, without gravity.
+TEST(ReactionsStudyRun, ForcesTurnWithTheFrame) {
+  const std::string still = "[environment]\ngravity_m_per_s2 = 0\n";
+  const study::Result straight = run({{"7 gravity", still}});
+  const study::Result turned = run({{"3 parameters",
+                                     "[mechanism.parameters]\nground_m = 0.6\ncrank_m = 0.1\ncoupler_m = "
+                                     "0.4\nrocker_m = 0.32\npivot_x_m = 3\n"
+                                     "frame_angle_deg = 90\n"},
+                                    {"7 gravity", still}});
+  const Table &a = straight.tables[0], &b = turned.tables[0];
+  for (std::size_t i = 0; i < a.rows(); ++i) {
+    EXPECT_NEAR(b.find("O3_y_N")->values[i], a.find("O3_x_N")->values[i], 1e-10);
+    EXPECT_NEAR(b.find("O3_x_N")->values[i], -a.find("O3_y_N")->values[i], 1e-10);
+    EXPECT_NEAR(b.find("shaking_moment_N_m")->values[i], a.find("shaking_moment_N_m")->values[i], 1e-10);
+    EXPECT_NEAR(b.find("O2_y_m")->values[i], a.find("O2_x_m")->values[i], 1e-15);
+  }
+}
+
+TEST(ReactionsStudyRun, TellsWhereTheLinkageDoesNotAssemble) {
+  const study::Result result =
+      run({{"3 parameters",
+            "[mechanism.parameters]\nground_m = 0.6\ncrank_m = 0.5\ncoupler_m = 0.4\nrocker_m = 0.32\n"}});
+  EXPECT_EQ(result.status, Status::no_assembly);
+  const Table& sweep = result.tables[0];
+  EXPECT_EQ(sweep.rows(), 9u);
+  EXPECT_EQ(sweep.status[4], "no_assembly");
+  EXPECT_TRUE(std::isnan(sweep.find("O1_x_N")->values[4]));
+  EXPECT_TRUE(std::isnan(sweep.find("closure_residual_m")->values[4]));
+  EXPECT_EQ(sweep.status[1], "done");
+  EXPECT_FALSE(std::isnan(sweep.find("O1_x_N")->values[1]));
+  ASSERT_EQ(result.diagnostics.size(), 1u);
+  EXPECT_THAT(to_string(result.diagnostics[0]),
+              ::testing::AllOf(HasSubstr("does not assemble at"), HasSubstr("of 9 positions"),
+                               HasSubstr("it assembles from")));
+  EXPECT_THAT(result.headline, HasSubstr("positions have no answer."));
+
+  const study::Result nowhere =
+      run({{"3 parameters",
+            "[mechanism.parameters]\nground_m = 6\ncrank_m = 0.5\ncoupler_m = 0.4\nrocker_m = 0.32\n"}});
+  EXPECT_EQ(nowhere.status, Status::no_assembly);
+  EXPECT_THAT(nowhere.headline, HasSubstr("No position of the sweep has an answer"));
+  EXPECT_THAT(to_string(nowhere.diagnostics[0]), HasSubstr("assembles nowhere"));
+}
+
+TEST(ReactionsStudyRun, KeepsThePositionAtADeadPoint) {
+  // A folded parallelogram: every link in one line at 0 degrees.
+  const study::Result result = run(
+      {{"3 parameters", "[mechanism.parameters]\nground_m = 2\ncrank_m = 1\ncoupler_m = 2\nrocker_m = 1\n"},
+       {"6 sweep", "[sweep.crank_angle]\nfrom_deg = 0\nto_deg = 90\nsamples = 3\n"}});
+  EXPECT_EQ(result.status, Status::singular);
+  const Table& sweep = result.tables[0];
+  EXPECT_EQ(sweep.status[0], "singular");
+  EXPECT_NEAR(sweep.find("O3_x_m")->values[0], 3, 1e-12);
+  EXPECT_TRUE(std::isnan(sweep.find("drive_torque_N_m")->values[0]));
+  EXPECT_EQ(sweep.status[2], "done");
+  EXPECT_THAT(to_string(result.diagnostics[0]), HasSubstr("falls to 0.00° at a crank angle of 0.0°"));
+  EXPECT_THAT(to_string(result.diagnostics[1]), HasSubstr("1 of 3 positions stand at a dead point"));
+}
+
+TEST(ReactionsStudyRun, AtRestIsStatics) {
+  const study::Result result = run({{"5 drive", "[drive]\nspeed_rpm = 0\n"}});
+  EXPECT_EQ(result.status, Status::done);
+  const Table& sweep = result.tables[0];
+  for (double v : sweep.find("shaking_force_y_N")->values) EXPECT_NEAR(v, -9.81 * 2.702, 1e-12);
+  EXPECT_EQ(fact(result, "power balance"), "no fact");
+}
+
+TEST(ReactionsStudyRun, CancelledRunKeepsItsFirstRows) {
+  std::string messages;
+  const auto study = prepare(
+      study_text({{"6 sweep", "[sweep.crank_angle]\nfrom_deg = 0\nto_deg = 360\nsamples = 100000\n"}}),
+      messages);
+  ASSERT_TRUE(study) << messages;
+  RunContext context;
+  context.cancel();
+  const study::Result result = study::run_study(*study, context);
+  EXPECT_EQ(result.status, Status::cancelled);
+  EXPECT_EQ(result.tables[0].rows(), 1024u);
+}
+
+}  // namespace
+}  // namespace linkwright::planar
