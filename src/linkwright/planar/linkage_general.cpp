@@ -1,0 +1,295 @@
+#include "linkwright/planar/linkage_general.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/core/tolerance.h"
+#include "linkwright/math/angles.h"
+
+namespace linkwright::planar {
+
+namespace {
+using Index = Eigen::Index;
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+}  // namespace
+
+struct GeneralGroupMemory {
+  std::vector<int> column;  // first column of a part, -1 of a known one
+  Eigen::MatrixXd jacobian;
+  Eigen::VectorXd residual, solution;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors, transposed;
+  bool transposed_ready = false;
+};
+
+namespace {
+
+// The equations of a joint at the present places, as rows over the velocities of two parts: `force` is the
+// direction and `moment` the couple that a unit of the row's multiplier puts on the part after, about
+// `point`.
+struct Row {
+  Vec<double> force{0, 0};
+  double moment = 0;
+};
+struct JointRows {
+  Vec<double> point;
+  Vec<double> along;  // of a slide
+  std::array<Row, 3> rows;
+  int count = 2;
+};
+
+JointRows rows_of(const PlanJoint& j, bool driven, const std::vector<PartState<double>>& parts) {
+  JointRows out;
+  out.point = point_on(parts[at(j.after.part)], j.after.at);
+  if (j.slide) {
+    out.along = turn(parts[at(j.before.part)].direction, j.before.direction);
+    out.rows[0].force = left(out.along);
+    out.rows[1].moment = 1;
+    if (driven) out.rows[2].force = out.along;
+  } else {
+    out.rows[0].force = {1, 0};
+    out.rows[1].force = {0, 1};
+    if (driven) out.rows[2].moment = 1;
+  }
+  out.count = driven ? 3 : 2;
+  return out;
+}
+
+double sense(const PlanJoint& j) { return j.reversed ? -1.0 : 1.0; }
+
+// How far the joint's equations are from being met.
+std::array<double, 3> residuals(const PlanJoint& j, const JointRows& r, const InputMotion* input,
+                                const std::vector<PartState<double>>& parts, double size) {
+  const PartState<double>&before = parts[at(j.before.part)], &after = parts[at(j.after.part)];
+  const Vec<double> apart = r.point - point_on(before, j.before.at);
+  if (j.slide) {
+    const Vec<double> other = turn(after.direction, j.after.direction);
+    const double angle = std::atan2(cross(r.along, other), dot(r.along, other));
+    return {cross(r.along, apart), angle * size, input ? dot(r.along, apart) - sense(j) * input->value : 0.0};
+  }
+  double turned = 0;
+  if (input) {
+    const Vec<double> relative = unturn(before.direction, after.direction);
+    turned = math::wrap_angle(angle_of(relative) - sense(j) * input->value) * size;
+  }
+  return {apart.x, apart.y, turned};
+}
+
+// Fills the rows of the Jacobian; columns of the angles are divided by `size`, those of angle rows too, so
+// that all entries are of the same order.
+void assemble(const LinkagePlan& plan, const Group& g, const LinkageMotion& motion, GeneralGroupMemory& m) {
+  m.jacobian.setZero();
+  Index row = 0;
+  for (std::size_t k = 0; k < g.joints.size(); ++k) {
+    const PlanJoint& j = g.joints[k];
+    const JointRows r = rows_of(j, g.inputs[k] >= 0, motion.parts);
+    for (int i = 0; i < r.count; ++i, ++row) {
+      const Row& e = r.rows[at(i)];
+      const double scale = e.moment != 0 ? plan.size : 1.0;
+      for (const auto& [part, side] : {std::pair{j.after.part, 1.0}, std::pair{j.before.part, -1.0}}) {
+        const int c = m.column[at(part)];
+        if (c < 0) continue;
+        const Vec<double> arm = r.point - motion.parts[at(part)].origin;
+        m.jacobian(row, c) += side * e.force.x;
+        m.jacobian(row, c + 1) += side * e.force.y;
+        m.jacobian(row, c + 2) += side * (e.moment * scale + cross(arm, e.force)) / plan.size;
+      }
+    }
+  }
+}
+
+void factorise(GeneralGroupMemory& m) {
+  m.factors.compute(m.jacobian);
+  m.transposed_ready = false;
+}
+
+}  // namespace
+
+void GeneralGroupDelete::operator()(GeneralGroupMemory* memory) const { delete memory; }
+
+GeneralGroupPointer general_group_memory(const LinkagePlan& plan, const Group& group) {
+  GeneralGroupPointer memory(new GeneralGroupMemory);
+  memory->column.assign(plan.parts.size(), -1);
+  for (std::size_t i = 0; i < group.parts.size(); ++i)
+    memory->column[at(group.parts[i])] = static_cast<int>(3 * i);
+  const auto n = static_cast<Index>(3 * group.parts.size());
+  memory->jacobian.resize(n, n);
+  memory->residual.resize(n);
+  memory->solution.resize(n);
+  memory->factors = Eigen::PartialPivLU<Eigen::MatrixXd>(n);
+  memory->transposed = Eigen::PartialPivLU<Eigen::MatrixXd>(n);
+  return memory;
+}
+
+double determinant_sign(const GeneralGroupMemory& memory) {
+  const auto& lu = memory.factors.matrixLU();
+  double s = static_cast<double>(memory.factors.permutationP().determinant());
+  for (Index i = 0; i < lu.rows(); ++i) s *= lu(i, i) < 0 ? -1.0 : 1.0;
+  return s;
+}
+
+double conditioning(const GeneralGroupMemory& memory) {
+  const auto pivots = memory.factors.matrixLU().diagonal().cwiseAbs();
+  const double largest = pivots.maxCoeff();
+  return largest > 0 ? pivots.minCoeff() / largest : 0.0;
+}
+
+Status place_general(const LinkagePlan& plan, const Group& g, std::span<const InputMotion> inputs,
+                     LinkageMotion& motion, GeneralGroupMemory& m) {
+  // Newton's method; near the solution it doubles the digits with each step, and two steps without gain at
+  // the rounding level end it. Far off, a step turns no part by more than half a radian and moves none by
+  // more than the linkage's size, so that the search does not leap to another branch.
+  const double rounding = 64 * tolerance::epsilon * plan.size;
+  double last = std::numeric_limits<double>::infinity();
+  double largest = last;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    Index row = 0;
+    for (std::size_t k = 0; k < g.joints.size(); ++k) {
+      const PlanJoint& j = g.joints[k];
+      const InputMotion* input = g.inputs[k] >= 0 ? &inputs[at(g.inputs[k])] : nullptr;
+      const JointRows r = rows_of(j, input != nullptr, motion.parts);
+      const std::array<double, 3> f = residuals(j, r, input, motion.parts, plan.size);
+      for (int i = 0; i < r.count; ++i) m.residual[row++] = f[at(i)];
+    }
+    largest = m.residual.cwiseAbs().maxCoeff();
+    if (!std::isfinite(largest)) break;
+    assemble(plan, g, motion, m);
+    factorise(m);
+    if (largest <= rounding && (largest == 0 || largest > 0.25 * last || iteration > 0)) break;
+    last = largest;
+    m.solution = m.factors.solve(m.residual);
+    double share = 1;
+    for (Index i = 0; i < m.solution.size(); i += 3) {
+      share = std::min(share, 0.5 * plan.size / std::max(std::abs(m.solution[i + 2]), 0.5 * plan.size));
+      const double way = std::hypot(m.solution[i], m.solution[i + 1]);
+      share = std::min(share, plan.size / std::max(way, plan.size));
+    }
+    if (!(share > 0)) {
+      largest = std::numeric_limits<double>::infinity();
+      break;
+    }
+    for (int p : g.parts) {
+      PartState<double>& part = motion.parts[at(p)];
+      const int c = m.column[at(p)];
+      part.origin = part.origin - share * Vec<double>{m.solution[c], m.solution[c + 1]};
+      part.direction = tidy_unit(turn(part.direction, unit(-share * m.solution[c + 2] / plan.size)));
+    }
+  }
+  const double residual = std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
+  if (residual > 1e3 * rounding) {
+    motion.gap = residual;
+    return Status::not_converged;
+  }
+  motion.closure_residual = std::max(motion.closure_residual, residual);
+  return conditioning(m) < tolerance::toggle_angle * 1e-3 ? Status::singular : Status::done;
+}
+
+void general_velocity(const LinkagePlan& plan, const Group& g, std::span<const InputMotion> inputs,
+                      LinkageMotion& motion, GeneralGroupMemory& m) {
+  Index row = 0;
+  for (std::size_t k = 0; k < g.joints.size(); ++k) {
+    const PlanJoint& j = g.joints[k];
+    const bool driven = g.inputs[k] >= 0;
+    const JointRows r = rows_of(j, driven, motion.parts);
+    // What the known parts move, to the right side.
+    Vec<double> slip{0, 0};
+    double spin = 0;
+    for (const auto& [part, side] : {std::pair{j.after.part, -1.0}, std::pair{j.before.part, 1.0}})
+      if (m.column[at(part)] < 0) {
+        slip = slip + side * velocity_at(motion.parts[at(part)], r.point);
+        spin += side * motion.parts[at(part)].speed;
+      }
+    for (int i = 0; i < r.count; ++i) {
+      const Row& e = r.rows[at(i)];
+      double value = dot(e.force, slip) + e.moment * spin;
+      if (i == 2) value += sense(j) * inputs[at(g.inputs[k])].rate;
+      m.residual[row++] = value * (e.moment != 0 ? plan.size : 1.0);
+    }
+  }
+  m.solution = m.factors.solve(m.residual);
+  for (int p : g.parts) {
+    const int c = m.column[at(p)];
+    motion.parts[at(p)].velocity = {m.solution[c], m.solution[c + 1]};
+    motion.parts[at(p)].speed = m.solution[c + 2] / plan.size;
+  }
+}
+
+void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<const InputMotion> inputs,
+                          LinkageMotion& motion, GeneralGroupMemory& m) {
+  Index row = 0;
+  for (std::size_t k = 0; k < g.joints.size(); ++k) {
+    const PlanJoint& j = g.joints[k];
+    const PartState<double>&before = motion.parts[at(j.before.part)], &after = motion.parts[at(j.after.part)];
+    const JointRows r = rows_of(j, g.inputs[k] >= 0, motion.parts);
+    // The accelerations of both fields at the point differ by the Coriolis term of a slide only; on the
+    // right side stand the parts of them that do not depend on unknown accelerations.
+    Vec<double> slip{0, 0};
+    double spin = 0;
+    for (const auto& [part, state, side] :
+         {std::tuple{j.after.part, &after, -1.0}, std::tuple{j.before.part, &before, 1.0}}) {
+      const Vec<double> arm = r.point - state->origin;
+      if (m.column[at(part)] < 0) {
+        slip = slip + side * acceleration_at(*state, r.point);
+        spin += side * state->angular_acceleration;
+      } else {
+        slip = slip - (side * state->speed * state->speed) * arm;
+      }
+    }
+    if (j.slide) {
+      const Vec<double> relative = velocity_at(after, r.point) - velocity_at(before, r.point);
+      slip = slip + (2 * before.speed * dot(r.along, relative)) * left(r.along);
+    }
+    for (int i = 0; i < r.count; ++i) {
+      const Row& e = r.rows[at(i)];
+      double value = dot(e.force, slip) + e.moment * spin;
+      if (i == 2) value += sense(j) * inputs[at(g.inputs[k])].acceleration;
+      m.residual[row++] = value * (e.moment != 0 ? plan.size : 1.0);
+    }
+  }
+  m.solution = m.factors.solve(m.residual);
+  for (int p : g.parts) {
+    const int c = m.column[at(p)];
+    motion.parts[at(p)].acceleration = {m.solution[c], m.solution[c + 1]};
+    motion.parts[at(p)].angular_acceleration = m.solution[c + 2] / plan.size;
+  }
+}
+
+void general_forces(const LinkagePlan& plan, const Group& g, const LinkageMotion& motion,
+                    GeneralGroupMemory& m, std::span<Wrench<double>> needed, std::span<Wrench<double>> joints,
+                    std::span<double> drives) {
+  if (!m.transposed_ready) {
+    m.transposed.compute(m.jacobian.transpose());
+    m.transposed_ready = true;
+  }
+  for (int p : g.parts) {
+    const int c = m.column[at(p)];
+    m.residual[c] = needed[at(p)].force.x;
+    m.residual[c + 1] = needed[at(p)].force.y;
+    m.residual[c + 2] = needed[at(p)].moment / plan.size;
+  }
+  m.solution = m.transposed.solve(m.residual);
+  Index row = 0;
+  for (std::size_t k = 0; k < g.joints.size(); ++k) {
+    const PlanJoint& j = g.joints[k];
+    const bool driven = g.inputs[k] >= 0;
+    const JointRows r = rows_of(j, driven, motion.parts);
+    Wrench<double> w{{0, 0}, 0};
+    drives[k] = std::numeric_limits<double>::quiet_NaN();
+    for (int i = 0; i < r.count; ++i, ++row) {
+      const Row& e = r.rows[at(i)];
+      const double multiplier = m.solution[row];
+      w.force = w.force + multiplier * e.force;
+      w.moment += multiplier * e.moment * plan.size;
+      if (i == 2) drives[k] = multiplier * (e.moment != 0 ? plan.size : 1.0);
+    }
+    joints[k] = w;
+    for (const auto& [part, side] : {std::pair{j.after.part, -1.0}, std::pair{j.before.part, 1.0}})
+      if (m.column[at(part)] < 0) {
+        const Wrench<double> there = shifted(w, r.point - motion.parts[at(part)].origin);
+        needed[at(part)] = {needed[at(part)].force + side * there.force,
+                            needed[at(part)].moment + side * there.moment};
+      }
+  }
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,424 @@
+#pragma once
+
+#include "linkwright/math/scalar.h"
+#include "linkwright/math/sincos.h"
+#include "linkwright/planar/linkage_plan.h"
+#include "linkwright/planar/plane.h"
+
+// Position, velocity, acceleration and joint forces of drivers and dyads, each formula once for `double` and
+// SIMD batches.
+//
+// A dyad is a chain of three joints between known parts: before -1- first -2- second -3- after. Its joints
+// are planar screws. About a point R where one of its pins sits, that pin moves nothing, so the two others
+// obey 2 x 2 equations; the same matrix serves velocities, accelerations and, transposed, the joint forces.
+namespace linkwright::planar {
+
+/// Motion of a part: its origin and the direction of its x axis, and how they move. Global frame, SI.
+template <class T>
+struct PartState {
+  Vec<T> origin, direction;
+  Vec<T> velocity;
+  T speed;
+  Vec<T> acceleration;
+  T angular_acceleration;
+};
+
+/// What a group tells of its closure.
+template <class T>
+struct GroupState {
+  /// Of a dyad with two modes: what stands under its root, in m2 (RRP, RPR) or m4 (RRR): negative = it cannot
+  /// be assembled, zero = the modes meet.
+  T radicand;
+  /// Determinant of the 2 x 2 equations over the product of the columns' lengths: the sine of the
+  /// transmission angle of an RRR dyad. Zero = dead point.
+  T sine;
+  Vec<T> reference;             ///< R, global
+  Vec<T> column_x, column_y;    ///< what a unit of each of the two joints moves R by
+  T inverse;                    ///< 1 / cross(column_x, column_y)
+  T rate_x, rate_y, rate_zero;  ///< rates of the joints
+};
+
+/// Which joint of a dyad is the pin at R, and which are the other two.
+struct DyadLayout {
+  int zero, x, y;
+};
+constexpr DyadLayout layout(GroupType type) {
+  const bool pin_outside = type == GroupType::rpr || type == GroupType::rpp;
+  return pin_outside ? DyadLayout{0, 1, 2} : DyadLayout{1, 0, 2};
+}
+
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> point_on(const PartState<T>& part, const Vec<double>& at) {
+  return part.origin + turn(part.direction, spread<T>(at));
+}
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> velocity_at(const PartState<T>& part, const Vec<T>& point) {
+  return part.velocity + part.speed * left(point - part.origin);
+}
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> acceleration_at(const PartState<T>& part, const Vec<T>& point) {
+  const Vec<T> arm = point - part.origin;
+  return part.acceleration + part.angular_acceleration * left(arm) - (part.speed * part.speed) * arm;
+}
+
+// ---- position
+// -----------------------------------------------------------------------------------------------
+
+template <class T>
+LINKWRIGHT_KERNEL void place_driver(const Group& g, const T& value, PartState<T>* parts) {
+  const PlanJoint& j = g.joints[0];
+  const PartState<T>& base = parts[j.before.part];
+  PartState<T>& moved = parts[j.after.part];
+  const Vec<T> pivot = point_on(base, j.before.at);
+  const T way = j.reversed ? -value : value;
+  if (j.slide) {
+    const Vec<T> along = turn(base.direction, spread<T>(j.before.direction));
+    moved.direction = turn(along, spread<T>({j.after.direction.x, -j.after.direction.y}));
+    moved.origin = pivot + way * along - turn(moved.direction, spread<T>(j.after.at));
+  } else {
+    Vec<T> rotation;
+    math::sincos(way, rotation.y, rotation.x);
+    moved.direction = tidy_unit(turn(base.direction, rotation));
+    moved.origin = pivot - turn(moved.direction, spread<T>(j.after.at));
+  }
+}
+
+template <class T>
+LINKWRIGHT_KERNEL void place_rrr(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state) {
+  using std::sqrt;
+  const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  const Vec<T> a = point_on(parts[j1.before.part], j1.before.at);
+  const Vec<T> b = point_on(parts[j3.after.part], j3.after.at);
+  const Vec<T> d = b - a;
+  const T d2 = dot(d, d);
+  const double reach = std::sqrt(g.first_square) + std::sqrt(g.second_square);
+  const double fold = std::sqrt(g.first_square) - std::sqrt(g.second_square);
+  state.radicand = (T(reach * reach) - d2) * (d2 - T(fold * fold));
+  const T root = mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
+  const T scale = T(0.5) / d2;
+  const T along = T(reach * fold) + d2;
+  const Vec<T> arm1 = scale * turn(Vec<T>{along, root}, d);              // a -> c
+  const Vec<T> arm2 = scale * turn(Vec<T>{along - T(2) * d2, root}, d);  // b -> c
+  first.direction =
+      tidy_unit(T(1 / g.first_square) * turn(arm1, spread<T>({g.first_link.x, -g.first_link.y})));
+  second.direction =
+      tidy_unit(T(1 / g.second_square) * turn(arm2, spread<T>({g.second_link.x, -g.second_link.y})));
+  first.origin = a - turn(first.direction, spread<T>(j1.after.at));
+  second.origin = b - turn(second.direction, spread<T>(j3.before.at));
+}
+
+template <class T>
+LINKWRIGHT_KERNEL void place_rrp(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state) {
+  using std::sqrt;
+  const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  const PartState<T>& guide = parts[j3.after.part];
+  const Vec<T> a = point_on(parts[j1.before.part], j1.before.at);
+  const Vec<T> e = turn(guide.direction, spread<T>(j3.after.direction));
+  second.direction = turn(e, spread<T>({j3.before.direction.x, -j3.before.direction.y}));
+  // The inner pin runs along e through `start`.
+  const Vec<T> start = point_on(guide, j3.after.at) + turn(second.direction, spread<T>(g.second_link));
+  const Vec<T> m = a - start;
+  const T across = cross(e, m);
+  state.radicand = T(g.first_square) - across * across;
+  const T t = dot(m, e) + mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
+  const Vec<T> arm = t * e - m;
+  first.direction =
+      tidy_unit(T(1 / g.first_square) * turn(arm, spread<T>({g.first_link.x, -g.first_link.y})));
+  first.origin = a - turn(first.direction, spread<T>(j1.after.at));
+  second.origin = start + t * e - turn(second.direction, spread<T>(j2.after.at));
+}
+
+template <class T>
+LINKWRIGHT_KERNEL void place_rpr(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state) {
+  using std::sqrt;
+  const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  const Vec<T> a = point_on(parts[j1.before.part], j1.before.at);
+  const Vec<T> b = point_on(parts[j3.after.part], j3.after.at);
+  const Vec<T> d = b - a;
+  const T d2 = dot(d, d);
+  const double offset = g.first_link.y - g.second_link.y;  // links seen from the slide direction
+  state.radicand = d2 - T(offset * offset);
+  const T way = mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
+  const Vec<T> e = tidy_unit((T(1) / d2) * turn(Vec<T>{way, T(-offset)}, d));
+  first.direction = turn(e, spread<T>({j2.before.direction.x, -j2.before.direction.y}));
+  second.direction = turn(e, spread<T>({j2.after.direction.x, -j2.after.direction.y}));
+  first.origin = a - turn(first.direction, spread<T>(j1.after.at));
+  second.origin = b - turn(second.direction, spread<T>(j3.before.at));
+}
+
+template <class T>
+LINKWRIGHT_KERNEL void place_prp(const Group& g, PartState<T>* parts) {
+  const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  const PartState<T>&base1 = parts[j1.before.part], &base3 = parts[j3.after.part];
+  const Vec<T> e1 = turn(base1.direction, spread<T>(j1.before.direction));
+  const Vec<T> e3 = turn(base3.direction, spread<T>(j3.after.direction));
+  first.direction = turn(e1, spread<T>({j1.after.direction.x, -j1.after.direction.y}));
+  second.direction = turn(e3, spread<T>({j3.before.direction.x, -j3.before.direction.y}));
+  const Vec<T> start1 = point_on(base1, j1.before.at) + turn(first.direction, spread<T>(g.first_link));
+  const Vec<T> start3 = point_on(base3, j3.after.at) + turn(second.direction, spread<T>(g.second_link));
+  const Vec<T> pin = start1 + (cross(start3 - start1, e3) / cross(e1, e3)) * e1;
+  first.origin = pin - turn(first.direction, spread<T>(j2.before.at));
+  second.origin = pin - turn(second.direction, spread<T>(j2.after.at));
+}
+
+template <class T>
+LINKWRIGHT_KERNEL void place_rpp(const Group& g, PartState<T>* parts) {
+  const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  const PartState<T>& guide = parts[j3.after.part];
+  const Vec<T> e3 = turn(guide.direction, spread<T>(j3.after.direction));
+  second.direction = turn(e3, spread<T>({j3.before.direction.x, -j3.before.direction.y}));
+  const Vec<T> e2 = turn(second.direction, spread<T>(j2.after.direction));
+  first.direction = turn(e2, spread<T>({j2.before.direction.x, -j2.before.direction.y}));
+  first.origin =
+      point_on(parts[j1.before.part], j1.before.at) - turn(first.direction, spread<T>(j1.after.at));
+  const Vec<T> start2 = point_on(first, j2.before.at);
+  // The second part's inner point runs along e2 through start2 and along e3 through start3.
+  const Vec<T> start3 = point_on(guide, j3.after.at) + turn(second.direction, spread<T>(g.second_link));
+  const Vec<T> meet = start2 + (cross(start3 - start2, e3) / cross(e2, e3)) * e2;
+  second.origin = meet - turn(second.direction, spread<T>(j2.after.at));
+}
+
+/// Screws of a placed dyad about R.
+template <class T>
+LINKWRIGHT_KERNEL void dyad_screws(const Group& g, const PartState<T>* parts, GroupState<T>& state) {
+  using std::sqrt;
+  const DyadLayout at = layout(g.type);
+  const PlanJoint &zero = g.joints[static_cast<std::size_t>(at.zero)],
+                  &x = g.joints[static_cast<std::size_t>(at.x)],
+                  &y = g.joints[static_cast<std::size_t>(at.y)];
+  state.reference = point_on(parts[zero.after.part], zero.after.at);
+  const auto column = [&](const PlanJoint& j) __attribute__((always_inline)) {
+    const PartState<T>& part = parts[j.before.part];
+    return j.slide ? turn(part.direction, spread<T>(j.before.direction))
+                   : left(state.reference - point_on(part, j.before.at));
+  };
+  state.column_x = column(x);
+  state.column_y = column(y);
+  const T determinant = cross(state.column_x, state.column_y);
+  state.inverse = T(1) / determinant;
+  state.sine = determinant / sqrt(dot(state.column_x, state.column_x) * dot(state.column_y, state.column_y));
+}
+
+template <class T>
+LINKWRIGHT_KERNEL void place_dyad(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state) {
+  state.radicand = T(1);
+  switch (g.type) {
+    case GroupType::rrr:
+      place_rrr(g, mode, parts, state);
+      break;
+    case GroupType::rrp:
+      place_rrp(g, mode, parts, state);
+      break;
+    case GroupType::rpr:
+      place_rpr(g, mode, parts, state);
+      break;
+    case GroupType::prp:
+      place_prp(g, parts);
+      break;
+    default:
+      place_rpp(g, parts);
+      break;
+  }
+  dyad_screws(g, parts, state);
+}
+
+// ---- rates
+// --------------------------------------------------------------------------------------------------
+
+template <class T>
+LINKWRIGHT_KERNEL void drive_velocity(const Group& g, const T& rate, PartState<T>* parts) {
+  const PlanJoint& j = g.joints[0];
+  const PartState<T>& base = parts[j.before.part];
+  PartState<T>& moved = parts[j.after.part];
+  const T way = j.reversed ? -rate : rate;
+  if (j.slide) {
+    moved.speed = base.speed;
+    moved.velocity =
+        velocity_at(base, moved.origin) + way * turn(base.direction, spread<T>(j.before.direction));
+  } else {
+    const Vec<T> pivot = point_on(base, j.before.at);
+    moved.speed = base.speed + way;
+    moved.velocity = velocity_at(base, pivot) - moved.speed * left(pivot - moved.origin);
+  }
+}
+template <class T>
+LINKWRIGHT_KERNEL void drive_acceleration(const Group& g, const T& rate, const T& acceleration,
+                                          PartState<T>* parts) {
+  const PlanJoint& j = g.joints[0];
+  const PartState<T>& base = parts[j.before.part];
+  PartState<T>& moved = parts[j.after.part];
+  const T way = j.reversed ? -acceleration : acceleration;
+  if (j.slide) {
+    const Vec<T> along = turn(base.direction, spread<T>(j.before.direction));
+    const T sliding = j.reversed ? -rate : rate;
+    moved.angular_acceleration = base.angular_acceleration;
+    moved.acceleration =
+        acceleration_at(base, moved.origin) + way * along + (T(2) * base.speed * sliding) * left(along);
+  } else {
+    const Vec<T> pivot = point_on(base, j.before.at);
+    const Vec<T> arm = pivot - moved.origin;
+    moved.angular_acceleration = base.angular_acceleration + way;
+    moved.acceleration = acceleration_at(base, pivot) - moved.angular_acceleration * left(arm) +
+                         (moved.speed * moved.speed) * arm;
+  }
+}
+
+/// Rates of the joints from the jump between the known parts at R, and motion of both parts.
+template <class T>
+LINKWRIGHT_KERNEL void dyad_velocity(const Group& g, PartState<T>* parts, GroupState<T>& s) {
+  const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
+  const PartState<T>&before = parts[j1.before.part], &after = parts[j3.after.part];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  const DyadLayout at = layout(g.type);
+  const Vec<T> jump = velocity_at(after, s.reference) - velocity_at(before, s.reference);
+  s.rate_x = cross(jump, s.column_y) * s.inverse;
+  s.rate_y = cross(s.column_x, jump) * s.inverse;
+  const bool turns_x = !g.joints[static_cast<std::size_t>(at.x)].slide,
+             turns_y = !g.joints[static_cast<std::size_t>(at.y)].slide;
+  s.rate_zero = after.speed - before.speed;
+  if (turns_x) s.rate_zero = s.rate_zero - s.rate_x;
+  if (turns_y) s.rate_zero = s.rate_zero - s.rate_y;
+  const T rate1 = at.zero == 0 ? s.rate_zero : s.rate_x;
+  first.speed = j1.slide ? before.speed : before.speed + rate1;
+  second.speed = j3.slide ? after.speed : after.speed - s.rate_y;
+  const Vec<T> at_first =
+      velocity_at(before, s.reference) + (at.zero == 0 ? Vec<T>{T(0), T(0)} : s.rate_x * s.column_x);
+  const Vec<T> at_second = velocity_at(after, s.reference) - s.rate_y * s.column_y;
+  first.velocity = at_first - first.speed * left(s.reference - first.origin);
+  second.velocity = at_second - second.speed * left(s.reference - second.origin);
+}
+
+/// What a joint adds to the acceleration at R beyond the acceleration of its own rate: centripetal of a pin,
+/// Coriolis of a slide.
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> joint_bias(const PlanJoint& j, const Vec<T>& column, const T& rate,
+                                    const T& speed_before, const T& speed_after) {
+  if (j.slide) return (T(2) * speed_before * rate) * left(column);
+  // column = left(R - P), so R - P = -left(column)
+  return (speed_after * speed_after - speed_before * speed_before) * left(column);
+}
+
+template <class T>
+LINKWRIGHT_KERNEL void dyad_acceleration(const Group& g, PartState<T>* parts, const GroupState<T>& s) {
+  const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
+  const PartState<T>&before = parts[j1.before.part], &after = parts[j3.after.part];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  const DyadLayout at = layout(g.type);
+  const PlanJoint &x = g.joints[static_cast<std::size_t>(at.x)],
+                  &y = g.joints[static_cast<std::size_t>(at.y)];
+  const Vec<T> from_before = acceleration_at(before, s.reference),
+               from_after = acceleration_at(after, s.reference);
+  const Vec<T> bias_x = at.zero == 0 ? joint_bias(x, s.column_x, s.rate_x, first.speed, second.speed)
+                                     : joint_bias(x, s.column_x, s.rate_x, before.speed, first.speed);
+  const Vec<T> bias_y = joint_bias(y, s.column_y, s.rate_y, second.speed, after.speed);
+  const Vec<T> jump = from_after - from_before - bias_x - bias_y;
+  const T change_x = cross(jump, s.column_y) * s.inverse;
+  const T change_y = cross(s.column_x, jump) * s.inverse;
+  T change_zero = after.angular_acceleration - before.angular_acceleration;
+  if (!x.slide) change_zero = change_zero - change_x;
+  if (!y.slide) change_zero = change_zero - change_y;
+  const T change1 = at.zero == 0 ? change_zero : change_x;
+  first.angular_acceleration = j1.slide ? before.angular_acceleration : before.angular_acceleration + change1;
+  second.angular_acceleration = j3.slide ? after.angular_acceleration : after.angular_acceleration - change_y;
+  const Vec<T> at_first = at.zero == 0 ? from_before : from_before + change_x * s.column_x + bias_x;
+  const Vec<T> at_second = from_after - change_y * s.column_y - bias_y;
+  const auto to_origin = [&](PartState<T> & part, const Vec<T>& there) __attribute__((always_inline)) {
+    const Vec<T> arm = s.reference - part.origin;
+    part.acceleration = there - part.angular_acceleration * left(arm) + (part.speed * part.speed) * arm;
+  };
+  to_origin(first, at_first);
+  to_origin(second, at_second);
+}
+
+// ---- forces
+// -------------------------------------------------------------------------------------------------
+
+/// Force and its moment about a point that is named beside it.
+template <class T>
+struct Wrench {
+  Vec<T> force;
+  T moment;
+};
+template <class T>
+LINKWRIGHT_KERNEL Wrench<T> operator+(const Wrench<T>& a, const Wrench<T>& b) {
+  return {a.force + b.force, a.moment + b.moment};
+}
+template <class T>
+LINKWRIGHT_KERNEL Wrench<T> operator-(const Wrench<T>& a, const Wrench<T>& b) {
+  return {a.force - b.force, a.moment - b.moment};
+}
+/// The same wrench about another point; `way` leads from the new point to the old one.
+template <class T>
+LINKWRIGHT_KERNEL Wrench<T> shifted(const Wrench<T>& w, const Vec<T>& way) {
+  return {w.force, w.moment + cross(way, w.force)};
+}
+
+/// Inertia and weight of a part: the wrench about its origin that its motion needs.
+template <class T>
+LINKWRIGHT_KERNEL Wrench<T> needed_wrench(const PartMass& m, const PartState<T>& part,
+                                          const Vec<T>& gravity) {
+  const Vec<T> arm = turn(part.direction, spread<T>(m.moment));
+  const Vec<T> lifted = part.acceleration - gravity;
+  return {T(m.mass) * lifted + part.angular_acceleration * left(arm) - (part.speed * part.speed) * arm,
+          T(m.inertia) * part.angular_acceleration + cross(arm, lifted)};
+}
+
+/// Joint wrenches of a dyad about its R, of the part before on the part after each joint; `needed` holds, per
+/// part about its origin, what the part needs beyond the joints solved so far, and takes the loads that the
+/// dyad puts on its neighbours. The joints are free of torque and friction.
+template <class T>
+LINKWRIGHT_KERNEL void dyad_forces(const Group& g, const PartState<T>* parts, const GroupState<T>& s,
+                                   Wrench<T>* needed, Wrench<T>* joints) {
+  const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
+  const int first = j1.after.part, second = j3.before.part;
+  const DyadLayout at = layout(g.type);
+  const bool turns_x = !g.joints[static_cast<std::size_t>(at.x)].slide,
+             turns_y = !g.joints[static_cast<std::size_t>(at.y)].slide;
+  const Wrench<T> n1 = shifted(needed[first], parts[first].origin - s.reference);
+  const Wrench<T> n2 = shifted(needed[second], parts[second].origin - s.reference);
+  // Force f of the pin at R: no joint takes power along its freedom.
+  T bx, by;
+  if (at.zero == 0) {
+    bx = dot(s.column_x, n1.force);
+    by = dot(s.column_y, n1.force + n2.force);
+    if (turns_x) bx = bx + n1.moment;
+    if (turns_y) by = by + n1.moment + n2.moment;
+  } else {
+    bx = -dot(s.column_x, n1.force);
+    by = dot(s.column_y, n2.force);
+    if (turns_x) bx = bx - n1.moment;
+    if (turns_y) by = by + n2.moment;
+  }
+  const Vec<T> f =
+      s.inverse * Vec<T>{bx * s.column_y.y - by * s.column_x.y, by * s.column_x.x - bx * s.column_y.x};
+  const Wrench<T> pin{f, T(0)};
+  if (at.zero == 0) {
+    joints[0] = pin;
+    joints[1] = pin - n1;
+  } else {
+    joints[0] = pin + n1;
+    joints[1] = pin;
+  }
+  joints[2] = joints[1] - n2;
+  const int before = j1.before.part, after = j3.after.part;
+  needed[before] = needed[before] + shifted(joints[0], s.reference - parts[before].origin);
+  needed[after] = needed[after] - shifted(joints[2], s.reference - parts[after].origin);
+}
+
+/// Wrench on the driven part about its joint point; its neighbour takes the opposite.
+template <class T>
+LINKWRIGHT_KERNEL Wrench<T> driver_force(const Group& g, const PartState<T>* parts, Wrench<T>* needed) {
+  const PlanJoint& j = g.joints[0];
+  const int moved = j.after.part, base = j.before.part;
+  const Vec<T> pivot = point_on(parts[moved], j.after.at);
+  const Wrench<T> w = shifted(needed[moved], parts[moved].origin - pivot);
+  needed[base] = needed[base] + shifted(w, pivot - parts[base].origin);
+  return w;
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "linkwright/planar/linkage_motion.h"
+
+namespace linkwright::planar {
+
+/// What a joint carries: force (N, global frame) and moment (N m) of its first body on its second, at
+/// `point`: where the point of the second body is. Revolute joints and pins in slots have no moment; of a
+/// driven joint the drive's torque or force is included. A gear's moment is what it turns its second body
+/// with.
+struct JointReaction {
+  Vec<double> point{0, 0};
+  Vec<double> force{0, 0};
+  double moment = 0;
+};
+
+/// A load on a body: a force at a point of the global frame and a torque.
+struct AppliedLoad {
+  int body = 0;
+  Vec<double> point{0, 0};
+  Vec<double> force{0, 0};
+  double torque = 0;
+};
+
+/// Joint forces of a linkage at one instant; use one again and again.
+struct LinkageForces {
+  Status status = Status::done;       ///< that of the motion; not_converged when friction does not settle
+  std::vector<JointReaction> joints;  ///< one a joint of the linkage
+  std::vector<double> drives;  ///< one an input: torque (N m) or force (N) of the first body on the second
+  std::vector<AppliedLoad> loads;   ///< springs, forces and torques as they acted; no weight
+  Vec<double> shaking_force{0, 0};  ///< of the mechanism on the ground, weight included
+  /// The moment on the ground about the global origin, with everything that acts on it ...
+  double shaking_moment_with_drive = 0;
+  /// ... and without the torques of drives that stand on the ground.
+  double shaking_moment = 0;
+  double drive_power = 0;    ///< W, of all drives
+  double load_power = 0;     ///< W, of springs, forces, torques and friction on the moving bodies
+  double weight_power = 0;   ///< W
+  double kinetic_power = 0;  ///< W: rate of the kinetic energy by velocities and accelerations
+  int iterations = 0;        ///< of friction; 0 = none
+  std::vector<Wrench<double>> needed, group_joints;  ///< memory
+};
+
+/// Forces of springs, dampers, forces and torques at the present motion, appended to `loads`. `time` in s and
+/// `input` (value of the first input, rad or m) are what load tables may depend on.
+void applied_loads(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion, double time,
+                   double input, std::vector<AppliedLoad>& loads);
+
+/// All joint forces, drive torques and what the ground feels, by d'Alembert's principle along the
+/// decomposition, last group first: 3 x 3 (in fact 2 x 2) equations a dyad. After solve_acceleration of the
+/// same motion; with a plan made `all_at_once` the Newton-Euler equations of all bodies in one linear system,
+/// the independent route. Friction of joints is iterated until joint forces change by less than 1e-12 of the
+/// largest.
+///
+/// The status is that of the motion; forces are NaN unless it is done. Throws ContractError when a body has
+/// no mass (see LinkagePlan::massless).
+void solve_forces(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion, double time,
+                  double input, LinkageForces& forces);
+
+}  // namespace linkwright::planar

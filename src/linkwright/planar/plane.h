@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+
+#include "linkwright/math/scalar.h"
+
+namespace linkwright::planar {
+
+/// A vector of the plane, written once for `double` and SIMD batches. Read as a complex number where it turns
+/// another one (`turn`), without the care that std::complex takes of infinities.
+template <class T>
+struct Vec {
+  T x, y;
+};
+
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> operator+(const Vec<T>& a, const Vec<T>& b) {
+  return {a.x + b.x, a.y + b.y};
+}
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> operator-(const Vec<T>& a, const Vec<T>& b) {
+  return {a.x - b.x, a.y - b.y};
+}
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> operator-(const Vec<T>& a) {
+  return {-a.x, -a.y};
+}
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> operator*(const T& s, const Vec<T>& a) {
+  return {s * a.x, s * a.y};
+}
+template <class T>
+LINKWRIGHT_KERNEL T dot(const Vec<T>& a, const Vec<T>& b) {
+  return a.x * b.x + a.y * b.y;
+}
+/// Third component of the vector product: positive when b lies to the left of a.
+template <class T>
+LINKWRIGHT_KERNEL T cross(const Vec<T>& a, const Vec<T>& b) {
+  return a.x * b.y - a.y * b.x;
+}
+/// Turned by a quarter counter-clockwise.
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> left(const Vec<T>& a) {
+  return {-a.y, a.x};
+}
+/// a turned (and stretched) by u: the complex product u a.
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> turn(const Vec<T>& u, const Vec<T>& a) {
+  return {u.x * a.x - u.y * a.y, u.x * a.y + u.y * a.x};
+}
+/// a seen from a frame that is turned by u: the complex product conj(u) a.
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> unturn(const Vec<T>& u, const Vec<T>& a) {
+  return {u.x * a.x + u.y * a.y, u.x * a.y - u.y * a.x};
+}
+/// A vector that is of unit length but for rounding, brought to unit length (one Newton step).
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> tidy_unit(const Vec<T>& u) {
+  return (T(1.5) - T(0.5) * dot(u, u)) * u;
+}
+/// The same number in every lane.
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> spread(const Vec<double>& a) {
+  return {T(a.x), T(a.y)};
+}
+
+inline double norm(const Vec<double>& a) { return std::hypot(a.x, a.y); }
+inline Vec<double> unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
+inline double angle_of(const Vec<double>& a) { return std::atan2(a.y, a.x); }
+inline Vec<double> vec(std::complex<double> z) { return {z.real(), z.imag()}; }
+inline std::complex<double> number(const Vec<double>& a) { return {a.x, a.y}; }
+
+}  // namespace linkwright::planar
