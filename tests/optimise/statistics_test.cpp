@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "optimise/functions.h"
+#include "support/memory_checkpoint.h"
 #include "support/message.h"
 
 namespace linkwright::optimise {
@@ -92,6 +93,44 @@ TEST(Statistics, ForEachSeedLeavesOutSeedsAfterACancel) {
   EXPECT_EQ(loop.status, Status::cancelled);
   EXPECT_THAT(loop.ran,
               testing::ElementsAre(true, true, true, true, false, false, false, false, false, false));
+}
+
+TEST(Statistics, SeedsOfTheCheckpointAreNotRunAgain) {
+  linkwright::test::MemoryCheckpoint checkpoint;
+  std::vector<double> results(6);
+  const auto run = [&](std::uint64_t cancelled_in, int threads) {
+    RunContext context;
+    context.set_threads(threads);
+    context.set_checkpoint(&checkpoint);
+    std::atomic<int> ran = 0;
+    std::atomic<bool> interrupted = false;
+    results.assign(6, 0);
+    const SeedLoop loop = for_each_seed(
+        {10, 6}, context, "test",
+        [&](std::size_t i, std::uint64_t seed) {
+          ++ran;
+          checkpoint.keep(seed_name(seed) + "/half", Value(1));
+          if (seed == cancelled_in) context.cancel();
+          interrupted = context.interrupted();
+          return results[i] = 0.1 * static_cast<double>(seed);
+        },
+        [&](std::size_t i) {
+          return interrupted ? Value() : pack_numbers({&results[i], 1});
+        },
+        [&](std::size_t i, const Value& value) { return results[i] = unpack_numbers(value, "test").at(0); });
+    EXPECT_EQ(loop.ran[5], cancelled_in == 0);
+    return ran.load();
+  };
+  EXPECT_EQ(run(12, 1), 3);
+  // The two that ended, and what the interrupted one kept on its way.
+  std::vector<std::string> names;
+  for (const auto& [name, value] : checkpoint.entries) names.push_back(name);
+  EXPECT_THAT(names, testing::ElementsAre("seed 10", "seed 11", "seed 12/half"));
+  EXPECT_EQ(run(0, 2), 4);
+  EXPECT_THAT(results, testing::ElementsAre(1.0, 0.1 * 11, 0.1 * 12, 0.1 * 13, 0.1 * 14, 1.5));
+  EXPECT_EQ(checkpoint.entries.size(), 6u);
+  EXPECT_EQ(run(0, 1), 0);
+  EXPECT_THAT(results, testing::ElementsAre(1.0, 0.1 * 11, 0.1 * 12, 0.1 * 13, 0.1 * 14, 1.5));
 }
 
 TEST(Statistics, ExceptionsOfABodyArrive) {
