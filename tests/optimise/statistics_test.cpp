@@ -175,6 +175,31 @@ TEST(Statistics, MinimiseSeedsGivesTheSameBitsForAnyThreads) {
             all[0].reports[4].x);
 }
 
+TEST(Statistics, MinimiseSeedsGoesOn) {
+  const Problem problem = test::rastrigin(3);
+  MinimiseOptions options = {.checkpoint = "all"};
+  options.stop.generations = 30;
+  RunContext plain;
+  const auto whole = minimise_seeds(problem, {}, options, {3, 4}, 1, plain);
+  linkwright::test::MemoryCheckpoint checkpoint;
+  RunContext first;
+  first.set_threads(1);
+  first.set_checkpoint(&checkpoint);
+  int keeps = 0;
+  checkpoint.kept = [&](std::string_view) {
+    if (++keeps == 90) first.cancel();
+  };
+  EXPECT_EQ(minimise_seeds(problem, {}, options, {3, 4}, 1, first).status, Status::cancelled);
+  RunContext second;
+  second.set_checkpoint(&checkpoint);
+  const auto resumed = minimise_seeds(problem, {}, options, {3, 4}, 1, second);
+  EXPECT_EQ(resumed.status, Status::done);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(resumed.reports[i].x, whole.reports[i].x);
+    EXPECT_EQ(resumed.reports[i].log.size(), whole.reports[i].log.size());
+  }
+}
+
 TEST(Statistics, MinimiseSeedsTellsOfInterruptionAndInfeasibility) {
   RunContext cancelled;
   cancelled.set_threads(2);

@@ -9,7 +9,7 @@
 
 namespace linkwright::test {
 
-/// Keeps everything, at once.
+/// Keeps everything; loops keep their state after every generation unless `pause` is set.
 class MemoryCheckpoint final : public Checkpoint {
  public:
   Value find(std::string_view name) const override {
@@ -24,8 +24,9 @@ class MemoryCheckpoint final : public Checkpoint {
     entries[std::string(name)] = value;
     if (kept) kept(name);
   }
-  std::chrono::duration<double> interval() const override { return {}; }
+  std::chrono::duration<double> interval() const override { return pause; }
 
+  std::chrono::duration<double> pause{};
   std::map<std::string, Value> entries;
   std::function<void(std::string_view name)> kept;  ///< called after each keep
   mutable std::mutex mutex;

@@ -115,7 +115,9 @@ SeedsReport minimise_seeds(const Problem& problem, const OptimiserOptions& metho
   std::vector<Report> all(static_cast<std::size_t>(seeds.count));
   const SeedLoop loop =
       for_each_seed(seeds, context, name_of(method.method), [&](std::size_t i, std::uint64_t seed) {
-        all[i] = minimise(problem, method, quiet, {.seed = seed}, context);
+        MinimiseOptions own = quiet;
+        if (!own.checkpoint.empty()) own.checkpoint += "/" + seed_name(seed);
+        all[i] = minimise(problem, method, own, {.seed = seed}, context);
         return all[i].violation == 0 ? all[i].cost : std::numeric_limits<double>::infinity();
       });
 

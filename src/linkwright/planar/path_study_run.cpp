@@ -60,6 +60,7 @@ PathSeedRun run_seed(const PopulationMethod<Options>& method, const PathStudy& s
     const optimise::Problem problem = path_population_problem(s.problem, branch, sense);
     optimise::MinimiseOptions minimise = method.minimise;
     minimise.progress = only_seed;
+    minimise.checkpoint = optimise::seed_name(seed) + (sense > 0 ? "/positive" : "/negative");
     const auto optimiser =
         optimise::make_optimiser(problem.variables, method.options, {.seed = seed, .run = part++});
     const optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
