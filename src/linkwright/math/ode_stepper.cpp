@@ -18,6 +18,7 @@
 #include <new>
 
 #include "linkwright/math/ode_pairs.h"
+#include "linkwright/math/ode_vectors.h"
 
 namespace linkwright::math {
 namespace {
@@ -131,8 +132,7 @@ struct OdeStepper::Solver {
     if (SUNContext_Create(nullptr, &context) != 0) throw std::bad_alloc();
     y = needed(N_VNew_Serial(length, context));
     N_VConst(0, y);
-    N_VEnableLinearCombination_Serial(y,
-                                      SUNTRUE);  // one pass over the stages; vectors cloned from y inherit it
+    use_our_loops(y);
     tolerance = needed(N_VClone(y));
     if (runge_kutta(key.method)) {
       table = needed(butcher_table(key.method));
