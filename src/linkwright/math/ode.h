@@ -131,12 +131,13 @@ class OdeWorkspace {
 /// the same formula: degree 5 or 9, as accurate as the step, for 7 or 39 calls of f in each step in which it
 /// is needed.
 ///
-/// Events: signs are compared at 8 places within every step, and near-misses (a minimum of |g| below a tenth
-/// of its range) are searched for two crossings, so events are found however far apart the output times are;
-/// what happens twice within an eighth of a step without coming near zero at the places compared can be
-/// missed: `max_step` guards against it. An event is reported at the far side of its crossing. A function
-/// that is zero at the start or after a restart takes the side towards which it moves and does not count as a
-/// crossing.
+/// Events: signs are compared at 8 places within every step, and near-misses (a least |g| below a tenth of
+/// its range) are searched for two crossings, so events are found however far apart the output times are.
+/// What happens twice within an eighth of a step without coming near zero at the places compared can be
+/// missed: `max_step` guards against it. An event is reported at the far side of its crossing. For the next
+/// 100 tolerances its function counts as on the side towards which it then moves, and so does a function that
+/// is zero at the start, which is no crossing: nothing is reported twice, and flights shorter than that are
+/// not seen.
 ///
 /// Throws ContractError for an empty y, values that are not finite, options out of range, output times out of
 /// order or outside the interval, hooks that miss their partner, and combinations that a method lacks.
