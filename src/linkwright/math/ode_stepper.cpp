@@ -141,7 +141,8 @@ struct OdeStepper::Solver {
       ERKStepSetTable(arkode, table);
       ERKStepSetInterpolantDegree(arkode, 3);  // higher ones call f again when the last step is done
       // Gustafsson's PI control with the exponents of Hairer and Wanner (1996, IV.2), every change of step
-      // allowed: ARKODE leaves steps alone that could grow by less than half, which costs high orders much.
+      // allowed: ARKODE leaves steps alone that could grow by less than half, a fifth to a third more of
+      // them.
       const double share = static_cast<double>(table->p) / (table->p + 1);
       std::array<double, 3> exponents = {0.7 * share, 0.4 * share, 0};
       ERKStepSetAdaptivityMethod(arkode, ARK_ADAPT_PI, 0, 0, exponents.data());
@@ -257,8 +258,8 @@ void OdeStepper::prepare(const OdeFunction& f, std::size_t n, double from, doubl
     else
       ERKStepSVtolerances(s.arkode, o.relative_tolerance, s.tolerance);
     ERKStepSetMaxStep(s.arkode, longest);
-    // ERKStep of SUNDIALS before 6.6.1 takes every pair that ends with a stage at the end of the step for one
-    // whose last stage is the first of the next step, which costs Fehlberg's pair its order. With a function
+    // ERKStep of SUNDIALS 6.4 takes every pair that ends with a stage at the end of the step for one
+    // whose last stage is the first of the next step, which costs Verner's pair its order. With a function
     // to be called after steps it evaluates f anew.
     const bool last_stage_is_first = o.method == OdeMethod::explicit_runge_kutta_5;
     ERKStepSetPostprocessStepFn(s.arkode,
