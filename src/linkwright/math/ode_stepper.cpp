@@ -141,8 +141,8 @@ struct OdeStepper::Solver {
       ERKStepSetTable(arkode, table);
       ERKStepSetInterpolantDegree(arkode, 3);  // higher ones call f again when the last step is done
       // Gustafsson's PI control with the exponents of Hairer and Wanner (1996, IV.2), every change of step
-      // allowed: ARKODE leaves steps alone that could grow by less than half, a fifth to a third more of
-      // them.
+      // allowed: ARKODE leaves steps alone that could grow by less than half; that
+      // takes a fifth to a third more steps.
       const double share = static_cast<double>(table->p) / (table->p + 1);
       std::array<double, 3> exponents = {0.7 * share, 0.4 * share, 0};
       ERKStepSetAdaptivityMethod(arkode, ARK_ADAPT_PI, 0, 0, exponents.data());
