@@ -2,6 +2,7 @@
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import { isObject, resultText, type Json, type JsonObject, type Num, type Table } from "./data";
+import { Copy } from "./controls";
 import { csv, drawingSvg, dxf, png, save, slug, targetTable } from "./exports";
 import { isAssembled, positionOfTurn } from "./motion";
 import { Convergence, Dots, hasHistogram, hasLoosePlots, LoosePlots } from "./plots";
@@ -300,22 +301,12 @@ export function Data() {
   );
 }
 
-function Copy({ text }: { text: string }) {
-  const [done, setDone] = useState(false);
-  const copy = async () => {
-    await navigator.clipboard.writeText(text);
-    setDone(true);
-    setTimeout(() => setDone(false), 1500);
-  };
-  return <button type="button" class="copy screen-only" onClick={() => copy().catch(() => setDone(false))}>{done ? "copied" : "copy"}</button>;
-}
-
 export function Reproduce() {
   return (
     <Section title="How to reproduce" id="reproduce">
       {view.command && <div class="copyable"><pre>{view.command}</pre><Copy text={view.command} /></div>}
       {view.study_toml && <details><summary>The study</summary><div class="copyable"><pre>{view.study_toml}</pre><Copy text={view.study_toml} /></div></details>}
-      <footer>{view.tool}<span class="screen-only"> · keys: space plays, ← → step (shift: 10), T trace, V speed, E targets, G ghosts, N names, B bounce, + − 0 zoom; drag a moving joint to move the mechanism</span></footer>
+      <footer>{view.tool}<span class="screen-only"> · keys: space plays, ← → step (shift: 10), T trace, V speed, E targets, G ghosts, N names, F forces, W velocities, A accelerations, B bounce, + − 0 zoom; drag a moving joint to move the mechanism</span></footer>
     </Section>
   );
 }
