@@ -39,7 +39,7 @@ export function Checks() {
   if (!result.checks.length) return null;
   return (
     <div class="card side">
-      <h3>Checks</h3>
+      <h2>Checks</h2>
       <ul class="checks">
         {result.checks.map((c) => (
           <li class={c.passed ? "pass" : "fail"}>
@@ -66,7 +66,7 @@ export function Errors() {
   const step = Math.max(1, Math.ceil(distance.length / 12));
   return (
     <div class="card side">
-      <h3>Distance from each target</h3>
+      <h2>Distance from each target</h2>
       <div class="bars" role="group" aria-label="Distance from each target">
         {distance.map((d, i) => (
           <button type="button" class={i === worst ? "worst" : ""} onClick={() => go(i)} aria-label={`target ${i + 1}: ${quantity("_m", d, 4)}`} title={`target ${i + 1}: ${quantity("_m", d, 4)}`}>
@@ -102,7 +102,7 @@ export function SolutionPicker() {
   if (choices.length < 2) return null;
   return (
     <div class="card side">
-      <h3>{choices.length} {result.solutions.length ? "solutions" : "scenes"}</h3>
+      <h2>{choices.length} {result.solutions.length ? "solutions" : "scenes"}</h2>
       <div class="picker" role="radiogroup" aria-label="Solution shown">
         {choices.map((c) => (
           <button type="button" role="radio" aria-checked={c.scene === sceneIndex.value} disabled={c.scene < 0} data-solution={c.i} onClick={() => showScene(c.scene)}>
@@ -261,9 +261,10 @@ function DataTable({ table }: { table: Table }) {
   const rows = table.data[0]?.length ?? 0;
   const shown = Math.min(rows, 2000);
   return (
+    <div class="data-table">
+    <button type="button" class="get" data-download={`${table.name}.csv`} aria-label={`${table.name} as CSV`} onClick={() => save(`${slug(table.name)}.csv`, csv(table), "text/csv")}>CSV</button>
     <details onToggle={(e) => setOpen(e.currentTarget.open)}>
-      <summary>{table.name} <span class="note">{rows} rows, {table.columns.length} columns</span>
-        <button type="button" class="get" data-download={`${table.name}.csv`} onClick={(e) => { e.preventDefault(); save(`${slug(table.name)}.csv`, csv(table), "text/csv"); }}>CSV</button></summary>
+      <summary>{table.name} <span class="note">{rows} rows, {table.columns.length} columns</span></summary>
       {open && (
         <div class="scroll tall"><table>
           <thead><tr>{table.columns.map((c) => <th scope="col" class="num">{c.label || c.key}</th>)}{table.status.length > 0 && <th scope="col">status</th>}</tr></thead>
@@ -272,6 +273,7 @@ function DataTable({ table }: { table: Table }) {
       )}
       {open && shown < rows && <p class="note">The first {shown} rows; the CSV file has them all.</p>}
     </details>
+    </div>
   );
 }
 

@@ -58,6 +58,7 @@ export function showScene(index: number): void {
   const m = motions[index];
   sceneIndex.value = index;
   picked.value = hovered.value = "";
+  if (view.scenes[index].joints.length > crowded) showLabels.value = false;
   bounce.value = !m.fullTurn && !m.timed;
   if (!isAssembled(m, position.value)) position.value = m.runs[0]?.[0] ?? 0;
 }
