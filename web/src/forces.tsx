@@ -19,6 +19,8 @@ const keyRoom = () => Math.min(110, Math.max(40, 0.2 * size.value.width));
 const known = () => quantities.filter((q) => pixelsPerUnit(q) > 0 || (q === "force" && largestMoment(state.scene.value?.moments ?? []) > 0));
 const unitOfAll = (scene: Scene, quantity: Quantity) => (scene.vectors.find((v) => v.quantity === quantity)?.unit ?? "").replace(/2\b/, "²");
 
+const narrow = 480; // px: below it the names of arrows hide what they name
+
 interface ArrowProps {
   quantity: Quantity;
   from: { x: number; y: number };
@@ -41,7 +43,7 @@ function Arrow({ quantity, from, end, title, symbol = "", pick }: ArrowProps) {
       <path class="shaft" d={paths.shaft} />
       <path class="head" d={paths.head} />
       {pick && <path class="reach" d={`M${from.x + free * cos} ${from.y + free * sin}L${end.x} ${end.y}`} />}
-      {symbol && state.showLabels.value && (
+      {symbol && state.showLabels.value && size.value.width >= narrow && (
         <text x={end.x + 9 * cos} y={end.y + 9 * sin + 4.5} text-anchor={cos < -0.3 ? "end" : cos < 0.3 ? "middle" : "start"}>{symbol}</text>
       )}
     </g>

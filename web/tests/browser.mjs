@@ -129,6 +129,13 @@ test("keys step, toggle and zoom", async () => {
   await close();
 });
 
+test("what only catches the pointer is not seen", async () => {
+  const { page, close } = await open("report.html", { reducedMotion: "reduce" });
+  for (const joint of ["A", "C"])
+    assert.deepEqual(await page.locator(`[data-joint="${joint}"] .reach`).evaluate((e) => [getComputedStyle(e).fill, getComputedStyle(e).stroke]), ["none", "none"]);
+  await close();
+});
+
 test("whiskers can be magnified", async () => {
   const { page, close } = await open("report.html");
   const length = () => page.locator(".whisker").first().evaluate((e) => e.getTotalLength());
