@@ -118,7 +118,7 @@ describe("exports", () => {
     expect(slug("…")).toBe("report");
   });
   it("writes DXF for an empty scene", () => {
-    const scene: Scene = { name: "", title: "", input_key: "", input_label: "", input: [], status: [], points: [], bodies: [], joints: [], traces: [], targets: [] };
+    const scene: Scene = { name: "", title: "", input_key: "", input_label: "", input: [], status: [], points: [], bodies: [], joints: [], traces: [], targets: [], circles: [], vectors: [], moments: [] };
     expect(dxf(scene, 0)).toMatch(/ENTITIES\n0\nENDSEC\n0\nEOF\n$/);
   });
 });
