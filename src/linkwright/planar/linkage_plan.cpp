@@ -460,6 +460,11 @@ class Planner {
       if (!link.slide && link.first.part == slide.second.part) return link.joint;
     return 0;
   }
+  std::string driven_names() const {
+    std::vector<std::string> names;
+    for (int d : l_.driven) names.push_back(joint(d).name);
+    return listed(names);
+  }
   // Why parts stay without a place.
   void loose(const std::vector<int>& unknown) {
     const auto names = [&](const std::vector<int>& of) {
@@ -507,15 +512,22 @@ class Planner {
               fmt::format("the linkage has {} degree(s) of freedom and {} drive(s): drive one more joint, or "
                           "add a joint",
                           mobility(l_), l_.driven.size()));
+      else if (free < 0 && mobility(l_) < static_cast<int>(l_.driven.size()))
+        error("drive",
+              fmt::format("two drives on one freedom: with the drives of {} nothing is left to place {}",
+                          driven_names(), names(component)),
+              fmt::format("the linkage has {} degree(s) of freedom and {} drive(s): remove one drive",
+                          mobility(l_), l_.driven.size()));
       else if (free < 0)
         error(key,
-              fmt::format("{} have {} constraint{} too many: they form a rigid or overdetermined structure",
-                          names(component), -free, free == -1 ? "" : "s"),
+              fmt::format("{} {} {} constraint{} too many: a rigid or overdetermined structure",
+                          names(component), component.size() == 1 ? "has" : "have", -free,
+                          free == -1 ? "" : "s"),
               "leave out a joint or a drive");
       else
         error(key,
-              fmt::format("{} are constrained too much in one place and too little in another",
-                          names(component)),
+              fmt::format("{} {} constrained too much in one place and too little in another",
+                          names(component), component.size() == 1 ? "is" : "are"),
               "look for a triangle of links that cannot move");
     }
   }
