@@ -512,7 +512,7 @@ class Planner {
               fmt::format("the linkage has {} degree(s) of freedom and {} drive(s): drive one more joint, or "
                           "add a joint",
                           mobility(l_), l_.driven.size()));
-      else if (free < 0 && mobility(l_) < static_cast<int>(l_.driven.size()))
+      else if (free < 0 && l_.driven.size() > 1 && mobility(l_) < static_cast<int>(l_.driven.size()))
         error("drive",
               fmt::format("two drives on one freedom: with the drives of {} nothing is left to place {}",
                           driven_names(), names(component)),
