@@ -33,15 +33,6 @@ TEST(SerialArm, StandsWhereItsAnglesSay) {
   near(point(r[1], {0, 1}).position, {1, 5});  // left of a link along x
 }
 
-TEST(SerialArm, AnglesOfJointsAddUp) {
-  std::vector<Motion> motion = {{1, 2, 3, 4}, {0.5, -1, 2, 1}, {0.25, 0, 0, -7}};
-  absolute_from_joint(motion);
-  EXPECT_EQ(motion[2].value, 1.75);
-  EXPECT_EQ(motion[2].rate, 1);
-  EXPECT_EQ(motion[2].acceleration, 5);
-  EXPECT_EQ(motion[2].jerk, -2);
-}
-
 // Velocity and acceleration of joints and of a point of the last link against differences in time.
 RC_GTEST_PROP(SerialArmProperty, RatesAreTheDerivativesOfPositions, ()) {
   const std::size_t n = static_cast<std::size_t>(*rc::gen::inRange(1, 6));

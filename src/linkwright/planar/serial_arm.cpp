@@ -40,13 +40,4 @@ void rates(std::span<const ArmElement> arm, std::complex<double> base, std::span
   }
 }
 
-void absolute_from_joint(std::span<Motion> joint) {
-  for (std::size_t k = 1; k < joint.size(); ++k) {
-    joint[k].value += joint[k - 1].value;
-    joint[k].rate += joint[k - 1].rate;
-    joint[k].acceleration += joint[k - 1].acceleration;
-    joint[k].jerk += joint[k - 1].jerk;
-  }
-}
-
 }  // namespace linkwright::planar

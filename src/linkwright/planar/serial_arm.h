@@ -55,8 +55,4 @@ PointMotion point(const ArmLinkRates& link, std::complex<double> place);
 void rates(std::span<const ArmElement> arm, std::complex<double> base, std::span<const Motion> motion,
            std::span<ArmLinkRates> rates);
 
-/// Motion of the absolute angles when `joint` are those of the joints: the angle of each link from the link
-/// before, the first from the x axis. In place.
-void absolute_from_joint(std::span<Motion> joint);
-
 }  // namespace linkwright::planar

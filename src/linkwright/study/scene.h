@@ -44,7 +44,7 @@ struct Scene {
   std::string title;                ///< for people
   std::string input_key;            ///< "crank_angle_rad"
   std::string input_label;          ///< "crank angle"
-  std::vector<double> input;        ///< one value a sample, monotonous, in radians or metres
+  std::vector<double> input;        ///< one value a sample, monotonous, in radians, metres or seconds
   std::vector<std::string> status;  ///< one a sample; empty = all done
   std::vector<Point> points;
   std::vector<Body> bodies;
