@@ -275,11 +275,13 @@ void add_facts(study::Result& result, const SerialArmStudy& s, const std::vector
       fact(fmt::format("largest force at {}", joint_name(k)), text(peak_force(rows, k), "N"));
   // Both, since counterweights that unload the joints load the motors.
   if (q.torques)
-    for (std::size_t k = 0; k < links.size(); ++k)
-      fact(fmt::format("largest torque of {}", words(links[k].name)),
-           fmt::format("motor in the joint {}, on the ground {}",
-                       text(peak_torque(rows, k, &ArmJointLoads::joint_torque), "N m"),
-                       text(peak_torque(rows, k, &ArmJointLoads::absolute_torque), "N m")));
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      const std::string link = words(links[k].name);
+      fact(fmt::format("largest torque of {}, motor in the joint", link),
+           text(peak_torque(rows, k, &ArmJointLoads::joint_torque), "N m"));
+      fact(fmt::format("largest torque of {}, motor on the ground", link),
+           text(peak_torque(rows, k, &ArmJointLoads::absolute_torque), "N m"));
+    }
   const Peak power = peak(rows, [](const Row& r) { return r.power(); });
   if (q.power) fact("largest power of all motors", text(power, "W"));
   if (q.energy)
