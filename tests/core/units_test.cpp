@@ -28,6 +28,9 @@ TEST(Units, AnglesAndSpeeds) {
   EXPECT_EQ(si(Dimension::angle, "deg", 360), 2 * std::numbers::pi);
   EXPECT_EQ(si(Dimension::speed_angular, "rpm", 300), 10 * std::numbers::pi);
   EXPECT_EQ(si(Dimension::torque, "N_mm", 1500), 1.5);
+  EXPECT_EQ(si(Dimension::frequency, "per_min", 90), 1.5);
+  EXPECT_EQ(si(Dimension::jerk_angular, "deg_per_s3", 180), std::numbers::pi);
+  EXPECT_EQ(si(Dimension::power, "kW", 0.5), 500);
 }
 
 TEST(Units, KeysTakeTheLongestSuffix) {
@@ -41,6 +44,8 @@ TEST(Units, KeysTakeTheLongestSuffix) {
   EXPECT_EQ(dimension("path_error_sum_sq_m2"), "path_error_sum_sq|m2");
   EXPECT_EQ(dimension("gravity_m_per_s2"), "gravity|m_per_s2");
   EXPECT_EQ(dimension("rocker_acceleration_rad_per_s2"), "rocker_acceleration|rad_per_s2");
+  EXPECT_EQ(dimension("start_jerk_mm_per_s3"), "start_jerk|mm_per_s3");
+  EXPECT_EQ(dimension("energy_J"), "energy|J");
   EXPECT_EQ(dimension("samples"), "none");
   EXPECT_EQ(dimension("_m"), "none");
 }

@@ -214,6 +214,16 @@ TEST(ReactionsStudyRun, OfThePublishedMechanismPassesItsCheck) {
     for (const std::string& y : plot.y) EXPECT_NE(sweep.find(y), nullptr) << plot.name << " " << y;
     EXPECT_EQ(plot.scene, plot.x == "crank_angle_rad" ? "motion" : "") << plot.name;
   }
+  // The arrows are the columns of the table.
+  const study::Scene& scene = result.scenes[0];
+  ASSERT_EQ(scene.vectors.size(), 9u);
+  const char* forces[] = {"O1", "O2", "O3", "O4", "shaking_force"};
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(scene.vectors[k].x, sweep.find(std::string(forces[k]) + "_x_N")->values);
+    EXPECT_EQ(scene.vectors[k].y, sweep.find(std::string(forces[k]) + "_y_N")->values);
+  }
+  ASSERT_EQ(scene.moments.size(), 1u);
+  EXPECT_EQ(scene.moments[0].value, sweep.find("drive_torque_N_m")->values);
 }
 
 TEST(ReactionsStudyRun, HoldsWhatWasAskedFor) {
@@ -224,6 +234,8 @@ TEST(ReactionsStudyRun, HoldsWhatWasAskedFor) {
       ElementsAreArray({"crank_angle_rad", "coupler_angle_rad", "rocker_angle_rad", "transmission_angle_rad",
                         "closure_residual_m", "O2_x_m", "O2_y_m", "O3_x_m", "O3_y_m"}));
   EXPECT_EQ(result.headline, "9 of 9 positions from 0° to 360° computed.");
+  EXPECT_TRUE(result.scenes[0].vectors.empty());
+  EXPECT_TRUE(result.scenes[0].moments.empty());
 }
 
 // A turn of the whole mechanism turns the forces, without gravity.

@@ -53,6 +53,66 @@ TEST(FourBarScene, DrawsTheCouplerPointOnRequest) {
   EXPECT_NEAR(without.points[1].x[0], 8, 1e-15);
 }
 
+// At constant speed the differences of the drawn points over time are their velocities.
+TEST(FourBarScene, ArrowsOfMotionAreTheRatesOfThePoints) {
+  const FourBar linkage{.ground = 3,
+                        .crank = 1,
+                        .coupler = 2.5,
+                        .rocker = 2.2,
+                        .coupler_u = 1,
+                        .coupler_v = 0.7,
+                        .frame_angle = 0.4};
+  const double speed = 2, step = 1e-4;  // rad/s, s
+  std::vector<double> angles;
+  std::vector<FourBarRates> motion;
+  for (int i = 0; i < 3; ++i) {
+    angles.push_back(1.1 + speed * step * i);
+    motion.push_back(rates(linkage, angles.back(), speed));
+  }
+  study::Scene scene = four_bar_scene(linkage, angles, "a", "b", true);
+  add_motion_arrows(scene, linkage, motion);
+  ASSERT_EQ(scene.vectors.size(), 6u);
+  for (const auto& v : scene.vectors) {
+    const auto& p = scene.points[static_cast<std::size_t>(v.point)];
+    const bool velocity = v.quantity == study::Scene::Quantity::velocity;
+    const auto difference = [&](const std::vector<double>& at) {
+      return velocity ? (at[2] - at[0]) / (2 * step) : (at[2] - 2 * at[1] + at[0]) / (step * step);
+    };
+    // Rounding of points of size 1 is 1e-16 / step^2 in the second difference; truncation is step^2 times
+    // higher derivatives of about 20.
+    EXPECT_NEAR(v.x[1], difference(p.x), velocity ? 1e-6 : 2e-6) << v.name;
+    EXPECT_NEAR(v.y[1], difference(p.y), velocity ? 1e-6 : 2e-6) << v.name;
+    EXPECT_EQ(v.unit, velocity ? "m/s" : "m/s2");
+  }
+  EXPECT_EQ(scene.vectors[2].name, "velocity of C");
+}
+
+TEST(FourBarScene, ArrowsOfForcesStandAtTheirJoints) {
+  const FourBar linkage{.ground = 3, .crank = 1, .coupler = 2.5, .rocker = 2.2};
+  study::Scene scene = four_bar_scene(linkage, {0.5}, "a", "b", false, {"O1", "O2", "O3", "O4"});
+  FourBarReactions f;
+  f.ground_on_crank = {1, 2};
+  f.crank_on_coupler = {3, 4};
+  f.rocker_on_coupler = {5, 6};
+  f.ground_on_rocker = {7, 8};
+  f.shaking_force = {9, 10};
+  f.drive_torque = 11;
+  add_joint_forces(scene, {f});
+  add_shaking_force(scene, {f});
+  add_drive_torque(scene, {f});
+  ASSERT_EQ(scene.vectors.size(), 5u);
+  const char* joints[] = {"O1", "O2", "O3", "O4", "frame"};
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(scene.points[static_cast<std::size_t>(scene.vectors[k].point)].name, joints[k]);
+    EXPECT_EQ(scene.vectors[k].x[0], 2 * static_cast<double>(k) + 1);
+    EXPECT_EQ(scene.vectors[k].y[0], 2 * static_cast<double>(k) + 2);
+  }
+  EXPECT_EQ(scene.points.back().x[0], 1.5);
+  ASSERT_EQ(scene.moments.size(), 1u);
+  EXPECT_EQ(scene.moments[0].value[0], 11);
+  EXPECT_EQ(scene.moments[0].point, 0);
+}
+
 TEST(ShownAngles, StayInsideTheInputRangeOfARocker) {
   PathDesign design;
   design.linkage = {.ground = 2.5, .crank = 1, .coupler = 1.2, .rocker = 1.4};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,39 @@ TEST(Drawing, BoundsLeaveOutWhatDoesNotExist) {
   EXPECT_EQ(box.x_max, 3);
   EXPECT_EQ(box.y_min, 4);
   EXPECT_EQ(box.y_max, 5);
+}
+
+TEST(Drawing, CirclesTakeTheirRadius) {
+  study::Scene scene;
+  scene.input = {0, 1};
+  scene.points = {{"O", {1}, {1}}, {"rim", {4, nan}, {5, nan}}};
+  scene.circles = {{"wheel", 0, 1}};
+  EXPECT_DOUBLE_EQ(radius(scene, scene.circles[0], 0), 5);
+  EXPECT_TRUE(std::isnan(radius(scene, scene.circles[0], 1)));
+  const Box box = bounds(scene);
+  EXPECT_EQ(box.x_min, -4);
+  EXPECT_EQ(box.y_max, 6);
+}
+
+TEST(Drawing, SymbolsRunFromPointToPoint) {
+  using Style = study::Scene::BodyStyle;
+  const Place a{1, 0}, b{1, 10};
+  const auto spring = symbol_lines(Style::spring, a, b, 2);
+  ASSERT_EQ(spring.size(), 1u);
+  EXPECT_DOUBLE_EQ(spring[0].front().y, 0);
+  EXPECT_DOUBLE_EQ(spring[0].back().y, 10);
+  double left = 9, right = -9;
+  for (const Place& p : spring[0]) left = std::min(left, p.x), right = std::max(right, p.x);
+  EXPECT_DOUBLE_EQ(right - left, 2);
+  EXPECT_EQ(symbol_lines(Style::damper, a, b, 2).size(), 4u);
+  const auto guide = symbol_lines(Style::guide, a, b, 2);
+  EXPECT_EQ(guide.size(), 6u);  // the line and a mark every width
+  // Hatched on the right of the way from a to b, which points up here.
+  for (std::size_t i = 1; i < guide.size(); ++i) EXPECT_GT(guide[i][1].x, 1);
+  for (const Style style : {Style::ground, Style::bar, Style::plate})
+    EXPECT_TRUE(symbol_lines(style, a, b, 2).empty());
+  EXPECT_TRUE(symbol_lines(Style::spring, a, a, 2).empty());
+  EXPECT_TRUE(symbol_lines(Style::spring, a, {nan, 0}, 2).empty());
 }
 
 TEST(Drawing, PlacesOfFixedMovingAndMissingPoints) {

@@ -38,6 +38,23 @@ TEST(Dxf, NamesCannotAddLines) {
   EXPECT_THAT(dxf(result.scenes[0]), HasSubstr("O?  0?EOF ??\n"));
 }
 
+TEST(Dxf, SpringsGuidesAndCirclesAreDrawnAndArrowsAreNot) {
+  study::Scene scene;
+  scene.input = {0};
+  scene.points = {{"O", {0}, {0}}, {"A", {0.25}, {0}}};
+  scene.bodies = {{"spring", {0, 1}, study::Scene::BodyStyle::spring}};
+  const std::string bare = dxf(scene);
+  EXPECT_THAT(bare, HasSubstr("POLYLINE\n  8\nLINKS"));
+  scene.vectors = {{"push", study::Scene::Quantity::force, "N", 1, {300}, {400}}};
+  scene.moments = {{"torque", "N m", 0, {2}}};
+  EXPECT_EQ(dxf(scene), bare);
+  scene.bodies[0].style = study::Scene::BodyStyle::guide;
+  EXPECT_THAT(dxf(scene), HasSubstr("POLYLINE\n  8\nGROUND"));
+  scene.circles = {{"wheel", 0, 1}};
+  EXPECT_THAT(dxf(scene), HasSubstr("CIRCLE\n  8\nLINKS"));
+  EXPECT_THAT(dxf(scene), HasSubstr(" 40\n250\n"));
+}
+
 TEST(Dxf, EmptySceneIsAnEmptyDrawing) {
   const std::string text = dxf(study::Scene());
   EXPECT_THAT(text, HasSubstr("ENTITIES\n  0\nENDSEC\n  0\nEOF\n"));

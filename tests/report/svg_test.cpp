@@ -47,6 +47,67 @@ TEST(Svg, OptionsLeaveThingsOut) {
   EXPECT_EQ(count(svg(result.scenes[0], options), "class=\"body\""), 20u);
 }
 
+// A crank of 0.5 m with everything that is drawn of forces and machine parts.
+study::Scene machine() {
+  using Body = study::Scene::BodyStyle;
+  using Quantity = study::Scene::Quantity;
+  study::Scene scene;
+  scene.input = {0, 1};
+  scene.points = {{"O", {0}, {0}}, {"A", {0.5, 0}, {0, 0.5}}, {"F", {1}, {0}}};
+  scene.bodies = {{"crank", {0, 1}, Body::bar},
+                  {"return spring", {1, 2}, Body::spring},
+                  {"damper", {1, 2}, Body::damper},
+                  {"slide", {0, 2}, Body::guide}};
+  scene.joints = {{"O", 0, study::Scene::JointStyle::ground_pivot}};
+  scene.circles = {{"wheel", 0, 1}};
+  scene.vectors = {{"push", Quantity::force, "N", 1, {300, -100}, {400, 0}, "F1"},
+                   {"speed", Quantity::velocity, "m/s", 1, {0, -2}, {2, 0}},
+                   {"pull", Quantity::acceleration, "m/s2", 1, {-8, 0}, {0, nan}}};
+  scene.moments = {{"drive torque", "N m", 0, {2, -1}}};
+  return scene;
+}
+
+TEST(Svg, DrawsForcesWithTheirScale) {
+  const std::string picture = svg(machine());
+  EXPECT_EQ(test::fault_of_xml(picture), "");
+  // The arrow and the one of the key.
+  EXPECT_EQ(count(picture, "class=\"arrow force\""), 2u);
+  EXPECT_THAT(picture, HasSubstr("<title>push: 500 N</title>"));
+  EXPECT_THAT(picture, HasSubstr(">F1</text>"));
+  EXPECT_THAT(picture, HasSubstr(">force 500 N</text>"));
+  EXPECT_THAT(picture, HasSubstr("<title>drive torque: 2 N m</title>"));
+  EXPECT_THAT(picture, Not(HasSubstr("arrow velocity")));
+  EXPECT_THAT(picture, Not(HasSubstr("nan")));
+}
+
+TEST(Svg, QuantitiesCanBeChosenAndFollowTheSample) {
+  SvgOptions options;
+  options.forces = false;
+  options.velocities = options.accelerations = true;
+  options.sample = 1;
+  const std::string picture = svg(machine(), options);
+  EXPECT_EQ(test::fault_of_xml(picture), "");
+  EXPECT_THAT(picture, Not(HasSubstr("force")));
+  EXPECT_THAT(picture, Not(HasSubstr("class=\"moment\"")));
+  EXPECT_THAT(picture, HasSubstr("<title>speed: 2 m/s</title>"));
+  // The acceleration is not known here; its key stands.
+  EXPECT_THAT(picture, Not(HasSubstr("<title>pull")));
+  EXPECT_THAT(picture, HasSubstr(">acceleration 5 m/s2</text>"));
+  options.forces = true;
+  EXPECT_THAT(svg(machine(), options), HasSubstr("<title>push: 100 N</title>"));
+}
+
+TEST(Svg, SceneWithoutArrowsHasNoKey) {
+  EXPECT_THAT(svg(test::sample_result().scenes[0]), Not(HasSubstr("class=\"key\"")));
+}
+
+TEST(Svg, DrawsSpringsDampersGuidesAndCircles) {
+  const std::string picture = svg(machine());
+  for (const char* name : {"return spring", "damper", "slide", "wheel"})
+    EXPECT_THAT(picture, HasSubstr(std::string("<title>") + name + "</title>"));
+  EXPECT_EQ(count(picture, "class=\"circle\""), 1u);
+}
+
 TEST(Svg, UnassembledSamplesAreLeftOut) {
   auto result = test::sample_result();
   const auto& scene = result.scenes[2];

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "linkwright/study/write.h"
 #include "tests/report/sample_result.h"
 
@@ -32,6 +34,37 @@ TEST(ViewData, CoordinatesHaveNineDigitsAndErrorsAllOfThem) {
   const Value& drawn = out.find("scenes")->as_array()[0];
   EXPECT_EQ(study::to_json(*drawn.find("points")->as_array()[0].find("x")), "[0.123456789]");
   EXPECT_EQ(drawn.find("targets")->as_array()[0].find("x")->as_array()[0].as_number(), 0.123456789012345);
+}
+
+TEST(ViewData, ArrowsCouplesCirclesAndPolarPlots) {
+  study::Result result;
+  study::Scene scene;
+  scene.bodies = {{"s", {}, study::Scene::BodyStyle::spring},
+                  {"d", {}, study::Scene::BodyStyle::damper},
+                  {"g", {}, study::Scene::BodyStyle::guide}};
+  scene.circles = {{"wheel", 1, 2}};
+  scene.vectors = {{"v", study::Scene::Quantity::velocity, "m/s", 3, {1, NAN}, {0.123456789012345}, "vA"}};
+  scene.moments = {{"drive", "N m", 4, {-5}, "M"}};
+  result.scenes = {scene};
+  result.plots = {{.name = "p",
+                   .title = "P",
+                   .table = "t",
+                   .x = "",
+                   .y = {},
+                   .style = study::Plot::Style::polar,
+                   .scene = {}}};
+  const Value out = data(result);
+  const Value& drawn = out.find("scenes")->as_array()[0];
+  EXPECT_EQ(study::to_json(*drawn.find("circles")), R"([{"name":"wheel","centre":1,"rim":2}])");
+  EXPECT_EQ(
+      study::to_json(*drawn.find("vectors")),
+      R"([{"name":"v","quantity":"velocity","unit":"m/s","point":3,"x":[1.0,null],"y":[0.123456789],"symbol":"vA"}])");
+  EXPECT_EQ(study::to_json(*drawn.find("moments")),
+            R"([{"name":"drive","unit":"N m","point":4,"value":[-5.0],"symbol":"M"}])");
+  const char* styles[] = {"spring", "damper", "guide"};
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(drawn.find("bodies")->as_array()[i].find("style")->as_string(), styles[i]);
+  EXPECT_EQ(out.find("plots")->as_array()[0].find("style")->as_string(), "polar");
 }
 
 TEST(ViewData, NamesOfStylesAndStatus) {

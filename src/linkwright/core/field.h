@@ -8,7 +8,28 @@ namespace linkwright {
 
 /// What a number measures; it decides which unit suffixes its key may carry in a file (see units.h).
 enum class Dimension {
-  none, length, angle, time, speed_angular, acceleration, mass, inertia, area, speed, acceleration_angular, force, torque
+  none,
+  length,
+  angle,
+  time,
+  speed_angular,
+  acceleration,
+  mass,
+  inertia,
+  area,
+  speed,
+  acceleration_angular,
+  force,
+  torque,
+  frequency,
+  jerk,
+  jerk_angular,
+  power,
+  energy,
+  stiffness,
+  stiffness_angular,
+  damping,
+  damping_angular
 };
 
 /// What a member of a struct means to a person and to a file. A struct that appears in files has one field
@@ -29,7 +50,8 @@ struct Field {
   double maximum = std::numeric_limits<double>::infinity();
   bool exclusive_minimum = false;  ///< the value must be larger than `minimum`
   bool required = false;
-  /// The key carries no suffix because the key of the table around it does: `near` in `body_m = { near = [0, 0, 0] }`.
+  /// The key carries no suffix because the key of the table around it does: `near` in `body_m = { near = [0,
+  /// 0, 0] }`.
   bool inherits_unit = false;
 };
 

@@ -22,11 +22,38 @@ constexpr std::array inertia_units{Unit{"kg_m2"}, Unit{"kg_cm2", 1, 1e4}, Unit{"
 constexpr std::array area_units{Unit{"m2"}, Unit{"cm2", 1, 1e4}, Unit{"mm2", 1, 1e6}};
 constexpr std::array force_units{Unit{"N"}, Unit{"kN", 1e3, 1}};
 constexpr std::array torque_units{Unit{"N_m"}, Unit{"N_mm", 1, 1e3}};
+constexpr std::array frequency_units{Unit{"Hz"}, Unit{"per_min", 1, 60}};
+constexpr std::array jerk_units{Unit{"m_per_s3"}, Unit{"mm_per_s3", 1, 1e3}};
+constexpr std::array jerk_angular_units{Unit{"rad_per_s3"}, Unit{"deg_per_s3", pi, 180}};
+constexpr std::array power_units{Unit{"W"}, Unit{"kW", 1e3, 1}};
+constexpr std::array energy_units{Unit{"J"}, Unit{"kJ", 1e3, 1}};
 
-constexpr std::array all_dimensions{
-    Dimension::length,  Dimension::angle,        Dimension::time,  Dimension::speed_angular,
-    Dimension::speed,   Dimension::acceleration, Dimension::mass,  Dimension::acceleration_angular,
-    Dimension::inertia, Dimension::area,         Dimension::force, Dimension::torque};
+constexpr std::array stiffness_units{Unit{"N_per_m"}, Unit{"N_per_mm", 1e3, 1}};
+constexpr std::array stiffness_angular_units{Unit{"N_m_per_rad"}, Unit{"N_m_per_deg", 180, pi}};
+constexpr std::array damping_units{Unit{"N_s_per_m"}};
+constexpr std::array damping_angular_units{Unit{"N_m_s_per_rad"}};
+
+constexpr std::array all_dimensions{Dimension::length,
+                                    Dimension::angle,
+                                    Dimension::time,
+                                    Dimension::speed_angular,
+                                    Dimension::speed,
+                                    Dimension::acceleration,
+                                    Dimension::mass,
+                                    Dimension::acceleration_angular,
+                                    Dimension::inertia,
+                                    Dimension::area,
+                                    Dimension::force,
+                                    Dimension::torque,
+                                    Dimension::frequency,
+                                    Dimension::jerk,
+                                    Dimension::jerk_angular,
+                                    Dimension::power,
+                                    Dimension::energy,
+                                    Dimension::stiffness,
+                                    Dimension::stiffness_angular,
+                                    Dimension::damping,
+                                    Dimension::damping_angular};
 
 }  // namespace
 
@@ -58,6 +85,24 @@ std::span<const Unit> units(Dimension dimension) {
       return force_units;
     case Dimension::torque:
       return torque_units;
+    case Dimension::frequency:
+      return frequency_units;
+    case Dimension::jerk:
+      return jerk_units;
+    case Dimension::jerk_angular:
+      return jerk_angular_units;
+    case Dimension::power:
+      return power_units;
+    case Dimension::energy:
+      return energy_units;
+    case Dimension::stiffness:
+      return stiffness_units;
+    case Dimension::stiffness_angular:
+      return stiffness_angular_units;
+    case Dimension::damping:
+      return damping_units;
+    case Dimension::damping_angular:
+      return damping_angular_units;
   }
   return {};
 }
@@ -115,6 +160,24 @@ std::string_view describe(Dimension dimension) {
       return "a force";
     case Dimension::torque:
       return "a torque";
+    case Dimension::frequency:
+      return "a frequency";
+    case Dimension::jerk:
+      return "a jerk";
+    case Dimension::jerk_angular:
+      return "an angular jerk";
+    case Dimension::power:
+      return "a power";
+    case Dimension::energy:
+      return "an energy";
+    case Dimension::stiffness:
+      return "a stiffness";
+    case Dimension::stiffness_angular:
+      return "a torsional stiffness";
+    case Dimension::damping:
+      return "a damping";
+    case Dimension::damping_angular:
+      return "a torsional damping";
   }
   return "a number";
 }

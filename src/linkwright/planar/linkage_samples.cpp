@@ -107,4 +107,13 @@ LinkageSample whitworth_sample() {
                    {"ram.tool"});
 }
 
+std::vector<LinkageSample> linkage_samples() {
+  return {four_bar_sample(),
+          slider_crank_sample(),
+          offset_slider_crank_sample(),
+          inverted_slider_crank_sample(),
+          scotch_yoke_sample(),
+          whitworth_sample()};
+}
+
 }  // namespace linkwright::planar

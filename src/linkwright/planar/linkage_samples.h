@@ -27,4 +27,7 @@ LinkageSample inverted_slider_crank_sample();
 LinkageSample scotch_yoke_sample();
 LinkageSample whitworth_sample();
 
+/// All of them.
+std::vector<LinkageSample> linkage_samples();
+
 }  // namespace linkwright::planar

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -157,6 +158,24 @@ Table sweep_table(const ReactionsStudy& s, const std::vector<Row>& rows) {
   return table;
 }
 
+study::Scene motion_scene(const ReactionsStudy& s, const std::vector<Row>& rows) {
+  const FourBar& linkage = s.mechanism.linkage;
+  const ReactionsQuantities& q = s.quantities;
+  study::Scene scene = four_bar_scene(linkage, column(rows, [](const Row& r) { return r.angle; }), scene_name,
+                                      "motion over the sweep", has_coupler_point(linkage), joint_names);
+  std::vector<FourBarRates> rates;
+  std::vector<FourBarReactions> forces;
+  for (const Row& row : rows) {
+    rates.push_back(row.rates);
+    forces.push_back(row.forces);
+  }
+  if (q.reactions) add_joint_forces(scene, forces);
+  if (q.shaking) add_shaking_force(scene, forces);
+  if (q.drive_torque) add_drive_torque(scene, forces);
+  if (q.rates) add_motion_arrows(scene, linkage, rates);
+  return scene;
+}
+
 void add_plots(study::Result& result, const ReactionsQuantities& q) {
   const auto over_angle = [&](std::string name, std::string title, std::vector<std::string> y) {
     result.plots.push_back({.name = std::move(name),
@@ -166,13 +185,17 @@ void add_plots(study::Result& result, const ReactionsQuantities& q) {
                             .y = std::move(y),
                             .scene = scene_name});
   };
-  const auto hodograph = [&](std::string name, std::string title, const std::string& force) {
-    result.plots.push_back({.name = std::move(name),
-                            .title = std::move(title),
-                            .table = "sweep",
-                            .x = force + "_x_N",
-                            .y = {force + "_y_N"},
-                            .style = study::Plot::Style::points});
+  const auto hodograph = [&](std::string name, std::string title, const auto& forces) {
+    study::Plot plot{.name = std::move(name),
+                     .title = std::move(title),
+                     .table = "sweep",
+                     .x = "crank_angle_rad",
+                     .y = {},
+                     .style = study::Plot::Style::polar,
+                     .scene = scene_name};
+    for (const std::string_view force : forces)
+      for (const char* component : {"_x_N", "_y_N"}) plot.y.push_back(std::string(force) + component);
+    result.plots.push_back(std::move(plot));
   };
   if (q.drive_torque) over_angle("torque", "Drive torque", {"drive_torque_N_m"});
   if (q.reactions) over_angle("reactions", "Joint reactions", {"O1_N", "O2_N", "O3_N", "O4_N"});
@@ -181,12 +204,10 @@ void add_plots(study::Result& result, const ReactionsQuantities& q) {
                {"shaking_force_x_N", "shaking_force_y_N", "shaking_force_N"});
     over_angle("shaking-moment", "Shaking moment about O1",
                {"shaking_moment_N_m", "shaking_moment_with_drive_N_m"});
-    hodograph("shaking-hodograph", "Shaking force, y over x", "shaking_force");
+    hodograph("shaking-hodograph", "Polar diagram of the shaking force",
+              std::array<std::string_view, 1>{"shaking_force"});
   }
-  if (q.reactions)
-    for (std::string_view joint : joint_names)
-      hodograph(fmt::format("{}-hodograph", joint), fmt::format("Force at {}, y over x", joint),
-                std::string(joint));
+  if (q.reactions) hodograph("reaction-hodographs", "Polar diagram of the joint forces", joint_names);
   if (q.transmission_angle) over_angle("transmission", "Transmission angle", {"transmission_angle_rad"});
   if (q.position) over_angle("angles", "Coupler and rocker angle", {"coupler_angle_rad", "rocker_angle_rad"});
   if (q.rates) {
@@ -353,9 +374,7 @@ study::Result run_reactions_study(const ReactionsStudy& s, RunContext& context) 
                   : incomplete != rows.end()   ? incomplete->rates.status
                                                : Status::done;
   result.tables.push_back(sweep_table(s, rows));
-  result.scenes.push_back(
-      four_bar_scene(s.mechanism.linkage, column(rows, [](const Row& r) { return r.angle; }), scene_name,
-                     "motion over the sweep", has_coupler_point(s.mechanism.linkage), joint_names));
+  result.scenes.push_back(motion_scene(s, rows));
   add_plots(result, s.quantities);
   add_facts(result, s, rows);
   warn_of_rows(result, s, rows);

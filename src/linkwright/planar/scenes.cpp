@@ -1,8 +1,10 @@
 #include "linkwright/planar/scenes.h"
 
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/angles.h"
@@ -14,7 +16,23 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+// Order of the points of a four_bar_scene; C is there only when the coupler point is drawn.
+enum { O, B0, A, B, C };
+
 bool assembled(const FourBarPosition& pose) { return pose.status != Status::no_assembly; }
+
+// A vector that is worked out sample by sample.
+template <class Sample, class Value>
+study::Scene::Vector arrow(std::string name, study::Scene::Quantity quantity, std::string unit, int point,
+                           std::string symbol, const std::vector<Sample>& samples, Value&& value) {
+  study::Scene::Vector out{std::move(name), quantity, std::move(unit), point, {}, {}, std::move(symbol)};
+  for (const Sample& sample : samples) {
+    const std::complex<double> v = value(sample);
+    out.x.push_back(v.real());
+    out.y.push_back(v.imag());
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -47,7 +65,6 @@ study::Scene four_bar_scene(const FourBar& linkage, std::vector<double> crank_an
   scene.input_key = "crank_angle_rad";
   scene.input_label = "crank angle";
   scene.input = std::move(crank_angles);
-  enum { O, B0, A, B, C };
   const std::string o(joints[0]), a(joints[1]), b(joints[2]), b0(joints[3]);
   scene.points = {{o, {}, {}}, {b0, {}, {}}, {a, {}, {}}, {b, {}, {}}, {"C", {}, {}}};
   const auto put = [&](int point, std::complex<double> at, bool there) {
@@ -79,6 +96,68 @@ study::Scene four_bar_scene(const FourBar& linkage, std::vector<double> crank_an
     scene.points.pop_back();
   }
   return scene;
+}
+
+void add_motion_arrows(study::Scene& scene, const FourBar& linkage, const std::vector<FourBarRates>& rates) {
+  LINKWRIGHT_REQUIRE(rates.size() == scene.samples(), "{} rates for {} samples", rates.size(),
+                     scene.samples());
+  using Quantity = study::Scene::Quantity;
+  using Complex = std::complex<double>;
+  // Velocity or acceleration of the end of an arm that turns about a fixed point.
+  const auto turning = [](Quantity quantity, const Complex& arm, double speed, double acceleration) {
+    return quantity == Quantity::velocity ? Complex(0, speed) * arm
+                                          : Complex(-speed * speed, acceleration) * arm;
+  };
+  const auto crank_pin = [&](const FourBarRates& r, Quantity q) {
+    return turning(q, linkage.crank * r.crank_direction, r.crank_speed, r.crank_acceleration);
+  };
+  for (const Quantity q : {Quantity::velocity, Quantity::acceleration}) {
+    const bool first = q == Quantity::velocity;
+    const auto add = [&](int point, auto&& value) {
+      const std::string& joint = scene.points[static_cast<std::size_t>(point)].name;
+      scene.vectors.push_back(arrow((first ? "velocity of " : "acceleration of ") + joint, q,
+                                    first ? "m/s" : "m/s2", point, (first ? "v " : "a ") + joint, rates,
+                                    value));
+    };
+    add(A, [&](const FourBarRates& r) { return crank_pin(r, q); });
+    add(B, [&](const FourBarRates& r) {
+      return turning(q, linkage.rocker * r.rocker_direction, r.rocker_speed, r.rocker_acceleration);
+    });
+    if (scene.points.size() > C && scene.points[C].name == "C")
+      add(C, [&](const FourBarRates& r) {
+        const Complex arm = Complex(linkage.coupler_u, linkage.coupler_v) * r.coupler_direction;
+        return crank_pin(r, q) + turning(q, arm, r.coupler_speed, r.coupler_acceleration);
+      });
+  }
+}
+
+void add_joint_forces(study::Scene& scene, const std::vector<FourBarReactions>& forces) {
+  LINKWRIGHT_REQUIRE(forces.size() == scene.samples(), "{} forces for {} samples", forces.size(),
+                     scene.samples());
+  const auto add = [&](const char* pair, int point, std::complex<double> FourBarReactions::*force) {
+    const std::string& joint = scene.points[static_cast<std::size_t>(point)].name;
+    scene.vectors.push_back(arrow(std::string(pair) + " at " + joint, study::Scene::Quantity::force, "N",
+                                  point, "F " + joint, forces,
+                                  [&](const FourBarReactions& f) { return f.*force; }));
+  };
+  add("ground on crank", O, &FourBarReactions::ground_on_crank);
+  add("crank on coupler", A, &FourBarReactions::crank_on_coupler);
+  add("rocker on coupler", B, &FourBarReactions::rocker_on_coupler);
+  add("ground on rocker", B0, &FourBarReactions::ground_on_rocker);
+}
+
+void add_drive_torque(study::Scene& scene, const std::vector<FourBarReactions>& forces) {
+  study::Scene::Moment moment{"drive torque on the crank", "N m", O, {}, "M"};
+  for (const FourBarReactions& f : forces) moment.value.push_back(f.drive_torque);
+  scene.moments.push_back(std::move(moment));
+}
+
+void add_shaking_force(study::Scene& scene, const std::vector<FourBarReactions>& forces) {
+  const auto &o = scene.points[O], &b0 = scene.points[B0];
+  scene.points.push_back({"frame", {(o.x[0] + b0.x[0]) / 2}, {(o.y[0] + b0.y[0]) / 2}});
+  scene.vectors.push_back(arrow("shaking force on the ground", study::Scene::Quantity::force, "N",
+                                static_cast<int>(scene.points.size()) - 1, "F shaking", forces,
+                                [](const FourBarReactions& f) { return f.shaking_force; }));
 }
 
 study::Scene path_scene(const PathProblem& problem, const PathDesign& design, std::string name,

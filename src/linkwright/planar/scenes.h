@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "linkwright/core/table.h"
+#include "linkwright/planar/four_bar_rates.h"
+#include "linkwright/planar/four_bar_reactions.h"
 #include "linkwright/planar/path_problem.h"
 #include "linkwright/study/scene.h"
 
@@ -24,6 +26,21 @@ using JointNames = std::array<std::string_view, 4>;
 study::Scene four_bar_scene(const FourBar& linkage, std::vector<double> crank_angles, std::string name,
                             std::string title, bool coupler_point,
                             const JointNames& joints = {"O", "A", "B", "B0"});
+
+/// Adds the velocities (m/s) and accelerations (m/s2) of the moving joints, and of the coupler point if it is
+/// drawn, to a four_bar_scene of the same linkage. `rates`: one a sample.
+void add_motion_arrows(study::Scene& scene, const FourBar& linkage, const std::vector<FourBarRates>& rates);
+
+/// Adds joint forces to a four_bar_scene: at O1 and O4 those of the ground on the linkage, at O2 and O3 those
+/// on the coupler. `forces`: one a sample.
+void add_joint_forces(study::Scene& scene, const std::vector<FourBarReactions>& forces);
+
+/// Adds the couple of the drive on the crank to a four_bar_scene.
+void add_drive_torque(study::Scene& scene, const std::vector<FourBarReactions>& forces);
+
+/// Adds the shaking force on the ground to a four_bar_scene. It is drawn at the middle of the ground link:
+/// its line of action follows from the shaking moment.
+void add_shaking_force(study::Scene& scene, const std::vector<FourBarReactions>& forces);
 
 /// Drawing of a design in motion with the target path.
 study::Scene path_scene(const PathProblem& problem, const PathDesign& design, std::string name,

@@ -1,10 +1,11 @@
 #include "linkwright/planar/studies.h"
 
+#include "linkwright/planar/linkage_study.h"
 #include "linkwright/planar/path_study.h"
 #include "linkwright/planar/reactions_study.h"
 
 namespace linkwright::planar {
 
-std::vector<study::Kind> studies() { return {path_kind(), reactions_kind()}; }
+std::vector<study::Kind> studies() { return {path_kind(), reactions_kind(), linkage_kind(), slider_crank_kind()}; }
 
 }  // namespace linkwright::planar

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 namespace linkwright::report {
@@ -29,6 +30,13 @@ Box bounds(const study::Scene& scene) {
     add_all(target.x, target.y);
     add_all(target.achieved_x, target.achieved_y);
   }
+  for (const auto& circle : scene.circles)
+    for (std::size_t i = 0; i < scene.samples(); ++i) {
+      const Place centre = place(scene, circle.centre, i);
+      const double r = radius(scene, circle, i);
+      box.add(centre.x - r, centre.y - r);
+      box.add(centre.x + r, centre.y + r);
+    }
   return box;
 }
 
@@ -43,6 +51,50 @@ Place place(const study::Scene& scene, int point, std::size_t sample) {
     return sample < values.size() ? values[sample] : nan;
   };
   return {at(p.x), at(p.y)};
+}
+
+double radius(const study::Scene& scene, const study::Scene::Circle& circle, std::size_t sample) {
+  const Place centre = place(scene, circle.centre, sample), rim = place(scene, circle.rim, sample);
+  return std::hypot(rim.x - centre.x, rim.y - centre.y);
+}
+
+bool is_symbol(study::Scene::BodyStyle style) {
+  using Style = study::Scene::BodyStyle;
+  return style == Style::spring || style == Style::damper || style == Style::guide;
+}
+
+std::vector<std::vector<Place>> symbol_lines(study::Scene::BodyStyle style, const Place& a, const Place& b,
+                                             double width) {
+  using Style = study::Scene::BodyStyle;
+  const std::complex<double> from(a.x, a.y), way = std::complex<double>(b.x, b.y) - from;
+  const double length = std::abs(way);
+  if (!is_symbol(style) || !(length > 0) || !std::isfinite(length)) return {};
+  const std::complex<double> along = way / length;
+  const auto at = [&](double share, double across) {
+    const std::complex<double> p = from + share * way + std::complex<double>(0, across * width) * along;
+    return Place{p.real(), p.imag()};
+  };
+  if (style == Style::spring) {
+    constexpr int strokes = 12;  // half coils
+    constexpr double lead = 0.12;
+    std::vector<Place> line = {at(0, 0), at(lead, 0)};
+    for (int i = 0; i < strokes; ++i)
+      line.push_back(at(lead + (1 - 2 * lead) * (i + 0.5) / strokes, i % 2 == 0 ? 0.5 : -0.5));
+    line.insert(line.end(), {at(1 - lead, 0), at(1, 0)});
+    return {line};
+  }
+  if (style == Style::damper)
+    return {{at(0, 0), at(0.35, 0)},
+            {at(0.7, -0.5), at(0.35, -0.5), at(0.35, 0.5), at(0.7, 0.5)},
+            {at(0.55, -0.35), at(0.55, 0.35)},
+            {at(0.55, 0), at(1, 0)}};
+  std::vector<std::vector<Place>> lines = {{at(0, 0), at(1, 0)}};
+  const int marks = static_cast<int>(std::clamp(length / width, 2.0, 60.0));
+  for (int i = 1; i <= marks; ++i) {
+    const double share = static_cast<double>(i) / marks;
+    lines.push_back({at(share, 0), at(share - std::min(0.7 * width / length, share), -0.7)});
+  }
+  return lines;
 }
 
 bool assembled(const study::Scene& scene, std::size_t sample) {

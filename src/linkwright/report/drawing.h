@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "linkwright/study/scene.h"
 
@@ -19,7 +20,7 @@ struct Box {
   void add(double x, double y);
 };
 
-/// Smallest rectangle with every finite point of the scene, over all samples, and its targets.
+/// Smallest rectangle with every finite point of the scene, over all samples, its circles and its targets.
 Box bounds(const study::Scene& scene);
 
 /// A place in the plane (m); NaN when it does not exist.
@@ -31,6 +32,18 @@ struct Place {
 /// Where a point is at a sample: its only entry when it does not move, NaN when the sample or point is not
 /// there.
 Place place(const study::Scene& scene, int point, std::size_t sample);
+
+/// Radius of a circle at a sample (m); NaN when one of its points does not exist.
+double radius(const study::Scene& scene, const study::Scene::Circle& circle, std::size_t sample);
+
+/// The lines of a spring (zigzag), damper (piston rod, piston, cylinder) or guide (line, hatching on its
+/// right) from `a` to `b`, `width` metres across; no line for other styles and for places that are missing or
+/// the same.
+std::vector<std::vector<Place>> symbol_lines(study::Scene::BodyStyle style, const Place& a, const Place& b,
+                                             double width);
+
+/// Whether a body is drawn by symbol_lines.
+bool is_symbol(study::Scene::BodyStyle style);
 
 /// True when every point of the scene exists at the sample.
 bool assembled(const study::Scene& scene, std::size_t sample);

@@ -131,8 +131,8 @@ void write_header(Writer& w, const Box& box) {
 }
 
 void write_body(Writer& w, const Scene& scene, const Scene::Body& body, std::size_t sample,
-                const DxfLayers& layers) {
-  const bool ground = body.style == Scene::BodyStyle::ground;
+                const DxfLayers& layers, double symbol) {
+  const bool ground = body.style == Scene::BodyStyle::ground || body.style == Scene::BodyStyle::guide;
   if (!(ground ? layers.ground : layers.links)) return;
   const std::string_view layer = ground ? "GROUND" : "LINKS";
   std::vector<Place> places;
@@ -142,7 +142,13 @@ void write_body(Writer& w, const Scene& scene, const Scene::Body& body, std::siz
     w.polyline(layer, places, true);
     return;
   }
-  for (std::size_t i = 1; i < places.size(); ++i) w.line(layer, places[i - 1], places[i]);
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    if (is_symbol(body.style))
+      for (const auto& line : symbol_lines(body.style, places[i - 1], places[i], 3 * symbol))
+        w.polyline(layer, line, false);
+    else
+      w.line(layer, places[i - 1], places[i]);
+  }
 }
 
 // The parts of a trace that exist, each as one polyline.
@@ -178,7 +184,12 @@ std::string dxf(const study::Scene& scene, const DxfOptions& options) {
   write_header(w, box);
   w.text(0, "SECTION");
   w.text(2, "ENTITIES");
-  for (const auto& body : scene.bodies) write_body(w, scene, body, sample, options.layers);
+  for (const auto& body : scene.bodies) write_body(w, scene, body, sample, options.layers, symbol);
+  if (options.layers.links)
+    for (const auto& circle : scene.circles) {
+      const double r = radius(scene, circle, sample);
+      if (r > 0) w.circle("LINKS", place(scene, circle.centre, sample), r);
+    }
   for (const auto& joint : scene.joints) {
     const Place p = place(scene, joint.point, sample);
     const bool ground = joint.style == Scene::JointStyle::ground_pivot;

@@ -23,8 +23,9 @@ struct DxfOptions {
 };
 
 /// The scene as an AutoCAD R12 (AC1009) drawing in millimetres, scale 1:1, for CAD and workshop: bars as
-/// LINE, plates and traces as POLYLINE, pins as CIRCLE with their name as TEXT, targets as POINT. Points that
-/// do not exist at the sample are left out. Throws ContractError when `sample` is not one of the scene.
+/// LINE, plates, traces, springs and guides as POLYLINE, pitch circles as CIRCLE, pins as CIRCLE with their
+/// name as TEXT, targets as POINT. Arrows are no part of a workshop drawing and are left out, as are points
+/// that do not exist at the sample. Throws ContractError when `sample` is not one of the scene.
 std::string dxf(const study::Scene& scene, const DxfOptions& options = {});
 
 }  // namespace linkwright::report

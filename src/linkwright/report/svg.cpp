@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/report/arrows.h"
 #include "linkwright/report/drawing.h"
 #include "linkwright/report/markup.h"
 
@@ -27,9 +29,30 @@ constexpr std::string_view paper = "#ffffff";
 constexpr std::string_view trace_colour = "#0072B2";
 constexpr std::string_view error_colour = "#D55E00";
 
-constexpr double margin = 64;       // px: room for ground hatching, labels and axis numbers
-constexpr double bar_width = 13;    // px
-constexpr double pin_radius = 4.6;  // px
+constexpr double margin = 64;        // px: room for ground hatching, labels and axis numbers
+constexpr double bar_width = 13;     // px
+constexpr double pin_radius = 4.6;   // px
+constexpr double symbol_width = 18;  // px, across springs
+constexpr double arc_radius = 30;    // px, of couples
+
+// Shapes tell the quantities apart without their colours: one filled head, one open head, two open heads on
+// dashes.
+struct ArrowLook {
+  std::string_view colour;
+  double width;  // px
+  std::string_view dashes;
+};
+ArrowLook look(Scene::Quantity quantity) {
+  switch (quantity) {
+    case Scene::Quantity::force:
+      return {"#B8442E", 3, ""};
+    case Scene::Quantity::velocity:
+      return {"#00734F", 2.2, ""};
+    case Scene::Quantity::acceleration:
+      return {"#8A3D7F", 2.2, "6 3"};
+  }
+  return {ink, 2, ""};
+}
 
 // World (m, y up) to picture (px, y down).
 class Canvas {
@@ -101,6 +124,34 @@ void draw_grid(std::string& out, const Canvas& canvas) {
       canvas.width() - 8, canvas.height() - 8, unit.symbol);
 }
 
+void draw_symbol(std::string& out, const Canvas& canvas, const Scene::Body& body,
+                 const std::vector<Place>& places) {
+  std::string path;
+  for (std::size_t i = 1; i < places.size(); ++i)
+    for (const auto& line : symbol_lines(body.style, places[i - 1], places[i], symbol_width / canvas.scale()))
+      path += path_of(canvas, line, false);
+  put(out,
+      "<path class=\"body\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
+      "stroke-linejoin=\"round\"><title>{}</title></path>\n",
+      path, ink, body.style == Scene::BodyStyle::guide ? 1.2 : 2.0, escape(body.name));
+}
+
+void draw_circles(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample) {
+  for (const auto& circle : scene.circles) {
+    const double r = radius(scene, circle, sample) * canvas.scale();
+    if (!(r > 0)) continue;
+    const Place c = place(scene, circle.centre, sample), rim = place(scene, circle.rim, sample);
+    const double x = canvas.x(c.x), y = canvas.y(c.y), end_x = canvas.x(rim.x), end_y = canvas.y(rim.y);
+    put(out,
+        "<g class=\"circle\"><title>{}</title><circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"{}\" "
+        "fill-opacity=\"0.06\" stroke=\"{}\" stroke-width=\"1.6\"/>",
+        escape(circle.name), x, y, r, ink, ink);
+    // The mark leaves the middle free for the pin.
+    put(out, "<path d=\"M{:.2f} {:.2f}L{:.2f} {:.2f}\" stroke=\"{}\" stroke-width=\"3\"/></g>\n",
+        x + 0.72 * (end_x - x), y + 0.72 * (end_y - y), end_x, end_y, ink);
+  }
+}
+
 void draw_body(std::string& out, const Canvas& canvas, const Scene& scene, const Scene::Body& body,
                std::size_t sample, std::string_view colour) {
   std::vector<Place> places;
@@ -108,6 +159,10 @@ void draw_body(std::string& out, const Canvas& canvas, const Scene& scene, const
   if (places.size() < 2 ||
       !std::all_of(places.begin(), places.end(), [](const Place& p) { return p.finite(); }))
     return;
+  if (is_symbol(body.style)) {
+    draw_symbol(out, canvas, body, places);
+    return;
+  }
   const bool plate = body.style == Scene::BodyStyle::plate && places.size() > 2;
   const std::string path = path_of(canvas, places, plate);
   put(out, "<g class=\"body\"><title>{}</title>", escape(body.name));
@@ -207,13 +262,146 @@ void draw_targets(std::string& out, const Canvas& canvas, const Scene& scene, do
   }
 }
 
+// The head of an arrow that ends at (x, y), `angle` from the x axis of the picture.
+std::string head_of(Scene::Quantity quantity, double x, double y, double angle, double size) {
+  const auto wings = [&](double back) {
+    const double cx = x - back * std::cos(angle), cy = y - back * std::sin(angle);
+    const auto wing = [&](double side) {
+      return std::pair{cx - size * std::cos(angle + side), cy - size * std::sin(angle + side)};
+    };
+    const auto a = wing(0.36), b = wing(-0.36);
+    return fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}L{:.2f} {:.2f}", a.first, a.second, cx, cy, b.first,
+                       b.second);
+  };
+  if (quantity == Scene::Quantity::force) return wings(0) + "Z";
+  if (quantity == Scene::Quantity::velocity) return wings(0);
+  return wings(0) + wings(0.6 * size);
+}
+
+void draw_arrow(std::string& out, Scene::Quantity quantity, double x, double y, double end_x, double end_y,
+                std::string_view title, std::string_view text) {
+  const double length = std::hypot(end_x - x, end_y - y), angle = std::atan2(end_y - y, end_x - x);
+  if (!(length > 0.5)) return;
+  const ArrowLook style = look(quantity);
+  const double size = std::min(13.0, std::max(5.0, 0.6 * length));
+  const bool filled = quantity == Scene::Quantity::force;
+  // The shaft ends inside the filled head, so that the head keeps its point.
+  const double end = filled ? std::max(0.0, length - 0.8 * size) : length;
+  const std::string shaft =
+      fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", x, y, x + end * std::cos(angle), y + end * std::sin(angle));
+  const std::string head = head_of(quantity, end_x, end_y, angle, size);
+  put(out, "<g class=\"arrow {}\" fill=\"none\" stroke-linejoin=\"round\"><title>{}</title>",
+      quantity_name(quantity), escape(title));
+  put(out, "<path d=\"{}{}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\"/>", shaft, head,
+      paper, style.width + 3);
+  put(out, "<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\" stroke-dasharray=\"{}\"/>", shaft, style.colour,
+      style.width, style.dashes.empty() ? "none" : style.dashes);
+  put(out, "<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\" fill=\"{}\"/>", head, style.colour,
+      filled ? 1 : style.width, filled ? style.colour : "none");
+  if (!text.empty())
+    put(out,
+        "<text x=\"{:.2f}\" y=\"{:.2f}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"4\" paint-order=\"stroke\" "
+        "font-size=\"13\" text-anchor=\"{}\">{}</text>",
+        end_x + 10 * std::cos(angle), end_y + 10 * std::sin(angle) + 4.5, style.colour, paper,
+        std::cos(angle) < -0.3  ? "end"
+        : std::cos(angle) < 0.3 ? "middle"
+                                : "start",
+        escape(text));
+  out += "</g>\n";
+}
+
+void draw_vectors(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample,
+                  Scene::Quantity quantity) {
+  const ArrowScale scale = arrow_scale(scene, quantity);
+  if (scale.metres_per_unit == 0) return;
+  for (const auto& vector : scene.vectors) {
+    if (vector.quantity != quantity) continue;
+    const Place from = place(scene, vector.point, sample), end = tip(scene, vector, sample, scale);
+    if (end.finite())
+      draw_arrow(
+          out, quantity, canvas.x(from.x), canvas.y(from.y), canvas.x(end.x), canvas.y(end.y),
+          fmt::format("{}: {} {}", vector.name, number(components(vector, sample).size(), 5), vector.unit),
+          vector.symbol);
+  }
+}
+
+// An arc from the top: its length tells the size, its sense the sign.
+void draw_moments(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample) {
+  const ArrowLook style = look(Scene::Quantity::force);
+  for (std::size_t i = 0; i < scene.moments.size(); ++i) {
+    const auto& moment = scene.moments[i];
+    const Place centre = place(scene, moment.point, sample);
+    const double v = value(moment, sample), most = largest(moment);
+    if (!centre.finite() || !std::isfinite(v) || !(most > 0)) continue;
+    const double turn = arc_turn(v / most);
+    if (turn == 0) continue;
+    const auto before =
+        std::count_if(scene.moments.begin(), scene.moments.begin() + static_cast<std::ptrdiff_t>(i),
+                      [&](const Scene::Moment& m) { return m.point == moment.point; });
+    const double r = arc_radius + 10 * static_cast<double>(before), x = canvas.x(centre.x),
+                 y = canvas.y(centre.y);
+    // In the picture y points down: counter-clockwise is a falling angle.
+    const double start = -std::numbers::pi / 2, end = start - turn;
+    const double end_x = x + r * std::cos(end), end_y = y + r * std::sin(end);
+    const std::string arc =
+        fmt::format("M{:.2f} {:.2f}A{:.2f} {:.2f} 0 {} {} {:.2f} {:.2f}", x + r * std::cos(start),
+                    y + r * std::sin(start), r, r, std::abs(turn) > std::numbers::pi ? 1 : 0,
+                    turn > 0 ? 0 : 1, end_x, end_y);
+    const double direction = end - std::copysign(std::numbers::pi / 2, turn);
+    put(out, "<g class=\"moment\" fill=\"none\"><title>{}: {} {}</title>", escape(moment.name), number(v, 5),
+        escape(moment.unit));
+    put(out, "<path d=\"{}\" stroke=\"{}\" stroke-width=\"6\"/>", arc, paper);
+    put(out, "<path d=\"{}\" stroke=\"{}\" stroke-width=\"2.6\"/>", arc, style.colour);
+    put(out, "<path d=\"{}\" fill=\"{}\"/>",
+        head_of(Scene::Quantity::force, end_x + 5 * std::cos(direction), end_y + 5 * std::sin(direction),
+                direction, 12),
+        style.colour);
+    if (!moment.symbol.empty())
+      put(out,
+          "<text x=\"{:.2f}\" y=\"{:.2f}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"4\" "
+          "paint-order=\"stroke\" "
+          "font-size=\"13\" text-anchor=\"middle\">{}</text>",
+          x, y - r - 7, style.colour, paper, escape(moment.symbol));
+    out += "</g>\n";
+  }
+}
+
+// What an arrow of the length shown is worth, one line a quantity, at the top left.
+void draw_key(std::string& out, const Canvas& canvas, const Scene& scene,
+              const std::vector<Scene::Quantity>& shown) {
+  double y = 24;
+  for (const Scene::Quantity quantity : shown) {
+    const ArrowScale scale = arrow_scale(scene, quantity);
+    if (scale.metres_per_unit == 0) continue;
+    const double length = scale.key_value * scale.metres_per_unit * canvas.scale();
+    const std::string text =
+        fmt::format("{} {} {}", quantity_name(quantity), number(scale.key_value), scale.unit);
+    put(out, "<g class=\"key\"><rect x=\"34\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"22\" fill=\"{}\"/>",
+        y - 12, length + 26 + 7.2 * static_cast<double>(text.size()), paper);
+    draw_arrow(out, quantity, 40, y, 40 + length, y, text, {});
+    put(out, "<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"{}\" font-size=\"13\">{}</text></g>\n", 50 + length,
+        y + 4.5, ink, escape(text));
+    y += 24;
+  }
+}
+
 }  // namespace
 
 std::string svg(const study::Scene& scene, const SvgOptions& options) {
   LINKWRIGHT_REQUIRE(!options.sample || *options.sample < scene.samples(),
                      "sample {} of a scene with {} samples", *options.sample, scene.samples());
   const std::size_t sample = options.sample.value_or(reference_sample(scene));
-  const Box box = bounds(scene);
+  std::vector<Scene::Quantity> shown;
+  if (options.forces) shown.push_back(Scene::Quantity::force);
+  if (options.velocities) shown.push_back(Scene::Quantity::velocity);
+  if (options.accelerations) shown.push_back(Scene::Quantity::acceleration);
+  Box box = bounds(scene);
+  for (const Scene::Quantity quantity : shown) {
+    const ArrowScale scale = arrow_scale(scene, quantity);
+    for (const auto& vector : scene.vectors)
+      if (const Place end = tip(scene, vector, sample, scale); vector.quantity == quantity)
+        box.add(end.x, end.y);
+  }
   std::string out;
   if (box.empty()) {
     put(out,
@@ -240,11 +428,15 @@ std::string svg(const study::Scene& scene, const SvgOptions& options) {
     for (const bool plates : {true, false}) draw_bodies(out, canvas, scene, ghost, plates);
     out += "</g>\n";
   }
+  draw_circles(out, canvas, scene, sample);
   draw_bodies(out, canvas, scene, sample, true);
   if (options.traces) draw_traces(out, canvas, scene);
   draw_bodies(out, canvas, scene, sample, false);
   for (const auto& joint : scene.joints) draw_joint(out, canvas, scene, joint, sample, options.labels);
   if (options.targets) draw_targets(out, canvas, scene, options.whisker_scale);
+  for (const Scene::Quantity quantity : shown) draw_vectors(out, canvas, scene, sample, quantity);
+  if (options.forces) draw_moments(out, canvas, scene, sample);
+  draw_key(out, canvas, scene, shown);
   out += "</svg>\n";
   return out;
 }

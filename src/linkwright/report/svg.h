@@ -15,10 +15,13 @@ struct SvgOptions {
   double max_height = 680;            ///< the scale is chosen so that the picture is not higher (px)
   bool grid = true;                   ///< grid with lengths in mm or m
   bool traces = true;
-  bool targets = true;       ///< target points with whiskers to what is achieved
-  bool labels = true;        ///< names of the joints
-  int ghosts = 0;            ///< pale poses at equal distances over the samples
-  double whisker_scale = 1;  ///< errors are drawn this many times larger
+  bool targets = true;         ///< target points with whiskers to what is achieved
+  bool labels = true;          ///< names of the joints
+  int ghosts = 0;              ///< pale poses at equal distances over the samples
+  bool forces = true;          ///< arrows of forces and couples, with an arrow that tells their scale
+  bool velocities = false;     ///< arrows of velocities, likewise
+  bool accelerations = false;  ///< arrows of accelerations, likewise
+  double whisker_scale = 1;    ///< errors are drawn this many times larger
 };
 
 /// The scene as a complete SVG 1.1 document (UTF-8, no scripts, nothing loaded), drawn to scale. Points that

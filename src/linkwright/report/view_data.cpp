@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 
 #include "linkwright/core/status.h"
+#include "linkwright/report/arrows.h"
 
 namespace linkwright::report {
 namespace {
@@ -46,6 +48,38 @@ Value list(const std::vector<T>& items, F&& convert) {
   return out;
 }
 
+std::string_view style_name(Scene::BodyStyle style) {
+  switch (style) {
+    case Scene::BodyStyle::ground:
+      return "ground";
+    case Scene::BodyStyle::bar:
+      return "bar";
+    case Scene::BodyStyle::plate:
+      return "plate";
+    case Scene::BodyStyle::spring:
+      return "spring";
+    case Scene::BodyStyle::damper:
+      return "damper";
+    case Scene::BodyStyle::guide:
+      return "guide";
+  }
+  return "bar";
+}
+
+std::string_view style_name(study::Plot::Style style) {
+  switch (style) {
+    case study::Plot::Style::line:
+      return "line";
+    case study::Plot::Style::points:
+      return "points";
+    case study::Plot::Style::histogram:
+      return "histogram";
+    case study::Plot::Style::polar:
+      return "polar";
+  }
+  return "line";
+}
+
 Value scene_data(const Scene& scene) {
   Value out = Value::object();
   out["name"] = scene.name;
@@ -62,9 +96,7 @@ Value scene_data(const Scene& scene) {
   out["bodies"] = list(scene.bodies, [](Value& o, const Scene::Body& b) {
     o["name"] = b.name;
     o["points"] = indices(b.points);
-    o["style"] = b.style == Scene::BodyStyle::ground  ? "ground"
-                 : b.style == Scene::BodyStyle::plate ? "plate"
-                                                      : "bar";
+    o["style"] = style_name(b.style);
   });
   out["joints"] = list(scene.joints, [](Value& o, const Scene::Joint& j) {
     o["name"] = j.name;
@@ -87,6 +119,27 @@ Value scene_data(const Scene& scene) {
     o["achieved_y"] = t.achieved_y;
     o["achieved_input"] = coordinates(t.achieved_input);
     o["closed"] = t.closed;
+  });
+  out["circles"] = list(scene.circles, [](Value& o, const Scene::Circle& c) {
+    o["name"] = c.name;
+    o["centre"] = c.centre;
+    o["rim"] = c.rim;
+  });
+  out["vectors"] = list(scene.vectors, [](Value& o, const Scene::Vector& v) {
+    o["name"] = v.name;
+    o["quantity"] = quantity_name(v.quantity);
+    o["unit"] = v.unit;
+    o["point"] = v.point;
+    o["x"] = coordinates(v.x);
+    o["y"] = coordinates(v.y);
+    o["symbol"] = v.symbol;
+  });
+  out["moments"] = list(scene.moments, [](Value& o, const Scene::Moment& m) {
+    o["name"] = m.name;
+    o["unit"] = m.unit;
+    o["point"] = m.point;
+    o["value"] = coordinates(m.value);
+    o["symbol"] = m.symbol;
   });
   return out;
 }
@@ -134,9 +187,7 @@ Value view_data(const ReportInput& input) {
     o["table"] = p.table;
     o["x"] = p.x;
     o["y"] = texts(p.y);
-    o["style"] = p.style == study::Plot::Style::points      ? "points"
-                 : p.style == study::Plot::Style::histogram ? "histogram"
-                                                            : "line";
+    o["style"] = style_name(p.style);
     o["logarithmic_y"] = p.logarithmic_y;
     o["scene"] = p.scene;
   });

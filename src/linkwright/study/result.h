@@ -38,16 +38,17 @@ struct Parameter {
 
 /// A diagram of columns of one table.
 struct Plot {
-  enum class Style { line, points, histogram };
+  /// polar: y lists columns in pairs (x, y), each pair a curve such as the hodograph of a force or the path
+  /// of a point; the axes are equal and the origin is marked.
+  enum class Style { line, points, histogram, polar };
   std::string name;   ///< "transmission"
   std::string title;  ///< "Transmission angle over the turn"
   std::string table;  ///< name of the table
-  std::string x;      ///< column key; unused for a histogram
+  std::string x;      ///< column key; unused for a histogram; polar: the input, needed only with `scene`
   std::vector<std::string> y;
   Style style = Style::line;
   bool logarithmic_y = false;
-  std::string
-      scene;  ///< the x axis is the input of this scene: the cursor follows the animation; empty = not linked
+  std::string scene;  ///< x is the input of this scene: the cursor follows the animation; empty = not linked
 };
 
 /// One row "published / ours / verdict".
@@ -77,8 +78,8 @@ struct Result {
   std::vector<Fact> facts;
   std::vector<Solution> solutions;  ///< best first
   Value statistics;                 ///< object: best, median, worst, success_rate, evaluations, ...
-  /// Array of objects, one a seed: `seed`, `status`, `best` (final cost, null if infeasible), `evaluations`, and
-  /// `history`, an array of { evaluations, best } for each better candidate.
+  /// Array of objects, one a seed: `seed`, `status`, `best` (final cost, null if infeasible), `evaluations`,
+  /// and `history`, an array of { evaluations, best } for each better candidate.
   Value log;
   std::vector<Table> tables;
   std::vector<Scene> scenes;

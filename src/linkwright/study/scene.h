@@ -14,7 +14,9 @@ struct Scene {
     std::string name;
     std::vector<double> x, y;
   };
-  enum class BodyStyle { ground, bar, plate };
+  /// spring, damper and guide run from each of their points to the next: a zigzag, a cylinder with its
+  /// piston, a thin line hatched on its right. They are symbols of constant width.
+  enum class BodyStyle { ground, bar, plate, spring, damper, guide };
   struct Body {
     std::string name;         ///< "crank"
     std::vector<int> points;  ///< indices of points; a plate is the polygon of them
@@ -39,18 +41,49 @@ struct Scene {
     std::vector<double> achieved_input;  ///< value of the input there
     bool closed = false;
   };
+  /// A circle that turns about its centre, such as the pitch circle of a gear; its radius is the distance of
+  /// the two points, and a mark at the rim shows the turning.
+  struct Circle {
+    std::string name;  ///< "sun wheel"
+    int centre = 0;    ///< index of a point
+    int rim = 0;       ///< index of a point that turns with the body
+  };
+  /// What arrows stand for; those of one quantity are shown together and have one scale.
+  enum class Quantity { force, velocity, acceleration };
+  /// An arrow that starts at a point. Components along x and y: one entry a sample, or a single entry when
+  /// constant; NaN = unknown. All vectors of one quantity have one unit.
+  struct Vector {
+    std::string name;  ///< "ground on crank at O1"
+    Quantity quantity = Quantity::force;
+    std::string unit;  ///< "N", "m/s", "m/s2"
+    int point = 0;     ///< index of the point
+    std::vector<double> x, y;
+    std::string symbol = {};  ///< written at the tip: "F1"; empty = nothing
+  };
+  /// A couple, drawn as an arc about a point: counter-clockwise positive, longer for a larger value. It is
+  /// shown with the forces.
+  struct Moment {
+    std::string name;  ///< "drive torque"
+    std::string unit;  ///< "N m"
+    int point = 0;
+    std::vector<double> value;  ///< one entry a sample, or a single one; NaN = unknown
+    std::string symbol = {};
+  };
 
   std::string name;                 ///< identifies it: "solution-1"
   std::string title;                ///< for people
-  std::string input_key;            ///< "crank_angle_rad"
+  std::string input_key;            ///< "crank_angle_rad"; one in seconds ("time_s") is played in real time
   std::string input_label;          ///< "crank angle"
-  std::vector<double> input;        ///< one value a sample, monotonous, in radians or metres
+  std::vector<double> input;        ///< one value a sample, monotonous, in radians, metres or seconds
   std::vector<std::string> status;  ///< one a sample; empty = all done
   std::vector<Point> points;
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   std::vector<Trace> traces;
   std::vector<Target> targets;
+  std::vector<Circle> circles;
+  std::vector<Vector> vectors;
+  std::vector<Moment> moments;
 
   std::size_t samples() const { return input.size(); }
 };

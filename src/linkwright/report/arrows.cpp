@@ -1,0 +1,87 @@
+#include "linkwright/report/arrows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace linkwright::report {
+namespace {
+
+using study::Scene;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double share_of_scene = 0.25;
+constexpr double outstanding = 3;  // times the median
+
+double at(const std::vector<double>& values, std::size_t sample) {
+  if (values.size() == 1) return values.front();
+  return sample < values.size() ? values[sample] : nan;
+}
+
+}  // namespace
+
+std::string_view quantity_name(Scene::Quantity quantity) {
+  switch (quantity) {
+    case Scene::Quantity::force:
+      return "force";
+    case Scene::Quantity::velocity:
+      return "velocity";
+    case Scene::Quantity::acceleration:
+      return "acceleration";
+  }
+  return "force";
+}
+
+double Components::size() const { return std::hypot(x, y); }
+
+Components components(const Scene::Vector& vector, std::size_t sample) {
+  return {at(vector.x, sample), at(vector.y, sample)};
+}
+
+double value(const Scene::Moment& moment, std::size_t sample) { return at(moment.value, sample); }
+
+double largest(const Scene::Moment& moment) {
+  double out = 0;
+  for (const double v : moment.value)
+    if (std::isfinite(v)) out = std::max(out, std::abs(v));
+  return out;
+}
+
+double arc_turn(double share) {
+  constexpr double turn = 2 * std::numbers::pi;
+  return share == 0 ? 0 : std::copysign(turn / 12 + turn * 3 / 4 * std::min(1.0, std::abs(share)), share);
+}
+
+ArrowScale arrow_scale(const Scene& scene, Scene::Quantity quantity) {
+  ArrowScale out;
+  std::vector<double> sizes;  // of the largest arrow of each sample
+  for (const auto& vector : scene.vectors)
+    if (vector.quantity == quantity && out.unit.empty()) out.unit = vector.unit;
+  for (std::size_t i = 0; i < scene.samples(); ++i) {
+    double size = 0;
+    for (const auto& vector : scene.vectors) {
+      if (vector.quantity != quantity) continue;
+      const double v = components(vector, i).size();
+      if (std::isfinite(v)) size = std::max(size, v);
+    }
+    if (size > 0) sizes.push_back(size);
+  }
+  const Box box = bounds(scene);
+  const double extent = box.empty() ? 0 : std::max(box.width(), box.height());
+  if (sizes.empty() || !(extent > 0)) return out;
+  std::sort(sizes.begin(), sizes.end());
+  const double reference = std::min(sizes.back(), outstanding * sizes[sizes.size() / 2]);
+  out.metres_per_unit = share_of_scene * extent / reference;
+  out.key_value = nice_step(reference, 1);
+  return out;
+}
+
+Place tip(const Scene& scene, const Scene::Vector& vector, std::size_t sample, const ArrowScale& scale) {
+  const Place from = place(scene, vector.point, sample);
+  const Components v = components(vector, sample);
+  return {from.x + scale.metres_per_unit * v.x, from.y + scale.metres_per_unit * v.y};
+}
+
+}  // namespace linkwright::report

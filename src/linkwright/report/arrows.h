@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "linkwright/report/drawing.h"
+#include "linkwright/study/scene.h"
+
+/// How long and where the arrows of a scene are drawn.
+namespace linkwright::report {
+
+/// In the order in which they are listed.
+inline constexpr std::array quantities = {study::Scene::Quantity::force, study::Scene::Quantity::velocity,
+                                          study::Scene::Quantity::acceleration};
+
+/// "force", "velocity", "acceleration".
+std::string_view quantity_name(study::Scene::Quantity quantity);
+
+/// One scale for all vectors of a quantity, the same at every sample.
+struct ArrowScale {
+  double metres_per_unit = 0;  ///< length of an arrow in the drawing for a value of 1; 0 = no arrow to draw
+  double key_value = 0;        ///< value of the arrow in the key: 1, 2 or 5 times a power of ten
+  std::string unit;            ///< "N"
+};
+
+/// The scale at which the largest arrow is a quarter of the scene's size. Where single samples stand out, as
+/// near a dead point, three times the median over the samples of the largest arrow takes the place of the
+/// largest, and some arrows are longer.
+ArrowScale arrow_scale(const study::Scene& scene, study::Scene::Quantity quantity);
+
+/// A value along x and y.
+struct Components {
+  double x = 0, y = 0;
+  double size() const;
+};
+
+/// Value of a vector at a sample: its only entry when constant, NaN when it is not known.
+Components components(const study::Scene::Vector& vector, std::size_t sample);
+
+/// Value of a couple at a sample, likewise.
+double value(const study::Scene::Moment& moment, std::size_t sample);
+
+/// Largest size of a couple over the samples; 0 when none is known.
+double largest(const study::Scene::Moment& moment);
+
+/// Angle (rad, counter-clockwise positive) of the arc of a couple whose value is `share` of the largest, -1
+/// to 1: up to 5/6 of a turn, at least 1/12 so that the sign shows, 0 for 0.
+double arc_turn(double share);
+
+/// Where an arrow ends in the drawing; NaN when the point or the value is not known.
+Place tip(const study::Scene& scene, const study::Scene::Vector& vector, std::size_t sample,
+          const ArrowScale& scale);
+
+}  // namespace linkwright::report
