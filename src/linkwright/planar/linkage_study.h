@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "linkwright/planar/linkage_columns.h"
 #include "linkwright/planar/linkage_form.h"
 #include "linkwright/planar/linkage_plan.h"
 #include "linkwright/planar/motion_law.h"
@@ -55,12 +56,6 @@ struct InputGrid {
 struct TimeSamples {
   double from = 0, to = 0;
   int samples = 0;
-};
-
-struct LinkageQuantities {
-  bool position = true, rates = true, reactions = true, drive = true, shaking = true,
-       transmission_angle = true, power = true;
-  bool dynamic() const { return reactions || drive || shaking || power; }
 };
 
 /// A study of a linkage as read.
