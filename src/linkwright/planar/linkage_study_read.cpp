@@ -298,24 +298,6 @@ static constexpr Field samples_field{.key = "samples",
                                      .maximum = 100000,
                                      .required = true};
 
-template <class Visitor>
-void fields(Visitor&& visit, TimeSamples& t) {
-  visit(Field{.key = "from",
-              .summary = "first time",
-              .dimension = Dimension::time,
-              .minimum = -1e9,
-              .maximum = 1e9},
-        t.from);
-  visit(Field{.key = "to",
-              .summary = "last time",
-              .dimension = Dimension::time,
-              .minimum = -1e9,
-              .maximum = 1e9,
-              .required = true},
-        t.to);
-  visit(samples_field, t.samples);
-}
-
 namespace {
 
 const std::vector<Word>& quantity_words() {
@@ -464,7 +446,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   auto description = read_linkage(document, type, s.quantities.dynamic());
   auto sweep = document.table("sweep");
   // Known keys, so that a bad mechanism does not make all others look unknown.
-  SweepType how = SweepType::grid;
+  SweepType how = sweep && sweep->has("time") ? SweepType::time : SweepType::grid;
   if (sweep) (*sweep)(Field{.key = "type", .summary = "how rows are placed"}, how);
   if (!description) {
     if (sweep) sweep->members();
@@ -511,11 +493,13 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
     read_drives(document, l, false, s, drives);
   } else {
     TimeSamples times;
-    sweep->read(times);
-    if (times.samples >= 2 && !(times.to > times.from))
-      sweep->error("to", fmt::format("the sweep ends at {} s, before it begins", times.to), {});
-    canonical_sweep = study::write_fields(times);
+    if (auto table = sweep->table(Field{.key = "time", .summary = {}, .required = true})) {
+      table->read(times);
+      if (times.samples >= 2 && !(times.to > times.from))
+        table->error("to", fmt::format("the sweep ends at {} s, before it begins", times.to), {});
+    }
     canonical_sweep["type"] = "time";
+    canonical_sweep["time"] = study::write_fields(times);
     s.sweep = times;
     read_drives(document, l, true, s, drives);
   }
@@ -557,10 +541,7 @@ void describe(study::SchemaWriter& document, LinkageType type) {
   sweep(Field{.key = "type", .summary = "how rows are placed"}, SweepType::grid);
   sweep.property(Field{.key = "input", .summary = "axes of a grid"},
                  study::schema_array(std::move(axis).finish()));
-  TimeSamples times;
-  sweep(Field{.key = "from", .summary = "first time", .dimension = Dimension::time}, times.from);
-  sweep(Field{.key = "to", .summary = "last time", .dimension = Dimension::time}, times.to);
-  sweep(Field{.key = "samples", .summary = "number of times"}, 361);
+  sweep.property(Field{.key = "time", .summary = "times of the rows"}, study::schema_fields<TimeSamples>());
   document.property(Field{.key = "sweep", .summary = "where it is evaluated"}, std::move(sweep).finish());
 }
 
