@@ -161,7 +161,10 @@ class Planner {
                           plan().bodies[at(j.carrier)].part, gear_phase(j)});
         continue;
       }
-      const PartPoint first = on_part(j.first, j.slide_first), second = on_part(j.second, j.slide_second);
+      // The direction of a pin is the x axis of its body, from which a drive counts.
+      const bool turns = j.type == JointType::revolute;
+      const PartPoint first = on_part(j.first, turns ? 0 : j.slide_first),
+                      second = on_part(j.second, turns ? 0 : j.slide_second);
       if (first.part == second.part) {
         error("joint." + j.name,
               fmt::format("joins '{}' and '{}', which are welded together: a redundant constraint",
@@ -244,10 +247,8 @@ class Planner {
       g.input = link.input;
       if (affine_[at(base)]) {
         Affine a = *affine_[at(base)];
-        if (link.slide)
-          a.angle += angle_of(g.joints[0].before.direction) - angle_of(g.joints[0].after.direction);
-        else
-          a.gains[at(link.input)] += from_first ? 1 : -1;
+        a.angle += angle_of(g.joints[0].before.direction) - angle_of(g.joints[0].after.direction);
+        if (!link.slide) a.gains[at(link.input)] += from_first ? 1 : -1;
         affine_[at(g.parts[0])] = std::move(a);
       }
       link.used = true;

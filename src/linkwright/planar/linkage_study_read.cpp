@@ -140,12 +140,12 @@ void report(study::ObjectReader& document, study::ObjectReader& mechanism, const
 }
 
 std::optional<LinkageSample> sample_named(study::ObjectReader& mechanism) {
-  std::vector<LinkageSample> all = linkage_samples();
+  const std::span<const LinkageSample> all = linkage_samples();
   std::vector<Word> words;
   for (const LinkageSample& s : all) words.push_back({s.name, s.summary});
   const auto index = mechanism.word(Field{.key = "sample", .summary = "a canned linkage"}, words);
   if (!index) return std::nullopt;
-  return std::move(all[*index]);
+  return all[*index];
 }
 
 const Field sample_field{.key = "sample", .summary = "a canned linkage in the place of bodies and joints"};
@@ -459,9 +459,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   if (!sweep && description->sample.empty()) {
     document.table(Field{.key = "sweep", .summary = {}, .required = true});
   } else if (!sweep) {  // a sample knows what motion to look at
-    const auto all = linkage_samples();
-    const auto& sample = *std::find_if(all.begin(), all.end(),
-                                       [&](const LinkageSample& c) { return c.name == description->sample; });
+    const LinkageSample& sample = linkage_sample(description->sample);
     InputGrid grid;
     Value::Array axes;
     for (std::size_t i = 0; i < l.driven.size(); ++i) {
