@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -333,6 +334,12 @@ class Planner {
       }
       g.first_square = dot(g.first_link, g.first_link);
       g.second_square = dot(g.second_link, g.second_link);
+      g.first_length = std::sqrt(g.first_square);
+      g.second_length = std::sqrt(g.second_square);
+      if (g.type == GroupType::rrr) g.per_length = 1 / (g.first_length * g.second_length);
+      if (g.type == GroupType::rrp) g.per_length = 1 / g.first_length;
+      if (g.first_square > 0) g.first_inverse = (1 / g.first_square) * conj(g.first_link);
+      if (g.second_square > 0) g.second_inverse = (1 / g.second_square) * conj(g.second_link);
       outer1->used = inner.used = outer3->used = true;
       place(std::move(g));
       return true;
