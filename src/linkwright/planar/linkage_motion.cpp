@@ -20,7 +20,7 @@ double gap_of(const Group& g, const LinkageMotion& m, const GroupState<double>& 
   if (!has_modes(g.type) || s.radicand > 0) return 0;
   const Vec<double> a = point_on(m.parts[at(g.joints[0].before.part)], g.joints[0].before.at);
   const Vec<double> b = point_on(m.parts[at(g.joints[2].after.part)], g.joints[2].after.at);
-  const double length1 = std::sqrt(g.first_square), length2 = std::sqrt(g.second_square);
+  const double length1 = g.first_length, length2 = g.second_length;
   if (g.type == GroupType::rrr) return loop_gap(norm(b - a), length1, length2);
   if (g.type == GroupType::rrp) {
     const double away = std::sqrt(g.first_square - s.radicand);
@@ -43,10 +43,16 @@ void forget(PartState<double>& part) { part = {{nan, nan}, {nan, nan}, {nan, nan
 void fail(const LinkagePlan& plan, LinkageMotion& motion, std::size_t group, Status status) {
   motion.status = status;
   motion.failed_group = static_cast<int>(group);
-  // General groups keep their place: the next search starts from it.
+  // General groups keep their place: the next search starts from it. A group at a dead point has its place,
+  // too, but no rates.
   for (std::size_t g = group; g < plan.groups.size(); ++g)
-    if (plan.groups[g].type != GroupType::general && !(status == Status::singular && g == group))
-      for (int p : plan.groups[g].parts) forget(motion.parts[at(p)]);
+    for (int p : plan.groups[g].parts) {
+      PartState<double>& part = motion.parts[at(p)];
+      const Vec<double> origin = part.origin, direction = part.direction;
+      forget(part);
+      if (plan.groups[g].type == GroupType::general || (status == Status::singular && g == group))
+        part.origin = origin, part.direction = direction;
+    }
 }
 
 void place_gear(const Group& g, std::span<const InputMotion> inputs, LinkageMotion& motion) {
@@ -150,7 +156,7 @@ void solve_position(const LinkagePlan& plan, std::span<const InputMotion> inputs
         break;
       }
       default:
-        place_dyad(g, motion.modes[k], parts, state);
+        for_dyad(g.type, [&](auto type) { place_dyad(type, g, motion.modes[k], parts, state); });
         if ((motion.gap = gap_of(g, motion, state)) > 0) return fail(plan, motion, k, Status::no_assembly);
         if (!(std::abs(state.sine) >= tolerance::toggle_angle))
           return fail(plan, motion, k, Status::singular);
@@ -173,7 +179,7 @@ void solve_velocity(const LinkagePlan& plan, std::span<const InputMotion> inputs
         general_velocity(plan, g, inputs, motion, *motion.general[k]);
         break;
       default:
-        dyad_velocity(g, motion.parts.data(), motion.groups[k]);
+        for_dyad(g.type, [&](auto type) { dyad_velocity(type, g, motion.parts.data(), motion.groups[k]); });
     }
   }
 }
@@ -194,7 +200,8 @@ void solve_acceleration(const LinkagePlan& plan, std::span<const InputMotion> in
         general_acceleration(plan, g, inputs, motion, *motion.general[k]);
         break;
       default:
-        dyad_acceleration(g, motion.parts.data(), motion.groups[k]);
+        for_dyad(g.type,
+                 [&](auto type) { dyad_acceleration(type, g, motion.parts.data(), motion.groups[k]); });
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -161,7 +162,10 @@ class Planner {
                           plan().bodies[at(j.carrier)].part, gear_phase(j)});
         continue;
       }
-      const PartPoint first = on_part(j.first, j.slide_first), second = on_part(j.second, j.slide_second);
+      // The direction of a pin is the x axis of its body, from which a drive counts.
+      const bool turns = j.type == JointType::revolute;
+      const PartPoint first = on_part(j.first, turns ? 0 : j.slide_first),
+                      second = on_part(j.second, turns ? 0 : j.slide_second);
       if (first.part == second.part) {
         error("joint." + j.name,
               fmt::format("joins '{}' and '{}', which are welded together: a redundant constraint",
@@ -244,10 +248,8 @@ class Planner {
       g.input = link.input;
       if (affine_[at(base)]) {
         Affine a = *affine_[at(base)];
-        if (link.slide)
-          a.angle += angle_of(g.joints[0].before.direction) - angle_of(g.joints[0].after.direction);
-        else
-          a.gains[at(link.input)] += from_first ? 1 : -1;
+        a.angle += angle_of(g.joints[0].before.direction) - angle_of(g.joints[0].after.direction);
+        if (!link.slide) a.gains[at(link.input)] += from_first ? 1 : -1;
         affine_[at(g.parts[0])] = std::move(a);
       }
       link.used = true;
@@ -332,6 +334,12 @@ class Planner {
       }
       g.first_square = dot(g.first_link, g.first_link);
       g.second_square = dot(g.second_link, g.second_link);
+      g.first_length = std::sqrt(g.first_square);
+      g.second_length = std::sqrt(g.second_square);
+      if (g.type == GroupType::rrr) g.per_length = 1 / (g.first_length * g.second_length);
+      if (g.type == GroupType::rrp) g.per_length = 1 / g.first_length;
+      if (g.first_square > 0) g.first_inverse = (1 / g.first_square) * conj(g.first_link);
+      if (g.second_square > 0) g.second_inverse = (1 / g.second_square) * conj(g.second_link);
       outer1->used = inner.used = outer3->used = true;
       place(std::move(g));
       return true;

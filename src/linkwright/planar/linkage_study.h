@@ -53,10 +53,6 @@ struct InputSamples {
 struct InputGrid {
   std::vector<InputSamples> inputs;  ///< in the order of the linkage's drives
 };
-struct TimeSamples {
-  double from = 0, to = 0;
-  int samples = 0;
-};
 
 /// A study of a linkage as read.
 struct LinkageStudy {
