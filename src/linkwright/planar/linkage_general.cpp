@@ -140,7 +140,10 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
   // Newton's method; near the solution it doubles the digits with each step, and two steps without gain at
   // the rounding level end it. Far off, a step turns no part by more than half a radian and moves none by
   // more than the linkage's size, so that the search does not leap to another branch.
-  const double rounding = 64 * tolerance::epsilon * plan.size;
+  double reach = plan.size;  // far from the origin coordinates are rounded more coarsely
+  for (const PlanJoint& j : g.joints)
+    reach = std::max(reach, norm(point_on(motion.parts[at(j.before.part)], j.before.at)));
+  const double rounding = 64 * tolerance::epsilon * reach;
   double last = std::numeric_limits<double>::infinity();
   double largest = last;
   for (int iteration = 0; iteration < 60; ++iteration) {
