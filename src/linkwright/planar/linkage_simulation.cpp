@@ -17,20 +17,22 @@ namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Half width of the zone about a change point where accelerations are interpolated, rad or sizes: there the
-// closed forms have lost three digits or so of twice.
-constexpr double zone_width = 0.02;
-constexpr std::array<double, 6> nodes{-3, -2, -1, 1, 2, 3};  // in half widths
+// Half width of the zone about a change point where accelerations are interpolated, rad or sizes. Rounding of
+// the closed forms grows with the square of one over the distance, and along chains of groups; interpolation
+// at the nodes is off by 5e-14 (width / 0.05)^8 of the eighth derivative.
+constexpr double zone_width = 0.08;
+constexpr std::array<double, 8> nodes{-2.5, -2, -1.5, -1, 1, 1.5, 2, 2.5};  // in half widths
+using Weights = std::array<double, nodes.size()>;
 // The motion ends when a group is so near to its dead point: the time left is then known to a millionth.
 constexpr double dead_sine = 1e-3;
 // From here on a group is watched for its dead point.
 constexpr double watched_sine = 0.3;
 
-std::array<double, 6> interpolation(double x) {
-  std::array<double, 6> out;
-  for (std::size_t i = 0; i < 6; ++i) {
+Weights interpolation(double x) {
+  Weights out;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
     out[i] = 1;
-    for (std::size_t k = 0; k < 6; ++k)
+    for (std::size_t k = 0; k < nodes.size(); ++k)
       if (k != i) out[i] *= (x - nodes[k]) / (nodes[i] - nodes[k]);
   }
   return out;
@@ -62,7 +64,7 @@ class Branch {
       gap =
           std::min(gap, path_.change_points.front().value + path_.period - path_.change_points.back().value);
     // One change point a turn, met twice, is no gap.
-    if (gap > 0) half_width_ = std::min(half_width_, gap / 8);
+    if (gap > 0) half_width_ = std::min(half_width_, gap / 6);
   }
 
   const BranchPath& path() const { return path_; }
@@ -233,7 +235,7 @@ class Simulation {
     return {status, dynamics_.power, dynamics_.inertia()[0]};
   }
   Answer interpolated(double t, double centre, double x) {
-    const std::array<double, 6> weights = interpolation(x);
+    const Weights weights = interpolation(x);
     const double value = inputs_[0].value;
     double acceleration = 0;
     Answer out;
@@ -356,7 +358,7 @@ class Simulation {
   double interpolated_potential() {
     const InputMotion here = inputs_[0];
     const Branch::Near near = branch_->nearest(here.value);
-    const std::array<double, 6> weights = interpolation((here.value - near.value) / branch_->half_width());
+    const Weights weights = interpolation((here.value - near.value) / branch_->half_width());
     double sum = 0;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       inputs_[0].value = near.value + nodes[i] * branch_->half_width();
@@ -474,9 +476,14 @@ class Simulation {
         return math::OdeAction::stop;
       }
       const std::vector<int> groups = here.end->groups;
-      const double lost = kink(value, sense, y[1]);
-      kinks_ -= lost;
-      report_.passages.push_back({t, value, groups, lost});
+      const std::optional<double> lost = kink(value, sense, y[1]);
+      report_.passages.push_back({t, value, groups, lost.value_or(0)});
+      if (!lost) {
+        report_.group = groups.empty() ? -1 : groups.front();
+        at_change_ = true;
+        return math::OdeAction::stop;
+      }
+      kinks_ -= *lost;
       neighbours(value + sense * branch_->half_width() / 2);
       (sense > 0 ? below_ : above_) = value;
       action = math::OdeAction::restart;
@@ -488,13 +495,15 @@ class Simulation {
   std::vector<PartState<double>> unit_motion(double value) {
     std::vector<PartState<double>> sum(plan_.parts.size());
     for (PartState<double>& s : sum) s = {{0, 0}, {0, 0}, {0, 0}, 0, {0, 0}, 0};
-    const std::array<double, 6> weights = interpolation(0);
+    const Weights weights = interpolation(0);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const InputMotion there{value + nodes[i] * branch_->half_width(), 1, 0};
       branch_->set_modes(there.value, dynamics_.motion);
       solve_motion(plan_, std::span(&there, 1), dynamics_.motion);
+      if (dynamics_.motion.status != Status::done) return {};
       for (std::size_t p = 1; p < sum.size(); ++p) {
         const PartState<double>& s = dynamics_.motion.parts[p];
+        sum[p].origin = sum[p].origin + weights[i] * s.origin;
         sum[p].direction = sum[p].direction + weights[i] * s.direction;
         sum[p].velocity = sum[p].velocity + weights[i] * s.velocity;
         sum[p].speed += weights[i] * s.speed;
@@ -503,13 +512,20 @@ class Simulation {
     return sum;
   }
   // Turns onto the other branch through a change point: the impact acts only against motion that the new
-  // branch does not have, so the momentum along it stays. Returns the energy it costs.
-  double kink(double value, double sense, double& rate) {
+  // branch does not have, so the momentum along it stays. Returns the energy it costs; nothing when the
+  // modes that keep their signs do not start where the linkage stands.
+  std::optional<double> kink(double value, double sense, double& rate) {
     const std::vector<PartState<double>> before = unit_motion(value);
     branch_->set_modes(value - sense * branch_->half_width(), dynamics_.motion);
     const std::vector<double> kept = dynamics_.motion.modes;
     branch_.emplace(plan_, value + sense * branch_->half_width(), kept);
+    if (branch_->path().status != Status::done) return {};
     const std::vector<PartState<double>> after = unit_motion(value);
+    if (before.empty() || after.empty()) return {};
+    for (std::size_t p = 1; p < before.size(); ++p)
+      if (norm(after[p].origin - before[p].origin) > 1e-6 * plan_.size ||
+          norm(after[p].direction - before[p].direction) > 1e-6)
+        return {};
     const auto inertia = [&](const std::vector<PartState<double>>& a,
                              const std::vector<PartState<double>>& b) {
       double sum = 0;
@@ -555,8 +571,11 @@ class Simulation {
     } else if (at_change_) {
       report_.status = Status::limit_reached;
       report_.message =
-          fmt::format("the motion stops at {}: '{}' stands at a change point, where it can go on in two ways",
-                      where, plan_.groups[at(report_.group)].name);
+          fmt::format("the motion stops at {}: '{}' stands at a change point, where it {}", where,
+                      plan_.groups[at(report_.group)].name,
+                      options_.at_change_point == AtChangePoint::stop
+                          ? "can go on in two ways"
+                          : "cannot go on with the sign of its mode: that branch does not meet this one");
     } else if (at_limit_) {
       limit(where);
     } else if (ode.status == Status::limit_reached || ode.status == Status::infeasible) {
@@ -586,6 +605,7 @@ class Simulation {
     for (const std::size_t k : dynamics_.free()) {
       double value = inputs_[k].value;
       if (at_limit_ && branch_) value = nearer_end().value;
+      if (at_change_) value = report_.passages.back().value;
       out += (out.empty() ? "" : ", ") + place(l_, plan_, k, value);
     }
     return out;

@@ -72,10 +72,10 @@ struct SimulationReport {
 /// linkage goes on in the other assembly mode, so that another coordinate is needed
 /// (simulate_all_coordinates). With one input in closed form, change points are passed as `at_change_point`
 /// says: `smooth` changes the signs of the modes that meet, as a moving linkage does by itself; `keep_sign`
-/// turns onto the other branch, by an inelastic impact that keeps the momentum along it; `stop` ends. Within
-/// 0.02 rad (or 0.02 sizes) of a change point the closed forms lose digits, and the acceleration is
-/// interpolated between positions on both sides, with an error of about 1e-11 of it. With more inputs, and in
-/// general groups, change points count as limits.
+/// turns onto the other branch, by an inelastic impact that keeps the momentum along it, or stops where that
+/// branch does not meet this one; `stop` ends. Within 0.08 rad (or sizes) of a change point, where the closed
+/// forms lose digits, the acceleration is interpolated between positions on both sides, to about 1e-11. With
+/// more inputs, and in general groups, change points count as limits.
 ///
 /// Throws ContractError when there is no free input, courses or times do not fit, a law is no motion, or a
 /// body has no mass.
