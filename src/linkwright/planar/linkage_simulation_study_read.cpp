@@ -122,10 +122,19 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
     if (!(s.to > s.from) && !document.document().has_errors())
       table->error("to", fmt::format("the simulation ends at {} s, but starts at {} s", s.to, s.from), {});
   }
+  if (s.route == SimulationRoute::all_coordinates && s.options.method == math::OdeMethod::adams)
+    document.error("simulation", "all_coordinates are projected after every step, which adams does not allow",
+                   "take another method");
   if (!description) {
     for (study::ObjectReader& drive : document.tables("drive")) drive.members();
     return prepared;
   }
+  if (s.route == SimulationRoute::all_coordinates)
+    for (const LinkageJoint& j : description->linkage.joints)
+      if (j.friction > 0)
+        document.error("simulation",
+                       fmt::format("joint '{}' has friction, which all_coordinates do not take", j.name),
+                       "route = \"free_joints\" does");
   Value::Array drives;
   read_courses(document, *description, s, drives);
   write_linkage(*description, prepared.canonical);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage_coordinates.h"
 #include "linkwright/planar/linkage_scene.h"
 #include "linkwright/planar/linkage_simulation_study.h"
 
@@ -50,7 +51,8 @@ class SimulationRunner {
     inputs_.resize(3 * s_.plan.inputs());
     values_.resize(columns_.size());
     const SimulationOutput row = [&](const SimulationInstant& now) { return add(now); };
-    report_ = simulate(s_.linkage, s_.plan, s_.courses, times, s_.options, row, &context_);
+    const auto route = s_.route == SimulationRoute::free_joints ? simulate : simulate_all_coordinates;
+    report_ = route(s_.linkage, s_.plan, s_.courses, times, s_.options, row, &context_);
     result_.status = report_.status;
   }
 
