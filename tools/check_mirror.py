@@ -15,6 +15,9 @@ import repository
 NO_TEST = {
     "core/field.h": "declarations; read, written and described by study/bind_test.cpp",
     "core/tolerance.h": "named constants",
+    "math/ode_pairs.h": "coefficients; their orders are measured in ode_test.cpp",
+    "math/ode_stepper.h": "part of ode, tested in ode_test.cpp",
+    "math/ode_vectors.h": "part of ode, used by every step of ode_test.cpp",
     "study/kind.h": "plain data; every kind's own test fills and runs it",
     "study/result.h": "plain data; written by the tests of results and reports",
     "study/scene.h": "plain data; drawn by the tests of the report",

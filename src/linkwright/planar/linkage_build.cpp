@@ -38,6 +38,21 @@ int add_body(Linkage& linkage, std::string name, std::vector<LinkagePoint> point
   return static_cast<int>(linkage.bodies.size()) - 1;
 }
 
+int add_bar(Linkage& linkage, std::string name, std::string from, std::string to, double length) {
+  return add_body(linkage, std::move(name), {{std::move(from), {0, 0}}, {std::move(to), {length, 0}}});
+}
+
+int add_drawn(Linkage& linkage, std::string name, std::vector<LinkagePoint> points) {
+  const int body = add_body(linkage, std::move(name), std::move(points));
+  linkage.bodies.back().start = math::Pose{};
+  return body;
+}
+
+void set_start(Linkage& linkage, std::string_view body, std::complex<double> origin, double angle) {
+  linkage.bodies[static_cast<std::size_t>(body_named(linkage, body))].start =
+      math::Pose{origin.real(), origin.imag(), angle};
+}
+
 BodyPoint point_named(const Linkage& linkage, std::string_view name) {
   const auto dot = name.rfind('.');
   LINKWRIGHT_REQUIRE(dot != std::string_view::npos, "'{}' is no point: write body.point", name);
@@ -45,6 +60,12 @@ BodyPoint point_named(const Linkage& linkage, std::string_view name) {
   const int point = point_index(linkage.bodies[static_cast<std::size_t>(body)], name.substr(dot + 1));
   LINKWRIGHT_REQUIRE(point >= 0, "body '{}' has no point '{}'", name.substr(0, dot), name.substr(dot + 1));
   return {body, point};
+}
+
+std::vector<BodyPoint> points_named(const Linkage& linkage, std::initializer_list<std::string_view> names) {
+  std::vector<BodyPoint> out;
+  for (std::string_view name : names) out.push_back(point_named(linkage, name));
+  return out;
 }
 
 int add_pin(Linkage& linkage, std::string name, std::string_view first, std::string_view second) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <complex>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,8 +18,20 @@ Linkage grounded(std::vector<LinkagePoint> points);
 /// Adds a body; points in its own frame (m). Returns its index.
 int add_body(Linkage& linkage, std::string name, std::vector<LinkagePoint> points);
 
+/// Adds a bar along its own x axis, from its origin to `length`, with a point at each end. Returns its index.
+int add_bar(Linkage& linkage, std::string name, std::string from, std::string to, double length);
+
+/// Adds a body whose points are drawn where they are at the start, in the global frame: its own frame lies on
+/// the global one there. Tells the assembly modes of its pairs. Returns its index.
+int add_drawn(Linkage& linkage, std::string name, std::vector<LinkagePoint> points);
+
+/// Says where a body is at the start: its origin, and the angle of its x axis (rad).
+void set_start(Linkage& linkage, std::string_view body, std::complex<double> origin, double angle);
+
 /// A point as "body.point".
 BodyPoint point_named(const Linkage& linkage, std::string_view name);
+
+std::vector<BodyPoint> points_named(const Linkage& linkage, std::initializer_list<std::string_view> names);
 
 /// Adds a joint between two points, each "body.point"; slides run along the given directions (rad) in the
 /// frames of the bodies. Returns its index.

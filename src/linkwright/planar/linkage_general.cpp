@@ -69,7 +69,8 @@ std::array<double, 3> residuals(const PlanJoint& j, const JointRows& r, const In
   }
   double turned = 0;
   if (input) {
-    const Vec<double> relative = unturn(before.direction, after.direction);
+    const Vec<double> relative =
+        unturn(turn(before.direction, j.before.direction), turn(after.direction, j.after.direction));
     turned = math::wrap_angle(angle_of(relative) - sense(j) * input->value) * size;
   }
   return {apart.x, apart.y, turned};

@@ -112,7 +112,8 @@ LINKWRIGHT_KERNEL void place_driver(const Group& g, const T& value, PartState<T>
   } else {
     Vec<T> rotation;
     math::sincos(way, rotation.y, rotation.x);
-    moved.direction = tidy_unit(turn(base.direction, rotation));
+    const Vec<T> turned = turn(turn(base.direction, spread<T>(j.before.direction)), rotation);
+    moved.direction = tidy_unit(turn(turned, spread<T>({j.after.direction.x, -j.after.direction.y})));
     moved.origin = pivot - turn(moved.direction, spread<T>(j.after.at));
   }
 }

@@ -43,10 +43,16 @@ void forget(PartState<double>& part) { part = {{nan, nan}, {nan, nan}, {nan, nan
 void fail(const LinkagePlan& plan, LinkageMotion& motion, std::size_t group, Status status) {
   motion.status = status;
   motion.failed_group = static_cast<int>(group);
-  // General groups keep their place: the next search starts from it.
+  // General groups keep their place: the next search starts from it. A group at a dead point has its place,
+  // too, but no rates.
   for (std::size_t g = group; g < plan.groups.size(); ++g)
-    if (plan.groups[g].type != GroupType::general && !(status == Status::singular && g == group))
-      for (int p : plan.groups[g].parts) forget(motion.parts[at(p)]);
+    for (int p : plan.groups[g].parts) {
+      PartState<double>& part = motion.parts[at(p)];
+      const Vec<double> origin = part.origin, direction = part.direction;
+      forget(part);
+      if (plan.groups[g].type == GroupType::general || (status == Status::singular && g == group))
+        part.origin = origin, part.direction = direction;
+    }
 }
 
 void place_gear(const Group& g, std::span<const InputMotion> inputs, LinkageMotion& motion) {

@@ -31,7 +31,8 @@ class LinkageMotion {
   /// Largest distance (m) between the points that joints hold together, over the groups placed: what
   /// rounding, or Newton's method, left.
   double closure_residual = 0;
-  std::vector<PartState<double>> parts;    ///< one a part; NaN where not known
+  /// One a part; NaN where not known, but parts of general groups stay where they were, for the next search.
+  std::vector<PartState<double>> parts;
   std::vector<GroupState<double>> groups;  ///< one a group
   /// Sign of the assembly mode in use, one a group: those of the plan unless changed.
   std::vector<double> modes;

@@ -162,7 +162,10 @@ class Planner {
                           plan().bodies[at(j.carrier)].part, gear_phase(j)});
         continue;
       }
-      const PartPoint first = on_part(j.first, j.slide_first), second = on_part(j.second, j.slide_second);
+      // The direction of a pin is the x axis of its body, from which a drive counts.
+      const bool turns = j.type == JointType::revolute;
+      const PartPoint first = on_part(j.first, turns ? 0 : j.slide_first),
+                      second = on_part(j.second, turns ? 0 : j.slide_second);
       if (first.part == second.part) {
         error("joint." + j.name,
               fmt::format("joins '{}' and '{}', which are welded together: a redundant constraint",
@@ -245,10 +248,8 @@ class Planner {
       g.input = link.input;
       if (affine_[at(base)]) {
         Affine a = *affine_[at(base)];
-        if (link.slide)
-          a.angle += angle_of(g.joints[0].before.direction) - angle_of(g.joints[0].after.direction);
-        else
-          a.gains[at(link.input)] += from_first ? 1 : -1;
+        a.angle += angle_of(g.joints[0].before.direction) - angle_of(g.joints[0].after.direction);
+        if (!link.slide) a.gains[at(link.input)] += from_first ? 1 : -1;
         affine_[at(g.parts[0])] = std::move(a);
       }
       link.used = true;
@@ -467,6 +468,11 @@ class Planner {
       if (!link.slide && link.first.part == slide.second.part) return link.joint;
     return 0;
   }
+  std::string driven_names() const {
+    std::vector<std::string> names;
+    for (int d : l_.driven) names.push_back(joint(d).name);
+    return listed(names);
+  }
   // Why parts stay without a place.
   void loose(const std::vector<int>& unknown) {
     const auto names = [&](const std::vector<int>& of) {
@@ -514,15 +520,22 @@ class Planner {
               fmt::format("the linkage has {} degree(s) of freedom and {} drive(s): drive one more joint, or "
                           "add a joint",
                           mobility(l_), l_.driven.size()));
+      else if (free < 0 && l_.driven.size() > 1 && mobility(l_) < static_cast<int>(l_.driven.size()))
+        error("drive",
+              fmt::format("two drives on one freedom: with the drives of {} nothing is left to place {}",
+                          driven_names(), names(component)),
+              fmt::format("the linkage has {} degree(s) of freedom and {} drive(s): remove one drive",
+                          mobility(l_), l_.driven.size()));
       else if (free < 0)
         error(key,
-              fmt::format("{} have {} constraint{} too many: they form a rigid or overdetermined structure",
-                          names(component), -free, free == -1 ? "" : "s"),
+              fmt::format("{} {} {} constraint{} too many: a rigid or overdetermined structure",
+                          names(component), component.size() == 1 ? "has" : "have", -free,
+                          free == -1 ? "" : "s"),
               "leave out a joint or a drive");
       else
         error(key,
-              fmt::format("{} are constrained too much in one place and too little in another",
-                          names(component)),
+              fmt::format("{} {} constrained too much in one place and too little in another",
+                          names(component), component.size() == 1 ? "is" : "are"),
               "look for a triangle of links that cannot move");
     }
   }

@@ -34,7 +34,7 @@ constexpr bool has_modes(GroupType type) {
 struct PartPoint {
   int part = 0;
   Vec<double> at{0, 0};         ///< in the frame of the part, m
-  Vec<double> direction{1, 0};  ///< unit vector in the frame of the part
+  Vec<double> direction{1, 0};  ///< unit vector in the frame of the part: of a slide, or x axis of the body
 };
 
 /// A joint between two parts, pins and slides only.

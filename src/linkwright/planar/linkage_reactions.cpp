@@ -132,10 +132,7 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
       }
       case GroupType::general: {
         const std::span<Wrench<double>> joints(f.group_joints.data(), g.joints.size());
-        std::array<double, 64> drives;
-        LINKWRIGHT_REQUIRE(g.joints.size() <= drives.size(), "a general group of {} joints is too large",
-                           g.joints.size());
-        general_forces(plan, g, motion, *motion.general[k], f.needed, joints, drives);
+        general_forces(plan, g, motion, *motion.general[k], f.needed, joints, f.group_drives);
         for (std::size_t i = 0; i < g.joints.size(); ++i) {
           const PlanJoint& here = g.joints[i];
           report(here, motion, joints[i], point_on(motion.parts[at(here.after.part)], here.after.at), f);
@@ -310,6 +307,7 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
   std::size_t most = 3;
   for (const Group& g : plan.groups) most = std::max(most, g.joints.size());
   f.group_joints.resize(most);
+  f.group_drives.resize(most);
   f.loads.clear();
   f.iterations = 0;
   if (motion.status != Status::done) return nothing(f);
@@ -325,7 +323,8 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
       pass(plan, l, motion, f);
       change = 0;
       for (std::size_t k = 0; k < before.size(); ++k)
-        change = std::max(change, norm(f.joints[k].force - before[k].force));
+        change = std::max({change, norm(f.joints[k].force - before[k].force),
+                           std::abs(f.joints[k].moment - before[k].moment) / plan.size});
       if (!(change > 1e-12 * largest_force(f))) break;
     }
     if (!(change <= 1e-12 * largest_force(f)) || !std::isfinite(change)) {

@@ -10,7 +10,7 @@ namespace linkwright::planar {
 /// What a joint carries: force (N, global frame) and moment (N m) of its first body on its second, at
 /// `point`: where the point of the second body is. Revolute joints and pins in slots have no moment; of a
 /// driven joint the drive's torque or force is included. A gear's moment is what it turns its second body
-/// with.
+/// with. Friction of the joint is not in it: it is among the loads.
 struct JointReaction {
   Vec<double> point{0, 0};
   Vec<double> force{0, 0};
@@ -30,7 +30,7 @@ struct LinkageForces {
   Status status = Status::done;       ///< that of the motion; not_converged when friction does not settle
   std::vector<JointReaction> joints;  ///< one a joint of the linkage
   std::vector<double> drives;  ///< one an input: torque (N m) or force (N) of the first body on the second
-  std::vector<AppliedLoad> loads;   ///< springs, forces and torques as they acted; no weight
+  std::vector<AppliedLoad> loads;   ///< springs, forces, torques, friction as they acted; no weight
   Vec<double> shaking_force{0, 0};  ///< of the mechanism on the ground, weight included
   /// The moment on the ground about the global origin, with everything that acts on it ...
   double shaking_moment_with_drive = 0;
@@ -41,7 +41,9 @@ struct LinkageForces {
   double weight_power = 0;   ///< W
   double kinetic_power = 0;  ///< W: rate of the kinetic energy by velocities and accelerations
   int iterations = 0;        ///< of friction; 0 = none
-  std::vector<Wrench<double>> needed, group_joints;  ///< memory
+  // Memory.
+  std::vector<Wrench<double>> needed, group_joints;
+  std::vector<double> group_drives;
 };
 
 /// Forces of springs, dampers, forces and torques at the present motion, appended to `loads`. `time` in s and

@@ -1,8 +1,11 @@
 #include "linkwright/planar/linkage_samples.h"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
+#include "linkwright/core/check.h"
 #include "linkwright/planar/linkage_build.h"
 
 namespace linkwright::planar {
@@ -14,19 +17,15 @@ using std::complex;
 // A crank OA along its own x axis, pinned at ground.O and driven.
 Linkage crank(std::vector<LinkagePoint> ground, double length) {
   Linkage l = grounded(std::move(ground));
-  add_body(l, "crank", {{"O", {0, 0}}, {"A", {length, 0}}});
+  add_bar(l, "crank", "O", "A", length);
   add_pin(l, "O", "ground.O", "crank.O");
   add_drive(l, "O");
   return l;
 }
-void add_bar(Linkage& l, const char* name, const char* from, const char* to, double length) {
-  add_body(l, name, {{from, {0, 0}}, {to, {length, 0}}});
-}
 LinkageSample full_turn(std::string name, std::string summary, Linkage linkage,
-                        std::vector<std::string_view> traces) {
-  LinkageSample s{std::move(name), std::move(summary), std::move(linkage), {0}, {2 * pi}, 2 * pi, {}};
-  for (std::string_view t : traces) s.traces.push_back(point_named(s.linkage, t));
-  return s;
+                        std::initializer_list<std::string_view> traces) {
+  std::vector<BodyPoint> points = points_named(linkage, traces);
+  return {std::move(name), std::move(summary), std::move(linkage), {0}, {2 * pi}, 2 * pi, std::move(points)};
 }
 
 Linkage slider_crank(double crank_length, double rod, double offset, double direction) {
@@ -107,13 +106,97 @@ LinkageSample whitworth_sample() {
                    {"ram.tool"});
 }
 
-std::vector<LinkageSample> linkage_samples() {
-  return {four_bar_sample(),
-          slider_crank_sample(),
-          offset_slider_crank_sample(),
-          inverted_slider_crank_sample(),
-          scotch_yoke_sample(),
-          whitworth_sample()};
+LinkageSample toggle_press_sample() {
+  Linkage l = crank({{"O", {0.3, 0.27}}, {"P", {0, 0.5}}, {"guide", {0, 0}}}, 0.04);
+  add_bar(l, "rod", "A", "K", 0.25);
+  add_bar(l, "upper", "P", "K", 0.24);
+  add_bar(l, "lower", "K", "R", 0.24);
+  add_body(l, "ram", {{"R", {0, 0}}, {"tool", {0, -0.05}}});
+  add_pin(l, "A", "crank.A", "rod.A");
+  add_pin(l, "P", "ground.P", "upper.P");
+  add_pin(l, "K", "rod.K", "upper.K");
+  add_pin(l, "K lower", "upper.K", "lower.K");
+  add_pin(l, "R", "lower.R", "ram.R");
+  add_slide(l, "guide", "ground.guide", "ram.R", -pi / 2, -pi / 2);
+  set_mode(l, "rod", "upper", AssemblyMode::plus);
+  set_mode(l, "lower", "ram", AssemblyMode::plus);
+  set_uniform_all(l, 20);
+  set_uniform(l, "ram", 25);
+  // Nothing until the tool meets the work 8 mm above the end of the stroke, then up to 20 kN.
+  l.forces.push_back({.name = "work",
+                      .point = point_named(l, "ram.tool"),
+                      .force = {0, 20000},
+                      .factor = {LoadArgument::y, {-0.030, -0.028, -0.022}, {1, 0.6, 0}}});
+  return full_turn("toggle_press",
+                   "A knee between crank and ram: the torque stays small where the force is large.",
+                   std::move(l), {"ram.tool", "upper.K"});
+}
+
+LinkageSample hoeken_sample() {
+  Linkage l = crank({{"O", {0, 0}}, {"B0", {0.2, 0}}}, 0.1);
+  add_body(l, "coupler", {{"A", {0, 0}}, {"B", {0.25, 0}}, {"pen", {0.5, 0}}});
+  add_bar(l, "rocker", "B0", "B", 0.25);
+  add_pin(l, "A", "crank.A", "coupler.A");
+  add_pin(l, "B", "coupler.B", "rocker.B");
+  add_pin(l, "B0", "ground.B0", "rocker.B0");
+  set_mode(l, "coupler", "rocker", AssemblyMode::plus);
+  set_uniform_all(l, 2);
+  return full_turn("hoeken", "The pen runs straight while the crank turns through the half away from B0.",
+                   std::move(l), {"coupler.pen"});
+}
+
+LinkageSample chebyshev_sample() {
+  Linkage l = crank({{"O", {0, 0}}, {"B0", {0.2, 0}}}, 0.25);
+  add_body(l, "coupler", {{"A", {0, 0}}, {"B", {0.1, 0}}, {"pen", {0.05, 0}}});
+  add_bar(l, "rocker", "B0", "B", 0.25);
+  add_pin(l, "A", "crank.A", "coupler.A");
+  add_pin(l, "B", "coupler.B", "rocker.B");
+  add_pin(l, "B0", "ground.B0", "rocker.B0");
+  set_mode(l, "coupler", "rocker", AssemblyMode::minus);
+  set_uniform_all(l, 2);
+  LinkageSample s = full_turn("chebyshev", "The middle of the coupler runs on a line at 0.2 m, almost.",
+                              std::move(l), {"coupler.pen"});
+  // The dead points are at acos(0.8) and acos(-0.2).
+  s.from = {0.66};
+  s.to = {1.76};
+  return s;
+}
+
+std::span<const LinkageSample> linkage_samples() {
+  static const std::vector<LinkageSample> all = [] {
+    std::vector<LinkageSample> out{four_bar_sample(),
+                                   slider_crank_sample(),
+                                   offset_slider_crank_sample(),
+                                   inverted_slider_crank_sample(),
+                                   scotch_yoke_sample(),
+                                   whitworth_sample(),
+                                   toggle_press_sample(),
+                                   hoeken_sample(),
+                                   chebyshev_sample(),
+                                   watt_1_sample(),
+                                   watt_2_sample(),
+                                   stephenson_2_sample(),
+                                   stephenson_3_sample(),
+                                   triad_sample(),
+                                   klann_leg_sample(),
+                                   jansen_leg_sample(),
+                                   peaucellier_sample(),
+                                   pantograph_sample(),
+                                   geared_five_bar_sample(),
+                                   andrews_squeezer_sample(),
+                                   arm_sample(3),
+                                   four_bar_chain_sample(4)};
+    return out;
+  }();
+  return all;
+}
+
+const LinkageSample& linkage_sample(std::string_view name) {
+  const std::span<const LinkageSample> all = linkage_samples();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const LinkageSample& s) { return s.name == name; });
+  LINKWRIGHT_REQUIRE(found != all.end(), "there is no sample '{}'", name);
+  return *found;
 }
 
 }  // namespace linkwright::planar

@@ -168,7 +168,7 @@ class Artist {
     const double margin = 0.08 * plan_.size;
     const auto end = [&](double way) { return add_point("", base.body, start + number(way * along)); };
     const int a = end(low - margin), b = end(high + margin);
-    scene_.bodies.push_back({j.name + " guide", {a, b}, moves(base.body) ? Style::bar : Style::guide});
+    scene_.bodies.push_back({j.name + " guide", {a, b}, Style::guide});
   }
 
   void springs() {

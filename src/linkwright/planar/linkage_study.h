@@ -52,10 +52,6 @@ struct InputSamples {
 struct InputGrid {
   std::vector<InputSamples> inputs;  ///< in the order of the linkage's drives
 };
-struct TimeSamples {
-  double from = 0, to = 0;
-  int samples = 0;
-};
 
 struct LinkageQuantities {
   bool position = true, rates = true, reactions = true, drive = true, shaking = true,

@@ -140,12 +140,12 @@ void report(study::ObjectReader& document, study::ObjectReader& mechanism, const
 }
 
 std::optional<LinkageSample> sample_named(study::ObjectReader& mechanism) {
-  std::vector<LinkageSample> all = linkage_samples();
+  const std::span<const LinkageSample> all = linkage_samples();
   std::vector<Word> words;
   for (const LinkageSample& s : all) words.push_back({s.name, s.summary});
   const auto index = mechanism.word(Field{.key = "sample", .summary = "a canned linkage"}, words);
   if (!index) return std::nullopt;
-  return std::move(all[*index]);
+  return all[*index];
 }
 
 const Field sample_field{.key = "sample", .summary = "a canned linkage in the place of bodies and joints"};
@@ -298,24 +298,6 @@ static constexpr Field samples_field{.key = "samples",
                                      .maximum = 100000,
                                      .required = true};
 
-template <class Visitor>
-void fields(Visitor&& visit, TimeSamples& t) {
-  visit(Field{.key = "from",
-              .summary = "first time",
-              .dimension = Dimension::time,
-              .minimum = -1e9,
-              .maximum = 1e9},
-        t.from);
-  visit(Field{.key = "to",
-              .summary = "last time",
-              .dimension = Dimension::time,
-              .minimum = -1e9,
-              .maximum = 1e9,
-              .required = true},
-        t.to);
-  visit(samples_field, t.samples);
-}
-
 namespace {
 
 const std::vector<Word>& quantity_words() {
@@ -464,7 +446,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   auto description = read_linkage(document, type, s.quantities.dynamic());
   auto sweep = document.table("sweep");
   // Known keys, so that a bad mechanism does not make all others look unknown.
-  SweepType how = SweepType::grid;
+  SweepType how = sweep && sweep->has("time") ? SweepType::time : SweepType::grid;
   if (sweep) (*sweep)(Field{.key = "type", .summary = "how rows are placed"}, how);
   if (!description) {
     if (sweep) sweep->members();
@@ -477,9 +459,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   if (!sweep && description->sample.empty()) {
     document.table(Field{.key = "sweep", .summary = {}, .required = true});
   } else if (!sweep) {  // a sample knows what motion to look at
-    const auto all = linkage_samples();
-    const auto& sample = *std::find_if(all.begin(), all.end(),
-                                       [&](const LinkageSample& c) { return c.name == description->sample; });
+    const LinkageSample& sample = linkage_sample(description->sample);
     InputGrid grid;
     Value::Array axes;
     for (std::size_t i = 0; i < l.driven.size(); ++i) {
@@ -511,11 +491,13 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
     read_drives(document, l, false, s, drives);
   } else {
     TimeSamples times;
-    sweep->read(times);
-    if (times.samples >= 2 && !(times.to > times.from))
-      sweep->error("to", fmt::format("the sweep ends at {} s, before it begins", times.to), {});
-    canonical_sweep = study::write_fields(times);
+    if (auto table = sweep->table(Field{.key = "time", .summary = {}, .required = true})) {
+      table->read(times);
+      if (times.samples >= 2 && !(times.to > times.from))
+        table->error("to", fmt::format("the sweep ends at {} s, before it begins", times.to), {});
+    }
     canonical_sweep["type"] = "time";
+    canonical_sweep["time"] = study::write_fields(times);
     s.sweep = times;
     read_drives(document, l, true, s, drives);
   }
@@ -557,10 +539,7 @@ void describe(study::SchemaWriter& document, LinkageType type) {
   sweep(Field{.key = "type", .summary = "how rows are placed"}, SweepType::grid);
   sweep.property(Field{.key = "input", .summary = "axes of a grid"},
                  study::schema_array(std::move(axis).finish()));
-  TimeSamples times;
-  sweep(Field{.key = "from", .summary = "first time", .dimension = Dimension::time}, times.from);
-  sweep(Field{.key = "to", .summary = "last time", .dimension = Dimension::time}, times.to);
-  sweep(Field{.key = "samples", .summary = "number of times"}, 361);
+  sweep.property(Field{.key = "time", .summary = "times of the rows"}, study::schema_fields<TimeSamples>());
   document.property(Field{.key = "sweep", .summary = "where it is evaluated"}, std::move(sweep).finish());
 }
 
