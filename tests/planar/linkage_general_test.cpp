@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planar/linkage_changes.h"
 #include "planar/linkages.h"
 
 namespace linkwright::planar {
@@ -34,6 +35,18 @@ TEST(LinkageGeneral, FindsThePlaceFromAfar) {
   EXPECT_EQ(determinant_sign(*near.general[1]), determinant_sign(*far.general[1]));
   EXPECT_GT(conditioning(*near.general[1]), 0.1);
   EXPECT_LT(conditioning(*near.general[1]), 1);
+}
+
+// Far from the origin the places are as good as their coordinates are.
+TEST(LinkageGeneral, WorksFarFromTheOrigin) {
+  const LinkageSample& s = linkage_sample("triad");
+  const LinkageSample far = apply(Change{0, {1e4, -2e4}, false}, s);
+  const LinkagePlan p = planned(s.linkage), q = planned(far.linkage);
+  LinkageMotion m(p), n(q);
+  ASSERT_NO_FATAL_FAILURE(go_to(s, p, 0, 0.4, m));
+  ASSERT_NO_FATAL_FAILURE(go_to(far, q, 0, 0.4, n));
+  for (std::size_t k = 0; k < m.parts.size(); ++k)
+    EXPECT_LE(norm(m.parts[k].direction - n.parts[k].direction), 64 * 2.3e-16 * 2.3e4 / 0.1);
 }
 
 // Both branches of a four-bar, solved all at once, have determinants of opposite signs.

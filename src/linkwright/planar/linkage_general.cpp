@@ -18,8 +18,7 @@ struct GeneralGroupMemory {
   std::vector<int> column;  // first column of a part, -1 of a known one
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd residual, solution;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factors, transposed;
-  bool transposed_ready = false;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors;
 };
 
 namespace {
@@ -99,9 +98,14 @@ void assemble(const LinkagePlan& plan, const Group& g, const LinkageMotion& moti
   }
 }
 
-void factorise(GeneralGroupMemory& m) {
-  m.factors.compute(m.jacobian);
-  m.transposed_ready = false;
+// Solves with the transpose of the factorised Jacobian, from `residual` into `solution`. P J = L U, so that
+// J^T x = b is U^T z = b, L^T w = z, x = P^T w; Eigen's own way allocates.
+void solve_transposed(GeneralGroupMemory& m) {
+  const auto& lu = m.factors.matrixLU();
+  lu.triangularView<Eigen::Upper>().transpose().solveInPlace(m.residual);
+  lu.triangularView<Eigen::UnitLower>().transpose().solveInPlace(m.residual);
+  const auto& order = m.factors.permutationP().indices();
+  for (Index i = 0; i < m.solution.size(); ++i) m.solution[i] = m.residual[order[i]];
 }
 
 }  // namespace
@@ -118,7 +122,6 @@ GeneralGroupPointer general_group_memory(const LinkagePlan& plan, const Group& g
   memory->residual.resize(n);
   memory->solution.resize(n);
   memory->factors = Eigen::PartialPivLU<Eigen::MatrixXd>(n);
-  memory->transposed = Eigen::PartialPivLU<Eigen::MatrixXd>(n);
   return memory;
 }
 
@@ -140,7 +143,10 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
   // Newton's method; near the solution it doubles the digits with each step, and two steps without gain at
   // the rounding level end it. Far off, a step turns no part by more than half a radian and moves none by
   // more than the linkage's size, so that the search does not leap to another branch.
-  const double rounding = 64 * tolerance::epsilon * plan.size;
+  double reach = plan.size;  // far from the origin coordinates are rounded more coarsely
+  for (const PlanJoint& j : g.joints)
+    reach = std::max(reach, norm(point_on(motion.parts[at(j.before.part)], j.before.at)));
+  const double rounding = 64 * tolerance::epsilon * reach;
   double last = std::numeric_limits<double>::infinity();
   double largest = last;
   for (int iteration = 0; iteration < 60; ++iteration) {
@@ -155,7 +161,7 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
     largest = m.residual.cwiseAbs().maxCoeff();
     if (!std::isfinite(largest)) break;
     assemble(plan, g, motion, m);
-    factorise(m);
+    m.factors.compute(m.jacobian);
     if (largest <= rounding && (largest == 0 || largest > 0.25 * last || iteration > 0)) break;
     last = largest;
     m.solution = m.factors.solve(m.residual);
@@ -258,17 +264,13 @@ void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<con
 void general_forces(const LinkagePlan& plan, const Group& g, const LinkageMotion& motion,
                     GeneralGroupMemory& m, std::span<Wrench<double>> needed, std::span<Wrench<double>> joints,
                     std::span<double> drives) {
-  if (!m.transposed_ready) {
-    m.transposed.compute(m.jacobian.transpose());
-    m.transposed_ready = true;
-  }
   for (int p : g.parts) {
     const int c = m.column[at(p)];
     m.residual[c] = needed[at(p)].force.x;
     m.residual[c + 1] = needed[at(p)].force.y;
     m.residual[c + 2] = needed[at(p)].moment / plan.size;
   }
-  m.solution = m.transposed.solve(m.residual);
+  solve_transposed(m);
   Index row = 0;
   for (std::size_t k = 0; k < g.joints.size(); ++k) {
     const PlanJoint& j = g.joints[k];

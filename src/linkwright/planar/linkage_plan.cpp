@@ -261,25 +261,30 @@ class Planner {
 
   bool gear() {
     for (GearLink& gl : gears_) {
-      if (gl.used || known_[at(gl.turned)] || !affine_[at(gl.turning)] || !affine_[at(gl.carrier)]) continue;
+      if (gl.used || !affine_[at(gl.carrier)] || known_[at(gl.turned)] == known_[at(gl.turning)]) continue;
+      const bool backwards = known_[at(gl.turned)];
+      const int turning = backwards ? gl.turned : gl.turning, turned = backwards ? gl.turning : gl.turned;
+      if (!affine_[at(turning)]) continue;
       for (Link& link : links_) {
-        const bool first = link.first.part == gl.turned;
-        if (link.used || link.slide || link.input >= 0 || (!first && link.second.part != gl.turned)) continue;
+        const bool first = link.first.part == turned;
+        if (link.used || link.slide || link.input >= 0 || (!first && link.second.part != turned)) continue;
         const int base = first ? link.second.part : link.first.part;
         if (!known_[at(base)]) continue;
         Group g;
         g.type = GroupType::gear;
         g.joints = {chained(link, base)};
-        g.parts = {gl.turned};
-        g.ratio = joint(gl.joint).ratio;
-        g.turning = gl.turning;
+        g.parts = {turned};
+        const double ratio = joint(gl.joint).ratio;
+        g.ratio = backwards ? 1 / ratio : ratio;
+        g.turning = turning;
         g.carrier = gl.carrier;
         g.gear_joint = gl.joint;
-        const Affine &a = *affine_[at(gl.turning)], &c = *affine_[at(gl.carrier)];
-        g.angle = g.ratio * a.angle + (1 - g.ratio) * c.angle + gl.phase;
+        g.gear_backwards = backwards;
+        const Affine &a = *affine_[at(turning)], &c = *affine_[at(gl.carrier)];
+        g.angle = g.ratio * a.angle + (1 - g.ratio) * c.angle + (backwards ? -gl.phase / ratio : gl.phase);
         for (Index i = 0; i < a.gains.size(); ++i)
           g.gains.push_back(g.ratio * a.gains[i] + (1 - g.ratio) * c.gains[i]);
-        affine_[at(gl.turned)] = Affine{g.angle, g.gains};
+        affine_[at(turned)] = Affine{g.angle, g.gains};
         link.used = gl.used = true;
         place(std::move(g));
         return true;
@@ -299,7 +304,7 @@ class Planner {
   }
   bool geared(int part) const {
     return std::any_of(gears_.begin(), gears_.end(),
-                       [&](const GearLink& g) { return !g.used && g.turned == part; });
+                       [&](const GearLink& g) { return !g.used && (g.turned == part || g.turning == part); });
   }
 
   bool dyad() {
@@ -357,7 +362,7 @@ class Planner {
         count += link.input >= 0 ? 3 : 2;
     }
     for (const GearLink& g : gears_)
-      if (!g.used && chosen[at(g.turned)]) return -1;
+      if (!g.used && (chosen[at(g.turned)] || chosen[at(g.turning)])) return -1;
     return count;
   }
   bool linked(int part, const std::vector<bool>& chosen) const {
@@ -447,18 +452,17 @@ class Planner {
     for (const GearLink& g : gears_) {
       if (g.used) continue;
       const LinkageJoint& j = joint(g.joint);
-      if (known_[at(g.turned)])
+      if (known_[at(g.turned)] && known_[at(g.turning)])
         error("joint." + j.name,
-              fmt::format("a redundant constraint: '{}' is placed without the gear already",
-                          body_name(j.second.body)),
+              fmt::format("a redundant constraint: '{}' and '{}' are placed without the gear already",
+                          body_name(j.first.body), body_name(j.second.body)),
               "leave the gear or a drive out");
-      else if (known_[at(g.turning)] && known_[at(g.carrier)])
+      else
         error("joint." + j.name,
-              fmt::format(
-                  "the angle of '{}' or '{}' does not follow from drives alone, or '{}' has no pin on a "
-                  "placed body",
-                  body_name(j.first.body), body_name(j.carrier), body_name(j.second.body)),
-              "a gear must be turned by a driven body");
+              fmt::format("the gear between '{}' and '{}' on '{}' cannot be followed from the drives",
+                          body_name(j.first.body), body_name(j.second.body), body_name(j.carrier)),
+              "one of the two must be turned by drives and gears alone, so must the carrier, and the other "
+              "must have a pin on a placed body");
     }
     if (unknown.empty()) return;
     loose(unknown);
@@ -528,10 +532,11 @@ class Planner {
                           mobility(l_), l_.driven.size()));
       else if (free < 0)
         error(key,
-              fmt::format("{} {} {} constraint{} too many: a rigid or overdetermined structure",
-                          names(component), component.size() == 1 ? "has" : "have", -free,
-                          free == -1 ? "" : "s"),
-              "leave out a joint or a drive");
+              fmt::format("{} ha{} {} constraint{} too many: a rigid or overdetermined structure",
+                          names(component), component.size() == 1 ? "s" : "ve", -free, free == -1 ? "" : "s"),
+              fmt::format(
+                  "the linkage has {} degree(s) of freedom and {} drive(s): leave out a joint or a drive",
+                  mobility(l_), l_.driven.size()));
       else
         error(key,
               fmt::format("{} {} constrained too much in one place and too little in another",

@@ -56,6 +56,7 @@ struct Group {
   /// gear: turns the part `ratio` times as fast as part `turning`, both seen from part `carrier`.
   double ratio = 1;
   int turning = 0, carrier = 0, gear_joint = -1;
+  bool gear_backwards = false;  ///< turns the first body of its joint from the second
   /// gear: angle of the part = angle + sum of gains times inputs (rad).
   double angle = 0;
   std::vector<double> gains;

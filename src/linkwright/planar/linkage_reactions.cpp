@@ -123,7 +123,7 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
         const double torque = w.moment;
         w.moment = 0;
         report(j, motion, w, pin, f);
-        f.joints[at(g.gear_joint)] = {pin, {0, 0}, torque};
+        f.joints[at(g.gear_joint)] = {pin, {0, 0}, g.gear_backwards ? -g.ratio * torque : torque};
         Wrench<double>& base = f.needed[at(j.before.part)];
         base = base + shifted(w, pin - motion.parts[at(j.before.part)].origin);
         f.needed[at(g.turning)].moment += g.ratio * torque;

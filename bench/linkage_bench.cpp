@@ -1,0 +1,65 @@
+#include <benchmark/benchmark.h>
+
+#include <numbers>
+#include <vector>
+
+#include "linkwright/planar/linkage_general.h"
+#include "linkwright/planar/linkage_reactions.h"
+#include "linkwright/planar/linkage_samples.h"
+
+namespace linkwright::planar {
+namespace {
+
+// What is asked of each position.
+enum Task { position, rates, forces };
+
+// A turn of the crank in `count` positions, along the groups or with all bodies at once.
+void sweep(benchmark::State& state, const char* name, PlanRoute route, Task task) {
+  constexpr int count = 360;
+  const LinkageSample& sample = linkage_sample(name);
+  const LinkagePlan along = plan(sample.linkage).plan, asked = plan(sample.linkage, route).plan;
+  LinkageMotion motion(asked), start(along);
+  LinkageForces found;
+  std::vector<InputMotion> inputs{{sample.from[0], sample.speed, 0}};
+  solve_position(along, inputs, start);
+  motion.parts = start.parts;
+  for (auto _ : state)
+    for (int i = 0; i < count; ++i) {
+      inputs[0].value = sample.from[0] + i * (sample.to[0] - sample.from[0]) / count;
+      solve_position(asked, inputs, motion);
+      if (task != position) {
+        solve_velocity(asked, inputs, motion);
+        solve_acceleration(asked, inputs, motion);
+      }
+      if (task == forces) solve_forces(sample.linkage, asked, motion, 0, inputs[0].value, found);
+      if (motion.status != Status::done) state.SkipWithError("a position failed");
+      benchmark::DoNotOptimize(motion.parts.data());
+      benchmark::DoNotOptimize(found.drives.data());
+      benchmark::ClobberMemory();
+    }
+  state.SetItemsProcessed(state.iterations() * count);
+}
+
+void linkage_four_bar_forces(benchmark::State& s) { sweep(s, "four_bar", PlanRoute::along_groups, forces); }
+void linkage_four_bar_forces_at_once(benchmark::State& s) {
+  sweep(s, "four_bar", PlanRoute::all_at_once, forces);
+}
+void linkage_watt_2_forces(benchmark::State& s) { sweep(s, "watt_2", PlanRoute::along_groups, forces); }
+void linkage_jansen_position(benchmark::State& s) {
+  sweep(s, "jansen_leg", PlanRoute::along_groups, position);
+}
+void linkage_jansen_rates(benchmark::State& s) { sweep(s, "jansen_leg", PlanRoute::along_groups, rates); }
+void linkage_jansen_forces(benchmark::State& s) { sweep(s, "jansen_leg", PlanRoute::along_groups, forces); }
+void linkage_triad_position(benchmark::State& s) { sweep(s, "triad", PlanRoute::along_groups, position); }
+void linkage_triad_forces(benchmark::State& s) { sweep(s, "triad", PlanRoute::along_groups, forces); }
+BENCHMARK(linkage_four_bar_forces);
+BENCHMARK(linkage_four_bar_forces_at_once);
+BENCHMARK(linkage_watt_2_forces);
+BENCHMARK(linkage_jansen_position);
+BENCHMARK(linkage_jansen_rates);
+BENCHMARK(linkage_jansen_forces);
+BENCHMARK(linkage_triad_position);
+BENCHMARK(linkage_triad_forces);
+
+}  // namespace
+}  // namespace linkwright::planar
