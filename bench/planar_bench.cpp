@@ -2,16 +2,12 @@
 
 #include <array>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <vector>
 
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/planar/four_bar_reactions.h"
-#include "linkwright/planar/linkage_build.h"
-#include "linkwright/planar/linkage_samples.h"
-#include "linkwright/planar/linkage_sweep.h"
 #include "linkwright/planar/path_objective.h"
 #include "linkwright/planar/path_synthesis.h"
 #include "linkwright/planar/serial_arm_reactions.h"
@@ -178,88 +174,6 @@ void recommended_free_timing(benchmark::State& state) {
   }
 }
 BENCHMARK(recommended_free_timing)->Unit(benchmark::kMillisecond);
-
-void add_bar(Linkage& l, const char* name, const char* from, const char* to, double length) {
-  add_body(l, name, {{from, {0, 0}}, {to, {length, 0}}});
-}
-
-// One leg of Jansen's walking mechanism with the lengths he published (in units of his; here decimetres),
-// crank centre at the origin.
-Linkage jansen_leg() {
-  const double a = 0.38, b = 0.415, c = 0.393, d = 0.401, e = 0.558, f = 0.394, g = 0.367, h = 0.657,
-               i = 0.49, j = 0.5, k = 0.619, drop = 0.078, m = 0.15;
-  const auto apex = [](double base, double from_start, double from_end, double side) {
-    const double x = (base * base + from_start * from_start - from_end * from_end) / (2 * base);
-    return std::complex<double>(x, side * std::sqrt(from_start * from_start - x * x));
-  };
-  Linkage l = grounded({{"O", {0, 0}}, {"B", {-a, -drop}}});
-  add_bar(l, "crank", "O", "A", m);
-  add_bar(l, "upper_rod", "A", "E", j);
-  add_body(l, "upper_triangle", {{"B", {0, 0}}, {"E", {b, 0}}, {"D", apex(b, d, e, 1)}});
-  add_bar(l, "lower_rod", "A", "C", k);
-  add_bar(l, "rocker", "B", "C", c);
-  add_bar(l, "link", "D", "F", f);
-  add_body(l, "foot", {{"C", {0, 0}}, {"F", {g, 0}}, {"toe", apex(g, i, h, 1)}});
-  add_pin(l, "O", "ground.O", "crank.O");
-  add_pin(l, "A_upper", "crank.A", "upper_rod.A");
-  add_pin(l, "E", "upper_rod.E", "upper_triangle.E");
-  add_pin(l, "B_upper", "ground.B", "upper_triangle.B");
-  add_pin(l, "A_lower", "crank.A", "lower_rod.A");
-  add_pin(l, "C", "lower_rod.C", "rocker.C");
-  add_pin(l, "B_lower", "ground.B", "rocker.B");
-  add_pin(l, "D", "upper_triangle.D", "link.D");
-  add_pin(l, "F", "link.F", "foot.F");
-  add_pin(l, "C_foot", "rocker.C", "foot.C");
-  add_drive(l, "O");
-  set_mode(l, "upper_rod", "upper_triangle", AssemblyMode::minus);
-  set_mode(l, "lower_rod", "rocker", AssemblyMode::plus);
-  set_mode(l, "link", "foot", AssemblyMode::plus);
-  set_uniform_all(l, 2);
-  return l;
-}
-
-// Positions, rates and joint forces along a full turn, many positions at a time.
-void linkage_sweep(benchmark::State& state, const Linkage& linkage, const SweepWanted& wanted) {
-  const auto n = static_cast<std::size_t>(state.range(0));
-  LinkageSweep sweep(linkage, plan(linkage).plan, wanted);
-  std::vector<double> value(n), rate{10.0}, acceleration{3.0};
-  for (std::size_t i = 0; i < n; ++i)
-    value[i] = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
-  const SweepInput input{value, rate, acceleration};
-  for (auto _ : state) {
-    sweep.run({&input, 1});
-    benchmark::ClobberMemory();
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(n));
-  state.SetLabel(sweep_kernel_name());
-}
-constexpr SweepWanted places{.rates = false, .forces = false}, rates{.rates = true, .forces = false},
-    reactions_too{.rates = true, .forces = true};
-BENCHMARK_CAPTURE(linkage_sweep, four_bar_positions, four_bar_sample().linkage, places)->Arg(360);
-BENCHMARK_CAPTURE(linkage_sweep, four_bar_rates, four_bar_sample().linkage, rates)->Arg(360);
-BENCHMARK_CAPTURE(linkage_sweep, four_bar_forces, four_bar_sample().linkage, reactions_too)
-    ->Arg(360)
-    ->Arg(3600);
-BENCHMARK_CAPTURE(linkage_sweep, jansen_leg_positions, jansen_leg(), places)->Arg(360);
-BENCHMARK_CAPTURE(linkage_sweep, jansen_leg_rates, jansen_leg(), rates)->Arg(360);
-BENCHMARK_CAPTURE(linkage_sweep, jansen_leg_forces, jansen_leg(), reactions_too)->Arg(360);
-
-// The same one position at a time.
-void linkage_one_by_one(benchmark::State& state, const Linkage& linkage) {
-  const LinkagePlan p = plan(linkage).plan;
-  LinkageMotion motion(p);
-  LinkageForces forces;
-  std::vector<InputMotion> inputs{{0, 10, 3}};
-  for (auto _ : state) {
-    inputs[0].value += 0.01;
-    solve_motion(p, inputs, motion);
-    if (state.range(0)) solve_forces(linkage, p, motion, 0, 0, forces);
-    benchmark::DoNotOptimize(motion.parts.data());
-  }
-  state.SetItemsProcessed(state.iterations());
-}
-BENCHMARK_CAPTURE(linkage_one_by_one, four_bar, four_bar_sample().linkage)->ArgName("forces")->Arg(0)->Arg(1);
-BENCHMARK_CAPTURE(linkage_one_by_one, jansen_leg, jansen_leg())->ArgName("forces")->Arg(0)->Arg(1);
 
 }  // namespace
 }  // namespace linkwright::planar
