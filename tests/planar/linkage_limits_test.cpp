@@ -82,7 +82,7 @@ TEST(LinkageLimits, OfAJansenLegTurnFullyAsItIsBuilt) {
   EXPECT_TRUE(r->full_turn);
   EXPECT_EQ(assembly_range_text(l, modes), "assembles over the full turn");
   EXPECT_EQ(mode_text(p, modes),
-            "upper_rod + upper_triangle minus, lower_rod + rocker plus, link + foot plus");
+            "upper rod + upper plate minus, lower rod + lower rocker plus, side rod + foot plate minus");
 }
 
 TEST(LinkageLimits, EveryRangeAssemblesInsideAndNotOutside) {

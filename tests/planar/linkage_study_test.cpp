@@ -167,7 +167,8 @@ TEST(LinkageStudy, EverySampleRunsByItsNameAloneAndIsWrittenOut) {
 TEST(LinkageStudy, FollowsMotionLawsOverTime) {
   std::string text = replaced(four_bar_text, "speed_rpm = 300",
                               "law = \"cycloidal\"\nfrom_deg = 0\nto_deg = 180\nduration_s = 0.5");
-  text = text.substr(0, text.find("[sweep]")) + "[sweep]\ntype = \"time\"\n[sweep.time]\nto_s = 0.5\nsamples = 101\n";
+  text = text.substr(0, text.find("[sweep]")) +
+         "[sweep]\ntype = \"time\"\n[sweep.time]\nto_s = 0.5\nsamples = 101\n";
   const study::Result r = run(text);
   EXPECT_EQ(r.status, Status::done);
   const Table& t = r.tables[0];
