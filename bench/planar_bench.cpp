@@ -1,5 +1,6 @@
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "linkwright/planar/four_bar_reactions.h"
 #include "linkwright/planar/path_objective.h"
 #include "linkwright/planar/path_synthesis.h"
+#include "linkwright/planar/serial_arm_reactions.h"
 
 namespace linkwright::planar {
 namespace {
@@ -91,7 +93,7 @@ BENCHMARK(four_bar_position);
 
 // One position of a crank turn with everything: motion, four joint forces, drive torque, shaking force and
 // moments.
-template <auto reactions_by>
+template <decltype(reactions_newton_euler) reactions_by>
 void four_bar_reactions(benchmark::State& state) {
   const FourBar linkage{.ground = 0.6, .crank = 0.1, .coupler = 0.4, .rocker = 0.32};
   const FourBarMasses masses{{0.36, 4.13e-4, 0.05, 0}, {1.296, 1.87e-2, 0.2, 0.1}, {1.046, 9.85e-3, 0.16, 3}};
@@ -102,6 +104,37 @@ void four_bar_reactions(benchmark::State& state) {
 }
 BENCHMARK(four_bar_reactions<reactions>)->Name("four_bar_reactions/closed_form");
 BENCHMARK(four_bar_reactions<reactions_newton_euler>)->Name("four_bar_reactions/newton_euler");
+
+// One position of an arm of n links with everything: motion, joint forces, torques of both kinds.
+void serial_arm_reactions(benchmark::State& state) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  SerialArm arm;
+  for (std::size_t k = 0; k < n; ++k) arm.links.push_back({0.5, {6, 0.125, 0.25, 0.1}, {{1, -0.2, 0}}});
+  const std::vector<ArmElement> e = elements(arm);
+  std::vector<Motion> motion(n, Motion{0.3, 2, -5, 0});
+  std::vector<ArmLinkRates> r(n);
+  std::vector<ArmJointLoads> loads(n);
+  for (auto _ : state) {
+    for (std::size_t k = 0; k < n; ++k) motion[k].value += 0.01 * static_cast<double>(k + 1);
+    rates(e, arm.base, motion, r);
+    reactions(e, r, 9.81, loads);
+    benchmark::DoNotOptimize(loads.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(serial_arm_reactions)->Arg(2)->Arg(10);
+
+void two_rods_redundant_coordinates(benchmark::State& state) {
+  const TwoRods arm{{TwoRods::Rod{0.5, 12, 0.25}, {0.5, 6, 0.125}}, 4};
+  std::array<Motion, 2> motion = {Motion{0.3, 2, -5, 0}, Motion{0.8, -1, 3, 0}};
+  for (auto _ : state) {
+    motion[0].value += 0.01, motion[1].value += 0.02;
+    benchmark::DoNotOptimize(reactions_redundant(arm, motion));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(two_rods_redundant_coordinates);
 
 // The published ten-unknown problem as a population method sees it, all included: 100 000 evaluations.
 void differential_evolution_100k(benchmark::State& state) {

@@ -31,4 +31,5 @@ list(JOIN requirements "\n" LINKWRIGHT_FIND_DEPENDENCIES)
 configure_package_config_file(cmake/LinkwrightConfig.cmake.in LinkwrightConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(LinkwrightConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/LinkwrightConfig.cmake ${PROJECT_BINARY_DIR}/LinkwrightConfigVersion.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/FindSundialsSerial.cmake
         DESTINATION ${package_dir})

@@ -29,7 +29,7 @@ FORBIDDEN = {"report": {"optimise"}, **{domain: {"report"} for domain in DOMAINS
 
 # Inside a domain, only these files use these rooms.
 SYNTHESIS = ["*_synthesis*", "*balancing*", "path_*"]
-STUDIES = ["studies*", "*_study*", "scene*"]
+STUDIES = ["studies*", "*_study*", "scene*", "*_scene*"]
 DOMAIN_FILES = {"optimise": SYNTHESIS + STUDIES, "study": STUDIES}
 
 # Seconds of compile time each: they stay in the sources that need them, away from the headers.

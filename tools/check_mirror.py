@@ -15,6 +15,9 @@ import repository
 NO_TEST = {
     "core/field.h": "declarations; read, written and described by study/bind_test.cpp",
     "core/tolerance.h": "named constants",
+    "math/ode_pairs.h": "coefficients; their orders are measured in ode_test.cpp",
+    "math/ode_stepper.h": "part of ode, tested in ode_test.cpp",
+    "math/ode_vectors.h": "part of ode, used by every step of ode_test.cpp",
     "study/kind.h": "plain data; every kind's own test fills and runs it",
     "study/result.h": "plain data; written by the tests of results and reports",
     "study/scene.h": "plain data; drawn by the tests of the report",
@@ -24,6 +27,7 @@ NO_TEST = {
     "study/read_syntax.h": "part of read, tested in read_test.cpp",
     "optimise/kernels_body.h": "part of kernels, compiled once per instruction set and compared by kernels_test.cpp",
     "optimise/differential_evolution_base.h": "shared part of both forms, tested through them",
+    "planar/linkage_sweep_kernel.h": "part of linkage_sweep, compiled once per instruction set and compared by its test",
     "planar/path_objective_kernel.h": "part of path_objective, compiled once per instruction set and compared by its test",
 }
 

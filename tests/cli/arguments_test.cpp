@@ -14,7 +14,7 @@ Arguments parse(std::vector<const char*> words) {
 
 TEST(Arguments, Run) {
   const Arguments a = parse({"run", "s.toml", "--out", "d", "--seed", "3", "--threads=2", "--set", "a=1",
-                             "--set", "b={ c = 2 }", "--time-limit", "1.5", "--json"});
+                             "--set", "b={ c = 2 }", "--time-limit", "1.5", "--json", "--resume"});
   EXPECT_EQ(a.command, Command::run) << a.text;
   EXPECT_EQ(a.study, "s.toml");
   EXPECT_EQ(a.out, "d");
@@ -23,6 +23,8 @@ TEST(Arguments, Run) {
   EXPECT_EQ(a.set, (std::vector<std::string>{"a=1", "b={ c = 2 }"}));
   EXPECT_EQ(a.time_limit, 1.5);
   EXPECT_TRUE(a.json);
+  EXPECT_TRUE(a.resume);
+  EXPECT_FALSE(parse({"run", "s.toml"}).resume);
   // The option's value is one word: what follows is the study.
   EXPECT_EQ(parse({"run", "--set", "a=[1, 2]", "s.toml"}).set, std::vector<std::string>{"a=[1, 2]"});
 }

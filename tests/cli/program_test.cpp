@@ -1,17 +1,14 @@
 #include "linkwright/cli/program.h"
 
 #include <gmock/gmock.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "linkwright/study/read.h"
+#include "tests/cli/program_fixture.h"
 #include "tests/study/sample_kind.h"
 
 // Runs the built program (with the sample domain) as users do: exit codes and both streams.
@@ -21,61 +18,16 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-class Program : public testing::Test {
+class Program : public test::ProgramFixture {
  protected:
-  Program() : folder_(fs::temp_directory_path() / ("linkwright-cli-" + std::to_string(::getpid()))) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    write("s.toml", study::sample::example);
-  }
-  ~Program() override { fs::remove_all(folder_); }
+  Program() : ProgramFixture(LINKWRIGHT_SAMPLE_PROGRAM) { write("s.toml", study::sample::example); }
 
-  void write(const std::string& name, std::string_view text) {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
-
-  pid_t start(std::vector<std::string> words) {
-    const pid_t child = ::fork();
-    if (child != 0) return child;
-    words.insert(words.begin(), "linkwright");
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    if (::chdir(folder_.c_str()) != 0 || !std::freopen("stdout", "w", stdout) ||
-        !std::freopen("stderr", "w", stderr))
-      ::_exit(99);
-    ::execv(LINKWRIGHT_SAMPLE_PROGRAM, arguments.data());
-    ::_exit(98);
-  }
-  int finish(pid_t child) {
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    out_ = text_of(folder_ / "stdout");
-    err_ = text_of(folder_ / "stderr");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-  int run(std::vector<std::string> words) { return finish(start(std::move(words))); }
   /// Files below the test's folder besides the study and the two streams.
   std::size_t files() const {
     std::size_t count = 0;
     for (const auto& entry : fs::recursive_directory_iterator(folder_)) count += entry.is_regular_file();
     return count - 3;
   }
-  Value result(const std::string& name) {
-    Diagnostics diagnostics;
-    Value value = study::read_file(folder_ / name, diagnostics);
-    EXPECT_TRUE(diagnostics.empty());
-    return value;
-  }
-
-  fs::path folder_;
-  std::string out_, err_;
 };
 
 TEST_F(Program, RunWritesAndSummarises) {

@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <map>
 
 #include "optimise/functions.h"
 #include "support/allocations.h"
+#include "support/memory_checkpoint.h"
 #include "support/message.h"
 
 namespace linkwright::optimise {
@@ -19,12 +22,19 @@ constexpr Method all_methods[] = {Method::differential_evolution,
                                   Method::self_adaptive_differential_evolution, Method::grey_wolf};
 
 void expect_same_bits(const Report& a, const Report& b) {
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.stop_reason, b.stop_reason);
   EXPECT_EQ(a.x, b.x);
   EXPECT_EQ(a.cost, b.cost);
   EXPECT_EQ(a.violation, b.violation);
   EXPECT_EQ(a.evaluations, b.evaluations);
+  EXPECT_EQ(a.generations, b.generations);
   ASSERT_EQ(a.log.size(), b.log.size());
-  for (std::size_t i = 0; i < a.log.size(); ++i) EXPECT_EQ(a.log[i].median, b.log[i].median);
+  const auto bits = [](const GenerationLog& g) {  // NaN where nothing is feasible
+    return pack_numbers(std::vector<double>{static_cast<double>(g.evaluations), g.best_cost, g.best_violation,
+                                            g.median, g.mean, g.violated});
+  };
+  for (std::size_t k = 0; k < a.log.size(); ++k) EXPECT_EQ(bits(a.log[k]), bits(b.log[k])) << k;
 }
 
 TEST(Minimise, IsAskEvaluateTell) {
@@ -230,6 +240,119 @@ TEST(Minimise, SaysWhichOptionIsOutOfRange) {
   const auto optimiser = make_optimiser(test::sphere(3).variables, GreyWolfOptions{}, {});
   EXPECT_THAT(message([&] { minimise(problem, *optimiser, 5, "mine", {}, context); }),
               HasSubstr("an optimiser of 3 variables for a problem of 2"));
+}
+
+TEST(Minimise, GoesOnFromAnyGenerationWithTheSameBits) {
+  const Problem problem = test::g06();
+  for (const Constraints constraints : {Constraints::feasibility_rules, Constraints::penalty})
+    for (const Method method : {Method::differential_evolution, Method::grey_wolf}) {
+      MinimiseOptions options = {.constraints = constraints, .checkpoint = "here"};
+      options.stop.generations = 40;
+      options.stop.stagnation = 30;
+      RunContext plain;
+      const Report whole = minimise(problem, {.method = method}, options, {.seed = 4}, plain);
+      for (const int last : {1, 2, 17, whole.generations - 1}) {
+        linkwright::test::MemoryCheckpoint checkpoint;
+        RunContext first;
+        first.set_checkpoint(&checkpoint);
+        int generations = 0;
+        first.set_progress([&](const Progress&) {
+          if (++generations == last) first.cancel();
+        });
+        EXPECT_EQ(minimise(problem, {.method = method}, options, {.seed = 4}, first).status,
+                  Status::cancelled);
+        RunContext second;
+        second.set_checkpoint(&checkpoint);
+        expect_same_bits(minimise(problem, {.method = method}, options, {.seed = 4}, second), whole);
+        // At its end there is nothing left to evaluate.
+        Problem untouched = problem;
+        untouched.evaluate = [](const PopulationView&, std::span<double>, std::span<double>) {
+          ADD_FAILURE();
+        };
+        expect_same_bits(minimise(untouched, {.method = method}, options, {.seed = 4}, second), whole);
+      }
+    }
+}
+
+TEST(Minimise, AKillBetweenLogAndStateDoesNoHarm) {
+  const Problem problem = test::sphere(2);
+  MinimiseOptions options = {.checkpoint = "here"};
+  options.stop.generations = 12;
+  RunContext plain;
+  const Report whole = minimise(problem, OptimiserOptions{}, options, {}, plain);
+  // What the disk held after each keep, which may have been the last.
+  linkwright::test::MemoryCheckpoint checkpoint;
+  std::vector<std::map<std::string, Value>> disks;
+  checkpoint.kept = [&](std::string_view) { disks.push_back(checkpoint.entries); };
+  RunContext kept;
+  kept.set_checkpoint(&checkpoint);
+  expect_same_bits(minimise(problem, OptimiserOptions{}, options, {}, kept), whole);
+  EXPECT_EQ(disks.size(), 24u);
+  for (const auto& disk : disks) {
+    linkwright::test::MemoryCheckpoint found;
+    found.entries = disk;
+    RunContext context;
+    context.set_checkpoint(&found);
+    expect_same_bits(minimise(problem, OptimiserOptions{}, options, {}, context), whole);
+  }
+}
+
+TEST(Minimise, KeepsALongLogInParts) {
+  const Problem problem = test::sphere(1);
+  const OptimiserOptions method = {.differential_evolution = {.population = 4}};
+  MinimiseOptions options = {.checkpoint = "here"};
+  options.stop.generations = 9000;
+  RunContext plain;
+  const Report whole = minimise(problem, method, options, {}, plain);
+  linkwright::test::MemoryCheckpoint checkpoint;
+  checkpoint.pause = std::chrono::hours(1);  // kept at the interruptions only
+  for (const int stop_at : {100, 4096, 4097, 8999}) {
+    RunContext context;
+    context.set_checkpoint(&checkpoint);
+    context.set_progress([&](const Progress& p) {
+      if (p.fraction * 9000 >= stop_at - 0.5) context.cancel();
+    });
+    EXPECT_EQ(minimise(problem, method, options, {}, context).status, Status::cancelled);
+  }
+  EXPECT_EQ(checkpoint.entries.size(), 4u);  // the state and the log in three parts
+  RunContext last;
+  last.set_checkpoint(&checkpoint);
+  expect_same_bits(minimise(problem, method, options, {}, last), whole);
+}
+
+TEST(Minimise, RefusesWhatItDidNotKeep) {
+  const Problem problem = test::sphere(2);
+  MinimiseOptions options = {.checkpoint = "here"};
+  options.stop.generations = 9;
+  linkwright::test::MemoryCheckpoint checkpoint;
+  RunContext context;
+  context.set_checkpoint(&checkpoint);
+  minimise(problem, OptimiserOptions{}, options, {}, context);
+  const auto good = checkpoint.entries;
+  const auto refusal = [&](const auto& change) -> std::string {
+    checkpoint.entries = good;
+    change(checkpoint.entries);
+    try {
+      minimise(problem, OptimiserOptions{}, options, {}, context);
+    } catch (const CheckpointError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(refusal([](auto&) {}), "none");
+  EXPECT_EQ(refusal([](auto& e) { e["here/state"] = Value(1); }), "here: has no 'stop_reason'");
+  EXPECT_EQ(refusal([](auto& e) { e["here/state"]["generations"] = 10; }),
+            "here: 'generations' is not an integer from 1 to 9");
+  EXPECT_EQ(refusal([](auto& e) { e["here/state"]["optimiser"] = ""; }),
+            "here: is no state of this method and problem");
+  EXPECT_EQ(refusal([](auto& e) {
+              e["here/state"]["best"] = pack_numbers(std::vector<double>{NAN, 0});
+            }),
+            "here: is no state of this method and problem");
+  EXPECT_EQ(refusal([](auto& e) { e["here/log 0"] = pack_numbers(std::vector<double>(44)); }),
+            "here/log 0: has 44 numbers, must be 45");
+  EXPECT_EQ(refusal([](auto& e) { e.erase("here/log 0"); }),
+            "here/log 0: expected packed numbers, found null");
 }
 
 }  // namespace

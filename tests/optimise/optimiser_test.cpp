@@ -123,6 +123,84 @@ TEST(Optimiser, AGenerationAllocatesNothing) {
     }
 }
 
+/// Every method, and the variant of grey wolf that keeps more.
+std::vector<OptimiserOptions> all_options() {
+  std::vector<OptimiserOptions> all;
+  for (const Method method : all_methods) all.push_back({.method = method});
+  all.push_back({.method = Method::grey_wolf});
+  all.back().grey_wolf.reset_worst_half = true;
+  return all;
+}
+
+void generation(const Problem& problem, Optimiser& optimiser) {
+  std::vector<double> cost(optimiser.population()), violation(optimiser.population());
+  problem.evaluate(optimiser.ask(), cost, violation);
+  optimiser.tell(cost, violation);
+}
+
+TEST(Optimiser, ARestoredStateGoesOnWithTheSameBits) {
+  // With constraints, so that violations matter, and with infinite costs.
+  const Problem g06 = test::g06();
+  const Problem rare = test::make_problem(3, -1, 1, [](std::span<const double> x) {
+    return x[0] > 0.9 ? test::Value{x[1] * x[2]} : test::Value{HUGE_VAL, 1 - x[0]};
+  });
+  for (const Problem* problem : {&g06, &rare})
+    for (const OptimiserOptions& options : all_options()) {
+      const auto whole = make_optimiser(problem->variables, options, {.seed = 5, .run = 3});
+      for (int k = 0; k < 7; ++k) generation(*problem, *whole);
+      const OptimiserState state = whole->state();
+      const auto restored = make_optimiser(problem->variables, options, {.seed = 5, .run = 3});
+      ASSERT_TRUE(restored->restore(state)) << name_of(options.method);
+      EXPECT_EQ(restored->state(), state);
+      EXPECT_EQ(restored->generation(), 7u);
+      for (int k = 0; k < 20; ++k) {
+        generation(*problem, *whole);
+        generation(*problem, *restored);
+        EXPECT_EQ(restored->improved(), whole->improved());
+        EXPECT_EQ(restored->equalled(), whole->equalled());
+        ASSERT_EQ(restored->state(), whole->state()) << name_of(options.method) << " generation " << 8 + k;
+      }
+      EXPECT_TRUE(std::equal(whole->best().begin(), whole->best().end(), restored->best().begin()));
+    }
+}
+
+TEST(Optimiser, RefusesStatesThatItCannotHaveReached) {
+  const Problem problem = test::g06();
+  for (const OptimiserOptions& options : all_options()) {
+    const auto optimiser = make_optimiser(problem.variables, options, {});
+    generation(problem, *optimiser);
+    const OptimiserState good = optimiser->state();
+    const auto accepts = [&](const OptimiserState& state) {
+      return make_optimiser(problem.variables, options, {})->restore(state);
+    };
+    EXPECT_TRUE(accepts(good));
+    OptimiserState longer = good, shorter = good, unborn = good;
+    longer.numbers.push_back(0);
+    shorter.numbers.pop_back();
+    unborn.generation = 0;
+    EXPECT_FALSE(accepts(longer));
+    EXPECT_FALSE(accepts(shorter));
+    EXPECT_FALSE(accepts({.generation = 1}));
+    EXPECT_FALSE(accepts(unborn));
+    for (std::size_t k = 0; k < good.numbers.size(); ++k) {
+      OptimiserState bad = good;
+      bad.numbers[k] = std::nan("");
+      EXPECT_FALSE(accepts(bad)) << name_of(options.method) << " " << k;
+    }
+    // Best cost, best violation, best candidate; x0 lies in [13, 100].
+    OptimiserState negative = good, outside = good;
+    negative.numbers[1] = -1;
+    outside.numbers[2] = 12.9;
+    EXPECT_FALSE(accepts(negative));
+    EXPECT_FALSE(accepts(outside));
+  }
+  const auto asked = make_optimiser(problem.variables, GreyWolfOptions{}, {});
+  EXPECT_THAT(message([&] { asked->state(); }), HasSubstr("no state between ask and tell"));
+  generation(problem, *asked);
+  asked->ask();
+  EXPECT_THAT(message([&] { asked->state(); }), HasSubstr("no state between ask and tell"));
+}
+
 TEST(Optimiser, SaysWhatIsWrong) {
   const Problem problem = test::sphere(2);
   const auto optimiser = make_optimiser(problem.variables, GreyWolfOptions{.population = 3}, {});

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "optimise/functions.h"
+#include "support/memory_checkpoint.h"
 #include "support/message.h"
 
 namespace linkwright::optimise {
@@ -94,6 +95,44 @@ TEST(Statistics, ForEachSeedLeavesOutSeedsAfterACancel) {
               testing::ElementsAre(true, true, true, true, false, false, false, false, false, false));
 }
 
+TEST(Statistics, SeedsOfTheCheckpointAreNotRunAgain) {
+  linkwright::test::MemoryCheckpoint checkpoint;
+  std::vector<double> results(6);
+  const auto run = [&](std::uint64_t cancelled_in, int threads) {
+    RunContext context;
+    context.set_threads(threads);
+    context.set_checkpoint(&checkpoint);
+    std::atomic<int> ran = 0;
+    std::atomic<bool> interrupted = false;
+    results.assign(6, 0);
+    const SeedLoop loop = for_each_seed(
+        {10, 6}, context, "test",
+        [&](std::size_t i, std::uint64_t seed) {
+          ++ran;
+          checkpoint.keep(seed_name(seed) + "/half", Value(1));
+          if (seed == cancelled_in) context.cancel();
+          interrupted = context.interrupted();
+          return results[i] = 0.1 * static_cast<double>(seed);
+        },
+        [&](std::size_t i) {
+          return interrupted ? Value() : pack_numbers({&results[i], 1});
+        },
+        [&](std::size_t i, const Value& value) { return results[i] = unpack_numbers(value, "test").at(0); });
+    EXPECT_EQ(loop.ran[5], cancelled_in == 0);
+    return ran.load();
+  };
+  EXPECT_EQ(run(12, 1), 3);
+  // The two that ended, and what the interrupted one kept on its way.
+  std::vector<std::string> names;
+  for (const auto& [name, value] : checkpoint.entries) names.push_back(name);
+  EXPECT_THAT(names, testing::ElementsAre("seed 10", "seed 11", "seed 12/half"));
+  EXPECT_EQ(run(0, 2), 4);
+  EXPECT_THAT(results, testing::ElementsAre(1.0, 0.1 * 11, 0.1 * 12, 0.1 * 13, 0.1 * 14, 1.5));
+  EXPECT_EQ(checkpoint.entries.size(), 6u);
+  EXPECT_EQ(run(0, 1), 0);
+  EXPECT_THAT(results, testing::ElementsAre(1.0, 0.1 * 11, 0.1 * 12, 0.1 * 13, 0.1 * 14, 1.5));
+}
+
 TEST(Statistics, ExceptionsOfABodyArrive) {
   for (const int threads : {1, 3}) {
     RunContext context;
@@ -134,6 +173,31 @@ TEST(Statistics, MinimiseSeedsGivesTheSameBitsForAnyThreads) {
   RunContext context;
   EXPECT_EQ(minimise(problem, {.method = Method::grey_wolf}, options, {.seed = 15}, context).x,
             all[0].reports[4].x);
+}
+
+TEST(Statistics, MinimiseSeedsGoesOn) {
+  const Problem problem = test::rastrigin(3);
+  MinimiseOptions options = {.checkpoint = "all"};
+  options.stop.generations = 30;
+  RunContext plain;
+  const auto whole = minimise_seeds(problem, {}, options, {3, 4}, 1, plain);
+  linkwright::test::MemoryCheckpoint checkpoint;
+  RunContext first;
+  first.set_threads(1);
+  first.set_checkpoint(&checkpoint);
+  int keeps = 0;
+  checkpoint.kept = [&](std::string_view) {
+    if (++keeps == 90) first.cancel();
+  };
+  EXPECT_EQ(minimise_seeds(problem, {}, options, {3, 4}, 1, first).status, Status::cancelled);
+  RunContext second;
+  second.set_checkpoint(&checkpoint);
+  const auto resumed = minimise_seeds(problem, {}, options, {3, 4}, 1, second);
+  EXPECT_EQ(resumed.status, Status::done);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(resumed.reports[i].x, whole.reports[i].x);
+    EXPECT_EQ(resumed.reports[i].log.size(), whole.reports[i].log.size());
+  }
 }
 
 TEST(Statistics, MinimiseSeedsTellsOfInterruptionAndInfeasibility) {

@@ -21,7 +21,7 @@ std::vector<PartState<double>> placed(const Linkage& l, double mode, GroupType t
   std::vector<PartState<double>> parts(r.plan.parts.size());
   parts[0] = {{0, 0}, {1, 0}, {0, 0}, 0, {0, 0}, 0};
   GroupState<double> state;
-  place_dyad(r.plan.groups[0], mode, parts.data(), state);
+  for_dyad(type, [&](auto dyad) { place_dyad(dyad, r.plan.groups[0], mode, parts.data(), state); });
   return parts;
 }
 
@@ -128,9 +128,11 @@ TEST(LinkageKernel, IsTheSameForBatches) {
         drive_velocity(g, B(in.rate), parts.data());
         drive_acceleration(g, B(in.rate), B(in.acceleration), parts.data());
       } else {
-        place_dyad(g, B(g.mode), parts.data(), states[k]);
-        dyad_velocity(g, parts.data(), states[k]);
-        dyad_acceleration(g, parts.data(), states[k]);
+        for_dyad(g.type, [&](auto type) {
+          place_dyad(type, g, B(g.mode), parts.data(), states[k]);
+          dyad_velocity(type, g, parts.data(), states[k]);
+          dyad_acceleration(type, g, parts.data(), states[k]);
+        });
       }
     }
     for (std::size_t k = 1; k < parts.size(); ++k)
@@ -141,7 +143,9 @@ TEST(LinkageKernel, IsTheSameForBatches) {
       if (g.type == GroupType::driver)
         torque[index(g.input)] = driver_force(g, parts.data(), needed.data());
       else
-        dyad_forces(g, parts.data(), states[k], needed.data(), joints[k].data());
+        for_dyad(g.type, [&](auto type) {
+          dyad_forces(type, g, parts.data(), states[k], needed.data(), joints[k].data());
+        });
     }
     LinkageMotion m(p);
     LinkageForces f;

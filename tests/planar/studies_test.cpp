@@ -1,19 +1,25 @@
 #include "linkwright/planar/studies.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
 
 #include "linkwright/study/study.h"
 
 namespace linkwright::planar {
 namespace {
 
-TEST(Studies, ArePathSynthesisAndTheAnalysisOfAFourBar) {
-  const auto kinds = studies();
-  ASSERT_EQ(kinds.size(), 2u);
-  EXPECT_EQ(study::name_of(kinds[0]), "synthesis/planar.four_bar/path_points");
-  EXPECT_TRUE(kinds[0].seeded);
-  EXPECT_EQ(study::name_of(kinds[1]), "analysis/planar.four_bar");
-  EXPECT_FALSE(kinds[1].seeded);
+TEST(Studies, AreThoseOfPlanarLinkages) {
+  std::vector<std::string> names, seeded;
+  for (const study::Kind& kind : studies()) {
+    names.push_back(study::name_of(kind));
+    if (kind.seeded) seeded.push_back(names.back());
+  }
+  EXPECT_THAT(names, ::testing::ElementsAre("synthesis/planar.four_bar/path_points",
+                                            "analysis/planar.four_bar", "analysis/planar.linkage",
+                                            "analysis/planar.slider_crank", "analysis/planar.serial_arm"));
+  EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/planar.four_bar/path_points"));
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(Arrows, TipsLieAlongTheComponents) {
 
 TEST(Arrows, ArcsTellSizeAndSign) {
   const Scene scene = pulled();
-  EXPECT_EQ(largest(scene.moments[0]), 4);
+  EXPECT_EQ(largest_moment(scene), 4);
   EXPECT_EQ(value(scene.moments[0], 1), -4);
   EXPECT_TRUE(std::isnan(value(scene.moments[0], 2)));
   EXPECT_EQ(arc_turn(0), 0);

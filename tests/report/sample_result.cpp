@@ -229,6 +229,92 @@ study::Result sample_result() {
   return result;
 }
 
+study::Result sample_simulation() {
+  using Body = study::Scene::BodyStyle;
+  using Joint = study::Scene::JointStyle;
+  using Quantity = study::Scene::Quantity;
+  constexpr double crank = 0.1, rod = 0.3, speed = 2 * std::numbers::pi;  // m, m, rad/s
+  enum { O, A, B, wall, rim, left, right, block };
+  study::Scene scene;
+  scene.name = "motion";
+  scene.title = "Slider-crank with a spring";
+  scene.input_key = "time_s";
+  scene.input_label = "time";
+  scene.points = {{"O", {0}, {0}},          {"A", {}, {}},   {"B", {}, {}},
+                  {"wall", {0.6}, {0}},     {"rim", {}, {}}, {"left", {0.15}, {-0.02}},
+                  {"right", {0.5}, {-0.02}}};
+  for (const char* corner : {"1", "2", "3", "4"}) scene.points.push_back({corner, {}, {}});
+  std::vector<double> force_x, force_y, torque, slider_speed;
+  const auto put = [&](int point, double x, double y) {
+    scene.points[static_cast<std::size_t>(point)].x.push_back(x);
+    scene.points[static_cast<std::size_t>(point)].y.push_back(y);
+  };
+  for (int i = 0; i <= 200; ++i) {
+    const double t = 0.01 * i, c = std::cos(speed * t), s = std::sin(speed * t);
+    const double along = std::sqrt(rod * rod - crank * crank * s * s), x = crank * c + along;
+    scene.input.push_back(t);
+    put(A, crank * c, crank * s);
+    put(B, x, 0);
+    put(rim, 0.06 * c, 0.06 * s);
+    for (int k = 0; k < 4; ++k) put(block + k, x + (k == 0 || k == 3 ? -0.025 : 0.025), k < 2 ? -0.02 : 0.02);
+    force_x.push_back(20 + 30 * c);
+    force_y.push_back(30 * s);
+    torque.push_back(-2 * s);
+    slider_speed.push_back(-crank * speed * s * (1 + crank * c / along));
+  }
+  scene.bodies = {
+      {"ground", {O, wall}, Body::ground}, {"guide", {left, right}, Body::guide},
+      {"spring", {B, wall}, Body::spring}, {"crank", {O, A}, Body::bar},
+      {"rod", {A, B}, Body::bar},          {"slider", {block, block + 1, block + 2, block + 3}, Body::plate}};
+  scene.joints = {{"O", O, Joint::ground_pivot}, {"A", A, Joint::pivot}, {"B", B, Joint::pivot}};
+  scene.circles = {{"wheel", O, rim}};
+  scene.vectors = {{"crank on rod at A", Quantity::force, "N", A, force_x, force_y, "F A"},
+                   {"weight of the slider", Quantity::force, "N", B, {0}, {-10}, "G"},
+                   {"velocity of B", Quantity::velocity, "m/s", B, slider_speed, {0}, "v B"}};
+  scene.moments = {{"drive torque", "N m", O, torque, "M"}};
+
+  study::Scene chain;
+  chain.name = "chain";
+  chain.title = "Chain of 81 bars";
+  chain.input_key = "time_s";
+  chain.input_label = "time";
+  for (int i = 0; i <= 40; ++i) chain.input.push_back(0.05 * i);
+  for (int k = 0; k <= 81; ++k) {
+    study::Scene::Point point{std::to_string(k), {}, {}};
+    for (const double t : chain.input) {
+      point.x.push_back(k * 0.0125);
+      point.y.push_back(0.1 * std::sin(std::numbers::pi * k / 27) * std::cos(speed * t));
+    }
+    chain.points.push_back(point);
+    chain.joints.push_back({std::to_string(k), k, Joint::pivot});
+    if (k > 0) chain.bodies.push_back({"bar " + std::to_string(k), {k - 1, k}, Body::bar});
+  }
+
+  study::Result result;
+  result.headline = "The force at A reaches 50 N.";
+  Table table;
+  table.name = "simulation";
+  table.add("time_s", "time (s)", scene.input);
+  table.add("A_x_N", "A x, crank on rod (N)", force_x);
+  table.add("A_y_N", "A y, crank on rod (N)", force_y);
+  result.tables = {table};
+  study::Plot polar;
+  polar.name = "polar";
+  polar.title = "Polar diagram of the force at A";
+  polar.table = "simulation";
+  polar.x = "time_s";
+  polar.y = {"A_x_N", "A_y_N"};
+  polar.style = study::Plot::Style::polar;
+  polar.scene = "motion";
+  study::Plot line = polar;
+  line.name = "force";
+  line.title = "Force at A";
+  line.style = study::Plot::Style::line;
+  result.plots = {line, polar};
+  result.scenes = {scene, chain};
+  return result;
+}
+
 std::string sample_json(const study::Result& result) {
   Value doc;
   doc["schema"] = 1;

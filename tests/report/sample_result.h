@@ -11,6 +11,10 @@ namespace linkwright::report::test {
 /// computed here.
 study::Result sample_result();
 
+/// A simulation over two seconds as a domain would give it: a slider-crank that turns once a second, with a spring,
+/// a guide, a wheel, forces, velocities, a couple and a polar diagram; and a chain of 81 bars.
+study::Result sample_simulation();
+
 /// The parts of result.json that a report reads.
 std::string sample_json(const study::Result& result);
 

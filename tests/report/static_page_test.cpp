@@ -29,7 +29,8 @@ TEST(StaticPage, HasEverySectionAndIsWellFormed) {
   EXPECT_EQ(test::fault_of_xml(text), "");
   for (const char* section :
        {"<svg", "Checks", "Solutions", "Parameters of the best solution", "Published and ours", "Statistics",
-        "Runs", "Remarks", "motion of solution-1", "How to reproduce", "linkwright run a.toml", "schema = 1"})
+        "Diagrams", "Runs", "Remarks", "motion of solution-1", "How to reproduce", "linkwright run a.toml",
+        "schema = 1"})
     EXPECT_THAT(text, HasSubstr(section));
 }
 

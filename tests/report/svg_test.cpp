@@ -76,6 +76,7 @@ TEST(Svg, DrawsForcesWithTheirScale) {
   EXPECT_THAT(picture, HasSubstr(">F1</text>"));
   EXPECT_THAT(picture, HasSubstr(">force 500 N</text>"));
   EXPECT_THAT(picture, HasSubstr("<title>drive torque: 2 N m</title>"));
+  EXPECT_THAT(picture, HasSubstr(">full arc 2 N m</text>"));
   EXPECT_THAT(picture, Not(HasSubstr("arrow velocity")));
   EXPECT_THAT(picture, Not(HasSubstr("nan")));
 }
@@ -95,6 +96,20 @@ TEST(Svg, QuantitiesCanBeChosenAndFollowTheSample) {
   EXPECT_THAT(picture, HasSubstr(">acceleration 5 m/s2</text>"));
   options.forces = true;
   EXPECT_THAT(svg(machine(), options), HasSubstr("<title>push: 100 N</title>"));
+}
+
+TEST(Svg, ManyShortBarsAreThin) {
+  study::Scene chain;
+  chain.input = {0};
+  for (int i = 0; i <= 81; ++i) {
+    chain.points.push_back({"", {0.1 * i}, {0}});
+    if (i > 0) chain.bodies.push_back({"bar", {i - 1, i}, study::Scene::BodyStyle::bar});
+  }
+  const std::string thin = svg(chain);
+  EXPECT_THAT(thin, Not(HasSubstr("stroke-width=\"13\"")));
+  chain.bodies.resize(1);
+  chain.points.resize(2);
+  EXPECT_THAT(svg(chain), HasSubstr("stroke-width=\"13\""));
 }
 
 TEST(Svg, SceneWithoutArrowsHasNoKey) {

@@ -1,5 +1,5 @@
 // Writes what the report tests outside C++ look at: write_samples DIR makes DIR/report.html,
-// DIR/hostile.html, DIR/empty.html, DIR/scene.dxf and DIR/scene.svg.
+// DIR/simulation.html, DIR/hostile.html, DIR/empty.html, DIR/scene.dxf and DIR/scene.svg.
 
 #include <filesystem>
 #include <fstream>
@@ -37,10 +37,22 @@ int main(int count, char** arguments) {
   write(folder / "scene.svg", svg(result.scenes.front()));
   write(folder / "scene.dxf", dxf(result.scenes.front()));
 
+  const study::Result simulation = test::sample_simulation();
+  write(folder / "simulation.html", html({.result = simulation,
+                                          .study_toml = {},
+                                          .title = "Slider-crank for two seconds",
+                                          .source = {},
+                                          .tool = "linkwright 0.1.0",
+                                          .command = {},
+                                          .result_json = test::sample_json(simulation)}));
+
   study::Result broken = test::sample_result();
   broken.headline = broken.facts[0].label = broken.facts[0].text = test::hostile;
   broken.solutions[0].label = broken.solutions[0].parameters[0].label = test::hostile;
   broken.scenes[0].title = broken.scenes[0].joints[0].name = broken.scenes[0].bodies[1].name = test::hostile;
+  broken.scenes[0].vectors = {
+      {test::hostile, study::Scene::Quantity::force, test::hostile, 0, {1}, {1}, test::hostile}};
+  broken.scenes[0].moments = {{test::hostile, test::hostile, 0, {1}, test::hostile}};
   broken.tables[0].columns[0].label = broken.comparisons[0].note = broken.checks[0].quantity = test::hostile;
   broken.diagnostics[0].message = test::hostile;
   broken.log.as_array()[0]["status"] = test::hostile;

@@ -23,6 +23,27 @@ constexpr std::size_t common = alignof(std::max_align_t);
 
 std::size_t linkwright::test::allocations() { return count.load(std::memory_order_relaxed); }
 
+// C libraries allocate as well. Sanitizers have an allocator of their own, which must stay.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* p, std::size_t size);
+void* malloc(std::size_t size) {
+  count.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t number, std::size_t size) {
+  count.fetch_add(1, std::memory_order_relaxed);
+  return __libc_calloc(number, size);
+}
+void* realloc(void* p, std::size_t size) {
+  count.fetch_add(1, std::memory_order_relaxed);
+  return __libc_realloc(p, size);
+}
+}
+#endif
+
 // All forms together: a block of a form left out would come from one allocator and go to another.
 void* operator new(std::size_t size) { return allocate(size, common); }
 void* operator new[](std::size_t size) { return allocate(size, common); }

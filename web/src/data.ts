@@ -9,10 +9,34 @@ export interface Scene {
   input: number[];
   status: string[];
   points: { name: string; x: Num[]; y: Num[] }[];
-  bodies: { name: string; points: number[]; style: "ground" | "bar" | "plate" }[];
+  bodies: { name: string; points: number[]; style: BodyStyle }[];
   joints: { name: string; point: number; style: "ground_pivot" | "pivot" | "tracer" }[];
   traces: { point: number; name: string; closed: boolean }[];
   targets: Target[];
+  circles: { name: string; centre: number; rim: number }[];
+  vectors: Vector[];
+  moments: Moment[];
+}
+
+export type BodyStyle = "ground" | "bar" | "plate" | "spring" | "damper" | "guide";
+export type Quantity = "force" | "velocity" | "acceleration";
+
+export interface Vector {
+  name: string;
+  quantity: Quantity;
+  unit: string;
+  point: number;
+  x: Num[];
+  y: Num[];
+  symbol: string;
+}
+
+export interface Moment {
+  name: string;
+  unit: string;
+  point: number;
+  value: Num[];
+  symbol: string;
 }
 
 export interface Target {
@@ -39,7 +63,7 @@ export interface Plot {
   table: string;
   x: string;
   y: string[];
-  style: "line" | "points" | "histogram";
+  style: "line" | "points" | "histogram" | "polar";
   logarithmic_y: boolean;
   scene: string;
 }

@@ -1,35 +1,16 @@
 // The mechanism to scale: grid, traces, targets with error whiskers, ghost positions and the pose itself.
-import { computed, signal } from "@preact/signals";
+import { computed } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useMemo, useRef } from "preact/hooks";
+import { isSymbol, symbolLines } from "./arrows";
+import { camera, extent, fitView, moved, screen, size, thickness, zoomBy } from "./camera";
 import type { Scene } from "./data";
+import { Arrows, Card, Key } from "./forces";
 import { isAssembled, isFixed, nearestSample, placeAt, placeNear, speeds, type Place } from "./motion";
 import * as state from "./state";
 import { format, lengthUnit } from "./units";
-import { bounds, fit, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, zoom, type Camera } from "./view";
+import { bounds, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, type Camera } from "./view";
 
-const size = signal({ width: 760, height: 520 });
-const moved = signal<Camera | null>(null); // null = everything in view
-const fitted = computed<Camera>(() => {
-  const box = state.scene.value && bounds(state.scene.value);
-  return box ? fit(box, size.value) : { x: 0, y: 0, scale: 100 };
-});
-export const camera = computed(() => moved.value ?? fitted.value);
-export const fitView = () => (moved.value = null);
-export function zoomBy(factor: number, about?: Place): void {
-  const { width, height } = size.value;
-  const next = zoom(camera.value, size.value, about ?? { x: width / 2, y: height / 2 }, factor);
-  const share = next.scale / fitted.value.scale;
-  if (share > 0.1 && share < 2000) moved.value = next;
-}
-
-const screen = (p: Place | null) => p && toScreen(camera.value, size.value, p);
-
-/** Larger side of the scene (m). */
-export const extent = computed(() => {
-  const box = state.scene.value && bounds(state.scene.value);
-  return box ? Math.max(box.right - box.left, box.top - box.bottom) : 1;
-});
 /** How many times larger the whiskers are drawn. */
 export const whiskerFactor = computed(() => {
   if (state.whisker.value !== "auto") return state.whisker.value;
@@ -110,8 +91,8 @@ export function SpeedLegend() {
   const scene = state.scene.value;
   if (!scene || !state.showSpeed.value || !state.showTrace.value || !scene.traces.length) return null;
   const { low, high } = speedRange(scene);
-  const turn = scene.input_key.endsWith("_rad");
-  const text = (v: number) => `${format(v * (extent.value < 1 ? 1000 : 1), 3)} ${extent.value < 1 ? "mm" : "m"}${turn ? "/rad" : "/m"}`;
+  const per = scene.input_key.endsWith("_rad") ? "rad" : state.motion.value.timed ? "s" : "m";
+  const text = (v: number) => `${format(v * (extent.value < 1 ? 1000 : 1), 3)} ${extent.value < 1 ? "mm" : "m"}/${per}`;
   return (
     <div class="speed-legend">
       <span>{text(low)}</span>
@@ -156,6 +137,28 @@ function Targets({ scene }: { scene: Scene }) {
   );
 }
 
+function Circles({ scene, at }: { scene: Scene; at: number }) {
+  return (
+    <>
+      {scene.circles.map((circle) => {
+        const centre = screen(placeNear(scene, circle.centre, at));
+        const rim = screen(placeNear(scene, circle.rim, at));
+        if (!centre || !rim) return null;
+        const inner = { x: centre.x + 0.72 * (rim.x - centre.x), y: centre.y + 0.72 * (rim.y - centre.y) };
+        return (
+          <g class="circle" data-circle={circle.name}>
+            <title>{circle.name}</title>
+            <circle cx={centre.x.toFixed(2)} cy={centre.y.toFixed(2)} r={Math.hypot(rim.x - centre.x, rim.y - centre.y).toFixed(2)} />
+            <path d={pathOf([inner, rim], false)} />
+          </g>
+        );
+      })}
+    </>
+  );
+}
+
+const symbolWidth = 18; // px
+
 /** Bodies of one kind: plates lie under the traces, bars above them. */
 function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boolean }) {
   let colour = -1;
@@ -165,6 +168,10 @@ function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boole
         if (body.style !== "ground") colour = (colour + 1) % 6;
         const fill = `var(--c${Math.max(0, colour)})`;
         const places = body.points.map((p) => screen(placeNear(scene, p, at)));
+        if (isSymbol(body.style)) {
+          const lines = places.slice(1).flatMap((q, i) => (places[i] && q ? symbolLines(body.style, places[i]!, q, -symbolWidth) : []));
+          return plates ? null : <path class={`symbol ${body.style}`} data-body={body.name} d={lines.map((line) => pathOf(line, false)).join("")}><title>{body.name}</title></path>;
+        }
         const plate = body.style === "plate" && places.length > 2;
         if (plate !== plates || places.length < 2 || places.some((p) => p === null)) return null;
         const d = pathOf(places, plate);
@@ -185,17 +192,19 @@ function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boole
 function Joints({ scene, at }: { scene: Scene; at: number }) {
   return (
     <>
-      {scene.joints.map((joint) => {
+      {scene.joints.map((joint, i) => {
         const p = screen(placeNear(scene, joint.point, at));
         if (!p) return null;
-        const cut = [0, 1, 2, 3, 4, 5].map((i) => `M${-13 + 6 * i} 18l-6 7`).join("");
+        const cut = [0, 1, 2, 3, 4, 5].map((k) => `M${-13 + 6 * k} 18l-6 7`).join("");
+        const thick = Math.max(0.45, thickness.value);
         return (
-          <g class={`joint ${joint.style}`} data-joint={joint.name} transform={`translate(${p.x.toFixed(2)},${p.y.toFixed(2)})`}>
+          <g class={`joint ${joint.style}`} data-joint={joint.name} data-pick={`joint ${i}`} transform={`translate(${p.x.toFixed(2)},${p.y.toFixed(2)})`}>
             <title>{joint.name}</title>
             {joint.style === "ground_pivot" && <path class="foot" d="M0 0L-11 18H11Z" />}
             {joint.style === "ground_pivot" && <path class="hatch" d={`M-18 18H18${cut}`} />}
-            <circle r={joint.style === "tracer" ? 5.4 : 4.6} />
-            {joint.style !== "tracer" && <circle class="pin" r={1.1} />}
+            <circle r={(joint.style === "tracer" ? 5.4 : 4.6) * thick} />
+            {joint.style !== "tracer" && <circle class="pin" r={1.1 * thick} />}
+            <circle class="reach" r={Math.max(6, 12 * thick)} />
             {state.showLabels.value && <text x={11} y={-9}>{joint.name}</text>}
           </g>
         );
@@ -209,15 +218,16 @@ function Ghosts({ scene }: { scene: Scene }) {
   const motion = state.motion.value;
   const count = 12;
   const at = Array.from({ length: count }, (_, i) => Math.round(((motion.samples - 1) * i) / (motion.fullTurn ? count : count - 1)));
-  return <g class="ghosts">{at.filter((i) => motion.ok[i]).map((i) => <g><Bodies scene={scene} at={i} plates /><Bodies scene={scene} at={i} plates={false} /></g>)}</g>;
+  return <g class="ghosts" style={{ "--thick": thickness.value.toFixed(3) }}>{at.filter((i) => motion.ok[i]).map((i) => <g><Bodies scene={scene} at={i} plates /><Bodies scene={scene} at={i} plates={false} /></g>)}</g>;
 }
 
 function Pose({ scene, under }: { scene: Scene; under: boolean }) {
   const at = state.position.value;
   const name = isAssembled(state.motion.value, at) ? "" : " broken";
-  if (under) return <g class={`plates${name}`}><Bodies scene={scene} at={at} plates /></g>;
+  const style = { "--thick": thickness.value.toFixed(3) };
+  if (under) return <g class={`plates${name}`} style={style}><Circles scene={scene} at={at} /><Bodies scene={scene} at={at} plates /></g>;
   return (
-    <g class={`pose${name}`} data-position={at.toFixed(3)}>
+    <g class={`pose${name}`} style={style} data-position={at.toFixed(3)}>
       <Bodies scene={scene} at={at} plates={false} />
       <Joints scene={scene} at={at} />
     </g>
@@ -256,6 +266,9 @@ export function Drawing(): JSX.Element {
   const down = (event: PointerEvent) => {
     if (event.button !== 0 || !scene) return;
     const at = here(event);
+    const target = pickOf(event);
+    if (target) state.picked.value = state.picked.value === target && !target.startsWith("joint") ? "" : target;
+    if (target.startsWith("vector") || target.startsWith("moment")) return;
     const joint = scene.joints.find((j) => {
       const p = screen(placeNear(scene, j.point, state.position.value));
       return p && !isFixed(scene, j.point) && Math.hypot(p.x - at.x, p.y - at.y) < 16;
@@ -273,11 +286,12 @@ export function Drawing(): JSX.Element {
     else
       moved.value = { ...g.camera, x: g.camera.x - (at.x - g.from.x) / g.camera.scale, y: g.camera.y + (at.y - g.from.y) / g.camera.scale };
   };
+  const pickOf = (event: Event) => (event.target as Element).closest<SVGElement>("[data-pick]")?.dataset.pick ?? "";
   const { width, height } = size.value;
   return (
     <div class="stage" ref={box} style={{ height: `${height}px` }}>
       <svg id="drawing" viewBox={`0 0 ${width} ${height}`} role="img" tabIndex={0} aria-label={`Drawing of the mechanism: ${scene?.title ?? "none"}`}
-        onPointerDown={down} onPointerMove={move} onPointerUp={() => (gesture.current = null)} onPointerCancel={() => (gesture.current = null)}
+        onPointerDown={down} onPointerMove={move} onPointerOver={(e) => (state.hovered.value = pickOf(e))} onPointerLeave={() => (state.hovered.value = "")} onPointerUp={() => (gesture.current = null)} onPointerCancel={() => (gesture.current = null)}
         onDblClick={fitView}>
         <rect class="paper" width={width} height={height} />
         <Grid />
@@ -288,11 +302,14 @@ export function Drawing(): JSX.Element {
             <Traces scene={scene} />
             <Pose scene={scene} under={false} />
             <Targets scene={scene} />
+            <Arrows scene={scene} />
+            <Key scene={scene} />
           </>
         ) : (
           <text class="empty" x={width / 2} y={height / 2} text-anchor="middle">Nothing to draw: the mechanism assembles at no input.</text>
         )}
       </svg>
+      <Card />
     </div>
   );
 }

@@ -1,4 +1,5 @@
 // Files that the report gives away.
+import { isSymbol, symbolLines } from "./arrows";
 import type { Scene, Table } from "./data";
 import { placeAt, type Place } from "./motion";
 import { bounds, targetErrors } from "./view";
@@ -66,9 +67,16 @@ export function dxf(scene: Scene, sample: number): string {
   for (const body of scene.bodies) {
     const places = body.points.map((p) => placeAt(scene, p, sample)).filter((p): p is Place => p !== null);
     if (places.length < body.points.length) continue;
-    const layer = body.style === "ground" ? "GROUND" : "LINKS";
+    const layer = body.style === "ground" || body.style === "guide" ? "GROUND" : "LINKS";
     if (body.style === "plate" && places.length > 2) polyline(layer, places, true);
-    else for (let i = 1; i < places.length; ++i) line(layer, places[i - 1], places[i]);
+    else
+      for (let i = 1; i < places.length; ++i)
+        if (isSymbol(body.style)) for (const stroke of symbolLines(body.style, places[i - 1], places[i], 3 * symbol)) polyline(layer, stroke, false);
+        else line(layer, places[i - 1], places[i]);
+  }
+  for (const { centre, rim } of scene.circles) {
+    const [c, r] = [placeAt(scene, centre, sample), placeAt(scene, rim, sample)];
+    if (c && r) circle("LINKS", c, Math.hypot(r.x - c.x, r.y - c.y));
   }
   for (const joint of scene.joints) {
     const p = placeAt(scene, joint.point, sample);

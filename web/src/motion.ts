@@ -1,11 +1,13 @@
 // How a scene moves: positions are fractional sample numbers, 0 to samples - 1.
 import type { Num, Scene } from "./data";
+import { unitOf } from "./units";
 
 export interface Motion {
   samples: number;
   input: number[];
   ok: boolean[]; // assembled, one a sample
   runs: [number, number][]; // first and last sample of each assembled stretch
+  timed: boolean; // the input is time in seconds
   fullTurn: boolean; // the input goes round once and the mechanism with it: the last sample is followed by the first
 }
 
@@ -37,10 +39,14 @@ export function analyse(scene: Scene): Motion {
     if (i > 0 && ok[i - 1]) runs[runs.length - 1][1] = i;
     else runs.push([i, i]);
   });
+  const timed = unitOf(scene.input_key).symbol === "s";
   const span = samples > 1 ? Math.abs(scene.input[samples - 1] - scene.input[0]) : 0;
   const fullTurn = scene.input_key.endsWith("_rad") && Math.abs(span - 2 * Math.PI) < 1e-6 && runs.length === 1 && ok.every(Boolean);
-  return { samples, input: scene.input, ok, runs, fullTurn };
+  return { samples, input: scene.input, ok, runs, timed, fullTurn };
 }
+
+/** Length of the input range. */
+export const spanOf = (motion: Motion) => Math.abs(motion.input[motion.samples - 1] - motion.input[0]);
 
 /** Between two samples the drawing is interpolated; where one of them is missing the nearer one decides. */
 export function placeNear(scene: Scene, point: number, position: number): Place | null {

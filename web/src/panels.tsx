@@ -2,6 +2,7 @@
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import { isObject, resultText, type Json, type JsonObject, type Num, type Table } from "./data";
+import { Copy } from "./controls";
 import { csv, drawingSvg, dxf, png, save, slug, targetTable } from "./exports";
 import { isAssembled, positionOfTurn } from "./motion";
 import { Convergence, Dots, hasHistogram, hasLoosePlots, LoosePlots } from "./plots";
@@ -38,7 +39,7 @@ export function Checks() {
   if (!result.checks.length) return null;
   return (
     <div class="card side">
-      <h3>Checks</h3>
+      <h2>Checks</h2>
       <ul class="checks">
         {result.checks.map((c) => (
           <li class={c.passed ? "pass" : "fail"}>
@@ -65,7 +66,7 @@ export function Errors() {
   const step = Math.max(1, Math.ceil(distance.length / 12));
   return (
     <div class="card side">
-      <h3>Distance from each target</h3>
+      <h2>Distance from each target</h2>
       <div class="bars" role="group" aria-label="Distance from each target">
         {distance.map((d, i) => (
           <button type="button" class={i === worst ? "worst" : ""} onClick={() => go(i)} aria-label={`target ${i + 1}: ${quantity("_m", d, 4)}`} title={`target ${i + 1}: ${quantity("_m", d, 4)}`}>
@@ -101,7 +102,7 @@ export function SolutionPicker() {
   if (choices.length < 2) return null;
   return (
     <div class="card side">
-      <h3>{choices.length} {result.solutions.length ? "solutions" : "scenes"}</h3>
+      <h2>{choices.length} {result.solutions.length ? "solutions" : "scenes"}</h2>
       <div class="picker" role="radiogroup" aria-label="Solution shown">
         {choices.map((c) => (
           <button type="button" role="radio" aria-checked={c.scene === sceneIndex.value} disabled={c.scene < 0} data-solution={c.i} onClick={() => showScene(c.scene)}>
@@ -260,9 +261,10 @@ function DataTable({ table }: { table: Table }) {
   const rows = table.data[0]?.length ?? 0;
   const shown = Math.min(rows, 2000);
   return (
+    <div class="data-table">
+    <button type="button" class="get" data-download={`${table.name}.csv`} aria-label={`${table.name} as CSV`} onClick={() => save(`${slug(table.name)}.csv`, csv(table), "text/csv")}>CSV</button>
     <details onToggle={(e) => setOpen(e.currentTarget.open)}>
-      <summary>{table.name} <span class="note">{rows} rows, {table.columns.length} columns</span>
-        <button type="button" class="get" data-download={`${table.name}.csv`} onClick={(e) => { e.preventDefault(); save(`${slug(table.name)}.csv`, csv(table), "text/csv"); }}>CSV</button></summary>
+      <summary>{table.name} <span class="note">{rows} rows, {table.columns.length} columns</span></summary>
       {open && (
         <div class="scroll tall"><table>
           <thead><tr>{table.columns.map((c) => <th scope="col" class="num">{c.label || c.key}</th>)}{table.status.length > 0 && <th scope="col">status</th>}</tr></thead>
@@ -271,6 +273,7 @@ function DataTable({ table }: { table: Table }) {
       )}
       {open && shown < rows && <p class="note">The first {shown} rows; the CSV file has them all.</p>}
     </details>
+    </div>
   );
 }
 
@@ -300,22 +303,12 @@ export function Data() {
   );
 }
 
-function Copy({ text }: { text: string }) {
-  const [done, setDone] = useState(false);
-  const copy = async () => {
-    await navigator.clipboard.writeText(text);
-    setDone(true);
-    setTimeout(() => setDone(false), 1500);
-  };
-  return <button type="button" class="copy screen-only" onClick={() => copy().catch(() => setDone(false))}>{done ? "copied" : "copy"}</button>;
-}
-
 export function Reproduce() {
   return (
     <Section title="How to reproduce" id="reproduce">
       {view.command && <div class="copyable"><pre>{view.command}</pre><Copy text={view.command} /></div>}
       {view.study_toml && <details><summary>The study</summary><div class="copyable"><pre>{view.study_toml}</pre><Copy text={view.study_toml} /></div></details>}
-      <footer>{view.tool}<span class="screen-only"> · keys: space plays, ← → step (shift: 10), T trace, V speed, E targets, G ghosts, N names, B bounce, + − 0 zoom; drag a moving joint to move the mechanism</span></footer>
+      <footer>{view.tool}<span class="screen-only"> · keys: space plays, ← → step (shift: 10), T trace, V speed, E targets, G ghosts, N names, F forces, W velocities, A accelerations, B bounce, + − 0 zoom; drag a moving joint to move the mechanism</span></footer>
     </Section>
   );
 }

@@ -1,12 +1,13 @@
 // Controls of the motion and of what is drawn.
-import type { Signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { Drawing, extent, fitView, SpeedLegend, whiskerFactor, zoomBy } from "./drawing";
-import { gaps, inputAt, isAssembled, placeNear, positionOfTurn, step } from "./motion";
+import { extent, fitView, zoomBy } from "./camera";
+import { Switch, toggle } from "./controls";
+import { Drawing, SpeedLegend, whiskerFactor } from "./drawing";
+import { ArrowBar, Values } from "./forces";
+import { gaps, inputAt, isAssembled, placeNear, positionOfTurn, spanOf, step } from "./motion";
 import * as state from "./state";
 import { format, lengthUnit, quantity, unitOf } from "./units";
 
-const toggle = (flag: Signal<boolean>) => (flag.value = !flag.value);
 const walk = (count: number) => state.scrub(step(state.motion.value, state.position.value, count));
 const end = (last: boolean) => state.scrub(last ? state.motion.value.samples - 1 : 0);
 const play = () => state.motion.value.runs.length > 0 && toggle(state.playing);
@@ -27,6 +28,10 @@ const keys: Record<string, (event: KeyboardEvent) => void> = {
   e: () => toggle(state.showTargets),
   g: () => toggle(state.showGhosts),
   n: () => toggle(state.showLabels),
+  f: () => toggle(state.showArrows.force),
+  w: () => toggle(state.showArrows.velocity),
+  a: () => toggle(state.showArrows.acceleration),
+  Escape: () => (state.picked.value = ""),
   b: () => toggle(state.bounce),
 };
 
@@ -39,12 +44,6 @@ function onKey(event: KeyboardEvent) {
   if (!act || (["Home", "End"].includes(event.key) && !target.closest(".machine"))) return;
   event.preventDefault();
   act(event);
-}
-
-function Switch({ flag, text, hint }: { flag: Signal<boolean>; text: string; hint: string }) {
-  return (
-    <button type="button" class="switch" aria-pressed={flag.value} title={hint} onClick={() => toggle(flag)}>{text}</button>
-  );
 }
 
 function TimeLine() {
@@ -78,10 +77,12 @@ function Readout() {
   const p = tracer && placeNear(scene, tracer.point, at);
   const length = lengthUnit(extent.value);
   const value = inputAt(motion, at) * unit.factor;
+  const decimals = motion.timed ? Math.min(6, Math.max(0, 3 - Math.floor(Math.log10(spanOf(motion) || 1)))) : 1;
+  const even = unit.symbol === "°" || motion.timed; // as many digits at every instant
   return (
     <dl class="title-block">
       <div class="wide"><dt>mechanism</dt><dd>{scene.title}</dd></div>
-      <div><dt>{scene.input_label || "input"}</dt><dd id="input-value">{unit.symbol === "°" ? value.toFixed(1).replace("-", "−") : format(value, 5)}{unit.symbol === "°" ? "°" : ` ${unit.symbol}`}</dd></div>
+      <div><dt>{scene.input_label || "input"}</dt><dd id="input-value">{even ? value.toFixed(decimals).replace("-", "−") : format(value, 5)}{unit.symbol === "°" ? "°" : ` ${unit.symbol}`}</dd></div>
       {tracer && <div class="mid"><dt>{`point ${tracer.name}`}</dt><dd>{p ? `${format(p.x * length.factor, 5)}, ${format(p.y * length.factor, 5)} ${length.symbol}` : "–"}</dd></div>}
       <div><dt>state</dt><dd class={good ? "ok" : "fail"}>{good ? "assembled" : (scene.status[Math.round(at)] ?? "no assembly").replace(/_/g, " ")}</dd></div>
     </dl>
@@ -99,8 +100,8 @@ export function Machine() {
   return (
     <section class="machine card" aria-label="Mechanism">
       <div class="toolbar">
-        <Switch flag={state.showTrace} text="Trace" hint="Path of the traced point (T)" />
-        <Switch flag={state.showSpeed} text="Speed" hint="Trace coloured by the speed of the point (V)" />
+        {scene.traces.length > 0 && <Switch flag={state.showTrace} text="Trace" hint="Path of the traced point (T)" />}
+        {scene.traces.length > 0 && <Switch flag={state.showSpeed} text="Speed" hint="Trace coloured by the speed of the point (V)" />}
         {scene.targets.length > 0 && <Switch flag={state.showTargets} text="Targets" hint="Target points and errors (E)" />}
         <Switch flag={state.showGhosts} text="Ghosts" hint="Poses at equal steps (G)" />
         <Switch flag={state.showLabels} text="Names" hint="Names of the joints (N)" />
@@ -117,6 +118,7 @@ export function Machine() {
         <button type="button" title="Zoom in (+, or Ctrl + wheel)" aria-label="Zoom in" onClick={() => zoomBy(1.25)}>+</button>
         <button type="button" title="Everything in view (0 or double click)" onClick={fitView}>Fit</button>
       </div>
+      <ArrowBar />
       <Drawing />
       <SpeedLegend />
       {!still && (
@@ -134,6 +136,7 @@ export function Machine() {
         </div>
       )}
       <Readout />
+      <Values />
     </section>
   );
 }

@@ -6,6 +6,7 @@ import "uplot/dist/uPlot.min.css";
 import type { Num, Plot, Table } from "./data";
 import { histogram, stackDots, type Run } from "./log";
 import { inputAt, positionOf, positionOfTurn } from "./motion";
+import { Polar } from "./polar";
 import { nearestRow, sortedRows } from "./rows";
 import * as state from "./state";
 import { format, labelWith, unitOf } from "./units";
@@ -231,7 +232,7 @@ const Cards = ({ plots }: { plots: Plot[] }) => (
     {withTable(plots).map(({ plot, table }) => (
       <div class="card plot" key={`${plot.name}/${plot.scene}`} data-plot={plot.name}>
         <h3>{plot.title}</h3>
-        {plot.style === "histogram" ? <Histogram plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />}
+        {plot.style === "histogram" ? <Histogram plot={plot} table={table} /> : plot.style === "polar" ? <Polar plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />}
       </div>
     ))}
   </>

@@ -1,7 +1,7 @@
 // What the reader has chosen; the data of the report never change.
-import { computed, effect, signal } from "@preact/signals";
-import { readResult, readView, type Scene } from "./data";
-import { advance, analyse, isAssembled, type Motion } from "./motion";
+import { computed, effect, signal, type Signal } from "@preact/signals";
+import { readResult, readView, type Quantity, type Scene } from "./data";
+import { advance, analyse, isAssembled, spanOf, type Motion } from "./motion";
 import { readLog } from "./log";
 
 export const view = readView();
@@ -11,7 +11,7 @@ export const runs = readLog(result.log);
 const motions = view.scenes.map(analyse);
 export const sceneIndex = signal(0);
 export const scene = computed<Scene | undefined>(() => view.scenes[sceneIndex.value]);
-export const motion = computed<Motion>(() => motions[sceneIndex.value] ?? { samples: 0, input: [], ok: [], runs: [], fullTurn: false });
+export const motion = computed<Motion>(() => motions[sceneIndex.value] ?? { samples: 0, input: [], ok: [], runs: [], fullTurn: false, timed: false });
 
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
 export const position = signal(0);
@@ -25,7 +25,18 @@ export const showTrace = signal(true);
 export const showSpeed = signal(false);
 export const showTargets = signal(true);
 export const showGhosts = signal(false);
-export const showLabels = signal(true);
+const crowded = 24; // more joints than this have no room for their names
+export const showLabels = signal((view.scenes[0]?.joints.length ?? 0) <= crowded);
+const forces = view.scenes.some((s) => s.moments.length > 0 || s.vectors.some((v) => v.quantity === "force"));
+const velocities = view.scenes.some((s) => s.vectors.some((v) => v.quantity === "velocity"));
+export const showArrows: Record<Quantity, Signal<boolean>> = {
+  force: signal(true), velocity: signal(!forces), acceleration: signal(!forces && !velocities),
+};
+/** Times the scale at which the largest arrow is a quarter of the scene. */
+export const magnify: Record<Quantity, Signal<number>> = { force: signal(1), velocity: signal(1), acceleration: signal(1) };
+/** What is pointed at and what was chosen: "vector 3", "moment 0", "joint 2"; empty = nothing. */
+export const hovered = signal("");
+export const picked = signal("");
 export const whisker = signal<number | "auto">("auto");
 
 // Changes whenever the colours on the page do: plots are painted, not styled.
@@ -46,7 +57,9 @@ export function showScene(index: number): void {
   if (index < 0 || index >= view.scenes.length) return;
   const m = motions[index];
   sceneIndex.value = index;
-  bounce.value = !m.fullTurn;
+  picked.value = hovered.value = "";
+  if (view.scenes[index].joints.length > crowded) showLabels.value = false;
+  bounce.value = !m.fullTurn && !m.timed;
   if (!isAssembled(m, position.value)) position.value = m.runs[0]?.[0] ?? 0;
 }
 
@@ -65,10 +78,11 @@ export function start(): void {
     if (!playing.value || held.value) return;
     let before = performance.now();
     const turn = (now: number) => {
-      // A tab that slept does not leap. At normal speed the whole input range takes five seconds.
+      // A tab that slept does not leap. At normal speed time runs as it does and any other input takes five seconds.
       const seconds = Math.min(0.1, Math.max(0, now - before) / 1000);
       before = now;
-      const next = advance(motion.peek(), { position: position.peek(), direction: direction.peek() }, (seconds * speed.peek()) / 5, bounce.peek());
+      const whole = motion.peek().timed ? spanOf(motion.peek()) || 1 : 5;
+      const next = advance(motion.peek(), { position: position.peek(), direction: direction.peek() }, (seconds * speed.peek()) / whole, bounce.peek());
       position.value = next.position;
       direction.value = next.direction;
       frame = requestAnimationFrame(turn);

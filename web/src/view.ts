@@ -22,6 +22,16 @@ export function bounds(scene: Scene): Box | null {
       box.top = Math.max(box.top, y);
     });
   for (const p of scene.points) add(p.x, p.y);
+  for (const circle of scene.circles) {
+    const centre = scene.points[circle.centre];
+    const rim = scene.points[circle.rim];
+    const at = (values: Num[] | undefined, i: number) => (values?.length === 1 ? values[0] : values?.[i]) ?? NaN;
+    scene.input.forEach((_, i) => {
+      const [x, y] = [at(centre?.x, i), at(centre?.y, i)];
+      const r = Math.hypot(at(rim?.x, i) - x, at(rim?.y, i) - y);
+      if (Number.isFinite(r)) add([x - r, x + r], [y - r, y + r]);
+    });
+  }
   for (const t of scene.targets) {
     add(t.x, t.y);
     add(t.achieved_x, t.achieved_y);

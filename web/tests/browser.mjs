@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
@@ -128,6 +129,13 @@ test("keys step, toggle and zoom", async () => {
   await close();
 });
 
+test("what only catches the pointer is not seen", async () => {
+  const { page, close } = await open("report.html", { reducedMotion: "reduce" });
+  for (const joint of ["A", "C"])
+    assert.deepEqual(await page.locator(`[data-joint="${joint}"] .reach`).evaluate((e) => [getComputedStyle(e).fill, getComputedStyle(e).stroke]), ["none", "none"]);
+  await close();
+});
+
 test("whiskers can be magnified", async () => {
   const { page, close } = await open("report.html");
   const length = () => page.locator(".whisker").first().evaluate((e) => e.getTotalLength());
@@ -209,12 +217,163 @@ test("reduced motion is respected", async () => {
   await close();
 });
 
+// Rows of the table that the report carries; components of an arrow on the screen in pixels, y up.
+const rows = (page) => page.evaluate(() => JSON.parse(document.getElementById("result-data").textContent).tables[0].data);
+const tipOf = async (page, pick) => {
+  const [x, y] = (await page.locator(`#drawing [data-pick="${pick}"]`).getAttribute("data-tip")).split(" ").map(Number);
+  return [x, -y];
+};
+const keyOf = async (page, quantity) => {
+  const key = page.locator(`[data-key="${quantity}"]`);
+  return Number(await key.getAttribute("data-length")) / Number(await key.getAttribute("data-value"));
+};
+
+test("arrows follow the scrubber and match the table", async () => {
+  const { page, errors, close } = await open("simulation.html", { reducedMotion: "reduce" });
+  const [, x, y] = await rows(page);
+  const pixels = await keyOf(page, "force");
+  for (const row of [0, 35, 120]) {
+    await page.locator("#scrub").fill(String(row));
+    const tip = await tipOf(page, "vector 0");
+    // Pixels are written to a thousandth.
+    assert.ok(Math.abs(tip[0] - x[row] * pixels) < 2e-3 && Math.abs(tip[1] - y[row] * pixels) < 2e-3, `${tip} in row ${row}`);
+  }
+  assert.equal(await page.locator("#drawing .moment .shaft").count(), 2); // the couple and its key
+  assert.equal(await page.locator('#drawing [data-pick="vector 1"]').count(), 1);
+  for (const part of ["symbol.guide", "symbol.spring", "circle"]) assert.equal(await page.locator(`#drawing .${part}`).count(), 1, part);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("arrows are switched and scaled one quantity at a time", async () => {
+  const { page, close } = await open("simulation.html", { reducedMotion: "reduce" });
+  await page.locator("#scrub").fill("20");
+  const arrows = (quantity) => page.locator(`.vectors .arrow.${quantity}`).count();
+  assert.deepEqual([await arrows("force"), await arrows("velocity")], [2, 0]);
+  await page.locator("body").press("w");
+  assert.deepEqual([await arrows("force"), await arrows("velocity")], [2, 1]);
+  const [force, speed] = [await tipOf(page, "vector 0"), await tipOf(page, "vector 2")];
+  await page.locator('[data-scale="force"]').fill("1");
+  const twice = await tipOf(page, "vector 0");
+  assert.ok(Math.abs(twice[0] - 2 * force[0]) < 5e-3 && Math.abs(twice[1] - 2 * force[1]) < 5e-3);
+  assert.deepEqual(await tipOf(page, "vector 2"), speed);
+  assert.match(await page.locator('[data-scale="force"]').getAttribute("aria-valuetext"), /^×2, the arrow in the key is \d+ N$/);
+  assert.match(await page.locator('[data-key="force"]').textContent(), /force \d+ N/);
+  await page.locator("body").press("f");
+  assert.deepEqual([await arrows("force"), await arrows("velocity")], [0, 1]);
+  assert.equal(await page.locator("[data-key]").count(), 1);
+  await close();
+});
+
+test("arrows and joints tell their values to pointers and keys", async () => {
+  const { page, errors, close } = await open("simulation.html", { reducedMotion: "reduce", permissions: ["clipboard-read", "clipboard-write"] });
+  await page.locator("#scrub").fill("25");
+  await page.locator('#drawing [data-pick="vector 1"] .head').hover({ force: true });
+  assert.match(await page.locator("#picked").innerText(), /weight of the slider[^]*10\u202fN[^]*−90°/);
+  await page.locator('#drawing [data-pick="vector 1"] .head').click({ force: true });
+  await page.mouse.move(2, 2);
+  assert.equal(await page.locator("#picked button").count(), 2);
+  await page.locator("body").press("Escape");
+  assert.equal(await page.locator("#picked").count(), 0);
+  // A joint tells where it is and all that acts there.
+  await page.locator('#drawing [data-pick="joint 2"] .reach').hover({ force: true });
+  assert.match(await page.locator("#picked").innerText(), /^B\nx 282\.84, y 0 mm[^]*weight[^]*velocity of B/);
+  await page.mouse.move(2, 2);
+  // The same by keys: the table of values, and a row of it.
+  await page.locator(".values summary").focus();
+  await page.keyboard.press("Enter");
+  const row = page.locator(".values tbody tr").first();
+  assert.match(await row.innerText(), /crank on rod at A\s+36\.056\u202fN\s+20\u202fN\s+30\u202fN\s+56\.31°/);
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Enter");
+  assert.equal(await row.locator("button").getAttribute("aria-pressed"), "true");
+  await page.locator("#picked .copy").click();
+  assert.equal(await page.evaluate(() => navigator.clipboard.readText()),
+    "crank on rod at A at time 0.25\u202fs\ncrank on rod at A: 36.056\u202fN (x 20\u202fN, y 30\u202fN, direction 56.31°)");
+  await page.locator(".values .copy").click();
+  assert.match(await page.evaluate(() => navigator.clipboard.readText()), /^at time 0\.25\u202fs\nname\tsize\tx\ty\tdirection\ncrank on rod/);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("polar diagrams have equal axes and follow the animation both ways", async () => {
+  const { page, close } = await open("simulation.html", { reducedMotion: "reduce" });
+  const [, x, y] = await rows(page);
+  const box = await page.locator('[data-plot="polar"] .curve').evaluate((e) => ({ width: e.getBBox().width, height: e.getBBox().height }));
+  assert.ok(Math.abs(box.width - box.height) < 0.1, "a circle is a circle");
+  await page.locator("#scrub").fill("30");
+  const dot = page.locator('[data-plot="polar"] .at');
+  assert.ok(Math.abs(Number(await dot.getAttribute("data-x")) - x[30]) < 1e-6 && Math.abs(Number(await dot.getAttribute("data-y")) - y[30]) < 1e-6);
+  // Where the force points straight up from its middle, a quarter of a turn has gone by.
+  const svg = page.locator('[data-plot="polar"] .polar svg');
+  await svg.scrollIntoViewIfNeeded();
+  const curve = await page.locator('[data-plot="polar"] .curve').boundingBox();
+  await page.mouse.move(curve.x + curve.width / 2 + 2, curve.y + 1);
+  await until(async () => Math.abs(((await position(page)) % 100) - 25) < 2);
+  await close();
+});
+
+test("time runs as it does", async () => {
+  const { page, close } = await open("simulation.html");
+  await pause(page);
+  await page.clock.install({ time: 0 });
+  await page.clock.pauseAt(1000);
+  await page.locator("#scrub").fill("0");
+  assert.equal(await page.locator("#input-value").innerText(), "0.000 s");
+  const run = async (speed) => {
+    await page.locator("#speed").selectOption(speed);
+    const before = await position(page);
+    await page.locator("#play").click();
+    await page.clock.runFor(500);
+    await page.locator("#play").click();
+    return (await position(page)) - before;
+  };
+  // Half a second is 50 samples, less the frame in which it starts and the one in which it ends.
+  const once = await run("1");
+  assert.ok(once > 44 && once < 52, `${once} samples at 1×`);
+  const slowly = await run("0.1");
+  assert.ok(slowly > 4.4 && slowly < 5.2, `${slowly} samples at 0.1×`);
+  await close();
+});
+
+test("many bars stay clear", async () => {
+  const { page, errors, close } = await open("simulation.html", { reducedMotion: "reduce" });
+  await page.locator('[data-solution="1"]').click();
+  assert.equal(await page.locator("#drawing .link").count(), 81);
+  assert.ok((await page.locator("#drawing .link .bar").first().evaluate((e) => parseFloat(getComputedStyle(e).strokeWidth))) < 5);
+  assert.equal(await page.locator("#drawing .joint text").count(), 0);
+  await page.locator("body").press("n");
+  assert.equal(await page.locator("#drawing .joint text").count(), 82);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("no accessibility violations", async () => {
+  const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+  for (const [name, options] of [["report.html", {}], ["simulation.html", {}], ["simulation.html", { colorScheme: "dark" }], ["simulation.html", { viewport: { width: 390, height: 844 } }]]) {
+    const { page, close } = await open(name, { reducedMotion: "reduce", ...options });
+    if (name === "simulation.html") {
+      await page.locator("body").press("w");
+      await page.locator(".values summary").click();
+      await page.locator(".values tbody button").first().click();
+    }
+    await page.addScriptTag({ content: axe });
+    const found = await page.evaluate(() => axe.run(document));
+    assert.deepEqual(found.violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target).join(" ")}`), [], `${name} ${JSON.stringify(options)}`);
+    await close();
+  }
+});
+
 test("without scripts there are drawings and tables", async () => {
   const { page, close } = await open("report.html", { javaScriptEnabled: false });
-  assert.equal(await page.locator("#static figure svg").count(), 3);
+  assert.equal(await page.locator("#static figure:not(.diagrams figure) svg").count(), 3);
   assert.ok(await page.locator("#static figure svg").first().isVisible());
   assert.ok((await page.locator("#static table").count()) > 6);
   assert.ok(!(await page.locator("#app").isVisible()));
+  await page.goto(url("simulation.html"));
+  assert.equal(await page.locator("#static .arrow.force").count(), 3); // two and the key
+  assert.equal(await page.locator("#static .diagrams svg").count(), 2);
+  assert.equal(await page.locator("#static .diagrams .origin").count(), 1);
   await close();
 });
 

@@ -9,7 +9,7 @@ function circle(samples: number, missing: number[] = []): Scene {
   return {
     name: "s", title: "s", input_key: "crank_angle_rad", input_label: "crank angle", input, status: [],
     points: [{ name: "O", x: [0], y: [0] }, { name: "A", x: at(Math.cos), y: at(Math.sin) }],
-    bodies: [], joints: [], traces: [], targets: [],
+    bodies: [], joints: [], traces: [], targets: [], circles: [], vectors: [], moments: [],
   };
 }
 

@@ -21,6 +21,8 @@ describe("units", () => {
     expect(quantity("crank_m", 2.5)).toBe("2.5\u202fm");
     expect(unitOf("speed_m_per_s").symbol).toBe("m/s");
     expect(unitOf("drive_torque_N_m", 0.5).symbol).toBe("N m");
+    expect(unitOf("power_W").symbol).toBe("W");
+    expect(quantity("kinetic_energy_J", 2.5)).toBe("2.5\u202fJ");
     expect(unitOf("coupler_acceleration_rad_per_s2").symbol).toBe("rad/s²");
     expect(nameOf("path_error_sum_sq_m2")).toBe("path error sum sq");
     expect(labelWith("crank angle (rad)", "crank_angle_rad", unitOf("crank_angle_rad"))).toBe("crank angle (°)");
@@ -118,7 +120,7 @@ describe("exports", () => {
     expect(slug("…")).toBe("report");
   });
   it("writes DXF for an empty scene", () => {
-    const scene: Scene = { name: "", title: "", input_key: "", input_label: "", input: [], status: [], points: [], bodies: [], joints: [], traces: [], targets: [] };
+    const scene: Scene = { name: "", title: "", input_key: "", input_label: "", input: [], status: [], points: [], bodies: [], joints: [], traces: [], targets: [], circles: [], vectors: [], moments: [] };
     expect(dxf(scene, 0)).toMatch(/ENTITIES\n0\nENDSEC\n0\nEOF\n$/);
   });
 });

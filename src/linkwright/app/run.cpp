@@ -13,6 +13,7 @@
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/app/overrides.h"
+#include "linkwright/app/write_whole.h"
 #include "linkwright/core/table.h"
 #include "linkwright/report/dxf.h"
 #include "linkwright/report/html.h"
@@ -26,24 +27,6 @@ namespace {
 
 void refuse(Diagnostics& diagnostics, const fs::path& file, std::string message) {
   diagnostics.push_back({Diagnostic::Severity::error, file.string(), {}, {}, std::move(message), {}});
-}
-
-/// Writes a file whole or not at all.
-bool write_whole(const fs::path& file, std::string_view text, Diagnostics& diagnostics) {
-  const fs::path temporary = file.string() + fmt::format(".{}.part", ::getpid());
-  errno = 0;
-  std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  std::error_code error;
-  if (stream) {
-    fs::rename(temporary, file, error);
-    if (!error) return true;
-  }
-  refuse(diagnostics, file,
-         fmt::format("cannot be written: {}", error ? error.message() : std::string(std::strerror(errno))));
-  fs::remove(temporary, error);
-  return false;
 }
 
 bool wants(const study::Study& study, study::Format format) {
@@ -116,7 +99,11 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
                                     const fs::path& folder, Diagnostics& diagnostics) {
   std::vector<fs::path> written;
   const auto write = [&](const std::string& name, std::string_view text) {
-    if (write_whole(folder / name, text, diagnostics)) written.push_back(folder / name);
+    const fs::path file = folder / name;
+    if (const std::string problem = write_whole(file, text); problem.empty())
+      written.push_back(file);
+    else
+      refuse(diagnostics, file, fmt::format("cannot be written: {}", problem));
   };
   const study::Result& result = outcome.result;
   const std::string json = study::to_json_readable(result_json(study, result, outcome.record));

@@ -57,6 +57,9 @@ Arguments parse_arguments(int argc, const char* const* argv) {
       ->check(CLI::Range(0, 4096));
   run->add_option("--time-limit", arguments.time_limit, "seconds after which the best so far is the answer")
       ->check(CLI::PositiveNumber);
+  run->add_flag(
+      "--resume", arguments.resume,
+      "go on where an interrupted run of the same study in the same folder was; without it, begin anew");
   run->add_flag("--json", arguments.json, "print result.json instead of the summary");
 
   CLI::App* make = app.add_subcommand("new", "write an example study of a kind, to start from");

@@ -21,6 +21,7 @@ struct Arguments {
   int threads = 0;
   std::vector<std::string> set;
   std::optional<double> time_limit;  ///< s
+  bool resume = false;
   bool json = false;
 
   std::string text;   ///< for nothing: what to print (help, version or what is wrong)

@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "linkwright/app/catalogue.h"
+#include "linkwright/app/checkpoint_file.h"
 #include "linkwright/app/run.h"
 #include "linkwright/cli/arguments.h"
 #include "linkwright/cli/progress.h"
@@ -107,6 +108,21 @@ std::string command_of(const Arguments& arguments) {
   return command;
 }
 
+/// What an earlier run has kept, taken up or put away; false if it is to be taken up and cannot be.
+bool take_up(app::CheckpointFile& checkpoint, bool resume, const fs::path& folder, Diagnostics& diagnostics) {
+  if (!resume) {
+    checkpoint.discard();
+    return true;
+  }
+  if (!checkpoint.load(diagnostics)) return false;
+  const std::string file = (folder / app::checkpoint_name).string();
+  if (checkpoint.size() == 0)
+    fmt::print(stderr, "{}: nothing to go on with, the run begins anew\n", file);
+  else
+    fmt::print(stderr, "{}: the run goes on from here\n", file);
+  return true;
+}
+
 int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   RunContext context;
   const Interruptible guard(context);
@@ -118,18 +134,28 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
     print(diagnostics);
     return bad_input;
   }
+  app::CheckpointFile checkpoint(folder / app::checkpoint_name, app::checkpoint_owner(*study));
+  if (!take_up(checkpoint, arguments.resume, folder, diagnostics)) {
+    print(diagnostics);
+    return bad_input;
+  }
+  context.set_checkpoint(&checkpoint);
   context.set_threads(arguments.threads);
   if (arguments.time_limit) context.set_time_limit(std::chrono::duration<double>(*arguments.time_limit));
   app::RunOutcome outcome;
-  {
+  try {
     const ProgressBar bar(context);
     outcome = app::run_and_record(*study, context);
+  } catch (const CheckpointError& error) {
+    print({app::unusable_checkpoint(folder / app::checkpoint_name, error)});
+    return bad_input;
   }
+  Diagnostics problems;
+  checkpoint.finish(problems);
   outcome.command = command_of(arguments);
   // What was remarkable about the study belongs to its evidence.
   outcome.result.diagnostics.insert(outcome.result.diagnostics.begin(), diagnostics.begin(),
                                     diagnostics.end());
-  Diagnostics problems;
   const std::vector<fs::path> written = app::write_results(*study, outcome, folder, problems);
   if (arguments.json)
     fmt::print("{}", study::to_json_readable(app::result_json(*study, outcome.result, outcome.record)));

@@ -10,6 +10,8 @@
 
 namespace linkwright {
 
+class Checkpoint;
+
 /// What a long computation tells while it runs. Sent from any thread, but never by two threads at once.
 struct Progress {
   std::string_view stage;                                  ///< what is being done, for example "grey_wolf"
@@ -17,7 +19,7 @@ struct Progress {
   double best = std::numeric_limits<double>::quiet_NaN();  ///< best cost so far, NaN if there is none
 };
 
-/// Progress, cancellation and deadline of one run; shared by reference, usable from any thread.
+/// Progress, cancellation, deadline and checkpoint of one run; shared by reference, usable from any thread.
 ///
 /// Algorithms call `interrupted()` at least once per generation or every millisecond or so of work and, when
 /// it says so, return the best they have with that status.
@@ -42,6 +44,11 @@ class RunContext {
   void set_threads(int threads) { threads_ = threads; }
   int threads() const { return threads_; }
 
+  /// Where the run keeps what it has finished, and takes up what an earlier run has kept; call before the run
+  /// starts. nullptr = nowhere, the default.
+  void set_checkpoint(Checkpoint* checkpoint) { checkpoint_ = checkpoint; }
+  Checkpoint* checkpoint() const { return checkpoint_; }
+
   /// `done` to go on, else `cancelled` or `deadline`.
   Status interruption() const;
   bool interrupted() const { return interruption() != Status::done; }
@@ -54,6 +61,7 @@ class RunContext {
   Clock::time_point deadline_ = Clock::time_point::max();
   std::function<void(const Progress&)> report_;
   int threads_ = 0;
+  Checkpoint* checkpoint_ = nullptr;
 };
 
 }  // namespace linkwright

@@ -26,6 +26,12 @@ class DifferentialEvolutionBase : public Optimiser {
     kernels_.copy_chosen(shape(), chosen_.data(), candidates_.row(0), members_.row(0));
   }
 
+  void visit_state(StateVisitor visit) override {
+    visit_population(members_, visit);
+    visit({cost_.data(), population()}, -infinity, infinity);
+    visit({violation_.data(), population()}, 0, infinity);
+  }
+
   const Kernels& kernels_ = kernels();
   Population members_;
   std::vector<double> cost_, violation_;

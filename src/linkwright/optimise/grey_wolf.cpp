@@ -26,8 +26,8 @@ class GreyWolf final : public Optimiser {
  private:
   struct Leader {
     std::vector<double> x;
-    double cost = std::numeric_limits<double>::infinity();
-    double violation = std::numeric_limits<double>::infinity();
+    double cost = infinity;
+    double violation = infinity;
   };
 
   void propose(const GenerationKey& key) override {
@@ -63,6 +63,17 @@ class GreyWolf final : public Optimiser {
       std::copy_n(cost, population(), cost_.begin());
       std::copy_n(violation, population(), violation_.begin());
     }
+  }
+
+  void visit_state(StateVisitor visit) override {
+    visit_population(candidates_, visit);
+    for (Leader& leader : leaders_) {
+      for (std::size_t j = 0; j < dimension(); ++j) visit({&leader.x[j], 1}, lower_[j], upper_[j]);
+      visit({&leader.cost, 1}, -infinity, infinity);
+      visit({&leader.violation, 1}, 0, infinity);
+    }
+    visit(cost_, -infinity, infinity);
+    visit(violation_, 0, infinity);
   }
 
   void reset_worst_half(const GenerationKey& key) {

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
+#include "linkwright/core/checkpoint.h"
 #include "linkwright/optimise/parallel.h"
 
 namespace linkwright::optimise {
@@ -58,6 +60,111 @@ double spread(const PopulationView& members, std::span<const double> x, std::vec
   return std::sqrt(*std::max_element(squares.begin(), squares.end()));
 }
 
+constexpr std::size_t log_part = 4096;  // generations; finished parts of the log are kept once
+constexpr std::size_t log_numbers = 5;  // of a generation
+
+/// Keeps a minimisation in the checkpoint of the run: `NAME/log K` with generations of the log, then
+/// `NAME/state`. The log may thus be ahead of the state, never behind it.
+class StateKeeper {
+ public:
+  StateKeeper(Checkpoint* checkpoint, const std::string& name)
+      : checkpoint_(name.empty() ? nullptr : checkpoint), name_(name) {
+    if (checkpoint_) interval_ = checkpoint_->interval();
+  }
+
+  /// Takes up what was kept, if anything was.
+  void restore(Optimiser& optimiser, int generations, bool log, Report& report, int& unimproved) {
+    const Value value = checkpoint_ ? checkpoint_->find(name_ + "/state") : Value();
+    if (value.is_null()) return;
+    const Value& reason = kept_member(value, "stop_reason", name_);
+    report.generations = static_cast<int>(kept_integer(value, "generations", 1, generations, name_));
+    unimproved = static_cast<int>(kept_integer(value, "unimproved", 0, generations, name_));
+    const std::vector<double> best = unpack_numbers(kept_member(value, "best", name_), name_);
+    OptimiserState state;
+    state.generation = static_cast<std::uint32_t>(
+        kept_integer(value, "optimiser_generation", report.generations, UINT32_MAX, name_));
+    state.numbers = unpack_numbers(kept_member(value, "optimiser", name_), name_);
+    if (!reason.is_string() || best.size() != 2 || std::isnan(best[0]) || !(best[1] >= 0) ||
+        !optimiser.restore(state))
+      throw CheckpointError(fmt::format("{}: is no state of this method and problem", name_));
+    report.stop_reason = reason.as_string();
+    report.cost = best[0];
+    report.violation = best[1];
+    std::copy(optimiser.best().begin(), optimiser.best().end(), report.x.begin());
+    const auto n = static_cast<std::int64_t>(optimiser.population());
+    report.evaluations = report.generations * n;
+    if (log) restore_log(static_cast<std::size_t>(report.generations), n, report.log);
+    kept_once_ = true;
+  }
+
+  /// Keeps the state if that is due.
+  void generation_done(const Optimiser& optimiser, const Report& report, int unimproved) {
+    if (checkpoint_ && Clock::now() - kept_ >= interval_) keep(optimiser, report, unimproved);
+  }
+
+  /// At an interruption the state is kept in any case. The end of a minimisation that was quicker than it
+  /// could be kept need not be.
+  void ended(const Optimiser& optimiser, const Report& report, int unimproved, bool interrupted) {
+    if (checkpoint_ && (interrupted || kept_once_)) keep(optimiser, report, unimproved);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void keep(const Optimiser& optimiser, const Report& report, int unimproved) {
+    for (; kept_log_ < report.log.size(); kept_log_ = std::min(kept_log_ + log_part, report.log.size())) {
+      kept_log_ -= kept_log_ % log_part;
+      std::vector<double> numbers;
+      for (std::size_t k = kept_log_; k < std::min(kept_log_ + log_part, report.log.size()); ++k) {
+        const GenerationLog& g = report.log[k];
+        numbers.insert(numbers.end(), {g.best_cost, g.best_violation, g.median, g.mean, g.violated});
+      }
+      checkpoint_->keep(log_name(kept_log_), pack_numbers(numbers));
+    }
+    const OptimiserState state = optimiser.state();
+    Value value;
+    value["generations"] = report.generations;
+    value["unimproved"] = unimproved;
+    value["best"] = pack_numbers(std::vector<double>{report.cost, report.violation});
+    value["optimiser_generation"] = static_cast<std::int64_t>(state.generation);
+    value["optimiser"] = pack_numbers(state.numbers);
+    value["stop_reason"] = report.stop_reason;  // empty = not at its end
+    checkpoint_->keep(name_ + "/state", value);
+    kept_ = Clock::now();
+    interval_ = checkpoint_->interval();
+    kept_once_ = true;
+  }
+
+  void restore_log(std::size_t generations, std::int64_t n, std::vector<GenerationLog>& log) {
+    for (std::size_t first = 0; first < generations; first += log_part) {
+      const std::vector<double> v = unpack_numbers(checkpoint_->find(log_name(first)), log_name(first));
+      const std::size_t count = std::min(log_part, generations - first);
+      if (v.size() < log_numbers * count)
+        throw CheckpointError(
+            fmt::format("{}: has {} numbers, must be {}", log_name(first), v.size(), log_numbers * count));
+      for (std::size_t k = 0; k < count; ++k) {
+        const double* g = &v[log_numbers * k];
+        log.push_back({.evaluations = static_cast<std::int64_t>(first + k + 1) * n,
+                       .best_cost = g[0],
+                       .best_violation = g[1],
+                       .median = g[2],
+                       .mean = g[3],
+                       .violated = g[4]});
+      }
+    }
+    kept_log_ = generations - generations % log_part;
+  }
+
+  std::string log_name(std::size_t first) const { return fmt::format("{}/log {}", name_, first / log_part); }
+
+  Checkpoint* checkpoint_;
+  std::string name_;
+  Clock::time_point kept_ = Clock::now();
+  std::chrono::duration<double> interval_{};
+  std::size_t kept_log_ = 0;  // entries of the log
+  bool kept_once_ = false;
+};
+
 }  // namespace
 
 Report minimise(const Problem& problem, Optimiser& optimiser, int generations, std::string_view name,
@@ -77,7 +184,10 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     report.log.reserve(std::min<std::size_t>(static_cast<std::size_t>(generations), longest_reserved_log));
 
   int unimproved = 0;
+  StateKeeper keeper(context.checkpoint(), options.checkpoint);
+  keeper.restore(optimiser, generations, options.log, report, unimproved);
   Status interruption = Status::done;
+  const bool was_at_its_end = !report.stop_reason.empty();
   while (report.stop_reason.empty()) {
     const PopulationView candidates = optimiser.ask();
     evaluate(problem, candidates, cost, violation, context.threads());
@@ -123,8 +233,13 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     else if (stop.evaluations > 0 && report.evaluations + static_cast<std::int64_t>(n) > stop.evaluations)
       report.stop_reason = fmt::format("another generation would exceed {} evaluations", stop.evaluations);
     else if (interruption = context.interruption(); interruption != Status::done)
-      report.stop_reason = interruption == Status::deadline ? "time limit reached" : "cancelled";
+      break;
+    else
+      keeper.generation_done(optimiser, report, unimproved);
   }
+  if (!was_at_its_end) keeper.ended(optimiser, report, unimproved, interruption != Status::done);
+  if (interruption != Status::done)
+    report.stop_reason = interruption == Status::deadline ? "time limit reached" : "cancelled";
   report.status = interruption != Status::done ? interruption
                   : report.violation > 0       ? Status::infeasible
                                                : Status::done;

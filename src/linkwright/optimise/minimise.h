@@ -62,6 +62,9 @@ struct MinimiseOptions {
   double penalty_weight = 1e3;
   bool log = true;       ///< keep one GenerationLog a generation
   bool progress = true;  ///< report to the run context
+  /// Name under which the state is kept in the checkpoint of the run context, of its own for every
+  /// minimisation of a run; empty = not kept.
+  std::string checkpoint = {};
 };
 template <class Visitor>
 void fields(Visitor&& visit, MinimiseOptions& o) {
@@ -100,6 +103,10 @@ struct Report {
 /// Minimises a problem by a population method. Interruption is looked for after every generation; the first
 /// one always runs. Populations of more than 256 candidates are evaluated in parts by RunContext::threads()
 /// threads; the result does not depend on that. Throws ContractError for options out of range.
+///
+/// With a checkpoint the state is kept whenever Checkpoint::interval() has passed since the last time, and at
+/// an interruption; a later call goes on from there and ends with the same bits. Throws CheckpointError when
+/// what was kept is not of such a minimisation.
 Report minimise(const Problem& problem, const OptimiserOptions& method, const MinimiseOptions& options,
                 const Seed& seed, RunContext& context);
 

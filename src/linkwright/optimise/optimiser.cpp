@@ -69,4 +69,43 @@ void Optimiser::tell(std::span<const double> cost, std::span<const double> viola
   ++generation_;
 }
 
+void Optimiser::visit_population(Population& population, StateVisitor visit) {
+  for (std::size_t j = 0; j < dimension(); ++j)
+    visit({population.row(j), population.size()}, lower_[j], upper_[j]);
+}
+
+void Optimiser::visit_all(StateVisitor visit) {
+  visit({&best_cost_, 1}, -infinity, infinity);
+  visit({&best_violation_, 1}, 0, infinity);
+  for (std::size_t j = 0; j < best_.size(); ++j) visit({&best_[j], 1}, lower_[j], upper_[j]);
+  visit_state(visit);
+}
+
+OptimiserState Optimiser::state() const {
+  LINKWRIGHT_REQUIRE(generation_ > 0 && !asked_, "no state between ask and tell, nor before the first");
+  OptimiserState state{.generation = generation_};
+  // The list hands over what may be overwritten; here it is only read.
+  const_cast<Optimiser&>(*this).visit_all([&](std::span<double> numbers, double, double) {
+    state.numbers.insert(state.numbers.end(), numbers.begin(), numbers.end());
+  });
+  return state;
+}
+
+bool Optimiser::restore(const OptimiserState& state) {
+  best_.resize(dimension());
+  bool good = state.generation > 0;
+  std::size_t used = 0;
+  visit_all([&](std::span<double> numbers, double least, double most) {
+    good = good && numbers.size() <= state.numbers.size() - used;
+    if (!good) return;
+    for (double& number : numbers) {
+      number = state.numbers[used++];
+      good = good && number >= least && number <= most;
+    }
+  });
+  generation_ = state.generation;
+  improved_ = equalled_ = asked_ = false;
+  return good && used == state.numbers.size();
+}
+
 }  // namespace linkwright::optimise

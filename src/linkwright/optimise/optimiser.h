@@ -13,6 +13,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/field.h"
+#include "linkwright/math/function_ref.h"
 #include "linkwright/optimise/kernels.h"
 #include "linkwright/optimise/population.h"
 #include "linkwright/optimise/problem.h"
@@ -24,6 +25,14 @@ namespace linkwright::optimise {
 struct Seed {
   std::uint64_t seed = 1;
   std::uint32_t run = 0;  ///< tells apart several optimisers of one seed
+};
+
+/// What the further course of an optimiser depends on, besides the variables, options and seed that it was
+/// made with.
+struct OptimiserState {
+  std::uint32_t generation = 0;  ///< told so far
+  std::vector<double> numbers;   ///< all others, in the order in which the method lists them
+  friend bool operator==(const OptimiserState&, const OptimiserState&) = default;
 };
 
 /// A population method as a conversation: `ask` for the candidates of the next generation, evaluate them
@@ -68,13 +77,30 @@ class Optimiser {
   /// The population that the next candidates will be made from.
   virtual PopulationView members() const = 0;
 
+  /// The state between `tell` and the next `ask`, at least one generation told. An optimiser made with the
+  /// same arguments that restores it goes on with the same bits.
+  OptimiserState state() const;
+  /// Takes up a state instead of its own; `improved`, `equalled` and `best_candidate` count from then on.
+  /// False for a state that these arguments cannot lead to (wrong number of numbers, a candidate out of its
+  /// bounds); the optimiser can then be used no more.
+  bool restore(const OptimiserState& state);
+
  protected:
+  /// Receives a part of the state, to read or to overwrite: numbers that lie in [least, most], no NaN.
+  using StateVisitor = math::FunctionRef<void(std::span<double> numbers, double least, double most)>;
+  /// Hands over everything that outlives a generation and is not in this class, always the same spans.
+  virtual void visit_state(StateVisitor visit) = 0;
+  /// A whole population, each row in its bounds.
+  void visit_population(Population& population, StateVisitor visit);
+
   Optimiser(std::span<const Variable> variables, std::size_t population, const Seed& seed);
 
   /// Makes the candidates of a generation after the first.
   virtual void propose(const GenerationKey& key) = 0;
   /// Takes in the answers. They are padded to the stride of the population.
   virtual void accept(const double* cost, const double* violation) = 0;
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   KernelShape shape() const { return {dimension(), candidates_.size(), candidates_.view().stride}; }
 
@@ -83,6 +109,8 @@ class Optimiser {
   Population candidates_;
 
  private:
+  void visit_all(StateVisitor visit);
+
   std::vector<double> told_cost_, told_violation_;
   std::vector<double> best_;
   double best_cost_ = std::numeric_limits<double>::infinity();

@@ -1,5 +1,7 @@
 #include "linkwright/optimise/self_adaptive_differential_evolution.h"
 
+#include <algorithm>
+
 #include "linkwright/optimise/differential_evolution_base.h"
 
 namespace linkwright::optimise {
@@ -44,6 +46,13 @@ class SelfAdaptiveDifferentialEvolution final : public DifferentialEvolutionBase
     const KernelShape row = {1, population(), shape().stride};
     kernels_.copy_chosen(row, chosen_.data(), trial_scale_.data(), scale_.data());
     kernels_.copy_chosen(row, chosen_.data(), trial_crossover_.data(), crossover_.data());
+  }
+
+  void visit_state(StateVisitor visit) override {
+    DifferentialEvolutionBase::visit_state(visit);
+    const double most = std::max(options_.scale_start, options_.scale_lower + options_.scale_width);
+    visit({scale_.data(), population()}, 0, most);
+    visit({crossover_.data(), population()}, 0, 1);
   }
 
   SelfAdaptiveDifferentialEvolutionOptions options_;

@@ -1,5 +1,7 @@
 #include "linkwright/optimise/statistics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -51,17 +53,35 @@ SeedStatistics statistics(std::span<const SeedOutcome> outcomes, double threshol
   return s;
 }
 
-SeedLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage,
-                       math::FunctionRef<double(std::size_t, std::uint64_t)> body) {
+std::string seed_name(std::uint64_t seed) { return fmt::format("seed {}", seed); }
+
+namespace {
+
+using Body = math::FunctionRef<double(std::size_t index, std::uint64_t seed)>;
+using Save = math::FunctionRef<Value(std::size_t index)>;
+using Restore = math::FunctionRef<double(std::size_t index, const Value& value)>;
+
+SeedLoop run_seeds(const SeedRange& seeds, RunContext& context, std::string_view stage, Body body,
+                   Checkpoint* checkpoint, Save save, Restore restore) {
   LINKWRIGHT_REQUIRE(seeds.count >= 1, "needs at least one seed, got {}", seeds.count);
   const auto count = static_cast<std::size_t>(seeds.count);
   std::vector<char> ran(count, 0);  // not bits: written by several threads
   std::atomic<std::size_t> finished{0};
   std::atomic<double> best{std::numeric_limits<double>::infinity()};
+  if (checkpoint)
+    for (std::size_t i = 0; i < count; ++i) {
+      const Value value = checkpoint->find(seed_name(seeds.first + i));
+      if (value.is_null()) continue;
+      best = std::min(best.load(), restore(i, value));
+      ran[i] = 1;
+      ++finished;
+    }
   parallel_for(count, context.threads(), [&](std::size_t i) {
-    if (i > 0 && context.interrupted()) return;
+    if (ran[i] != 0 || (i > 0 && context.interrupted())) return;
     const double cost = body(i, seeds.first + i);
     ran[i] = 1;
+    if (checkpoint)
+      if (const Value value = save(i); !value.is_null()) checkpoint->keep(seed_name(seeds.first + i), value);
     double least = best.load();
     while (cost < least && !best.compare_exchange_weak(least, cost)) {
     }
@@ -73,6 +93,19 @@ SeedLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_
   return {context.interruption(), std::vector<bool>(ran.begin(), ran.end())};
 }
 
+}  // namespace
+
+SeedLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage, Body body) {
+  return run_seeds(
+      seeds, context, stage, body, nullptr, [](std::size_t) { return Value(); },
+      [](std::size_t, const Value&) { return 0.0; });
+}
+
+SeedLoop for_each_seed(const SeedRange& seeds, RunContext& context, std::string_view stage, Body body,
+                       Save save, Restore restore) {
+  return run_seeds(seeds, context, stage, body, context.checkpoint(), save, restore);
+}
+
 SeedsReport minimise_seeds(const Problem& problem, const OptimiserOptions& method,
                            const MinimiseOptions& options, const SeedRange& seeds, double threshold,
                            RunContext& context) {
@@ -82,7 +115,9 @@ SeedsReport minimise_seeds(const Problem& problem, const OptimiserOptions& metho
   std::vector<Report> all(static_cast<std::size_t>(seeds.count));
   const SeedLoop loop =
       for_each_seed(seeds, context, name_of(method.method), [&](std::size_t i, std::uint64_t seed) {
-        all[i] = minimise(problem, method, quiet, {.seed = seed}, context);
+        MinimiseOptions own = quiet;
+        if (!own.checkpoint.empty()) own.checkpoint += "/" + seed_name(seed);
+        all[i] = minimise(problem, method, own, {.seed = seed}, context);
         return all[i].violation == 0 ? all[i].cost : std::numeric_limits<double>::infinity();
       });
 

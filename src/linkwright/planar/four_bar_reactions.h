@@ -7,45 +7,9 @@
 #include "linkwright/core/status.h"
 #include "linkwright/planar/four_bar.h"
 #include "linkwright/planar/four_bar_rates.h"
+#include "linkwright/planar/link_mass.h"
 
 namespace linkwright::planar {
-
-/// Inertia of one link. The mass centre lies `centre_distance` metres from the link's own joint, at
-/// `centre_angle` radians counter-clockwise from the link line.
-struct LinkMass {
-  double mass = 0;             ///< kg, >= 0
-  double inertia = 0;          ///< kg m2 about the mass centre, >= 0
-  double centre_distance = 0;  ///< m, >= 0
-  double centre_angle = 0;     ///< rad
-};
-template <class Visitor>
-void fields(Visitor&& visit, LinkMass& m) {
-  visit(Field{.key = "mass",
-              .summary = "mass of the link",
-              .dimension = Dimension::mass,
-              .minimum = 0,
-              .maximum = 1e9,
-              .required = true},
-        m.mass);
-  visit(Field{.key = "inertia",
-              .summary = "moment of inertia about the mass centre",
-              .dimension = Dimension::inertia,
-              .minimum = 0,
-              .maximum = 1e18,
-              .required = true},
-        m.inertia);
-  visit(Field{.key = "centre_distance",
-              .summary = "distance of the mass centre from the link's own joint",
-              .dimension = Dimension::length,
-              .minimum = 0,
-              .maximum = 1e9,
-              .required = true},
-        m.centre_distance);
-  visit(Field{.key = "centre_angle",
-              .summary = "angle of the mass centre from the link line",
-              .dimension = Dimension::angle},
-        m.centre_angle);
-}
 
 /// Own joints: O of the crank (line O -> A), A of the coupler (A -> B), B0 of the rocker (B0 -> B).
 struct FourBarMasses {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "linkwright/math/scalar.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/planar/linkage_plan.h"
@@ -38,13 +40,45 @@ struct GroupState {
   T rate_x, rate_y, rate_zero;  ///< rates of the joints
 };
 
-/// Which joint of a dyad is the pin at R, and which are the other two.
+/// What a dyad's type tells of its joints: which are slides, and which one, counted from 0, is the pin at R
+/// (`zero`) and which are the other two.
 struct DyadLayout {
+  bool slide1, slide2, slide3;
   int zero, x, y;
+  constexpr bool slide(int joint) const { return joint == 0 ? slide1 : joint == 1 ? slide2 : slide3; }
 };
 constexpr DyadLayout layout(GroupType type) {
-  const bool pin_outside = type == GroupType::rpr || type == GroupType::rpp;
-  return pin_outside ? DyadLayout{0, 1, 2} : DyadLayout{1, 0, 2};
+  switch (type) {
+    case GroupType::rrp:
+      return {false, false, true, 1, 0, 2};
+    case GroupType::rpr:
+      return {false, true, false, 0, 1, 2};
+    case GroupType::prp:
+      return {true, false, true, 1, 0, 2};
+    case GroupType::rpp:
+      return {false, true, true, 0, 1, 2};
+    default:
+      return {false, false, false, 1, 0, 2};
+  }
+}
+
+/// A dyad's type as a type, so that its code has no branches: for_dyad(type, f) calls f(DyadType<type>()).
+template <GroupType type>
+using DyadType = std::integral_constant<GroupType, type>;
+template <class F>
+LINKWRIGHT_KERNEL void for_dyad(GroupType type, F&& f) {
+  switch (type) {
+    case GroupType::rrr:
+      return f(DyadType<GroupType::rrr>());
+    case GroupType::rrp:
+      return f(DyadType<GroupType::rrp>());
+    case GroupType::rpr:
+      return f(DyadType<GroupType::rpr>());
+    case GroupType::prp:
+      return f(DyadType<GroupType::prp>());
+    default:
+      return f(DyadType<GroupType::rpp>());
+  }
 }
 
 template <class T>
@@ -84,8 +118,11 @@ LINKWRIGHT_KERNEL void place_driver(const Group& g, const T& value, PartState<T>
   }
 }
 
+// Each places both parts and tells R and the columns of the 2 x 2 equations; `per_length` is one
+// over the product of the columns' lengths.
 template <class T>
-LINKWRIGHT_KERNEL void place_rrr(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state) {
+LINKWRIGHT_KERNEL void place_rrr(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state,
+                                 T& per_length) {
   using std::sqrt;
   const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
@@ -93,24 +130,26 @@ LINKWRIGHT_KERNEL void place_rrr(const Group& g, const T& mode, PartState<T>* pa
   const Vec<T> b = point_on(parts[j3.after.part], j3.after.at);
   const Vec<T> d = b - a;
   const T d2 = dot(d, d);
-  const double reach = std::sqrt(g.first_square) + std::sqrt(g.second_square);
-  const double fold = std::sqrt(g.first_square) - std::sqrt(g.second_square);
+  const double reach = g.first_length + g.second_length, fold = g.first_length - g.second_length;
   state.radicand = (T(reach * reach) - d2) * (d2 - T(fold * fold));
   const T root = mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
   const T scale = T(0.5) / d2;
   const T along = T(reach * fold) + d2;
   const Vec<T> arm1 = scale * turn(Vec<T>{along, root}, d);              // a -> c
   const Vec<T> arm2 = scale * turn(Vec<T>{along - T(2) * d2, root}, d);  // b -> c
-  first.direction =
-      tidy_unit(T(1 / g.first_square) * turn(arm1, spread<T>({g.first_link.x, -g.first_link.y})));
-  second.direction =
-      tidy_unit(T(1 / g.second_square) * turn(arm2, spread<T>({g.second_link.x, -g.second_link.y})));
+  first.direction = tidy_unit(turn(arm1, spread<T>(g.first_inverse)));
+  second.direction = tidy_unit(turn(arm2, spread<T>(g.second_inverse)));
   first.origin = a - turn(first.direction, spread<T>(j1.after.at));
   second.origin = b - turn(second.direction, spread<T>(j3.before.at));
+  state.reference = a + arm1;
+  state.column_x = left(arm1);
+  state.column_y = left(arm2);
+  per_length = T(g.per_length);
 }
 
 template <class T>
-LINKWRIGHT_KERNEL void place_rrp(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state) {
+LINKWRIGHT_KERNEL void place_rrp(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state,
+                                 T& per_length) {
   using std::sqrt;
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
@@ -125,14 +164,18 @@ LINKWRIGHT_KERNEL void place_rrp(const Group& g, const T& mode, PartState<T>* pa
   state.radicand = T(g.first_square) - across * across;
   const T t = dot(m, e) + mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
   const Vec<T> arm = t * e - m;
-  first.direction =
-      tidy_unit(T(1 / g.first_square) * turn(arm, spread<T>({g.first_link.x, -g.first_link.y})));
+  first.direction = tidy_unit(turn(arm, spread<T>(g.first_inverse)));
   first.origin = a - turn(first.direction, spread<T>(j1.after.at));
   second.origin = start + t * e - turn(second.direction, spread<T>(j2.after.at));
+  state.reference = a + arm;
+  state.column_x = left(arm);
+  state.column_y = e;
+  per_length = T(g.per_length);
 }
 
 template <class T>
-LINKWRIGHT_KERNEL void place_rpr(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state) {
+LINKWRIGHT_KERNEL void place_rpr(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state,
+                                 T& per_length) {
   using std::sqrt;
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
@@ -143,15 +186,20 @@ LINKWRIGHT_KERNEL void place_rpr(const Group& g, const T& mode, PartState<T>* pa
   const double offset = g.first_link.y - g.second_link.y;  // links seen from the slide direction
   state.radicand = d2 - T(offset * offset);
   const T way = mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
-  const Vec<T> e = tidy_unit((T(1) / d2) * turn(Vec<T>{way, T(-offset)}, d));
+  const T scale = T(1) / d2;
+  const Vec<T> e = tidy_unit(scale * turn(Vec<T>{way, T(-offset)}, d));
   first.direction = turn(e, spread<T>({j2.before.direction.x, -j2.before.direction.y}));
   second.direction = turn(e, spread<T>({j2.after.direction.x, -j2.after.direction.y}));
   first.origin = a - turn(first.direction, spread<T>(j1.after.at));
   second.origin = b - turn(second.direction, spread<T>(j3.before.at));
+  state.reference = a;
+  state.column_x = e;
+  state.column_y = -left(d);
+  per_length = scale * sqrt(d2);
 }
 
 template <class T>
-LINKWRIGHT_KERNEL void place_prp(const Group& g, PartState<T>* parts) {
+LINKWRIGHT_KERNEL void place_prp(const Group& g, PartState<T>* parts, GroupState<T>& state) {
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
   const PartState<T>&base1 = parts[j1.before.part], &base3 = parts[j3.after.part];
@@ -164,10 +212,13 @@ LINKWRIGHT_KERNEL void place_prp(const Group& g, PartState<T>* parts) {
   const Vec<T> pin = start1 + (cross(start3 - start1, e3) / cross(e1, e3)) * e1;
   first.origin = pin - turn(first.direction, spread<T>(j2.before.at));
   second.origin = pin - turn(second.direction, spread<T>(j2.after.at));
+  state.reference = pin;
+  state.column_x = e1;
+  state.column_y = e3;
 }
 
 template <class T>
-LINKWRIGHT_KERNEL void place_rpp(const Group& g, PartState<T>* parts) {
+LINKWRIGHT_KERNEL void place_rpp(const Group& g, PartState<T>* parts, GroupState<T>& state) {
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
   const PartState<T>& guide = parts[j3.after.part];
@@ -175,57 +226,36 @@ LINKWRIGHT_KERNEL void place_rpp(const Group& g, PartState<T>* parts) {
   second.direction = turn(e3, spread<T>({j3.before.direction.x, -j3.before.direction.y}));
   const Vec<T> e2 = turn(second.direction, spread<T>(j2.after.direction));
   first.direction = turn(e2, spread<T>({j2.before.direction.x, -j2.before.direction.y}));
-  first.origin =
-      point_on(parts[j1.before.part], j1.before.at) - turn(first.direction, spread<T>(j1.after.at));
+  const Vec<T> a = point_on(parts[j1.before.part], j1.before.at);
+  first.origin = a - turn(first.direction, spread<T>(j1.after.at));
   const Vec<T> start2 = point_on(first, j2.before.at);
   // The second part's inner point runs along e2 through start2 and along e3 through start3.
   const Vec<T> start3 = point_on(guide, j3.after.at) + turn(second.direction, spread<T>(g.second_link));
   const Vec<T> meet = start2 + (cross(start3 - start2, e3) / cross(e2, e3)) * e2;
   second.origin = meet - turn(second.direction, spread<T>(j2.after.at));
+  state.reference = a;
+  state.column_x = e2;
+  state.column_y = e3;
 }
 
-/// Screws of a placed dyad about R.
-template <class T>
-LINKWRIGHT_KERNEL void dyad_screws(const Group& g, const PartState<T>* parts, GroupState<T>& state) {
-  using std::sqrt;
-  const DyadLayout at = layout(g.type);
-  const PlanJoint &zero = g.joints[static_cast<std::size_t>(at.zero)],
-                  &x = g.joints[static_cast<std::size_t>(at.x)],
-                  &y = g.joints[static_cast<std::size_t>(at.y)];
-  state.reference = point_on(parts[zero.after.part], zero.after.at);
-  const auto column = [&](const PlanJoint& j) __attribute__((always_inline)) {
-    const PartState<T>& part = parts[j.before.part];
-    return j.slide ? turn(part.direction, spread<T>(j.before.direction))
-                   : left(state.reference - point_on(part, j.before.at));
-  };
-  state.column_x = column(x);
-  state.column_y = column(y);
+template <GroupType type, class T>
+LINKWRIGHT_KERNEL void place_dyad(DyadType<type>, const Group& g, const T& mode, PartState<T>* parts,
+                                  GroupState<T>& state) {
+  T per_length(1);
+  state.radicand = T(1);
+  if constexpr (type == GroupType::rrr)
+    place_rrr(g, mode, parts, state, per_length);
+  else if constexpr (type == GroupType::rrp)
+    place_rrp(g, mode, parts, state, per_length);
+  else if constexpr (type == GroupType::rpr)
+    place_rpr(g, mode, parts, state, per_length);
+  else if constexpr (type == GroupType::prp)
+    place_prp(g, parts, state);
+  else
+    place_rpp(g, parts, state);
   const T determinant = cross(state.column_x, state.column_y);
   state.inverse = T(1) / determinant;
-  state.sine = determinant / sqrt(dot(state.column_x, state.column_x) * dot(state.column_y, state.column_y));
-}
-
-template <class T>
-LINKWRIGHT_KERNEL void place_dyad(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state) {
-  state.radicand = T(1);
-  switch (g.type) {
-    case GroupType::rrr:
-      place_rrr(g, mode, parts, state);
-      break;
-    case GroupType::rrp:
-      place_rrp(g, mode, parts, state);
-      break;
-    case GroupType::rpr:
-      place_rpr(g, mode, parts, state);
-      break;
-    case GroupType::prp:
-      place_prp(g, parts);
-      break;
-    default:
-      place_rpp(g, parts);
-      break;
-  }
-  dyad_screws(g, parts, state);
+  state.sine = determinant * per_length;
 }
 
 // ---- rates
@@ -270,23 +300,22 @@ LINKWRIGHT_KERNEL void drive_acceleration(const Group& g, const T& rate, const T
 }
 
 /// Rates of the joints from the jump between the known parts at R, and motion of both parts.
-template <class T>
-LINKWRIGHT_KERNEL void dyad_velocity(const Group& g, PartState<T>* parts, GroupState<T>& s) {
+template <GroupType type, class T>
+LINKWRIGHT_KERNEL void dyad_velocity(DyadType<type>, const Group& g, PartState<T>* parts, GroupState<T>& s) {
   const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
   const PartState<T>&before = parts[j1.before.part], &after = parts[j3.after.part];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
-  const DyadLayout at = layout(g.type);
+  constexpr DyadLayout at = layout(type);
   const Vec<T> jump = velocity_at(after, s.reference) - velocity_at(before, s.reference);
   s.rate_x = cross(jump, s.column_y) * s.inverse;
   s.rate_y = cross(s.column_x, jump) * s.inverse;
-  const bool turns_x = !g.joints[static_cast<std::size_t>(at.x)].slide,
-             turns_y = !g.joints[static_cast<std::size_t>(at.y)].slide;
+  constexpr bool turns_x = !at.slide(at.x), turns_y = !at.slide(at.y);
   s.rate_zero = after.speed - before.speed;
   if (turns_x) s.rate_zero = s.rate_zero - s.rate_x;
   if (turns_y) s.rate_zero = s.rate_zero - s.rate_y;
   const T rate1 = at.zero == 0 ? s.rate_zero : s.rate_x;
-  first.speed = j1.slide ? before.speed : before.speed + rate1;
-  second.speed = j3.slide ? after.speed : after.speed - s.rate_y;
+  first.speed = at.slide1 ? before.speed : before.speed + rate1;
+  second.speed = at.slide3 ? after.speed : after.speed - s.rate_y;
   const Vec<T> at_first =
       velocity_at(before, s.reference) + (at.zero == 0 ? Vec<T>{T(0), T(0)} : s.rate_x * s.column_x);
   const Vec<T> at_second = velocity_at(after, s.reference) - s.rate_y * s.column_y;
@@ -297,35 +326,37 @@ LINKWRIGHT_KERNEL void dyad_velocity(const Group& g, PartState<T>* parts, GroupS
 /// What a joint adds to the acceleration at R beyond the acceleration of its own rate: centripetal of a pin,
 /// Coriolis of a slide.
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> joint_bias(const PlanJoint& j, const Vec<T>& column, const T& rate,
-                                    const T& speed_before, const T& speed_after) {
-  if (j.slide) return (T(2) * speed_before * rate) * left(column);
+LINKWRIGHT_KERNEL Vec<T> joint_bias(bool slide, const Vec<T>& column, const T& rate, const T& speed_before,
+                                    const T& speed_after) {
+  if (slide) return (T(2) * speed_before * rate) * left(column);
   // column = left(R - P), so R - P = -left(column)
   return (speed_after * speed_after - speed_before * speed_before) * left(column);
 }
 
-template <class T>
-LINKWRIGHT_KERNEL void dyad_acceleration(const Group& g, PartState<T>* parts, const GroupState<T>& s) {
+template <GroupType type, class T>
+LINKWRIGHT_KERNEL void dyad_acceleration(DyadType<type>, const Group& g, PartState<T>* parts,
+                                         const GroupState<T>& s) {
   const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
   const PartState<T>&before = parts[j1.before.part], &after = parts[j3.after.part];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
-  const DyadLayout at = layout(g.type);
-  const PlanJoint &x = g.joints[static_cast<std::size_t>(at.x)],
-                  &y = g.joints[static_cast<std::size_t>(at.y)];
+  constexpr DyadLayout at = layout(type);
   const Vec<T> from_before = acceleration_at(before, s.reference),
                from_after = acceleration_at(after, s.reference);
-  const Vec<T> bias_x = at.zero == 0 ? joint_bias(x, s.column_x, s.rate_x, first.speed, second.speed)
-                                     : joint_bias(x, s.column_x, s.rate_x, before.speed, first.speed);
-  const Vec<T> bias_y = joint_bias(y, s.column_y, s.rate_y, second.speed, after.speed);
+  const Vec<T> bias_x = at.zero == 0
+                            ? joint_bias(at.slide(at.x), s.column_x, s.rate_x, first.speed, second.speed)
+                            : joint_bias(at.slide(at.x), s.column_x, s.rate_x, before.speed, first.speed);
+  const Vec<T> bias_y = joint_bias(at.slide(at.y), s.column_y, s.rate_y, second.speed, after.speed);
   const Vec<T> jump = from_after - from_before - bias_x - bias_y;
   const T change_x = cross(jump, s.column_y) * s.inverse;
   const T change_y = cross(s.column_x, jump) * s.inverse;
   T change_zero = after.angular_acceleration - before.angular_acceleration;
-  if (!x.slide) change_zero = change_zero - change_x;
-  if (!y.slide) change_zero = change_zero - change_y;
+  if (!at.slide(at.x)) change_zero = change_zero - change_x;
+  if (!at.slide(at.y)) change_zero = change_zero - change_y;
   const T change1 = at.zero == 0 ? change_zero : change_x;
-  first.angular_acceleration = j1.slide ? before.angular_acceleration : before.angular_acceleration + change1;
-  second.angular_acceleration = j3.slide ? after.angular_acceleration : after.angular_acceleration - change_y;
+  first.angular_acceleration =
+      at.slide1 ? before.angular_acceleration : before.angular_acceleration + change1;
+  second.angular_acceleration =
+      at.slide3 ? after.angular_acceleration : after.angular_acceleration - change_y;
   const Vec<T> at_first = at.zero == 0 ? from_before : from_before + change_x * s.column_x + bias_x;
   const Vec<T> at_second = from_after - change_y * s.column_y - bias_y;
   const auto to_origin = [&](PartState<T> & part, const Vec<T>& there) __attribute__((always_inline)) {
@@ -372,14 +403,13 @@ LINKWRIGHT_KERNEL Wrench<T> needed_wrench(const PartMass& m, const PartState<T>&
 /// Joint wrenches of a dyad about its R, of the part before on the part after each joint; `needed` holds, per
 /// part about its origin, what the part needs beyond the joints solved so far, and takes the loads that the
 /// dyad puts on its neighbours. The joints are free of torque and friction.
-template <class T>
-LINKWRIGHT_KERNEL void dyad_forces(const Group& g, const PartState<T>* parts, const GroupState<T>& s,
-                                   Wrench<T>* needed, Wrench<T>* joints) {
+template <GroupType type, class T>
+LINKWRIGHT_KERNEL void dyad_forces(DyadType<type>, const Group& g, const PartState<T>* parts,
+                                   const GroupState<T>& s, Wrench<T>* needed, Wrench<T>* joints) {
   const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
   const int first = j1.after.part, second = j3.before.part;
-  const DyadLayout at = layout(g.type);
-  const bool turns_x = !g.joints[static_cast<std::size_t>(at.x)].slide,
-             turns_y = !g.joints[static_cast<std::size_t>(at.y)].slide;
+  constexpr DyadLayout at = layout(type);
+  constexpr bool turns_x = !at.slide(at.x), turns_y = !at.slide(at.y);
   const Wrench<T> n1 = shifted(needed[first], parts[first].origin - s.reference);
   const Wrench<T> n2 = shifted(needed[second], parts[second].origin - s.reference);
   // Force f of the pin at R: no joint takes power along its freedom.

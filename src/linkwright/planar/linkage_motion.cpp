@@ -20,7 +20,7 @@ double gap_of(const Group& g, const LinkageMotion& m, const GroupState<double>& 
   if (!has_modes(g.type) || s.radicand > 0) return 0;
   const Vec<double> a = point_on(m.parts[at(g.joints[0].before.part)], g.joints[0].before.at);
   const Vec<double> b = point_on(m.parts[at(g.joints[2].after.part)], g.joints[2].after.at);
-  const double length1 = std::sqrt(g.first_square), length2 = std::sqrt(g.second_square);
+  const double length1 = g.first_length, length2 = g.second_length;
   if (g.type == GroupType::rrr) return loop_gap(norm(b - a), length1, length2);
   if (g.type == GroupType::rrp) {
     const double away = std::sqrt(g.first_square - s.radicand);
@@ -156,7 +156,7 @@ void solve_position(const LinkagePlan& plan, std::span<const InputMotion> inputs
         break;
       }
       default:
-        place_dyad(g, motion.modes[k], parts, state);
+        for_dyad(g.type, [&](auto type) { place_dyad(type, g, motion.modes[k], parts, state); });
         if ((motion.gap = gap_of(g, motion, state)) > 0) return fail(plan, motion, k, Status::no_assembly);
         if (!(std::abs(state.sine) >= tolerance::toggle_angle))
           return fail(plan, motion, k, Status::singular);
@@ -179,7 +179,7 @@ void solve_velocity(const LinkagePlan& plan, std::span<const InputMotion> inputs
         general_velocity(plan, g, inputs, motion, *motion.general[k]);
         break;
       default:
-        dyad_velocity(g, motion.parts.data(), motion.groups[k]);
+        for_dyad(g.type, [&](auto type) { dyad_velocity(type, g, motion.parts.data(), motion.groups[k]); });
     }
   }
 }
@@ -200,7 +200,8 @@ void solve_acceleration(const LinkagePlan& plan, std::span<const InputMotion> in
         general_acceleration(plan, g, inputs, motion, *motion.general[k]);
         break;
       default:
-        dyad_acceleration(g, motion.parts.data(), motion.groups[k]);
+        for_dyad(g.type,
+                 [&](auto type) { dyad_acceleration(type, g, motion.parts.data(), motion.groups[k]); });
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -338,6 +339,12 @@ class Planner {
       }
       g.first_square = dot(g.first_link, g.first_link);
       g.second_square = dot(g.second_link, g.second_link);
+      g.first_length = std::sqrt(g.first_square);
+      g.second_length = std::sqrt(g.second_square);
+      if (g.type == GroupType::rrr) g.per_length = 1 / (g.first_length * g.second_length);
+      if (g.type == GroupType::rrp) g.per_length = 1 / g.first_length;
+      if (g.first_square > 0) g.first_inverse = (1 / g.first_square) * conj(g.first_link);
+      if (g.second_square > 0) g.second_inverse = (1 / g.second_square) * conj(g.second_link);
       outer1->used = inner.used = outer3->used = true;
       place(std::move(g));
       return true;
@@ -465,6 +472,11 @@ class Planner {
       if (!link.slide && link.first.part == slide.second.part) return link.joint;
     return 0;
   }
+  std::string driven_names() const {
+    std::vector<std::string> names;
+    for (int d : l_.driven) names.push_back(joint(d).name);
+    return listed(names);
+  }
   // Why parts stay without a place.
   void loose(const std::vector<int>& unknown) {
     const auto names = [&](const std::vector<int>& of) {
@@ -512,13 +524,18 @@ class Planner {
               fmt::format("the linkage has {} degree(s) of freedom and {} drive(s): drive one more joint, or "
                           "add a joint",
                           mobility(l_), l_.driven.size()));
+      else if (free < 0 && l_.driven.size() > 1 && mobility(l_) < static_cast<int>(l_.driven.size()))
+        error("drive",
+              fmt::format("two drives on one freedom: with the drives of {} nothing is left to place {}",
+                          driven_names(), names(component)),
+              fmt::format("the linkage has {} degree(s) of freedom and {} drive(s): remove one drive",
+                          mobility(l_), l_.driven.size()));
       else if (free < 0)
         error(key,
-              fmt::format("{} ha{} {} constraint{} too many: a rigid or overdetermined structure",
-                          names(component), component.size() == 1 ? "s" : "ve", -free, free == -1 ? "" : "s"),
-              fmt::format(
-                  "the linkage has {} degree(s) of freedom and {} drive(s): leave out a joint or a drive",
-                  mobility(l_), l_.driven.size()));
+              fmt::format("{} {} {} constraint{} too many: a rigid or overdetermined structure",
+                          names(component), component.size() == 1 ? "has" : "have", -free,
+                          free == -1 ? "" : "s"),
+              "leave out a joint or a drive");
       else
         error(key,
               fmt::format("{} {} constrained too much in one place and too little in another",

@@ -67,7 +67,12 @@ struct Group {
   // Constants of the closed forms.
   Vec<double> first_link{0, 0}, second_link{0, 0};  ///< from outer to inner joint in the frames of the parts
   double first_square = 0, second_square = 0;       ///< their squared lengths
-  std::string name;                                 ///< "coupler + rocker"
+  double first_length = 0, second_length = 0;
+  double per_length = 1;  ///< one over the links between pins: both of RRR, the first of RRP
+  /// One over the links as complex numbers: turned onto where a link lies they give the direction of its
+  /// part.
+  Vec<double> first_inverse{0, 0}, second_inverse{0, 0};
+  std::string name;  ///< "coupler + rocker"
 };
 
 /// A body as it sits on its part: welded bodies make one part.

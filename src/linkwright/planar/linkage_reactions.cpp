@@ -142,7 +142,9 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
       }
       default: {
         const GroupState<double>& s = motion.groups[k];
-        dyad_forces(g, motion.parts.data(), s, f.needed.data(), f.group_joints.data());
+        for_dyad(g.type, [&](auto type) {
+          dyad_forces(type, g, motion.parts.data(), s, f.needed.data(), f.group_joints.data());
+        });
         for (std::size_t i = 0; i < 3; ++i) report(g.joints[i], motion, f.group_joints[i], s.reference, f);
       }
     }

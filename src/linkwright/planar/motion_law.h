@@ -268,4 +268,32 @@ void fields(Visitor&& visit, Driven<kind, Law>& law) {
   motion_fields::list(visit, kind, static_cast<Law&>(law));
 }
 
+/// Evenly spaced times from `from` to `to`, ends included.
+struct TimeSamples {
+  double from = 0;  ///< s
+  double to = 0;    ///< s
+  int samples = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, TimeSamples& t) {
+  visit(Field{.key = "from",
+              .summary = "first time",
+              .dimension = Dimension::time,
+              .minimum = -1e9,
+              .maximum = 1e9},
+        t.from);
+  visit(Field{.key = "to",
+              .summary = "last time",
+              .dimension = Dimension::time,
+              .minimum = -1e9,
+              .maximum = 1e9,
+              .required = true},
+        t.to);
+  visit(Field{.key = "samples",
+              .summary = "number of times, both ends included",
+              .minimum = 2,
+              .maximum = 100000,
+              .required = true},
+        t.samples);
+}
 }  // namespace linkwright::planar

@@ -9,6 +9,7 @@
 #include "linkwright/optimise/statistics.h"
 #include "linkwright/planar/cognates.h"
 #include "linkwright/planar/four_bar_classify.h"
+#include "linkwright/planar/path_checkpoint.h"
 #include "linkwright/planar/path_defects.h"
 #include "linkwright/planar/path_study.h"
 #include "linkwright/planar/samples.h"
@@ -24,22 +25,22 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // within reach, a share of the squared size of the path.
 constexpr double success_share = 1e-4, success_of_size = 1e-12;
 
-struct SeedRun {
-  Status status = Status::done;
-  std::vector<PathDesign> designs;  // best first
-  std::vector<SearchPoint> history;
-  std::int64_t evaluations = 0;
-};
-
 struct Run {
   Status status = Status::done;
   std::string method;
   std::vector<std::uint64_t> seeds;
-  std::vector<SeedRun> runs;
+  std::vector<PathSeedRun> runs;
 };
 
-SeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_t seed, bool only_seed,
-                 RunContext& context) {
+bool interrupted(Status status) { return status == Status::deadline || status == Status::cancelled; }
+
+// Infinite when the seed found no feasible design.
+double best_error(const PathSeedRun& run) {
+  return run.designs.empty() || !run.designs[0].violations.empty() ? infinity : run.designs[0].error;
+}
+
+PathSeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_t seed, bool only_seed,
+                     RunContext& context) {
   PathSynthesisOptions options = method.options;
   options.seed = seed;
   options.progress = only_seed;  // several at once are told by the loop over them
@@ -48,9 +49,9 @@ SeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_t se
 }
 
 template <class Options>
-SeedRun run_seed(const PopulationMethod<Options>& method, const PathStudy& s, std::uint64_t seed,
-                 bool only_seed, RunContext& context) {
-  SeedRun out;
+PathSeedRun run_seed(const PopulationMethod<Options>& method, const PathStudy& s, std::uint64_t seed,
+                     bool only_seed, RunContext& context) {
+  PathSeedRun out;
   std::uint32_t part = 0;
   for (double sense : {1.0, -1.0}) {
     if (!(sense > 0 ? s.problem.search_positive : s.problem.search_negative)) continue;
@@ -59,11 +60,12 @@ SeedRun run_seed(const PopulationMethod<Options>& method, const PathStudy& s, st
     const optimise::Problem problem = path_population_problem(s.problem, branch, sense);
     optimise::MinimiseOptions minimise = method.minimise;
     minimise.progress = only_seed;
+    minimise.checkpoint = optimise::seed_name(seed) + (sense > 0 ? "/positive" : "/negative");
     const auto optimiser =
         optimise::make_optimiser(problem.variables, method.options, {.seed = seed, .run = part++});
     const optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
                                                        choice_word(method).name, minimise, context);
-    if (report.status == Status::cancelled || report.status == Status::deadline) out.status = report.status;
+    if (interrupted(report.status)) out.status = report.status;
     PathDesign design = path_design(s.problem, branch, sense, report.x);
     if (out.designs.empty() || optimise::better(design.error, total_violation(design), out.designs[0].error,
                                                 total_violation(out.designs[0]))) {
@@ -85,32 +87,36 @@ Run run_seeds(const PathStudy& s, const study::Common& common, RunContext& conte
   Run out;
   out.method = std::string(std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method));
   const auto count = static_cast<std::size_t>(common.seeds.count);
-  std::vector<SeedRun> all(count);
+  std::vector<PathSeedRun> all(count);
   const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
-  const optimise::SeedLoop loop =
-      optimise::for_each_seed(seeds, context, out.method, [&](std::size_t i, std::uint64_t seed) {
+  const optimise::SeedLoop loop = optimise::for_each_seed(
+      seeds, context, out.method,
+      [&](std::size_t i, std::uint64_t seed) {
         all[i] =
             std::visit([&](const auto& method) { return run_seed(method, s, seed, count == 1, context); },
                        s.optimiser.method);
-        return all[i].designs.empty() || !all[i].designs[0].violations.empty() ? infinity
-                                                                               : all[i].designs[0].error;
+        return best_error(all[i]);
+      },
+      [&](std::size_t i) { return interrupted(all[i].status) ? Value() : kept(all[i]); },
+      [&](std::size_t i, const Value& value) {
+        all[i] = restored(value, s.problem, optimise::seed_name(seeds.first + i));
+        return best_error(all[i]);
       });
-  out.status = loop.status;
   for (std::size_t i = 0; i < count; ++i) {
     if (!loop.ran[i]) continue;
-    if (out.status == Status::done &&
-        (all[i].status == Status::deadline || all[i].status == Status::cancelled))
-      out.status = all[i].status;
+    if (out.status == Status::done && interrupted(all[i].status)) out.status = all[i].status;
     out.seeds.push_back(seeds.first + i);
     out.runs.push_back(std::move(all[i]));
   }
+  // An interruption after the last seed was done took nothing away.
+  if (out.runs.size() < count) out.status = loop.status;
   return out;
 }
 
 // Distinct designs of all seeds, best first.
 std::vector<PathDesign> distinct_designs(const PathStudy& s, const Run& run) {
   std::vector<PathDesign> all;
-  for (const SeedRun& seed : run.runs) all.insert(all.end(), seed.designs.begin(), seed.designs.end());
+  for (const PathSeedRun& seed : run.runs) all.insert(all.end(), seed.designs.begin(), seed.designs.end());
   if (s.no_defects)
     for (PathDesign& d : all)
       for (const Defect& defect : defects(s.problem, d))
@@ -221,7 +227,7 @@ void add_tables(study::Result& result, const PathStudy& s, const study::Common& 
   Table seeds{.name = "seeds"};
   std::vector<double> number, error, evaluations;
   for (std::size_t i = 0; i < run.runs.size(); ++i) {
-    const SeedRun& seed = run.runs[i];
+    const PathSeedRun& seed = run.runs[i];
     number.push_back(static_cast<double>(run.seeds[i]));
     error.push_back(seed.designs.empty() || !seed.designs[0].violations.empty() ? nan
                                                                                 : seed.designs[0].error);
@@ -238,7 +244,7 @@ double add_statistics(study::Result& result, const Run& run, double best, double
   std::vector<optimise::SeedOutcome> outcomes;
   result.log = Value::array();
   for (std::size_t i = 0; i < run.runs.size(); ++i) {
-    const SeedRun& seed = run.runs[i];
+    const PathSeedRun& seed = run.runs[i];
     const double error = seed.designs.empty() ? infinity : seed.designs[0].error;
     const double violation = seed.designs.empty() ? infinity : total_violation(seed.designs[0]);
     outcomes.push_back({error, violation, seed.evaluations});
@@ -254,7 +260,8 @@ double add_statistics(study::Result& result, const Run& run, double best, double
     }
     entry["history"] = Value::array();
     std::vector<SearchPoint> history = seed.history;
-    if (!history.empty()) history.push_back({seed.evaluations, history.back().best});  // to the end of the run
+    if (!history.empty())
+      history.push_back({seed.evaluations, history.back().best});  // to the end of the run
     for (const SearchPoint& point : history) {
       Value step;
       step["evaluations"] = point.evaluations;

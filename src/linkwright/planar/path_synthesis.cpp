@@ -206,7 +206,7 @@ class Search {
         }
         lowest_failed_ = std::min(lowest_failed_, candidate.merit);
       }
-      if (context_.interrupted() && !out_.designs.empty()) break;
+      if (stopped() && !out_.designs.empty()) break;
       const PathFit fit = fitter.fit(candidate.linkage, candidate.angles, {.iterations = 200, .passes = 30});
       out_.evaluations += fit.evaluations;
       if (!std::isfinite(fit.error)) continue;

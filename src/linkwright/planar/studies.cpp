@@ -1,10 +1,14 @@
 #include "linkwright/planar/studies.h"
 
+#include "linkwright/planar/linkage_study.h"
 #include "linkwright/planar/path_study.h"
 #include "linkwright/planar/reactions_study.h"
+#include "linkwright/planar/serial_arm_study.h"
 
 namespace linkwright::planar {
 
-std::vector<study::Kind> studies() { return {path_kind(), reactions_kind()}; }
+std::vector<study::Kind> studies() {
+  return {path_kind(), reactions_kind(), linkage_kind(), slider_crank_kind(), serial_arm_kind()};
+}
 
 }  // namespace linkwright::planar

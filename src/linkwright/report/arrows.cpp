@@ -42,10 +42,11 @@ Components components(const Scene::Vector& vector, std::size_t sample) {
 
 double value(const Scene::Moment& moment, std::size_t sample) { return at(moment.value, sample); }
 
-double largest(const Scene::Moment& moment) {
+double largest_moment(const Scene& scene) {
   double out = 0;
-  for (const double v : moment.value)
-    if (std::isfinite(v)) out = std::max(out, std::abs(v));
+  for (const auto& moment : scene.moments)
+    for (const double v : moment.value)
+      if (std::isfinite(v)) out = std::max(out, std::abs(v));
   return out;
 }
 

@@ -42,8 +42,8 @@ Components components(const study::Scene::Vector& vector, std::size_t sample);
 /// Value of a couple at a sample, likewise.
 double value(const study::Scene::Moment& moment, std::size_t sample);
 
-/// Largest size of a couple over the samples; 0 when none is known.
-double largest(const study::Scene::Moment& moment);
+/// Largest size of the couples of a scene over its samples; 0 when none is known.
+double largest_moment(const study::Scene& scene);
 
 /// Angle (rad, counter-clockwise positive) of the arc of a couple whose value is `share` of the largest, -1
 /// to 1: up to 5/6 of a turn, at least 1/12 so that the sign shows, 0 for 0.

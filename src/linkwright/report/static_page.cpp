@@ -6,17 +6,23 @@
 #include <cmath>
 #include <initializer_list>
 #include <iterator>
+#include <numbers>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "linkwright/core/status.h"
+#include "linkwright/report/drawing.h"
 #include "linkwright/report/markup.h"
+#include "linkwright/report/plot_svg.h"
 #include "linkwright/report/svg.h"
 
 namespace linkwright::report {
 namespace {
 
 constexpr std::size_t longest_table = 40;
+constexpr std::size_t most_named = 24;  // more joints than this have no room for their names
 
 template <class... Args>
 void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
@@ -74,13 +80,42 @@ void write_banner(std::string& out, const ReportInput& input) {
   }
 }
 
+// The instant for which the arrows of a drawing hold.
+std::string shown_at(const study::Scene& scene) {
+  if (scene.samples() == 0) return {};
+  const double value = scene.input[reference_sample(scene)];
+  const std::string_view key = scene.input_key;
+  const std::string text = key.ends_with("_rad") ? number(value * 180 / std::numbers::pi, 5) + "°"
+                           : key.ends_with("_s") ? number(value, 5) + " s"
+                           : key.ends_with("_m") ? number(value, 5) + " m"
+                                                 : number(value, 5);
+  return fmt::format(", arrows at {} {}", scene.input_label, text);
+}
+
 void write_drawings(std::string& out, const study::Result& result) {
   for (const auto& scene : result.scenes) {
     SvgOptions options;
-    options.ghosts = 8;
+    options.ghosts = scene.vectors.empty() && scene.moments.empty() ? 8 : 0;  // poses and arrows are too much
+    options.labels = scene.joints.size() <= most_named;
     put(out, "<figure class=\"drawing\">{}<figcaption>{}</figcaption></figure>\n", svg(scene, options),
-        escape(scene.title));
+        escape(scene.title + (options.ghosts == 0 ? shown_at(scene) : "")));
   }
+}
+
+void write_plots(std::string& out, const study::Result& result) {
+  bool first = true;
+  for (const auto& plot : result.plots) {
+    const auto table = std::find_if(result.tables.begin(), result.tables.end(),
+                                    [&](const Table& t) { return t.name == plot.table; });
+    if (table == result.tables.end()) continue;
+    if (std::exchange(first, false)) {
+      heading(out, "Diagrams");
+      out += "<div class=\"diagrams\">\n";
+    }
+    put(out, "<figure class=\"drawing\">{}<figcaption>{}</figcaption></figure>\n", plot_svg(plot, *table),
+        escape(plot.title));
+  }
+  if (!first) out += "</div>\n";
 }
 
 std::string bound(double value) { return std::isinf(value) ? "none" : number(value, 9); }
@@ -163,6 +198,7 @@ std::string static_page(const ReportInput& input) {
   std::string out;
   write_banner(out, input);
   write_drawings(out, input.result);
+  write_plots(out, input.result);
   write_solutions(out, input.result);
   write_comparisons(out, input.result);
   write_object(out, "Statistics", input.result.statistics);

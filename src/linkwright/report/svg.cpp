@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -74,9 +75,12 @@ class Canvas {
   double width() const { return width_; }
   double height() const { return height_; }
   double scale() const { return scale_; }
+  /// Times the usual width: bars are thinner where they are short, so that chains of many can be told apart.
+  double thickness() const { return thickness_; }
+  void fit_bars(double length) { thickness_ = std::clamp(length * scale_ / 40, 0.22, 1.0); }
 
  private:
-  double scale_, width_, height_, centre_x_, centre_y_;
+  double scale_, width_, height_, centre_x_, centre_y_, thickness_ = 1;
 };
 
 template <class... Args>
@@ -175,9 +179,10 @@ void draw_body(std::string& out, const Canvas& canvas, const Scene& scene, const
   }
   if (plate) put(out, "<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.24\"/>", path, colour);
   // A rounded bar with an outline is a thick line under a slightly thinner one.
-  for (const auto& [stroke, width] : {std::pair{ink, bar_width}, std::pair{colour, bar_width - 2.6}})
+  const double inside = (bar_width - 2.6) * canvas.thickness();
+  for (const auto& [stroke, width] : {std::pair{ink, inside + 2.6}, std::pair{colour, inside}})
     put(out,
-        "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" "
+        "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.3g}\" stroke-linecap=\"round\" "
         "stroke-linejoin=\"round\"/>",
         path, stroke, width);
   out += "</g>\n";
@@ -203,7 +208,7 @@ void draw_joint(std::string& out, const Canvas& canvas, const Scene& scene, cons
         x, y, error_colour, paper);
   else
     put(out, "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.6\"/>",
-        x, y, pin_radius, paper, ink);
+        x, y, pin_radius * std::max(0.45, canvas.thickness()), paper, ink);
   if (label)
     put(out,
         "<text x=\"{:.2f}\" y=\"{:.2f}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"4\" paint-order=\"stroke\" "
@@ -211,6 +216,21 @@ void draw_joint(std::string& out, const Canvas& canvas, const Scene& scene, cons
         "font-style=\"italic\">{}</text>",
         x + 11, y - 9, ink, paper, escape(joint.name));
   out += "</g>\n";
+}
+
+// Median of the first sides of bars and plates (m); infinite without any.
+double usual_length(const Scene& scene, std::size_t sample) {
+  std::vector<double> lengths;
+  for (const auto& body : scene.bodies) {
+    if (body.style != Scene::BodyStyle::bar && body.style != Scene::BodyStyle::plate) continue;
+    if (body.points.size() < 2) continue;
+    const Place a = place(scene, body.points[0], sample), b = place(scene, body.points[1], sample);
+    if (a.finite() && b.finite()) lengths.push_back(std::hypot(b.x - a.x, b.y - a.y));
+  }
+  if (lengths.empty()) return std::numeric_limits<double>::infinity();
+  std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2),
+                   lengths.end());
+  return lengths[lengths.size() / 2];
 }
 
 // Plates lie under the traces, bars above them, so that traces and pins stay in sight.
@@ -292,8 +312,7 @@ void draw_arrow(std::string& out, Scene::Quantity quantity, double x, double y, 
   const std::string head = head_of(quantity, end_x, end_y, angle, size);
   put(out, "<g class=\"arrow {}\" fill=\"none\" stroke-linejoin=\"round\"><title>{}</title>",
       quantity_name(quantity), escape(title));
-  put(out, "<path d=\"{}{}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\"/>", shaft, head,
-      paper, style.width + 3);
+  put(out, "<path d=\"{}{}\" stroke=\"{}\" stroke-width=\"{}\"/>", shaft, head, paper, style.width + 3);
   put(out, "<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\" stroke-dasharray=\"{}\"/>", shaft, style.colour,
       style.width, style.dashes.empty() ? "none" : style.dashes);
   put(out, "<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\" fill=\"{}\"/>", head, style.colour,
@@ -311,7 +330,7 @@ void draw_arrow(std::string& out, Scene::Quantity quantity, double x, double y, 
 }
 
 void draw_vectors(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample,
-                  Scene::Quantity quantity) {
+                  Scene::Quantity quantity, bool labels) {
   const ArrowScale scale = arrow_scale(scene, quantity);
   if (scale.metres_per_unit == 0) return;
   for (const auto& vector : scene.vectors) {
@@ -321,47 +340,48 @@ void draw_vectors(std::string& out, const Canvas& canvas, const Scene& scene, st
       draw_arrow(
           out, quantity, canvas.x(from.x), canvas.y(from.y), canvas.x(end.x), canvas.y(end.y),
           fmt::format("{}: {} {}", vector.name, number(components(vector, sample).size(), 5), vector.unit),
-          vector.symbol);
+          labels ? vector.symbol : std::string());
   }
 }
 
 // An arc from the top: its length tells the size, its sense the sign.
-void draw_moments(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample) {
-  const ArrowLook style = look(Scene::Quantity::force);
-  for (std::size_t i = 0; i < scene.moments.size(); ++i) {
-    const auto& moment = scene.moments[i];
-    const Place centre = place(scene, moment.point, sample);
-    const double v = value(moment, sample), most = largest(moment);
-    if (!centre.finite() || !std::isfinite(v) || !(most > 0)) continue;
-    const double turn = arc_turn(v / most);
-    if (turn == 0) continue;
-    const auto before =
-        std::count_if(scene.moments.begin(), scene.moments.begin() + static_cast<std::ptrdiff_t>(i),
-                      [&](const Scene::Moment& m) { return m.point == moment.point; });
-    const double r = arc_radius + 10 * static_cast<double>(before), x = canvas.x(centre.x),
-                 y = canvas.y(centre.y);
-    // In the picture y points down: counter-clockwise is a falling angle.
-    const double start = -std::numbers::pi / 2, end = start - turn;
-    const double end_x = x + r * std::cos(end), end_y = y + r * std::sin(end);
-    const std::string arc =
-        fmt::format("M{:.2f} {:.2f}A{:.2f} {:.2f} 0 {} {} {:.2f} {:.2f}", x + r * std::cos(start),
-                    y + r * std::sin(start), r, r, std::abs(turn) > std::numbers::pi ? 1 : 0,
-                    turn > 0 ? 0 : 1, end_x, end_y);
-    const double direction = end - std::copysign(std::numbers::pi / 2, turn);
-    put(out, "<g class=\"moment\" fill=\"none\"><title>{}: {} {}</title>", escape(moment.name), number(v, 5),
-        escape(moment.unit));
-    put(out, "<path d=\"{}\" stroke=\"{}\" stroke-width=\"6\"/>", arc, paper);
-    put(out, "<path d=\"{}\" stroke=\"{}\" stroke-width=\"2.6\"/>", arc, style.colour);
-    put(out, "<path d=\"{}\" fill=\"{}\"/>",
-        head_of(Scene::Quantity::force, end_x + 5 * std::cos(direction), end_y + 5 * std::sin(direction),
-                direction, 12),
-        style.colour);
-    if (!moment.symbol.empty())
+void draw_arc(std::string& out, double x, double y, double r, double turn) {
+  const std::string_view colour = look(Scene::Quantity::force).colour;
+  // In the picture y points down: counter-clockwise is a falling angle.
+  const double start = -std::numbers::pi / 2, end = start - turn;
+  const double end_x = x + r * std::cos(end), end_y = y + r * std::sin(end);
+  const double direction = end - std::copysign(std::numbers::pi / 2, turn);
+  const std::string arc =
+      fmt::format("M{:.2f} {:.2f}A{:.2f} {:.2f} 0 {} {} {:.2f} {:.2f}", x, y - r, r, r,
+                  std::abs(turn) > std::numbers::pi ? 1 : 0, turn > 0 ? 0 : 1, end_x, end_y);
+  put(out, "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"6\"/>", arc, paper);
+  put(out, "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2.6\"/>", arc, colour);
+  put(out, "<path d=\"{}\" fill=\"{}\"/>",
+      head_of(Scene::Quantity::force, end_x + 5 * std::cos(direction), end_y + 5 * std::sin(direction),
+              direction, 12),
+      colour);
+}
+
+void draw_moments(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample,
+                  bool labels) {
+  const double most = largest_moment(scene);
+  for (auto moment = scene.moments.begin(); moment != scene.moments.end(); ++moment) {
+    const Place centre = place(scene, moment->point, sample);
+    const double v = value(*moment, sample);
+    if (!centre.finite() || !std::isfinite(v) || v == 0) continue;
+    // Several couples about one point lie one outside the other.
+    const auto before = std::count_if(scene.moments.begin(), moment,
+                                      [&](const Scene::Moment& m) { return m.point == moment->point; });
+    const double r = arc_radius + 10 * static_cast<double>(before);
+    const double x = canvas.x(centre.x), y = canvas.y(centre.y);
+    put(out, "<g class=\"moment\"><title>{}: {} {}</title>", escape(moment->name), number(v, 5),
+        escape(moment->unit));
+    draw_arc(out, x, y, r, arc_turn(v / most));
+    if (labels && !moment->symbol.empty())
       put(out,
           "<text x=\"{:.2f}\" y=\"{:.2f}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"4\" "
-          "paint-order=\"stroke\" "
-          "font-size=\"13\" text-anchor=\"middle\">{}</text>",
-          x, y - r - 7, style.colour, paper, escape(moment.symbol));
+          "paint-order=\"stroke\" font-size=\"13\" text-anchor=\"middle\">{}</text>",
+          x, y - r - 7, look(Scene::Quantity::force).colour, paper, escape(moment->symbol));
     out += "</g>\n";
   }
 }
@@ -370,19 +390,28 @@ void draw_moments(std::string& out, const Canvas& canvas, const Scene& scene, st
 void draw_key(std::string& out, const Canvas& canvas, const Scene& scene,
               const std::vector<Scene::Quantity>& shown) {
   double y = 24;
+  const auto line = [&](double length, const std::string& text, auto&& sign) {
+    put(out,
+        "<g class=\"key\"><rect x=\"34\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"24\" fill=\"{}\" "
+        "fill-opacity=\"0.88\"/>",
+        y - 12, length + 26 + 7.2 * static_cast<double>(text.size()), paper);
+    sign();
+    put(out, "<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"{}\" font-size=\"13\">{}</text></g>\n", 50 + length,
+        y + 4.5, ink, escape(text));
+    y += 24;
+  };
   for (const Scene::Quantity quantity : shown) {
     const ArrowScale scale = arrow_scale(scene, quantity);
     if (scale.metres_per_unit == 0) continue;
     const double length = scale.key_value * scale.metres_per_unit * canvas.scale();
     const std::string text =
         fmt::format("{} {} {}", quantity_name(quantity), number(scale.key_value), scale.unit);
-    put(out, "<g class=\"key\"><rect x=\"34\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"22\" fill=\"{}\"/>",
-        y - 12, length + 26 + 7.2 * static_cast<double>(text.size()), paper);
-    draw_arrow(out, quantity, 40, y, 40 + length, y, text, {});
-    put(out, "<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"{}\" font-size=\"13\">{}</text></g>\n", 50 + length,
-        y + 4.5, ink, escape(text));
-    y += 24;
+    line(length, text, [&] { draw_arrow(out, quantity, 40, y, 40 + length, y, text, {}); });
   }
+  const double most = largest_moment(scene);
+  if (most > 0 && std::find(shown.begin(), shown.end(), Scene::Quantity::force) != shown.end())
+    line(20, fmt::format("full arc {} {}", number(most, 4), scene.moments.front().unit),
+         [&] { draw_arc(out, 50, y, 9, arc_turn(0.75)); });
 }
 
 }  // namespace
@@ -413,7 +442,8 @@ std::string svg(const study::Scene& scene, const SvgOptions& options) {
         options.width, escape(scene.title));
     return out;
   }
-  const Canvas canvas(box, options);
+  Canvas canvas(box, options);
+  canvas.fit_bars(usual_length(scene, sample));
   put(out,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
       "{1:.0f}\" role=\"img\" "
@@ -434,8 +464,9 @@ std::string svg(const study::Scene& scene, const SvgOptions& options) {
   draw_bodies(out, canvas, scene, sample, false);
   for (const auto& joint : scene.joints) draw_joint(out, canvas, scene, joint, sample, options.labels);
   if (options.targets) draw_targets(out, canvas, scene, options.whisker_scale);
-  for (const Scene::Quantity quantity : shown) draw_vectors(out, canvas, scene, sample, quantity);
-  if (options.forces) draw_moments(out, canvas, scene, sample);
+  for (const Scene::Quantity quantity : shown)
+    draw_vectors(out, canvas, scene, sample, quantity, options.labels);
+  if (options.forces) draw_moments(out, canvas, scene, sample, options.labels);
   draw_key(out, canvas, scene, shown);
   out += "</svg>\n";
   return out;

@@ -22,7 +22,8 @@
 // From documents to structs. A struct with a field list (core/field.h) is read by `reader.read(options)`;
 // single values by `reader(Field{...}, member)`. Members may be double, bool, whole numbers, std::string,
 // Range, an enum with `names`, std::array<double, 2 or 3>, a struct with a field list, std::optional of any
-// of these, std::vector of any of these but bool and optional, and a choice: std::variant of structs, each
+// of these, std::vector of any of these but bool and optional, std::vector of std::pair<std::string, any of
+// these> for a table whose keys are names that the user gives, and a choice: std::variant of structs, each
 // with
 //
 //     constexpr Word choice_word(const GreyWolfOptions&) { return {"grey_wolf", "pack hunting of Mirjalili et
@@ -200,6 +201,18 @@ bool ObjectReader::convert(const Found& found, const Field& field, T& result) {
     return index.has_value();
   } else if constexpr (is_number_array<T>) {
     return numbers(found, field, result);
+  } else if constexpr (is_named<T>) {
+    std::optional<ObjectReader> object = open(found);
+    if (!object) return false;
+    T all;
+    bool good = true;
+    for (const Value::Member& member : object->members()) {
+      all.emplace_back(member.key, typename T::value_type::second_type{});
+      const Found element{&member.value, found.unit, found.path + "." + member.key};
+      good = convert(element, field, all.back().second) && good;
+    }
+    if (good) result = std::move(all);
+    return good;
   } else if constexpr (is_vector<T>) {
     using Element = typename T::value_type;
     const Value::Array* array = elements(found, expected_elements<Element>());

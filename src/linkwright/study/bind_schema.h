@@ -92,6 +92,11 @@ Value SchemaWriter::of(const Field& field, const T& member) {
     return words(words_of<T>());
   } else if constexpr (is_number_array<T>) {
     return array(number(field, "number"), member.size());
+  } else if constexpr (is_named<T>) {
+    Value schema;
+    schema["type"] = "object";
+    schema["additionalProperties"] = of(field, typename T::value_type::second_type{});
+    return schema;
   } else if constexpr (is_vector<T>) {
     return array(of(field, typename T::value_type{}), 0);
   } else {

@@ -3,8 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -39,6 +41,12 @@ template <class T>
 inline constexpr bool is_vector = false;
 template <class T>
 inline constexpr bool is_vector<std::vector<T>> = true;
+
+/// Values under names that the user gives: a table with free keys.
+template <class T>
+inline constexpr bool is_named = false;
+template <class T>
+inline constexpr bool is_named<std::vector<std::pair<std::string, T>>> = true;
 
 template <class T>
 inline constexpr bool is_number_array = false;

@@ -49,6 +49,10 @@ class ObjectWriter {
       return Value(static_cast<std::int64_t>(member));
     } else if constexpr (HasNames<T>) {
       return Value(name_of(member));
+    } else if constexpr (is_named<T>) {
+      Value object = Value::object();
+      for (const auto& [name, element] : member) object[name] = to_value(element);
+      return object;
     } else if constexpr (is_number_array<T> || is_vector<T>) {
       Value::Array array;
       array.reserve(member.size());

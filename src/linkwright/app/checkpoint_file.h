@@ -1,0 +1,87 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "linkwright/core/checkpoint.h"
+#include "linkwright/core/diagnostic.h"
+#include "linkwright/study/study.h"
+
+namespace linkwright::app {
+
+/// Name of the file in the folder of the results.
+inline constexpr const char* checkpoint_name = "checkpoint.jsonl";
+/// Neither written nor read beyond this.
+inline constexpr std::size_t largest_checkpoint = std::size_t{512} << 20;
+
+/// Whose checkpoint a file is: nothing else can go on with it.
+struct CheckpointOwner {
+  std::string tool;          ///< "linkwright 0.1.0"
+  std::string study_sha256;  ///< of the canonical study, as in result.json
+};
+CheckpointOwner checkpoint_owner(const study::Study& study);
+
+/// What is kept: one line of JSON, `{"name":"seed 7","value":...}`, under each name.
+using CheckpointLines = std::map<std::string, std::string, std::less<>>;
+
+/// Text of a file: a line that tells the owner, the number of bytes after it and their SHA-256; then the
+/// lines.
+std::string checkpoint_text(const CheckpointOwner& owner, const CheckpointLines& lines);
+
+/// Reads such a text. Nothing, and one diagnostic that tells what is wrong and how to mend it, for the file
+/// of another program version or study and for what is damaged, truncated or no checkpoint at all.
+std::optional<CheckpointLines> read_checkpoint(std::string_view text, const CheckpointOwner& owner,
+                                               const std::string& file, Diagnostics& diagnostics);
+
+/// For a file that could be read, but does not hold what a run of the study keeps.
+Diagnostic unusable_checkpoint(const std::filesystem::path& file, const CheckpointError& error);
+
+/// Keeps a run's checkpoint in a file, which a thread of its own writes anew, whole or not at all, half a
+/// second after something was kept, or later where writing would else take more than a twentieth of the time.
+class CheckpointFile final : public Checkpoint {
+ public:
+  CheckpointFile(std::filesystem::path file, CheckpointOwner owner);
+  ~CheckpointFile() override;
+
+  /// Begins without what an earlier run has kept.
+  void discard();
+  /// Takes up what an earlier run has kept; nothing if there is no such file. False, with a diagnostic, if
+  /// it cannot be used; then the file is left as it is.
+  bool load(Diagnostics& diagnostics);
+  /// Number of things kept.
+  std::size_t size() const;
+
+  Value find(std::string_view name) const override;
+  void keep(std::string_view name, const Value& value) override;
+  std::chrono::duration<double> interval() const override;
+
+  /// Writes what is not on the disk yet; call when the run has ended. A failure is a warning.
+  void finish(Diagnostics& diagnostics);
+
+ private:
+  void write_until_stopped();
+  void stop();
+  void write(std::unique_lock<std::mutex>& lock);
+
+  const std::filesystem::path file_;
+  const CheckpointOwner owner_;
+  mutable std::mutex mutex_;
+  std::condition_variable changes_;
+  CheckpointLines lines_;
+  std::size_t bytes_ = 0;  ///< of the lines
+  bool changed_ = false;   ///< since the last write
+  bool stopped_ = false;
+  std::chrono::duration<double> interval_;
+  std::string problem_;  ///< why the last write failed
+  std::thread writer_;   ///< begins with the first thing kept
+};
+
+}  // namespace linkwright::app

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <chrono>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/value.h"
+
+namespace linkwright {
+
+/// What was kept is not what a run of this study keeps: somebody changed it. The message says what is wrong.
+class CheckpointError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What a run has finished so far, under names, so that a later run of the same study takes it from there
+/// and ends with the same bits. The run decides what it keeps and what the names mean; where things are kept
+/// is nothing to it. Usable from any thread.
+///
+/// Names form a tree: "seed 7" stands above "seed 7/positive".
+class Checkpoint {
+ public:
+  Checkpoint() = default;
+  virtual ~Checkpoint() = default;
+  Checkpoint(const Checkpoint&) = delete;
+  Checkpoint& operator=(const Checkpoint&) = delete;
+
+  /// What was kept under a name, null if nothing was.
+  virtual Value find(std::string_view name) const = 0;
+
+  /// Keeps a value in the place of what was kept under this name and of all below it. Numbers that must come
+  /// back with the same bits are packed, see pack_numbers. Never throws for want of space or of permission:
+  /// a run goes on without its checkpoint.
+  virtual void keep(std::string_view name, const Value& value) = 0;
+
+  /// How long a loop may work before it keeps its state again: short loops would else do nothing but keep.
+  virtual std::chrono::duration<double> interval() const = 0;
+};
+
+/// Doubles as text, 16 hexadecimal digits each: every bit comes back, also of infinities and NaN.
+Value pack_numbers(std::span<const double> numbers);
+
+/// The doubles of such a text. Throws CheckpointError, naming `what`, if it is none.
+std::vector<double> unpack_numbers(const Value& value, std::string_view what);
+
+/// Member of a table. Throws CheckpointError, naming `what`, if there is none.
+const Value& kept_member(const Value& table, std::string_view key, std::string_view what);
+
+/// Integer member of a table in [least, most]. Throws CheckpointError, naming `what`.
+std::int64_t kept_integer(const Value& table, std::string_view key, std::int64_t least, std::int64_t most,
+                          std::string_view what);
+
+}  // namespace linkwright

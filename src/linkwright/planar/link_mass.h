@@ -1,0 +1,91 @@
+#pragma once
+
+#include <complex>
+#include <span>
+
+#include "linkwright/core/field.h"
+
+namespace linkwright::planar {
+
+/// Inertia of one link. The mass centre lies `centre_distance` metres from the link's own joint, at
+/// `centre_angle` radians counter-clockwise from the link line.
+struct LinkMass {
+  double mass = 0;             ///< kg, >= 0
+  double inertia = 0;          ///< kg m2 about the mass centre, >= 0
+  double centre_distance = 0;  ///< m, >= 0
+  double centre_angle = 0;     ///< rad
+};
+template <class Visitor>
+void fields(Visitor&& visit, LinkMass& m) {
+  visit(Field{.key = "mass",
+              .summary = "mass of the link",
+              .dimension = Dimension::mass,
+              .minimum = 0,
+              .maximum = 1e9,
+              .required = true},
+        m.mass);
+  visit(Field{.key = "inertia",
+              .summary = "moment of inertia about the mass centre",
+              .dimension = Dimension::inertia,
+              .minimum = 0,
+              .maximum = 1e18,
+              .required = true},
+        m.inertia);
+  visit(Field{.key = "centre_distance",
+              .summary = "distance of the mass centre from the link's own joint",
+              .dimension = Dimension::length,
+              .minimum = 0,
+              .maximum = 1e9,
+              .required = true},
+        m.centre_distance);
+  visit(Field{.key = "centre_angle",
+              .summary = "angle of the mass centre from the link line",
+              .dimension = Dimension::angle},
+        m.centre_angle);
+}
+
+/// A mass without extension that is fixed to a link: payload, motor, counterweight.
+struct PointMass {
+  double mass = 0;      ///< kg, >= 0
+  double distance = 0;  ///< m from the link's own joint; negative = behind it
+  double angle = 0;     ///< rad, counter-clockwise from the link line
+};
+template <class Visitor>
+void fields(Visitor&& visit, PointMass& m) {
+  visit(Field{.key = "mass",
+              .summary = "mass without extension",
+              .dimension = Dimension::mass,
+              .minimum = 0,
+              .maximum = 1e9,
+              .required = true},
+        m.mass);
+  visit(Field{.key = "distance",
+              .summary = "from the link's own joint, negative = behind it",
+              .dimension = Dimension::length,
+              .minimum = -1e9,
+              .maximum = 1e9,
+              .required = true},
+        m.distance);
+  visit(Field{.key = "angle",
+              .summary = "from the link line, counter-clockwise",
+              .dimension = Dimension::angle,
+              .minimum = -1e3,
+              .maximum = 1e3},
+        m.angle);
+}
+
+/// All that the motion of a rigid link in the plane feels of its masses, in the frame of the link: own joint
+/// in the origin, link line along x. Forces and torques are linear in these numbers.
+struct BaseParameters {
+  double mass = 0;                 ///< kg
+  std::complex<double> moment{0};  ///< first moment (kg m)
+  double inertia = 0;              ///< about the own joint (kg m2)
+};
+
+/// Base parameters of a link with masses fixed to it.
+///
+/// Throws ContractError on masses, inertias and centre distances that are negative, and on anything that is
+/// not finite.
+BaseParameters base_parameters(const LinkMass& link, std::span<const PointMass> attached = {});
+
+}  // namespace linkwright::planar

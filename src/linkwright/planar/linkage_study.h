@@ -1,0 +1,98 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "linkwright/planar/linkage_form.h"
+#include "linkwright/planar/linkage_plan.h"
+#include "linkwright/planar/motion_law.h"
+#include "linkwright/study/kind.h"
+
+// The analysis of any planar linkage over its inputs or over time: what its file holds, how it is read, run
+// and reported. `planar.slider_crank` is a shorthand that is written out as a linkage.
+namespace linkwright::planar {
+
+/// `[mechanism.parameters]` of planar.slider_crank; Boskovic 2018, Eqs. (4.7)-(4.11) in joint coordinates:
+/// crank O-A, rod A-B, slider B on a guide.
+struct SliderCrankForm {
+  double crank = 0, rod = 0;
+  double offset = 0;       ///< of the guide line from the crank pivot, along the left normal of its direction
+  double guide_angle = 0;  ///< direction of the guide
+  double pivot_x = 0, pivot_y = 0;
+  double rod_u = 0, rod_v = 0;  ///< tracing point on the rod, from A along A->B and along its left normal
+};
+struct SliderCrankMass {
+  double mass = 0, inertia = 0, centre_distance = 0, centre_angle = 0;
+};
+struct SliderCrankMasses {
+  SliderCrankMass crank, rod;
+  double slider = 0;
+};
+
+/// The linkage of it, with joints O, A, B and guide; `forward`: the slider runs ahead of the crank along the
+/// guide direction, else behind.
+Linkage slider_crank(const SliderCrankForm& form, const std::optional<SliderCrankMasses>& masses,
+                     bool forward);
+
+/// How a driven joint moves: over a grid its rate and acceleration, over time its law.
+struct LinkageDrive {
+  std::string joint;
+  double rate = 0, acceleration = 0;
+  std::optional<MotionLaw> law;
+};
+/// One axis of a grid.
+struct InputSamples {
+  std::string joint;
+  double from = 0, to = 0;
+  int samples = 0;
+};
+/// The rows of a table: all combinations of inputs, the first input slowest; or times.
+struct InputGrid {
+  std::vector<InputSamples> inputs;  ///< in the order of the linkage's drives
+};
+
+struct LinkageQuantities {
+  bool position = true, rates = true, reactions = true, drive = true, shaking = true,
+       transmission_angle = true, power = true;
+  bool dynamic() const { return reactions || drive || shaking || power; }
+};
+
+/// A study of a linkage as read.
+struct LinkageStudy {
+  Linkage linkage;
+  LinkagePlan plan;
+  std::vector<LinkageDrive> drives;  ///< one an input
+  std::variant<InputGrid, TimeSamples> sweep;
+  std::vector<BodyPoint> traces;
+  LinkageQuantities quantities;
+};
+
+/// "analysis" of "planar.linkage" and of "planar.slider_crank".
+study::Kind linkage_kind();
+study::Kind slider_crank_kind();
+
+/// Evaluates every row and reports. Rows that do not assemble, or stand at a dead point, hold what is known
+/// of them and their status; the status of the result is then the first of these.
+study::Result run_linkage_study(const LinkageStudy& study, RunContext& context);
+
+// ---- shared with other studies of linkages
+// ------------------------------------------------------------------
+
+/// `[mechanism]`, `[environment]`, `[[trace]]` of any study of a linkage, and `[[drive]] joint`.
+struct LinkageDescription {
+  Linkage linkage;
+  LinkagePlan plan;
+  std::vector<BodyPoint> traces;
+  std::string sample;  ///< its name when the mechanism is a canned one
+};
+enum class LinkageType { linkage, slider_crank };
+/// Reads and plans; nothing when there are problems, which go to the reader.
+std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
+                                               bool needs_masses);
+/// The tables of `read_linkage` as a canonical study holds them.
+void write_linkage(const LinkageDescription& description, Value& canonical);
+void describe_linkage(study::SchemaWriter& document, LinkageType type);
+
+}  // namespace linkwright::planar

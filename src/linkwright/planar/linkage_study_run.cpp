@@ -1,0 +1,590 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage_reactions.h"
+#include "linkwright/planar/linkage_scene.h"
+#include "linkwright/planar/linkage_study.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double pi = std::numbers::pi;
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+// Below it a dyad is said to transmit force badly: reactions grow like the reciprocal of its sine.
+constexpr double poor_transmission = 5 * pi / 180;
+
+// What one row is made from.
+struct Instant {
+  double time = 0;
+  std::vector<InputMotion> inputs;
+  const LinkageMotion* motion = nullptr;
+  const LinkageForces* forces = nullptr;
+};
+struct RowColumn {
+  std::string key, label;
+  std::function<double(const Instant&)> value;
+  bool angle = false;  // to be unwrapped
+};
+
+std::string identifier(std::string_view name) {
+  std::string out;
+  for (char c : name)
+    out += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? c : '_';
+  return out;
+}
+std::string group_key(const std::string& name) {
+  std::string text = name;
+  for (std::size_t i; (i = text.find(" + ")) != std::string::npos;) text.replace(i, 3, "_");
+  return identifier(text);
+}
+
+const LinkageJoint& input_joint(const Linkage& l, std::size_t input) { return l.joints[at(l.driven[input])]; }
+std::string input_key(const LinkageStudy& s, std::size_t input) {
+  return identifier(input_joint(s.linkage, input).name) + (s.plan.rotary[input] ? "_angle_rad" : "_way_m");
+}
+std::string input_label(const LinkageStudy& s, std::size_t input) {
+  return fmt::format("{} {}", input_joint(s.linkage, input).name,
+                     s.plan.rotary[input] ? "angle (rad)" : "way (m)");
+}
+
+// The table's columns, in the order of the quantities.
+std::vector<RowColumn> columns_of(const LinkageStudy& s) {
+  const Linkage& l = s.linkage;
+  const LinkagePlan& plan = s.plan;
+  const LinkageQuantities& q = s.quantities;
+  std::vector<RowColumn> out;
+  const auto add = [&](std::string key, std::string label, std::function<double(const Instant&)> value) {
+    out.push_back({std::move(key), std::move(label), std::move(value)});
+  };
+  if (std::holds_alternative<TimeSamples>(s.sweep))
+    add("time_s", "time (s)", [](const Instant& i) { return i.time; });
+  for (std::size_t k = 0; k < plan.inputs(); ++k)
+    add(input_key(s, k), input_label(s, k), [k](const Instant& i) { return i.inputs[k].value; });
+  const auto moving = [&](auto&& each) {
+    for (int b = 1; b < static_cast<int>(l.bodies.size()); ++b)
+      if (plan.bodies[at(b)].part != 0) each(b, identifier(l.bodies[at(b)].name), l.bodies[at(b)].name);
+  };
+  const auto traced = [&](auto&& each) {
+    for (const BodyPoint& t : s.traces) {
+      const LinkageBody& body = l.bodies[at(t.body)];
+      const LinkagePoint& point = body.points[at(t.point)];
+      each(t.body, point.at, identifier(body.name) + "_" + identifier(point.name),
+           body.name + "." + point.name);
+    }
+  };
+  // A slide's way and its rates, second point from first along the slide.
+  const auto slides = [&](auto&& each) {
+    for (std::size_t j = 0; j < l.joints.size(); ++j)
+      if (l.joints[j].type == JointType::prismatic) each(j, identifier(l.joints[j].name), l.joints[j].name);
+  };
+  const auto way = [&plan, &l](const Instant& i, std::size_t j, int order) {
+    const LinkageJoint& joint = l.joints[j];
+    const auto place = [&](const BodyPoint& p) {
+      return point_motion(plan, *i.motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
+    };
+    const PartState<double> first = body_state(plan, *i.motion, joint.first.body);
+    const Vec<double> along = turn(first.direction, unit(joint.slide_first));
+    const PointMotion a = place(joint.first), b = place(joint.second);
+    if (order == 0) return dot(along, b.position - a.position);
+    const Vec<double> slip = b.velocity - velocity_at(first, b.position);
+    if (order == 1) return dot(along, slip);
+    return dot(along, b.acceleration - acceleration_at(first, b.position));
+  };
+  if (q.position) {
+    moving([&](int b, const std::string& key, const std::string& name) {
+      add(key + "_angle_rad", name + " angle (rad)",
+          [&plan, b](const Instant& i) { return angle_of(body_state(plan, *i.motion, b).direction); });
+      out.back().angle = true;
+      add(key + "_x_m", name + " origin x (m)",
+          [&plan, b](const Instant& i) { return body_state(plan, *i.motion, b).origin.x; });
+      add(key + "_y_m", name + " origin y (m)",
+          [&plan, b](const Instant& i) { return body_state(plan, *i.motion, b).origin.y; });
+    });
+    slides([&](std::size_t j, const std::string& key, const std::string& name) {
+      if (std::find(l.driven.begin(), l.driven.end(), static_cast<int>(j)) != l.driven.end()) return;
+      add(key + "_way_m", name + " way (m)", [way, j](const Instant& i) { return way(i, j, 0); });
+    });
+    traced([&](int b, std::complex<double> p, const std::string& key, const std::string& name) {
+      add(key + "_x_m", name + " x (m)",
+          [&plan, b, p](const Instant& i) { return point_motion(plan, *i.motion, b, p).position.x; });
+      add(key + "_y_m", name + " y (m)",
+          [&plan, b, p](const Instant& i) { return point_motion(plan, *i.motion, b, p).position.y; });
+    });
+  }
+  if (q.rates) {
+    moving([&](int b, const std::string& key, const std::string& name) {
+      add(key + "_speed_rad_per_s", name + " speed (rad/s)",
+          [&plan, b](const Instant& i) { return body_state(plan, *i.motion, b).speed; });
+      add(key + "_acceleration_rad_per_s2", name + " acceleration (rad/s2)",
+          [&plan, b](const Instant& i) { return body_state(plan, *i.motion, b).angular_acceleration; });
+    });
+    slides([&](std::size_t j, const std::string& key, const std::string& name) {
+      add(key + "_speed_m_per_s", name + " speed (m/s)", [way, j](const Instant& i) { return way(i, j, 1); });
+      add(key + "_acceleration_m_per_s2", name + " acceleration (m/s2)",
+          [way, j](const Instant& i) { return way(i, j, 2); });
+    });
+    traced([&](int b, std::complex<double> p, const std::string& key, const std::string& name) {
+      add(key + "_speed_x_m_per_s", name + " speed x (m/s)",
+          [&plan, b, p](const Instant& i) { return point_motion(plan, *i.motion, b, p).velocity.x; });
+      add(key + "_speed_y_m_per_s", name + " speed y (m/s)",
+          [&plan, b, p](const Instant& i) { return point_motion(plan, *i.motion, b, p).velocity.y; });
+      add(key + "_acceleration_x_m_per_s2", name + " acceleration x (m/s2)",
+          [&plan, b, p](const Instant& i) { return point_motion(plan, *i.motion, b, p).acceleration.x; });
+      add(key + "_acceleration_y_m_per_s2", name + " acceleration y (m/s2)",
+          [&plan, b, p](const Instant& i) { return point_motion(plan, *i.motion, b, p).acceleration.y; });
+    });
+  }
+  if (q.reactions)
+    for (std::size_t j = 0; j < l.joints.size(); ++j) {
+      const LinkageJoint& joint = l.joints[j];
+      const std::string key = identifier(joint.name);
+      const std::string pair =
+          fmt::format("{} on {}", l.bodies[at(joint.first.body)].name, l.bodies[at(joint.second.body)].name);
+      if (joint.type != JointType::gear) {
+        add(key + "_x_N", fmt::format("{} x, {} (N)", joint.name, pair),
+            [j](const Instant& i) { return i.forces->joints[j].force.x; });
+        add(key + "_y_N", fmt::format("{} y, {} (N)", joint.name, pair),
+            [j](const Instant& i) { return i.forces->joints[j].force.y; });
+        add(key + "_N", fmt::format("{} (N)", joint.name),
+            [j](const Instant& i) { return norm(i.forces->joints[j].force); });
+      }
+      if (joint.type == JointType::prismatic || joint.type == JointType::fixed ||
+          joint.type == JointType::gear)
+        add(key + "_moment_N_m", fmt::format("{} moment, {} (N m)", joint.name, pair),
+            [j](const Instant& i) { return i.forces->joints[j].moment; });
+    }
+  if (q.drive)
+    for (std::size_t k = 0; k < plan.inputs(); ++k) {
+      const std::string& name = input_joint(l, k).name;
+      add(identifier(name) + (plan.rotary[k] ? "_drive_torque_N_m" : "_drive_force_N"),
+          fmt::format("drive {} at {}", plan.rotary[k] ? "torque (N m)" : "force (N)", name),
+          [k](const Instant& i) { return i.forces->drives[k]; });
+    }
+  if (q.shaking) {
+    add("shaking_force_x_N", "shaking force x (N)",
+        [](const Instant& i) { return i.forces->shaking_force.x; });
+    add("shaking_force_y_N", "shaking force y (N)",
+        [](const Instant& i) { return i.forces->shaking_force.y; });
+    add("shaking_force_N", "shaking force (N)",
+        [](const Instant& i) { return norm(i.forces->shaking_force); });
+    add("shaking_moment_N_m", "shaking moment about the origin, without drive torques (N m)",
+        [](const Instant& i) { return i.forces->shaking_moment; });
+    add("shaking_moment_with_drive_N_m", "shaking moment about the origin, with the drives (N m)",
+        [](const Instant& i) { return i.forces->shaking_moment_with_drive; });
+  }
+  if (q.transmission_angle)
+    for (std::size_t g = 0; g < plan.groups.size(); ++g)
+      if (plan.groups[g].parts.size() == 2 && plan.groups[g].type != GroupType::general)
+        add(group_key(plan.groups[g].name) + "_transmission_angle_rad",
+            plan.groups[g].name + " transmission angle (rad)",
+            [g](const Instant& i) { return std::asin(std::min(1.0, std::abs(i.motion->groups[g].sine))); });
+  if (q.power) {
+    add("drive_power_W", "power of the drives (W)", [](const Instant& i) { return i.forces->drive_power; });
+    add("weight_power_W", "power of the weight (W)", [](const Instant& i) { return i.forces->weight_power; });
+    add("load_power_W", "power of springs and loads (W)",
+        [](const Instant& i) { return i.forces->load_power; });
+    add("kinetic_power_W", "rate of the kinetic energy (W)",
+        [](const Instant& i) { return i.forces->kinetic_power; });
+  }
+  add("closure_residual_m", "closure residual (m)",
+      [](const Instant& i) { return i.motion->closure_residual; });
+  return out;
+}
+
+// The rows' inputs: combinations of a grid, or times.
+struct Rows {
+  std::vector<double> time;
+  std::vector<std::vector<InputMotion>> inputs;
+};
+double sample_at(double from, double to, int samples, int i) {
+  return from + (to - from) * i / (samples - 1);
+}
+
+Rows rows_of(const LinkageStudy& s) {
+  Rows rows;
+  if (const auto* times = std::get_if<TimeSamples>(&s.sweep)) {
+    std::vector<MotionCurve> curves;
+    for (const LinkageDrive& d : s.drives) curves.emplace_back(*d.law);
+    for (int i = 0; i < times->samples; ++i) {
+      rows.time.push_back(sample_at(times->from, times->to, times->samples, i));
+      rows.inputs.emplace_back();
+      for (const MotionCurve& c : curves) {
+        const Motion m = c(rows.time.back());
+        rows.inputs.back().push_back({m.value, m.rate, m.acceleration});
+      }
+    }
+    return rows;
+  }
+  const InputGrid& grid = std::get<InputGrid>(s.sweep);
+  std::vector<int> index(grid.inputs.size(), 0);
+  while (true) {
+    rows.time.push_back(0);
+    rows.inputs.emplace_back();
+    for (std::size_t k = 0; k < index.size(); ++k) {
+      const InputSamples& a = grid.inputs[k];
+      rows.inputs.back().push_back(
+          {sample_at(a.from, a.to, a.samples, index[k]), s.drives[k].rate, s.drives[k].acceleration});
+    }
+    std::size_t k = index.size();
+    while (k-- > 0)
+      if (++index[k] < grid.inputs[k].samples)
+        break;
+      else
+        index[k] = 0;
+    if (k == static_cast<std::size_t>(-1)) return rows;
+  }
+}
+
+std::string shown(double value, bool rotary) {
+  return rotary ? fmt::format("{:.6g}°", math::degrees(value)) : fmt::format("{:.6g} mm", value * 1e3);
+}
+
+// What the rows tell beyond the table.
+struct Worst {
+  double value = 0;
+  std::size_t row = 0;
+  bool any = false;
+  void larger(double v, std::size_t r) {
+    if (!std::isnan(v) && (!any || std::abs(v) > std::abs(value))) value = v, row = r, any = true;
+  }
+  void smaller(double v, std::size_t r) {
+    if (!std::isnan(v) && (!any || v < value)) value = v, row = r, any = true;
+  }
+};
+
+class Runner {
+ public:
+  Runner(const LinkageStudy& s, RunContext& context)
+      : s_(s), context_(context), columns_(columns_of(s)), rows_(rows_of(s)) {}
+
+  study::Result run() {
+    evaluate();
+    finish_table();
+    result_.scenes.push_back(
+        linkage_scene(s_.linkage, s_.plan, recorded_, s_.traces, scene_input_key(), scene_input_label()));
+    plots();
+    facts();
+    warnings();
+    headline();
+    return std::move(result_);
+  }
+
+ private:
+  bool over_time() const { return std::holds_alternative<TimeSamples>(s_.sweep); }
+  // The scene shows the rows along the last axis of a grid, with the other inputs at their first value.
+  std::size_t shown_rows() const {
+    if (over_time()) return rows_.inputs.size();
+    return at(std::get<InputGrid>(s_.sweep).inputs.back().samples);
+  }
+  std::size_t scene_axis() const { return s_.plan.inputs() - 1; }
+  std::string scene_input_key() const { return over_time() ? "time_s" : input_key(s_, scene_axis()); }
+  std::string scene_input_label() const {
+    return over_time() ? "time"
+                       : input_joint(s_.linkage, scene_axis()).name +
+                             (s_.plan.rotary[scene_axis()] ? " angle" : " way");
+  }
+  std::string where(std::size_t row) const {
+    if (over_time()) return fmt::format("{:.4g} s", rows_.time[row]);
+    std::string out;
+    for (std::size_t k = 0; k < s_.plan.inputs(); ++k)
+      out += (k ? ", " : "") + shown(rows_.inputs[row][k].value, s_.plan.rotary[k]);
+    return out;
+  }
+
+  void evaluate() {
+    LinkageMotion motion(s_.plan);
+    LinkageForces forces;
+    const bool dynamic = s_.quantities.dynamic();
+    const bool closed = s_.plan.closed_form();
+    values_.assign(columns_.size(), {});
+    for (auto& v : values_) v.reserve(rows_.inputs.size());
+    Instant now{.motion = &motion, .forces = &forces};
+    std::vector<double> last;
+    for (std::size_t r = 0; r < rows_.inputs.size(); ++r) {
+      now.time = rows_.time[r];
+      now.inputs = rows_.inputs[r];
+      std::vector<double> next;
+      for (const InputMotion& i : now.inputs) next.push_back(i.value);
+      // General groups are followed from row to row, so that they keep their branch.
+      bool there = true;
+      if (!closed && !last.empty()) there = follow(s_.plan, last, next, motion).arrived;
+      if (there) solve_motion(s_.plan, now.inputs, motion);
+      if (there && motion.status == Status::done) last = next;
+      if (dynamic) solve_forces(s_.linkage, s_.plan, motion, now.time, now.inputs[0].value, forces);
+      const Status status = dynamic && motion.status == Status::done ? forces.status : motion.status;
+      for (std::size_t c = 0; c < columns_.size(); ++c) {
+        const bool input = c < s_.plan.inputs() + (over_time() ? 1 : 0);
+        values_[c].push_back(input || motion.status == Status::done ? columns_[c].value(now) : nan);
+      }
+      statuses_.push_back(status);
+      if (r < shown_rows())
+        recorded_.push_back(record_of(s_.linkage, s_.plan, motion, dynamic ? &forces : nullptr,
+                                      over_time() ? now.time : now.inputs[scene_axis()].value));
+      collect(r, motion, forces, dynamic && status == Status::done);
+      if (r % 256 == 255 && context_.interrupted()) {
+        interruption_ = context_.interruption();
+        break;
+      }
+    }
+  }
+
+  void collect(std::size_t r, const LinkageMotion& motion, const LinkageForces& forces, bool dynamic) {
+    if (motion.status == Status::no_assembly) gap_.larger(motion.gap, r);
+    if (motion.status != Status::done) {
+      if (failed_group_ < 0) failed_group_ = motion.failed_group;
+      return;
+    }
+    closure_.larger(motion.closure_residual, r);
+    for (std::size_t g = 0; g < s_.plan.groups.size(); ++g)
+      if (s_.plan.groups[g].joints.size() == 3 && s_.plan.groups[g].type != GroupType::general) {
+        const double before = transmission_.any ? transmission_.value : 10;
+        transmission_.smaller(std::asin(std::min(1.0, std::abs(motion.groups[g].sine))), r);
+        if (transmission_.value < before) weakest_ = g;
+      }
+    if (!dynamic) return;
+    drives_.resize(s_.plan.inputs());
+    for (std::size_t k = 0; k < drives_.size(); ++k) drives_[k].larger(forces.drives[k], r);
+    joints_.resize(forces.joints.size());
+    for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j].larger(norm(forces.joints[j].force), r);
+    shaking_.larger(norm(forces.shaking_force), r);
+    power_.larger(std::max({std::abs(forces.drive_power), std::abs(forces.kinetic_power),
+                            std::abs(forces.weight_power), std::abs(forces.load_power)}),
+                  r);
+    balance_.larger(forces.drive_power + forces.weight_power + forces.load_power - forces.kinetic_power, r);
+  }
+
+  void finish_table() {
+    Table table{.name = "sweep"};
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      if (columns_[c].angle) math::unwrap_angles(values_[c]);
+      table.add(columns_[c].key, columns_[c].label, std::move(values_[c]));
+    }
+    for (Status s : statuses_) table.status.emplace_back(to_string(s));
+    const auto bad =
+        std::find_if(statuses_.begin(), statuses_.end(), [](Status s) { return s != Status::done; });
+    result_.status = interruption_ != Status::done ? interruption_
+                     : bad != statuses_.end()      ? *bad
+                                                   : Status::done;
+    result_.tables.push_back(std::move(table));
+  }
+
+  std::vector<std::string> columns_ending(std::string_view ending, std::size_t most) const {
+    std::vector<std::string> out;
+    for (const RowColumn& c : columns_)
+      if (c.key.ends_with(ending) && out.size() < most) out.push_back(c.key);
+    return out;
+  }
+  void plots() {
+    const bool linked = over_time() || s_.plan.inputs() == 1;
+    const auto plot = [&](std::string name, std::string title, std::vector<std::string> y,
+                          study::Plot::Style style = study::Plot::Style::line) {
+      if (y.empty()) return;
+      result_.plots.push_back({.name = std::move(name),
+                               .title = std::move(title),
+                               .table = "sweep",
+                               .x = scene_input_key(),
+                               .y = std::move(y),
+                               .style = linked ? style : study::Plot::Style::points,
+                               .scene = linked ? "motion" : std::string()});
+    };
+    const LinkageQuantities& q = s_.quantities;
+    if (q.drive) {
+      plot("torque", "Drive torque", columns_ending("_drive_torque_N_m", 6));
+      plot("drive-force", "Drive force", columns_ending("_drive_force_N", 6));
+    }
+    if (q.reactions) {
+      std::vector<std::string> sizes;
+      for (const LinkageJoint& j : s_.linkage.joints)
+        if (j.type != JointType::gear && sizes.size() < 8) sizes.push_back(identifier(j.name) + "_N");
+      plot("reactions", "Joint forces", sizes);
+    }
+    if (q.shaking) {
+      plot("shaking-force", "Shaking force", {"shaking_force_x_N", "shaking_force_y_N", "shaking_force_N"});
+      plot("shaking-moment", "Shaking moment about the origin",
+           {"shaking_moment_N_m", "shaking_moment_with_drive_N_m"});
+      if (linked)
+        plot("shaking-polar", "Shaking force, polar", {"shaking_force_x_N", "shaking_force_y_N"},
+             study::Plot::Style::polar);
+    }
+    if (q.reactions && linked) {
+      std::vector<std::string> pairs;
+      for (const LinkageJoint& j : s_.linkage.joints)
+        if (j.type != JointType::gear && pairs.size() < 12) {
+          pairs.push_back(identifier(j.name) + "_x_N");
+          pairs.push_back(identifier(j.name) + "_y_N");
+        }
+      plot("reactions-polar", "Joint forces, polar", pairs, study::Plot::Style::polar);
+    }
+    if (q.transmission_angle)
+      plot("transmission", "Transmission angles", columns_ending("_transmission_angle_rad", 8));
+    if (q.position) {
+      std::vector<std::string> angles, ways = columns_ending("_way_m", 8);
+      for (const RowColumn& c : columns_)
+        if (c.angle && angles.size() < 8) angles.push_back(c.key);
+      plot("angles", "Angles of the bodies", angles);
+      if (s_.plan.inputs() == 1 && !s_.plan.rotary[0] && !ways.empty()) ways.erase(ways.begin());
+      plot("ways", "Ways of the slides", ways);
+      std::vector<std::string> paths;
+      for (const BodyPoint& t : s_.traces) {
+        const LinkageBody& b = s_.linkage.bodies[at(t.body)];
+        const std::string key = identifier(b.name) + "_" + identifier(b.points[at(t.point)].name);
+        paths.push_back(key + "_x_m");
+        paths.push_back(key + "_y_m");
+      }
+      if (linked) plot("paths", "Paths of the traced points", paths, study::Plot::Style::polar);
+    }
+    if (q.rates) {
+      std::vector<std::string> speeds, accelerations;
+      for (const LinkageBody& b : s_.linkage.bodies)
+        if (&b != &s_.linkage.bodies[0] && speeds.size() < 8) {
+          speeds.push_back(identifier(b.name) + "_speed_rad_per_s");
+          accelerations.push_back(identifier(b.name) + "_acceleration_rad_per_s2");
+        }
+      const auto there = [&](std::vector<std::string>& keys) {
+        std::erase_if(keys, [&](const std::string& k) { return !result_.tables[0].find(k); });
+      };
+      there(speeds), there(accelerations);
+      plot("speeds", "Angular speeds", speeds);
+      plot("accelerations", "Angular accelerations", accelerations);
+    }
+    if (q.power)
+      plot("power", "Power", {"drive_power_W", "weight_power_W", "load_power_W", "kinetic_power_W"});
+  }
+
+  void facts() {
+    using Verdict = study::Fact::Verdict;
+    const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
+      result_.facts.push_back({std::move(label), std::move(text), verdict});
+    };
+    fact("degrees of freedom", fmt::format("{}, {} driven", mobility(s_.linkage), s_.plan.inputs()));
+    std::string order;
+    for (const Group& g : s_.plan.groups)
+      order += fmt::format("{}{} ({}{})", order.empty() ? "" : " → ", g.name, name_of(g.type),
+                           has_modes(g.type) ? g.mode > 0 ? ", plus" : ", minus" : "");
+    fact("solved in this order", order);
+    for (std::size_t k = 0; k < drives_.size(); ++k)
+      if (s_.quantities.drive && drives_[k].any)
+        fact(fmt::format("largest drive {} at {}", s_.plan.rotary[k] ? "torque" : "force",
+                         input_joint(s_.linkage, k).name),
+             fmt::format("{:.5g} {} at {}", drives_[k].value, s_.plan.rotary[k] ? "N m" : "N",
+                         where(drives_[k].row)));
+    if (s_.quantities.reactions)
+      for (std::size_t j = 0; j < joints_.size() && j < 8; ++j)
+        if (joints_[j].any && s_.linkage.joints[j].type != JointType::gear)
+          fact(fmt::format("largest force at {}", s_.linkage.joints[j].name),
+               fmt::format("{:.5g} N at {}", joints_[j].value, where(joints_[j].row)));
+    if (s_.quantities.shaking && shaking_.any)
+      fact("largest shaking force", fmt::format("{:.5g} N at {}", shaking_.value, where(shaking_.row)));
+    if (transmission_.any)
+      fact("least transmission angle",
+           fmt::format("{:.1f}° of {} at {}", math::degrees(transmission_.value),
+                       s_.plan.groups[weakest_].name, where(transmission_.row)),
+           transmission_.value < poor_transmission ? Verdict::bad : Verdict::plain);
+    if (closure_.any) fact("closure residual", fmt::format("{:.2g} m", closure_.value));
+    if (s_.quantities.dynamic() && power_.any && power_.value > 0)
+      fact("power balance",
+           fmt::format("within {:.2g} of the largest power", std::abs(balance_.value / power_.value)));
+  }
+
+  void warnings() {
+    const auto warn = [&](std::string message, std::string hint) {
+      result_.diagnostics.push_back(
+          {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
+    };
+    const auto count = [&](Status s) { return std::count(statuses_.begin(), statuses_.end(), s); };
+    const auto first = [&](Status s) {
+      return static_cast<std::size_t>(std::find(statuses_.begin(), statuses_.end(), s) - statuses_.begin());
+    };
+    const std::string group = failed_group_ >= 0 ? s_.plan.groups[at(failed_group_)].name : std::string();
+    for (Status s : {Status::singular, Status::no_assembly, Status::limit_reached, Status::not_converged}) {
+      const auto n = count(s);
+      if (n == 0) continue;
+      const std::string place =
+          fmt::format("{} of {} positions, the first at {}", n, statuses_.size(), where(first(s)));
+      if (s == Status::singular)
+        warn(fmt::format("{} stand at a dead point of {}: speeds and forces are not determined there", place,
+                         group),
+             {});
+      else if (s == Status::no_assembly)
+        warn(fmt::format("{} do not assemble: {} would have to be longer, or shorter, by up to {:.4g} mm",
+                         place, group, gap_.value * 1e3),
+             assembled_ranges());
+      else
+        warn(fmt::format("{} have no answer ({})", place, to_string(s)),
+             s == Status::limit_reached ? "a limit of the motion lies before them" : "");
+    }
+    if (transmission_.any && transmission_.value < poor_transmission)
+      warn(fmt::format("the transmission angle of {} falls to {:.2f}° at {}: near a dead point forces grow "
+                       "without bound",
+                       s_.plan.groups[weakest_].name, math::degrees(transmission_.value),
+                       where(transmission_.row)),
+           {});
+  }
+  // Runs of rows that assemble, for one input.
+  std::string assembled_ranges() const {
+    if (s_.plan.inputs() != 1 || over_time()) return {};
+    std::string out;
+    for (std::size_t i = 0; i < statuses_.size(); ++i) {
+      if (statuses_[i] == Status::no_assembly || (i > 0 && statuses_[i - 1] != Status::no_assembly)) continue;
+      std::size_t j = i;
+      while (j + 1 < statuses_.size() && statuses_[j + 1] != Status::no_assembly) ++j;
+      out += (out.empty() ? "it assembles from " : " and ") + where(i) + " to " + where(j);
+    }
+    return out.empty() ? "it assembles nowhere in the sweep" : out;
+  }
+
+  void headline() {
+    const auto good = std::count(statuses_.begin(), statuses_.end(), Status::done);
+    if (good == 0) {
+      result_.headline =
+          "No position of the sweep has an answer: the linkage does not assemble or stands at "
+          "dead points.";
+      return;
+    }
+    std::string text;
+    if (s_.quantities.drive && !drives_.empty() && drives_[0].any)
+      text = fmt::format("The drive {} reaches {:.5g} {} at {}", s_.plan.rotary[0] ? "torque" : "force",
+                         drives_[0].value, s_.plan.rotary[0] ? "N m" : "N", where(drives_[0].row));
+    std::size_t most = 0;
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+      if (joints_[j].value > joints_[most].value) most = j;
+    if (s_.quantities.reactions && !joints_.empty())
+      text +=
+          fmt::format("{} {:.5g} N in {}", text.empty() ? "The joint forces reach" : " and the joint forces",
+                      joints_[most].value, s_.linkage.joints[most].name);
+    if (text.empty()) text = fmt::format("{} of {} positions computed", good, statuses_.size());
+    result_.headline = text + ".";
+    if (good != static_cast<std::ptrdiff_t>(statuses_.size()) && s_.quantities.dynamic())
+      result_.headline += fmt::format(" {} of {} positions have no answer.",
+                                      static_cast<std::ptrdiff_t>(statuses_.size()) - good, statuses_.size());
+  }
+
+  const LinkageStudy& s_;
+  RunContext& context_;
+  std::vector<RowColumn> columns_;
+  Rows rows_;
+  std::vector<std::vector<double>> values_;
+  std::vector<Status> statuses_;
+  std::vector<LinkageRecord> recorded_;
+  Status interruption_ = Status::done;
+  Worst gap_, closure_, transmission_, shaking_, power_, balance_;
+  std::vector<Worst> drives_, joints_;
+  std::size_t weakest_ = 0;
+  int failed_group_ = -1;
+  study::Result result_;
+};
+
+}  // namespace
+
+study::Result run_linkage_study(const LinkageStudy& study, RunContext& context) {
+  return Runner(study, context).run();
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,7 @@
+#include "linkwright/planar/linkage_sweep_kernel.h"
+
+namespace linkwright::planar {
+
+void sweep_avx512(const SweepTask& task) { sweep_with<xsimd::batch<double, xsimd::avx512f>>(task); }
+
+}  // namespace linkwright::planar

@@ -1,0 +1,250 @@
+#include "linkwright/report/plot_svg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "linkwright/report/drawing.h"
+#include "linkwright/report/markup.h"
+
+namespace linkwright::report {
+namespace {
+
+using Style = study::Plot::Style;
+
+constexpr double width = 640, left = 74, right = 16, top = 14, foot = 46;  // px
+constexpr double line_height = 20;                                         // px, of the legend
+constexpr std::size_t most_points = 3000;                                  // a curve; more cannot be seen
+constexpr std::size_t most_named = 7;                                      // more curves are one bundle
+// Okabe and Ito's colours; dashes tell the curves apart without them.
+constexpr std::array<std::string_view, 6> colours = {"#0072B2", "#D55E00", "#009E73",
+                                                     "#CC79A7", "#E69F00", "#56B4E9"};
+constexpr std::array<std::string_view, 6> dashes = {"none", "8 4", "2 3", "10 3 2 3", "5 2", "1 2"};
+
+struct Curve {
+  std::string label;
+  std::vector<Place> points;
+};
+
+template <class... Args>
+void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
+}
+
+std::string label_of(const Column& column) { return column.label.empty() ? column.key : column.label; }
+
+// "O1 x, ground on crank (N)" names the pair "O1, ground on crank".
+std::string name_of_pair(const Column& column) {
+  std::string label = column.label.empty() ? column.key.substr(0, column.key.rfind("_x_")) : column.label;
+  if (const std::size_t unit = label.rfind(" ("); unit != std::string::npos && label.back() == ')')
+    label.resize(unit);
+  for (const std::string_view mark : {" x,", " x "})
+    if (const std::size_t at = label.find(mark); at != std::string::npos) return label.erase(at, 2);
+  if (label.size() > 2 && label.ends_with(" x")) label.resize(label.size() - 2);
+  return label;
+}
+
+// "(N)" of "O1 x (N)"; empty = none.
+std::string unit_of(const Column& column) {
+  const std::size_t at = column.label.rfind(" (");
+  return at != std::string::npos && column.label.back() == ')' ? column.label.substr(at + 1) : "";
+}
+
+std::vector<Curve> curves_of(const study::Plot& plot, const Table& table) {
+  std::vector<Curve> out;
+  const auto add = [&](std::string label, const Column* x, const Column* y) {
+    if (!x || !y) return;
+    const std::size_t rows = std::min(x->values.size(), y->values.size());
+    const std::size_t step = rows / most_points + 1;
+    Curve curve{std::move(label), {}};
+    for (std::size_t i = 0; i < rows; i += step) curve.points.push_back({x->values[i], y->values[i]});
+    out.push_back(std::move(curve));
+  };
+  if (plot.style == Style::polar) {
+    for (std::size_t i = 0; i + 1 < plot.y.size(); i += 2)
+      if (const Column* x = table.find(plot.y[i])) add(name_of_pair(*x), x, table.find(plot.y[i + 1]));
+  } else {
+    for (const auto& key : plot.y)
+      if (const Column* y = table.find(key)) add(label_of(*y), table.find(plot.x), y);
+  }
+  if (plot.logarithmic_y)
+    for (auto& curve : out)
+      for (Place& p : curve.points)
+        p.y = p.y > 0 ? std::log10(p.y) : std::numeric_limits<double>::quiet_NaN();
+  return out;
+}
+
+// Counts of the values of all columns, as the outline of bars.
+Curve histogram(const study::Plot& plot, const Table& table) {
+  std::vector<double> values;
+  Curve out;
+  for (const auto& key : plot.y)
+    if (const Column* column = table.find(key)) {
+      out.label = label_of(*column);
+      for (const double v : column->values)
+        if (std::isfinite(v)) values.push_back(v);
+    }
+  if (values.empty()) return out;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double from = *low, span = *high > *low ? *high - *low : 1;
+  const auto bins =
+      static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(values.size())), 1.0, 40.0));
+  std::vector<double> counts(bins);
+  for (const double v : values)
+    ++counts[std::min(bins - 1, static_cast<std::size_t>((v - from) / span * static_cast<double>(bins)))];
+  for (std::size_t i = 0; i < bins; ++i) {
+    const double a = from + span * static_cast<double>(i) / static_cast<double>(bins);
+    const double b = from + span * static_cast<double>(i + 1) / static_cast<double>(bins);
+    for (const Place& p : {Place{a, 0}, Place{a, counts[i]}, Place{b, counts[i]}, Place{b, 0}})
+      out.points.push_back(p);
+  }
+  return out;
+}
+
+// The plane of the diagram: data to picture (px, y down).
+struct Axes {
+  Box box;
+  double height = 0;
+  double inner_width() const { return width - left - right; }
+  double inner_height() const { return height - top - foot; }
+  double x(double v) const { return left + (v - box.x_min) / box.width() * inner_width(); }
+  double y(double v) const { return top + (box.y_max - v) / box.height() * inner_height(); }
+};
+
+Axes axes_of(const std::vector<Curve>& curves, Style style) {
+  Axes axes;
+  axes.height = style == Style::polar ? 420 : 260;
+  for (const auto& curve : curves)
+    for (const Place& p : curve.points)
+      if (p.finite()) axes.box.add(p.x, p.y);
+  if (axes.box.empty()) return axes;
+  Box& box = axes.box;
+  if (style == Style::polar) box.add(0, 0);
+  const auto widen = [](double& low, double& high, double by) { low -= by, high += by; };
+  if (style == Style::polar) {
+    const double per_pixel =
+        std::max({box.width() / axes.inner_width(), box.height() / axes.inner_height(), 1e-300}) * 1.08;
+    widen(box.x_min, box.x_max, (per_pixel * axes.inner_width() - box.width()) / 2);
+    widen(box.y_min, box.y_max, (per_pixel * axes.inner_height() - box.height()) / 2);
+    return axes;
+  }
+  // A line that is level still needs some room.
+  const auto level = [](double low, double high) {
+    return low == high ? std::max(std::abs(low), 1.0) / 10 : 0;
+  };
+  widen(box.x_min, box.x_max, level(box.x_min, box.x_max));
+  widen(box.y_min, box.y_max, level(box.y_min, box.y_max) + 0.06 * box.height());
+  if (style == Style::histogram) box.y_min = 0;
+  return axes;
+}
+
+void draw_axes(std::string& out, const Axes& axes, const std::string& x_label, const std::string& y_label,
+               bool logarithmic, bool origin) {
+  const double bottom = axes.height - foot;
+  std::string lines, texts;
+  const auto ticks = [](double low, double high, double step, auto&& use) {
+    for (double i = std::ceil(low / step); i * step <= high; ++i) use(i == 0 ? 0 : i * step);
+  };
+  ticks(axes.box.x_min, axes.box.x_max, nice_step(axes.box.width(), 6), [&](double v) {
+    put(lines, "M{:.1f} {:.0f}V{:.0f}", axes.x(v), top, bottom);
+    put(texts, "<text x=\"{:.1f}\" y=\"{:.0f}\" text-anchor=\"middle\">{}</text>", axes.x(v), bottom + 16,
+        number(v));
+  });
+  const double step = nice_step(axes.box.height(), 5);
+  ticks(axes.box.y_min, axes.box.y_max, logarithmic ? std::max(1.0, step) : step, [&](double v) {
+    put(lines, "M{:.0f} {:.1f}H{:.0f}", left, axes.y(v), width - right);
+    put(texts, "<text x=\"{:.0f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", left - 6, axes.y(v) + 4,
+        number(logarithmic ? std::pow(10, v) : v));
+  });
+  put(out, "<path d=\"{}\" stroke=\"#dfe5ea\" fill=\"none\"/><g fill=\"#526170\" font-size=\"11\">{}\n",
+      lines, texts);
+  put(out, "<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\" font-size=\"12\">{}</text>",
+      (left + width - right) / 2, axes.height - 10, escape(x_label));
+  put(out,
+      "<text transform=\"translate(14,{:.0f}) rotate(-90)\" text-anchor=\"middle\" "
+      "font-size=\"12\">{}</text></g>\n",
+      (top + bottom) / 2, escape(y_label));
+  if (origin)
+    put(out,
+        "<path class=\"origin\" d=\"M{0:.1f} {1:.0f}V{2:.0f}M{3:.0f} {4:.1f}H{5:.0f}\" stroke=\"#526170\" "
+        "fill=\"none\"/><circle cx=\"{0:.1f}\" cy=\"{4:.1f}\" r=\"4\" stroke=\"#526170\" fill=\"none\"/>\n",
+        axes.x(0), top, bottom, left, axes.y(0), width - right);
+}
+
+void draw_curve(std::string& out, const Axes& axes, const Curve& curve, std::size_t index, bool bundle,
+                bool points) {
+  std::string path;
+  bool down = false;
+  for (const Place& p : curve.points) {
+    if (!p.finite()) {
+      down = false;
+      continue;
+    }
+    if (points)
+      put(path, "M{:.1f} {:.1f}h0", axes.x(p.x), axes.y(p.y));
+    else
+      put(path, "{}{:.1f} {:.1f}", down ? 'L' : 'M', axes.x(p.x), axes.y(p.y));
+    down = true;
+  }
+  const std::size_t look = bundle ? 0 : index % colours.size();
+  put(out,
+      "<path class=\"curve\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
+      "stroke-dasharray=\"{}\" "
+      "stroke-linejoin=\"round\" stroke-linecap=\"{}\" stroke-opacity=\"{}\"><title>{}</title></path>\n",
+      path, colours[look], points ? 6 : 1.8, points ? "none" : dashes[look], points ? "round" : "butt",
+      bundle ? 0.5 : 1.0, escape(curve.label));
+}
+
+}  // namespace
+
+std::string plot_svg(const study::Plot& plot, const Table& table) {
+  const bool counts = plot.style == Style::histogram, polar = plot.style == Style::polar;
+  const std::vector<Curve> curves =
+      counts ? std::vector<Curve>{histogram(plot, table)} : curves_of(plot, table);
+  const Axes axes = axes_of(curves, plot.style);
+  const bool bundle = curves.size() > most_named, empty = axes.box.empty();
+  const bool named = !bundle && !counts && (polar || curves.size() > 1);
+  const double height =
+      empty ? 60 : axes.height + (named ? line_height * static_cast<double>(curves.size()) + 6 : 0);
+  std::string out;
+  put(out,
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
+      "{1:.0f}\" role=\"img\" font-family=\"system-ui, sans-serif\"><title>{2}</title>"
+      "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#ffffff\"/>\n",
+      width, height, escape(plot.title));
+  if (empty) {
+    out += "<text x=\"24\" y=\"36\" font-size=\"14\">No values.</text></svg>\n";
+    return out;
+  }
+  const Column* first = table.find(plot.y.front());
+  const Column* x = table.find(plot.x);
+  const std::string unit = first ? unit_of(*first) : "";
+  const std::string x_label = polar ? "x " + unit : counts ? curves.front().label : x ? label_of(*x) : plot.x;
+  const std::string y_label = polar                ? "y " + unit
+                              : counts             ? "count"
+                              : curves.size() == 1 ? curves.front().label
+                                                   : unit;
+  draw_axes(out, axes, x_label, y_label, plot.logarithmic_y && !polar, polar);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    draw_curve(out, axes, curves[i], i, bundle, plot.style == Style::points);
+  if (named)
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      const double y = axes.height + line_height * (static_cast<double>(i) + 0.5);
+      put(out,
+          "<path d=\"M{:.0f} {:.0f}h34\" stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"/>"
+          "<text x=\"{:.0f}\" y=\"{:.0f}\" font-size=\"12\" fill=\"#1d2935\">{}</text>\n",
+          left, y, colours[i % colours.size()], dashes[i % dashes.size()], left + 42, y + 4,
+          escape(curves[i].label));
+    }
+  out += "</svg>\n";
+  return out;
+}
+
+}  // namespace linkwright::report

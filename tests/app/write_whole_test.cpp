@@ -1,0 +1,65 @@
+#include "linkwright/app/write_whole.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace linkwright::app {
+namespace {
+namespace fs = std::filesystem;
+
+class WriteWhole : public testing::Test {
+ protected:
+  WriteWhole() : folder_(fs::temp_directory_path() / ("linkwright-write-" + std::to_string(::getpid()))) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~WriteWhole() override { fs::remove_all(folder_); }
+
+  std::set<std::string> names() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_)) names.insert(entry.path().filename().string());
+    return names;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(WriteWhole, ReplacesAndLeavesNothingElse) {
+  for (const std::string& text : {std::string("one\n"), std::string("\0two", 4), std::string()}) {
+    EXPECT_EQ(write_whole(folder_ / "a", text), "");
+    std::ostringstream found;
+    found << std::ifstream(folder_ / "a", std::ios::binary).rdbuf();
+    EXPECT_EQ(found.str(), text);
+    EXPECT_EQ(names(), std::set<std::string>{"a"});
+  }
+}
+
+TEST_F(WriteWhole, SaysWhyNot) {
+  EXPECT_EQ(write_whole(folder_ / "none" / "a", "x"), "No such file or directory");
+  fs::create_directories(folder_ / "a" / "b");  // a folder with something in it is not replaced
+  EXPECT_NE(write_whole(folder_ / "a", "x"), "");
+  EXPECT_EQ(names(), std::set<std::string>{"a"});
+}
+
+TEST_F(WriteWhole, LeftoversOfDeadProcessesGo) {
+  const pid_t dead = ::fork();
+  if (dead == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(dead, nullptr, 0), dead);
+  const std::string gone = "a." + std::to_string(dead) + ".part",
+                    alive = "a." + std::to_string(::getpid()) + ".part",
+                    other = "b." + std::to_string(dead) + ".part";
+  const std::set<std::string> stay = {"a", "a.part", "a.1x.part", "a.-1.part", "a..part", alive, other};
+  for (const std::string& name : stay) std::ofstream(folder_ / name) << "x";
+  std::ofstream(folder_ / gone) << "x";
+  remove_leftovers(folder_ / "a");
+  EXPECT_EQ(names(), stay);
+  remove_leftovers(folder_ / "none" / "a");  // nothing there, nothing to do
+}
+
+}  // namespace
+}  // namespace linkwright::app

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "linkwright/planar/linkage_build.h"
+#include "linkwright/planar/linkage_plan.h"
+
+// Linkages that tests of several units use.
+namespace linkwright::planar {
+
+inline LinkagePlan planned(const Linkage& l, PlanRoute route = PlanRoute::along_groups) {
+  PlanResult r = plan(l, route);
+  for (const Diagnostic& d : r.problems) ADD_FAILURE() << to_string(d);
+  return r.plan;
+}
+
+inline void add_bar(Linkage& l, const char* name, const char* from, const char* to, double length) {
+  add_body(l, name, {{from, {0, 0}}, {to, {length, 0}}});
+}
+
+/// Crank O-A driven, coupler A-B, rocker B0-B; ground link along x.
+inline Linkage four_bar_linkage(double ground, double crank, double coupler, double rocker) {
+  Linkage l = grounded({{"O", {0, 0}}, {"B0", {ground, 0}}});
+  add_bar(l, "crank", "O", "A", crank);
+  add_bar(l, "coupler", "A", "B", coupler);
+  add_bar(l, "rocker", "B0", "B", rocker);
+  add_pin(l, "O", "ground.O", "crank.O");
+  add_pin(l, "A", "crank.A", "coupler.A");
+  add_pin(l, "B", "coupler.B", "rocker.B");
+  add_pin(l, "B0", "ground.B0", "rocker.B0");
+  add_drive(l, "O");
+  set_mode(l, "coupler", "rocker", AssemblyMode::plus);
+  set_uniform_all(l, 2);
+  return l;
+}
+
+/// A row of n rods of length 1 on the ground, a distance 1 apart, their tips joined by couplers of length 1;
+/// the first rod is driven. All lie in line when it is horizontal.
+inline Linkage rod_row(int n) {
+  std::vector<LinkagePoint> pivots;
+  for (int i = 0; i < n; ++i) pivots.push_back({"P" + std::to_string(i), {static_cast<double>(i), 0}});
+  Linkage l = grounded(pivots);
+  for (int i = 0; i < n; ++i) {
+    const std::string k = std::to_string(i), rod = "rod" + k;
+    add_body(l, rod, {{"foot", {0, 0}}, {"tip", {1, 0}}});
+    add_pin(l, "pivot" + k, "ground.P" + k, rod + ".foot");
+    if (i == 0) continue;
+    const std::string before = "rod" + std::to_string(i - 1), coupler = "coupler" + k;
+    add_body(l, coupler, {{"left", {0, 0}}, {"right", {1, 0}}});
+    add_pin(l, "left" + k, before + ".tip", coupler + ".left");
+    add_pin(l, "right" + k, coupler + ".right", rod + ".tip");
+    set_mode(l, coupler, rod, AssemblyMode::plus);
+  }
+  add_drive(l, "pivot0");
+  set_uniform_all(l, 1);
+  return l;
+}
+
+/// One leg of Jansen's walking mechanism with the lengths he published (in units of his; here decimetres),
+/// crank centre at the origin.
+inline Linkage jansen_leg() {
+  const double a = 0.38, b = 0.415, c = 0.393, d = 0.401, e = 0.558, f = 0.394, g = 0.367, h = 0.657,
+               i = 0.49, j = 0.5, k = 0.619, drop = 0.078, m = 0.15;
+  const auto apex = [](double base, double from_start, double from_end, double side) {
+    const double x = (base * base + from_start * from_start - from_end * from_end) / (2 * base);
+    return std::complex<double>(x, side * std::sqrt(from_start * from_start - x * x));
+  };
+  Linkage l = grounded({{"O", {0, 0}}, {"B", {-a, -drop}}});
+  add_bar(l, "crank", "O", "A", m);
+  add_bar(l, "upper_rod", "A", "E", j);
+  add_body(l, "upper_triangle", {{"B", {0, 0}}, {"E", {b, 0}}, {"D", apex(b, d, e, 1)}});
+  add_bar(l, "lower_rod", "A", "C", k);
+  add_bar(l, "rocker", "B", "C", c);
+  add_bar(l, "link", "D", "F", f);
+  add_body(l, "foot", {{"C", {0, 0}}, {"F", {g, 0}}, {"toe", apex(g, i, h, 1)}});
+  add_pin(l, "O", "ground.O", "crank.O");
+  add_pin(l, "A_upper", "crank.A", "upper_rod.A");
+  add_pin(l, "E", "upper_rod.E", "upper_triangle.E");
+  add_pin(l, "B_upper", "ground.B", "upper_triangle.B");
+  add_pin(l, "A_lower", "crank.A", "lower_rod.A");
+  add_pin(l, "C", "lower_rod.C", "rocker.C");
+  add_pin(l, "B_lower", "ground.B", "rocker.B");
+  add_pin(l, "D", "upper_triangle.D", "link.D");
+  add_pin(l, "F", "link.F", "foot.F");
+  add_pin(l, "C_foot", "rocker.C", "foot.C");
+  add_drive(l, "O");
+  set_mode(l, "upper_rod", "upper_triangle", AssemblyMode::minus);
+  set_mode(l, "lower_rod", "rocker", AssemblyMode::plus);
+  set_mode(l, "link", "foot", AssemblyMode::plus);
+  set_uniform_all(l, 2);
+  return l;
+}
+
+/// Crank that moves a plate on three legs, one from the crank and two from the ground: its four bodies are
+/// one group without closed form (an Assur group of class III).
+inline Linkage three_legged_plate() {
+  Linkage l = grounded({{"O", {0, 0}}, {"G", {1.2, -0.2}}, {"H", {0.8, 1.1}}});
+  add_bar(l, "crank", "O", "A", 0.2);
+  add_bar(l, "leg1", "A", "P", 0.5);
+  add_body(l, "plate", {{"P", {0, 0}}, {"Q", {0.5, 0}}, {"R", {0.25, 0.4}}});
+  add_bar(l, "leg2", "G", "Q", 0.55);
+  add_bar(l, "leg3", "H", "R", 0.6);
+  add_pin(l, "O", "ground.O", "crank.O");
+  add_pin(l, "A", "crank.A", "leg1.A");
+  add_pin(l, "P", "leg1.P", "plate.P");
+  add_pin(l, "Q", "plate.Q", "leg2.Q");
+  add_pin(l, "R", "plate.R", "leg3.R");
+  add_pin(l, "G", "ground.G", "leg2.G");
+  add_pin(l, "H", "ground.H", "leg3.H");
+  add_drive(l, "O");
+  set_uniform_all(l, 2);
+  return l;
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,284 @@
+#include "linkwright/planar/linkage_study.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "linkwright/planar/linkage_samples.h"
+#include "linkwright/planar/studies.h"
+#include "linkwright/study/read.h"
+#include "linkwright/study/study.h"
+#include "linkwright/study/write.h"
+
+namespace linkwright::planar {
+namespace {
+
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double pi = std::numbers::pi;
+
+const char* const four_bar_text = R"(schema = 1
+kind = "analysis"
+[mechanism]
+type = "planar.linkage"
+[[mechanism.body]]
+name = "ground"
+points_m = { O1 = [0, 0], O4 = [0.6, 0] }
+[[mechanism.body]]
+name = "crank"
+points_m = { O1 = [0, 0], O2 = [0.1, 0] }
+mass_kg = 0.36
+inertia_kg_m2 = 4.13e-4
+[[mechanism.body]]
+name = "coupler"
+points_m = { O2 = [0, 0], O3 = [0.4, 0], C = [0.2, 0.1] }
+mass_kg = 1.296
+inertia_kg_m2 = 1.87e-2
+centre_m = [0.2, 0]
+[[mechanism.body]]
+name = "rocker"
+points_m = { O4 = [0, 0], O3 = [0.32, 0] }
+mass_kg = 1.046
+inertia_kg_m2 = 9.85e-3
+[[mechanism.joint]]
+name = "O1"
+first = "ground.O1"
+second = "crank.O1"
+[[mechanism.joint]]
+name = "O2"
+first = "crank.O2"
+second = "coupler.O2"
+[[mechanism.joint]]
+name = "O3"
+first = "rocker.O3"
+second = "coupler.O3"
+[[mechanism.joint]]
+name = "O4"
+first = "ground.O4"
+second = "rocker.O4"
+[[mechanism.assembly]]
+bodies = ["coupler", "rocker"]
+mode = "plus"
+[[drive]]
+joint = "O1"
+speed_rpm = 300
+[sweep]
+type = "grid"
+[[sweep.input]]
+from_deg = 0
+to_deg = 360
+samples = 201
+[[trace]]
+point = "coupler.C"
+)";
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const auto at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  if (at != std::string::npos) text.replace(at, what.size(), by);
+  return text;
+}
+
+std::optional<study::Study> prepare(const std::string& text, std::string& messages) {
+  static const std::vector<study::Kind> kinds = studies();
+  Diagnostics diagnostics;
+  const Value document = study::read_text(text, study::Syntax::toml, "study.toml", diagnostics);
+  auto prepared = study::prepare(document, "study.toml", ".", kinds, diagnostics);
+  for (const Diagnostic& d : diagnostics) messages += to_string(d) + "\n";
+  return prepared;
+}
+std::string problems(const std::string& text) {
+  std::string messages;
+  EXPECT_FALSE(prepare(text, messages)) << text;
+  return messages;
+}
+study::Result run(const std::string& text) {
+  std::string messages;
+  const auto prepared = prepare(text, messages);
+  EXPECT_TRUE(prepared) << messages;
+  RunContext context;
+  return prepared ? study::run_study(*prepared, context) : study::Result{};
+}
+double peak(const study::Result& r, const char* column) {
+  const Column* c = r.tables.at(0).find(column);
+  EXPECT_TRUE(c) << column;
+  double most = 0;
+  if (c)
+    for (double v : c->values) most = std::max(most, std::abs(v));
+  return most;
+}
+
+TEST(LinkageStudy, GivesTheFiguresOfTheFourBarStudy) {
+  const study::Result r = run(four_bar_text);
+  EXPECT_EQ(r.status, Status::done);
+  // Boskovic 2018, original mechanism of Table 2.2: largest values over 201 samples, as recomputed with more
+  // digits; half a unit of the last one.
+  EXPECT_NEAR(peak(r, "O1_drive_torque_N_m"), 14.7136372, 5e-8);
+  EXPECT_NEAR(peak(r, "O1_x_N"), 416.148105, 5e-7);
+  EXPECT_NEAR(peak(r, "O3_y_N"), 32.8136345, 5e-8);
+  EXPECT_NEAR(peak(r, "shaking_force_x_N"), 191.941323, 5e-7);
+  EXPECT_NEAR(peak(r, "shaking_moment_with_drive_N_m"), 54.9623514, 5e-8);
+  EXPECT_NEAR(peak(r, "shaking_moment_N_m"), 65.7736707, 5e-8);
+  EXPECT_LE(peak(r, "closure_residual_m"), 1e-15);
+  EXPECT_THAT(r.tables[0].status, Each("done"));
+  EXPECT_THAT(r.diagnostics, IsEmpty());
+}
+
+TEST(LinkageStudy, WritesAStudyThatGivesTheSameAgain) {
+  std::string messages;
+  const auto first = prepare(four_bar_text, messages);
+  ASSERT_TRUE(first) << messages;
+  const std::string text = study::to_toml(first->canonical);
+  const auto second = prepare(text, messages);
+  ASSERT_TRUE(second) << messages << text;
+  EXPECT_EQ(study::to_toml(second->canonical), text);
+}
+
+TEST(LinkageStudy, EverySampleRunsByItsNameAloneAndIsWrittenOut) {
+  for (const LinkageSample& sample : linkage_samples()) {
+    SCOPED_TRACE(sample.name);
+    if (sample.from.size() != 1) continue;  // several inputs need a sweep of their own
+    const std::string text =
+        "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"planar.linkage\"\nsample = \"" + sample.name +
+        "\"\n";
+    std::string messages;
+    const auto prepared = prepare(text, messages);
+    ASSERT_TRUE(prepared) << messages;
+    RunContext context;
+    const study::Result r = study::run_study(*prepared, context);
+    EXPECT_EQ(r.status, Status::done) << to_string(r.status);
+    EXPECT_EQ(r.scenes.size(), 1u);
+    const auto again = prepare(study::to_toml(prepared->canonical), messages);
+    ASSERT_TRUE(again) << messages;
+    const study::Result s = study::run_study(*again, context);
+    EXPECT_EQ(s.status, Status::done);
+    ASSERT_EQ(s.tables[0].columns.size(), r.tables[0].columns.size());
+    for (std::size_t c = 0; c < r.tables[0].columns.size(); ++c)
+      EXPECT_NEAR(s.tables[0].columns[c].values[17], r.tables[0].columns[c].values[17],
+                  1e-9 * (1 + std::abs(r.tables[0].columns[c].values[17])))
+          << r.tables[0].columns[c].key;
+  }
+}
+
+TEST(LinkageStudy, FollowsMotionLawsOverTime) {
+  std::string text = replaced(four_bar_text, "speed_rpm = 300",
+                              "law = \"cycloidal\"\nfrom_deg = 0\nto_deg = 180\nduration_s = 0.5");
+  text = text.substr(0, text.find("[sweep]")) + "[sweep]\ntype = \"time\"\n[sweep.time]\nto_s = 0.5\nsamples = 101\n";
+  const study::Result r = run(text);
+  EXPECT_EQ(r.status, Status::done);
+  const Table& t = r.tables[0];
+  EXPECT_NEAR(t.find("O1_angle_rad")->values[50], pi / 2, 1e-14);
+  EXPECT_EQ(t.find("crank_speed_rad_per_s")->values[0], 0);
+  // Highest speed of the cycloidal law: twice the mean.
+  EXPECT_NEAR(t.find("crank_speed_rad_per_s")->values[50], 2 * pi / 0.5, 1e-12);
+  EXPECT_EQ(r.scenes[0].input_key, "time_s");
+}
+
+TEST(LinkageStudy, TellsWhereALinkageAssembles) {
+  const study::Result r = run(replaced(four_bar_text, "O3 = [0.32, 0]", "O3 = [0.22, 0]"));
+  EXPECT_EQ(r.status, Status::no_assembly);
+  ASSERT_FALSE(r.diagnostics.empty());
+  // At angle a the crank pin is sqrt(0.37 - 0.12 cos a) from O4; coupler and rocker reach 0.62 m.
+  const double limit = std::acos((0.37 - 0.62 * 0.62) / 0.12) * 180 / pi;
+  EXPECT_NEAR(limit, 96.9, 0.05);
+  EXPECT_THAT(to_string(r.diagnostics[0]),
+              testing::AllOf(HasSubstr("do not assemble: coupler + rocker would have to be longer"),
+                             HasSubstr("it assembles from 0° to 95.4° and 264.6° to 360°")));
+  const Table& t = r.tables[0];
+  EXPECT_EQ(t.status[100], "no_assembly");
+  EXPECT_TRUE(std::isnan(t.find("coupler_angle_rad")->values[100]));
+  EXPECT_FALSE(std::isnan(t.find("coupler_angle_rad")->values[10]));
+}
+
+TEST(LinkageStudy, NamesWhatIsWrongWithALinkage) {
+  EXPECT_THAT(problems(replaced(four_bar_text, "first = \"crank.O2\"", "first = \"crnk.O2\"")),
+              HasSubstr("mechanism.joint[1].first: there is no body 'crnk'; did you mean 'crank'?"));
+  EXPECT_THAT(problems(replaced(four_bar_text, "first = \"crank.O2\"", "first = \"crank.O5\"")),
+              HasSubstr("body 'crank' has no point 'O5'"));
+  EXPECT_THAT(problems(replaced(four_bar_text, "O2 = [0.1, 0]", "O2 = [0, 0]")),
+              HasSubstr("has no length: its joints O1 and O2 lie in one point"));
+  EXPECT_THAT(problems(replaced(four_bar_text, "joint = \"O1\"\nspeed_rpm", "joint = \"O9\"\nspeed_rpm")),
+              HasSubstr("there is no joint 'O9'; did you mean 'O1'?"));
+  EXPECT_THAT(problems(replaced(four_bar_text, "mass_kg = 1.046", "#")),
+              HasSubstr("forces and torques need the mass of every body: 'rocker' has none"));
+  EXPECT_THAT(problems(replaced(four_bar_text, "[[drive]]\njoint = \"O1\"",
+                                "[[drive]]\njoint = \"O4\"\n[[drive]]\njoint = \"O1\"")),
+              HasSubstr("two drives on one freedom"));
+  const std::string no_rocker_pin =
+      replaced(four_bar_text,
+               "[[mechanism.joint]]\nname = \"O4\"\nfirst = \"ground.O4\"\nsecond = \"rocker.O4\"\n", "");
+  EXPECT_THAT(
+      problems(replaced(no_rocker_pin,
+                        "[[mechanism.assembly]]\nbodies = [\"coupler\", \"rocker\"]\nmode = \"plus\"\n", "")),
+      HasSubstr("keep 2 degrees of freedom without a drive"));
+  const std::string strut = R"([[mechanism.body]]
+name = "strut"
+points_m = { P = [0, 0], Q = [0.3, 0] }
+mass_kg = 1
+[[mechanism.joint]]
+name = "P"
+first = "ground.O4"
+second = "strut.P"
+[[mechanism.joint]]
+name = "Q"
+first = "coupler.O3"
+second = "strut.Q"
+[[mechanism.assembly]]
+)";
+  EXPECT_THAT(problems(replaced(four_bar_text, "[[mechanism.assembly]]\n", strut)),
+              HasSubstr("'strut' has 1 constraint too many: a rigid or overdetermined structure"));
+  EXPECT_THAT(problems(replaced(four_bar_text, "bodies = [\"coupler\", \"rocker\"]",
+                                "bodies = [\"crank\", \"rocker\"]")),
+              HasSubstr("are no pair with two assembly modes; these are: coupler + rocker"));
+  EXPECT_THAT(problems(replaced(four_bar_text, "from_deg = 0\nto_deg = 360", "from_deg = 9\nto_deg = 9")),
+              HasSubstr("the sweep ends where it begins"));
+}
+
+TEST(SliderCrankStudy, AgreesWithTheClosedFormOfItsSlider) {
+  const std::string text = R"(schema = 1
+kind = "analysis"
+[mechanism]
+type = "planar.slider_crank"
+[mechanism.parameters]
+crank_m = 0.4
+rod_m = 1.1
+offset_m = 0.2
+guide_angle_deg = 25
+pivot_x_m = 0.3
+rod_u_m = 0.5
+rod_v_m = 0.2
+[[drive]]
+speed_rad_per_s = 1
+[sweep]
+type = "grid"
+[[sweep.input]]
+from_deg = 0
+to_deg = 360
+samples = 37
+[[trace]]
+point = "rod.C"
+[output]
+quantities = ["position"]
+)";
+  const study::Result r = run(text);
+  EXPECT_EQ(r.status, Status::done);
+  const double delta = 25 * pi / 180;
+  for (int i = 0; i < 37; ++i) {
+    // Boskovic 2018, Eqs. (4.9)-(4.11), the offset there counted against ours.
+    const double angle = i * pi / 18, h = -0.2;
+    const double rod = delta + std::asin(-(h + 0.4 * std::sin(angle - delta)) / 1.1);
+    const double way = 0.4 * std::cos(angle - delta) + 1.1 * std::cos(rod - delta);
+    const auto c = std::complex<double>(0.3, 0) + std::polar(0.4, angle) +
+                   std::polar(1.0, rod) * std::complex<double>(0.5, 0.2);
+    EXPECT_NEAR(r.tables[0].find("guide_way_m")->values[static_cast<std::size_t>(i)], way, 1e-14);
+    EXPECT_NEAR(r.tables[0].find("rod_C_x_m")->values[static_cast<std::size_t>(i)], c.real(), 1e-14);
+    EXPECT_NEAR(r.tables[0].find("rod_C_y_m")->values[static_cast<std::size_t>(i)], c.imag(), 1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace linkwright::planar

@@ -1,0 +1,35 @@
+#include "linkwright/planar/measures.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <vector>
+
+#include "support/message.h"
+
+namespace linkwright::planar {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Measures, OfAFewSamples) {
+  const std::vector<double> samples = {3, -4, 0, 12, 0};
+  EXPECT_DOUBLE_EQ(rss_over_n(samples), 13.0 / 4);  // five samples, four intervals
+  EXPECT_DOUBLE_EQ(rms(samples), 13 / std::sqrt(5.0));
+  EXPECT_DOUBLE_EQ(mean_abs(samples), 19.0 / 5);
+  EXPECT_EQ(max_abs(samples), 12);
+}
+
+TEST(Measures, KeepWhatIsMissing) {
+  const std::vector<double> samples = {3, NAN, 4};
+  for (auto measure : {rss_over_n, rms, mean_abs, max_abs}) EXPECT_TRUE(std::isnan(measure(samples)));
+}
+
+TEST(Measures, NeedSamples) {
+  EXPECT_THAT(test::message([] { rss_over_n(std::vector<double>{1}); }), HasSubstr("needs 2 samples, got 1"));
+  for (auto measure : {rms, mean_abs, max_abs})
+    EXPECT_THAT(test::message([&] { measure({}); }), HasSubstr("needs a sample"));
+}
+
+}  // namespace
+}  // namespace linkwright::planar
