@@ -208,6 +208,15 @@ TEST(LinkagePlan, TakesModesInAnyOrderAndFromStartPoses) {
   EXPECT_TRUE(planned(l).groups[1].mode_given);
 }
 
+TEST(LinkagePlan, TakesTheModesOfSlidesInAnyOrder) {
+  for (const auto& [name, swaps] : {std::pair{"slider_crank", false}, {"inverted_slider_crank", true}}) {
+    Linkage l = linkage_sample(name).linkage;
+    const double mode = planned(l).groups[1].mode;
+    std::swap(l.modes[0].first, l.modes[0].second);
+    EXPECT_EQ(planned(l).groups[1].mode, swaps ? -mode : mode) << name;
+  }
+}
+
 // ---- problems
 
 TEST(LinkagePlanProblems, IncludeThoseOfTheDescription) {
