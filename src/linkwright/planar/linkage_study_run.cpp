@@ -233,7 +233,7 @@ class Runner {
     const std::vector<double> inputs{axis.from};
     const bool turn = s_.plan.rotary[0] && periodic(s_.plan, 0);
     const double low = std::min(axis.from, axis.to), high = std::max(axis.from, axis.to);
-    limits_ = input_limits(s_.plan, inputs, 0, low, turn ? low + 2 * pi : high);
+    limits_ = turn ? input_limits(s_.plan, inputs, 0, -pi, pi) : input_limits(s_.plan, inputs, 0, low, high);
     const bool choice = std::any_of(limits_->ranges.begin(), limits_->ranges.end(), [](const InputRange& r) {
       return r.from.kind == EndKind::change_point || r.to.kind == EndKind::change_point;
     });
