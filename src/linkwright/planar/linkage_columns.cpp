@@ -17,6 +17,30 @@ std::string group_key(std::string name) {
   return identifier(name);
 }
 
+const std::vector<Word>& linkage_quantity_words() {
+  static const std::vector<Word> words = {
+      {"position", "angles and origins of the bodies, ways of the slides, traced points"},
+      {"rates", "their speeds and accelerations"},
+      {"reactions", "forces and moments in the joints"},
+      {"drive", "torques and forces of the drives"},
+      {"shaking", "force and moments of the linkage on the ground"},
+      {"transmission_angle", "of every dyad, folded to 0..90 deg: sine of the angle of force transmission"},
+      {"power", "of drives, weight and loads, and the rate of the kinetic energy"}};
+  return words;
+}
+LinkageQuantities chosen_quantities(const std::vector<std::string>& listed) {
+  const auto has = [&](std::string_view word) {
+    return listed.empty() || std::find(listed.begin(), listed.end(), word) != listed.end();
+  };
+  return {.position = has("position"),
+          .rates = has("rates"),
+          .reactions = has("reactions"),
+          .drive = has("drive"),
+          .shaking = has("shaking"),
+          .transmission_angle = has("transmission_angle"),
+          .power = has("power")};
+}
+
 std::string identifier(std::string_view name) {
   std::string out;
   for (char c : name)

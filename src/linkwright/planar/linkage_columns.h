@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "linkwright/core/field.h"
 #include "linkwright/planar/linkage_reactions.h"
 
 // Columns of the tables that studies of linkages write.
@@ -15,6 +16,10 @@ struct LinkageQuantities {
        transmission_angle = true, power = true;
   bool dynamic() const { return reactions || drive || shaking || power; }
 };
+
+/// What `output.quantities` may list, and what a list chooses: all when it is empty.
+const std::vector<Word>& linkage_quantity_words();
+LinkageQuantities chosen_quantities(const std::vector<std::string>& listed);
 
 /// What one row is made from.
 struct LinkageInstant {

@@ -91,7 +91,8 @@ struct LinkageDescription {
   Linkage linkage;
   LinkagePlan plan;
   std::vector<BodyPoint> traces;
-  std::string sample;  ///< its name when the mechanism is a canned one
+  std::string sample;               ///< its name when the mechanism is a canned one
+  std::vector<double> sample_from;  ///< and the inputs where its motion begins
 };
 enum class LinkageType { linkage, slider_crank };
 /// Reads and plans; nothing when there are problems, which go to the reader.

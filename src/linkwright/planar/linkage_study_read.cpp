@@ -149,16 +149,27 @@ void report(study::ObjectReader& document, study::ObjectReader& mechanism, const
   }
 }
 
+const Field sample_field{.key = "sample", .summary = "a canned linkage in the place of bodies and joints"};
+const Field sample_count_field{.key = "sample_count",
+                               .summary = "links of the sample arm, loops of the sample four_bar_chain",
+                               .minimum = 1,
+                               .maximum = 200};
+
 std::optional<LinkageSample> sample_named(study::ObjectReader& mechanism) {
   const std::span<const LinkageSample> all = linkage_samples();
   std::vector<Word> words;
   for (const LinkageSample& s : all) words.push_back({s.name, s.summary});
   const auto index = mechanism.word(Field{.key = "sample", .summary = "a canned linkage"}, words);
   if (!index) return std::nullopt;
-  return all[*index];
+  std::optional<int> count;
+  mechanism(sample_count_field, count);
+  if (!count) return all[*index];
+  if (words[*index].name == "arm") return arm_sample(*count);
+  if (words[*index].name == "four_bar_chain") return four_bar_chain_sample(*count);
+  mechanism.error("sample_count", fmt::format("the sample '{}' comes in one size", words[*index].name),
+                  "leave the key out; it is for arm and four_bar_chain");
+  return std::nullopt;
 }
-
-const Field sample_field{.key = "sample", .summary = "a canned linkage in the place of bodies and joints"};
 
 }  // namespace
 
@@ -167,7 +178,8 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
   LinkageDescription out;
   auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
   Environment environment;
-  if (auto table = document.table("environment")) table->read(environment);
+  auto surroundings = document.table("environment");
+  if (surroundings) surroundings->read(environment);
   auto drives = document.tables("drive");
   auto traces = document.tables("trace");
   if (!mechanism) return std::nullopt;
@@ -183,6 +195,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
     if (!sample) return std::nullopt;
     l = std::move(sample->linkage);
     out.sample = sample->name;
+    out.sample_from = sample->from;
     if (traces.empty()) out.traces = sample->traces;
   } else {
     LinkageForm form;
@@ -238,9 +251,12 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
       out.traces.push_back({body, index});
     }
   }
-  l.gravity = std::polar(environment.gravity, environment.direction);
-  // Straight down is exactly down.
-  if (environment.direction == Environment{}.direction) l.gravity = {0, -environment.gravity};
+  // A sample brings its own gravity.
+  if (surroundings || out.sample.empty()) {
+    l.gravity = std::polar(environment.gravity, environment.direction);
+    // Straight down is exactly down.
+    if (environment.direction == Environment{}.direction) l.gravity = {0, -environment.gravity};
+  }
   if (!good || document.document().has_errors()) return std::nullopt;
   PlanResult planned = plan(l);
   if (!planned.problems.empty()) {
@@ -287,6 +303,7 @@ void describe_linkage(study::SchemaWriter& document, LinkageType type) {
     LinkageForm form;
     fields(mechanism, form);
     mechanism(sample_field, std::optional<std::string>());
+    mechanism(sample_count_field, std::optional<int>());
     document.property(Field{.key = "mechanism", .summary = "the linkage", .required = true},
                       std::move(mechanism).finish());
   }
@@ -309,30 +326,6 @@ static constexpr Field samples_field{.key = "samples",
                                      .required = true};
 
 namespace {
-
-const std::vector<Word>& quantity_words() {
-  static const std::vector<Word> words = {
-      {"position", "angles and origins of the bodies, ways of the slides, traced points"},
-      {"rates", "their speeds and accelerations"},
-      {"reactions", "forces and moments in the joints"},
-      {"drive", "torques and forces of the drives"},
-      {"shaking", "force and moments of the linkage on the ground"},
-      {"transmission_angle", "of every dyad, folded to 0..90 deg: sine of the angle of force transmission"},
-      {"power", "of drives, weight and loads, and the rate of the kinetic energy"}};
-  return words;
-}
-LinkageQuantities chosen_quantities(const std::vector<std::string>& listed) {
-  const auto has = [&](std::string_view word) {
-    return listed.empty() || std::find(listed.begin(), listed.end(), word) != listed.end();
-  };
-  return {.position = has("position"),
-          .rates = has("rates"),
-          .reactions = has("reactions"),
-          .drive = has("drive"),
-          .shaking = has("shaking"),
-          .transmission_angle = has("transmission_angle"),
-          .power = has("power")};
-}
 
 enum class SweepType { grid, time };
 constexpr std::array<EnumName<SweepType>, 2> names(SweepType) {
@@ -578,7 +571,7 @@ void describe(study::SchemaWriter& document, LinkageType type) {
 study::Kind kind_of(LinkageType type) {
   study::Kind kind;
   kind.kind = "analysis";
-  kind.quantities = quantity_words();
+  kind.quantities = linkage_quantity_words();
   kind.schema = [type](study::SchemaWriter& document) { describe(document, type); };
   kind.prepare = [type](study::ObjectReader& document, const study::Common& common) {
     return prepare(document, common, type);

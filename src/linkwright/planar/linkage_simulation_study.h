@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "linkwright/planar/linkage_simulation.h"
+#include "linkwright/planar/linkage_study.h"
+
+// The simulation of a linkage under forces: what its file holds, how it is read, run and reported.
+namespace linkwright::planar {
+
+/// In which coordinates the equations of motion are written.
+enum class SimulationRoute { free_joints, all_coordinates };
+constexpr std::array<EnumName<SimulationRoute>, 2> names(SimulationRoute) {
+  return {{{SimulationRoute::free_joints, "free_joints",
+            "those of the free joints: closes exactly, ends at dead points of the joint"},
+           {SimulationRoute::all_coordinates, "all_coordinates",
+            "places of all bodies with joint forces, projected onto the joints after every step: passes dead "
+            "points"}}};
+}
+
+/// A simulation as read.
+struct LinkageSimulationStudy {
+  Linkage linkage;
+  LinkagePlan plan;
+  std::vector<InputCourse> courses;  ///< one an input
+  double from = 0, to = 1;           ///< s
+  int samples = 401;
+  SimulationRoute route = SimulationRoute::free_joints;
+  SimulationOptions options;
+  std::vector<BodyPoint> traces;
+  LinkageQuantities quantities;
+};
+
+/// "simulation" of "planar.linkage" and of "planar.slider_crank".
+study::Kind linkage_simulation_kind();
+study::Kind slider_crank_simulation_kind();
+
+/// Integrates and reports. Rows up to where the motion ends are kept, whatever ends it.
+study::Result run_linkage_simulation(const LinkageSimulationStudy& study, RunContext& context);
+
+}  // namespace linkwright::planar

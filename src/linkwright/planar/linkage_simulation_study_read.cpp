@@ -1,0 +1,284 @@
+#include <fmt/format.h>
+
+#include "linkwright/planar/linkage_simulation_study.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::planar {
+
+template <class Visitor>
+void fields(Visitor&& visit, LinkageSimulationStudy& s) {
+  const auto time = [&](std::string_view key, std::string_view summary, bool required, double& value) {
+    visit(Field{.key = key,
+                .summary = summary,
+                .dimension = Dimension::time,
+                .minimum = -1e9,
+                .maximum = 1e9,
+                .required = required},
+          value);
+  };
+  time("from", "when the motion starts", false, s.from);
+  time("to", "when it ends", true, s.to);
+  visit(
+      Field{
+          .key = "samples", .summary = "rows of the table, both ends included", .minimum = 2, .maximum = 1e6},
+      s.samples);
+  visit(Field{.key = "route", .summary = "coordinates of the equations of motion"}, s.route);
+  visit(Field{.key = "method", .summary = "how they are integrated"}, s.options.method);
+  visit(Field{.key = "rtol", .summary = "relative tolerance of a step", .minimum = 1e-14, .maximum = 1e-2},
+        s.options.relative_tolerance);
+  visit(Field{.key = "atol",
+              .summary = "absolute tolerance of a step: rad, rad/s; of ways times the size of the linkage",
+              .minimum = 1e-16,
+              .maximum = 1e-2},
+        s.options.absolute_tolerance);
+  visit(
+      Field{.key = "max_steps", .summary = "steps after which it is given up", .minimum = 1, .maximum = 1e9},
+      s.options.max_steps);
+  visit(
+      Field{.key = "at_change_point", .summary = "where assembly modes meet, as of a parallelogram in line"},
+      s.options.at_change_point);
+}
+
+namespace {
+
+constexpr Field free_field{.key = "free", .summary = "no drive: forces move the joint"};
+
+Field start_field(bool rotary, int order, std::string_view key, std::string_view summary) {
+  return motion_fields::value(rotary ? JointKind::rotary : JointKind::linear, key, summary, false, order);
+}
+
+template <JointKind kind>
+void read_law(study::ObjectReader& drive, study::ObjectWriter& writer, InputCourse& course) {
+  DrivenLaw<kind> law;
+  if (!drive(Field{.key = "law", .summary = "motion law"}, law)) return;
+  course.law = motion_law(law);
+  writer(Field{.key = "law", .summary = {}}, law);
+  if (const auto wrong = problem(*course.law)) drive.error(wrong->key, wrong->message, wrong->hint);
+}
+
+void read_courses(study::ObjectReader& document, const LinkageDescription& d, LinkageSimulationStudy& s,
+                  Value::Array& canonical) {
+  const Linkage& l = d.linkage;
+  s.courses.resize(l.driven.size());
+  canonical.assign(l.driven.size(), Value::object());
+  std::vector<bool> told(l.driven.size(), false);
+  bool any_free = false;
+  const auto write_start = [&](std::size_t i) {
+    const bool rotary = d.plan.rotary[i];
+    study::ObjectWriter writer(canonical[i]);
+    writer(free_field, true);
+    writer(start_field(rotary, 0, "start", {}), s.courses[i].value);
+    writer(start_field(rotary, 1, "start_speed", {}), s.courses[i].rate);
+    any_free = true;
+  };
+  for (std::size_t i = 0; i < l.driven.size(); ++i) {
+    canonical[i]["joint"] = input_joint(l, i).name;
+    if (i < d.sample_from.size()) s.courses[i].value = d.sample_from[i];
+  }
+  for (study::ObjectReader& drive : document.tables("drive")) {
+    std::string joint = l.driven.size() == 1 ? input_joint(l, 0).name : std::string();
+    drive(Field{.key = "joint", .summary = {}}, joint);
+    std::size_t i = 0;
+    while (i < l.driven.size() && input_joint(l, i).name != joint) ++i;
+    if (i == l.driven.size()) continue;
+    told[i] = true;
+    const bool rotary = d.plan.rotary[i];
+    bool free = false;
+    drive(free_field, free);
+    if (free) {
+      drive(start_field(rotary, 0, "start", "position at the start"), s.courses[i].value);
+      drive(start_field(rotary, 1, "start_speed", "rate at the start"), s.courses[i].rate);
+      if (drive.has("law"))
+        drive.error("law", fmt::format("joint '{}' is free and has a motion law", joint),
+                    "remove one of them");
+      write_start(i);
+      continue;
+    }
+    study::ObjectWriter writer(canonical[i]);
+    if (rotary)
+      read_law<JointKind::rotary>(drive, writer, s.courses[i]);
+    else
+      read_law<JointKind::linear>(drive, writer, s.courses[i]);
+    if (!s.courses[i].law && !drive.has("law"))
+      drive.error("law", fmt::format("joint '{}' has neither a motion law nor free = true", joint),
+                  "free = true lets forces move it; law = \"constant_speed\" drives it");
+  }
+  for (std::size_t i = 0; i < told.size(); ++i)
+    if (!told[i]) write_start(i);  // of samples and shorthands: free
+  if (!any_free && !document.document().has_errors())
+    document.error("drive", "every drive has a motion law: nothing is left for forces to move",
+                   "write free = true in a [[drive]], or take kind = \"analysis\" with a sweep over time");
+}
+
+study::Prepared prepare(study::ObjectReader& document, const study::Common& common, LinkageType type) {
+  study::Prepared prepared;
+  LinkageSimulationStudy s;
+  s.quantities = chosen_quantities(common.output.quantities);
+  auto description = read_linkage(document, type, true);
+  if (auto table = document.table(Field{.key = "simulation", .summary = {}, .required = true})) {
+    table->read(s);
+    if (!(s.to > s.from) && !document.document().has_errors())
+      table->error("to", fmt::format("the simulation ends at {} s, but starts at {} s", s.to, s.from), {});
+  }
+  if (s.route == SimulationRoute::all_coordinates && s.options.method == math::OdeMethod::adams)
+    document.error("simulation", "all_coordinates are projected after every step, which adams does not allow",
+                   "take another method");
+  if (!description) {
+    for (study::ObjectReader& drive : document.tables("drive")) drive.members();
+    return prepared;
+  }
+  if (s.route == SimulationRoute::all_coordinates)
+    for (const LinkageJoint& j : description->linkage.joints)
+      if (j.friction > 0)
+        document.error("simulation",
+                       fmt::format("joint '{}' has friction, which all_coordinates do not take", j.name),
+                       "route = \"free_joints\" does");
+  Value::Array drives;
+  read_courses(document, *description, s, drives);
+  write_linkage(*description, prepared.canonical);
+  prepared.canonical["drive"] = Value(std::move(drives));
+  prepared.canonical["simulation"] = study::write_fields(s);
+  s.linkage = std::move(description->linkage);
+  s.plan = std::move(description->plan);
+  s.traces = std::move(description->traces);
+  prepared.run = [s = std::move(s)](RunContext& context) { return run_linkage_simulation(s, context); };
+  return prepared;
+}
+
+Value number_schema() {
+  Value v;
+  v["type"] = "number";
+  return v;
+}
+
+study::Kind kind_of(LinkageType type) {
+  study::Kind kind;
+  kind.kind = "simulation";
+  kind.quantities = linkage_quantity_words();
+  kind.schema = [type](study::SchemaWriter& document) {
+    describe_linkage(document, type);
+    study::SchemaWriter drive;
+    drive(Field{.key = "joint", .summary = "joint whose coordinate it is"}, std::string());
+    drive(free_field, false);
+    for (bool rotary : {true, false})
+      for (const auto& [order, key] : {std::pair{0, "start"}, std::pair{1, "start_speed"}})
+        drive.property(start_field(rotary, order, key, "of a free joint"), number_schema());
+    drive(Field{.key = "law", .summary = "motion law of a joint that is not free"}, RotaryLaw{});
+    document.property(Field{.key = "drive", .summary = "joints that are free, or move as a law says"},
+                      study::schema_array(std::move(drive).finish()));
+    document.property(Field{.key = "simulation", .summary = "time and tolerances", .required = true},
+                      study::schema_fields<LinkageSimulationStudy>());
+  };
+  kind.prepare = [type](study::ObjectReader& document, const study::Common& common) {
+    return prepare(document, common, type);
+  };
+  return kind;
+}
+
+}  // namespace
+
+study::Kind linkage_simulation_kind() {
+  study::Kind kind = kind_of(LinkageType::linkage);
+  kind.mechanism = "planar.linkage";
+  kind.summary =
+      "motion of any planar linkage under weight, springs, forces and motors, with an energy audit";
+  kind.example = R"(# linkwright study: motion of a planar linkage under forces
+schema = 1
+kind   = "simulation"
+title  = "My linkage swings"
+
+[mechanism]
+type = "planar.linkage"
+
+# The first body is the ground. Points are in the frame of the body.
+[[mechanism.body]]
+name      = "ground"
+points_mm = { O = [0, 0] }
+
+[[mechanism.body]]
+name      = "upper"
+points_mm = { O = [0, 0], A = [300, 0] }
+mass_kg   = 0.5                     # inertia and centre: those of a uniform bar unless given
+
+[[mechanism.body]]
+name      = "lower"
+points_mm = { A = [0, 0], B = [200, 0] }
+mass_kg   = 0.3
+
+[[mechanism.joint]]
+name   = "O"
+first  = "ground.O"
+second = "upper.O"
+
+[[mechanism.joint]]
+name   = "A"
+first  = "upper.A"
+second = "lower.A"
+
+# One [[drive]] for each degree of freedom: free = true, or a motion law.
+[[drive]]
+joint           = "O"
+free            = true
+start_deg       = 0.0
+start_speed_rpm = 0.0
+
+[[drive]]
+joint     = "A"
+free      = true
+start_deg = 90.0
+
+[simulation]
+to_s    = 5.0
+samples = 501
+
+[[trace]]
+point = "lower.B"
+)";
+  return kind;
+}
+
+study::Kind slider_crank_simulation_kind() {
+  study::Kind kind = kind_of(LinkageType::slider_crank);
+  kind.mechanism = "planar.slider_crank";
+  kind.summary = "motion of a slider-crank under its weight, with an energy audit";
+  kind.example = R"(# linkwright study: a slider-crank let go
+schema = 1
+kind   = "simulation"
+title  = "My engine coasts"
+
+[mechanism]
+type   = "planar.slider_crank"
+branch = "forward"                  # forward | backward
+
+[mechanism.parameters]
+crank_mm        = 50.0
+rod_mm          = 150.0
+guide_angle_deg = 0.0
+
+[mechanism.mass]
+slider_kg = 0.4
+
+[mechanism.mass.crank]
+mass_kg            = 0.9
+inertia_kg_m2      = 1.2e-3         # about the mass centre
+centre_distance_mm = 10.0           # from O
+
+[mechanism.mass.rod]
+mass_kg            = 0.5
+inertia_kg_m2      = 1.5e-3
+centre_distance_mm = 50.0           # from A
+
+[[drive]]
+free            = true
+start_deg       = 90.0
+start_speed_rpm = 600.0
+
+[simulation]
+to_s = 0.5
+)";
+  return kind;
+}
+
+}  // namespace linkwright::planar
