@@ -249,9 +249,10 @@ TEST(LinkagePlanProblems, NameFreedomsWithoutADrive) {
 TEST(LinkagePlanProblems, NameDrivesBeyondTheFreedoms) {
   Linkage l = four_bar();
   add_drive(l, "B0");
-  EXPECT_THAT(told(l), ElementsAre("body.coupler: 'coupler' has 1 constraint too many: a rigid or "
-                                   "overdetermined structure; the linkage has 1 degree(s) of freedom and 2 "
-                                   "drive(s): leave out a joint or a drive"));
+  EXPECT_THAT(told(l),
+              ElementsAre("drive: two drives on one freedom: with the drives of 'O' and 'B0' nothing is "
+                          "left to place 'coupler'; the linkage has 1 degree(s) of freedom and 2 "
+                          "drive(s): remove one drive"));
   Linkage two = grounded({{"O", {0, 0}}});
   add_bar(two, "arm", "O", "A", 1);
   add_pin(two, "O", "ground.O", "arm.O");
