@@ -49,7 +49,7 @@ RC_GTEST_PROP(SerialArmProperty, RatesAreTheDerivativesOfPositions, ()) {
     std::vector<ArmLinkRates> r(n);
     rates(e, arm.base, m, r);
     std::size_t row = 0;
-    const auto put = [&](const PointMotion& p) {
+    const auto put = [&](const ArmPointMotion& p) {
       for (const auto& [value, rate] : {std::pair{p.position, p.velocity}, {p.velocity, p.acceleration}}) {
         out[row] = value.real(), out[row + 1] = value.imag();
         if (!jacobian.empty()) jacobian[row] = rate.real(), jacobian[row + 1] = rate.imag();

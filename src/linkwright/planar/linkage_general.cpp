@@ -126,8 +126,15 @@ GeneralGroupPointer general_group_memory(const LinkagePlan& plan, const Group& g
 }
 
 double determinant_sign(const GeneralGroupMemory& memory) {
-  // Rows and columns are of the order of one, so the product stays far from the ends of a double.
-  return memory.factors.determinant() < 0 ? -1.0 : 1.0;
+  const auto& lu = memory.factors.matrixLU();
+  // Inversions of the row exchanges are counted here, as Eigen allocates for their sign.
+  const auto& order = memory.factors.permutationP().indices();
+  bool negative = false;
+  for (Index i = 0; i < lu.rows(); ++i) {
+    negative ^= lu(i, i) < 0;
+    for (Index k = 0; k < i; ++k) negative ^= order[k] > order[i];
+  }
+  return negative ? -1.0 : 1.0;
 }
 
 double conditioning(const GeneralGroupMemory& memory) {

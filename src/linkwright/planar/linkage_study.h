@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "linkwright/planar/linkage_branch.h"
+#include "linkwright/planar/linkage_columns.h"
 #include "linkwright/planar/linkage_form.h"
 #include "linkwright/planar/linkage_plan.h"
 #include "linkwright/planar/motion_law.h"
@@ -52,12 +53,6 @@ struct InputSamples {
 /// The rows of a table: all combinations of inputs, the first input slowest; or times.
 struct InputGrid {
   std::vector<InputSamples> inputs;  ///< in the order of the linkage's drives
-};
-
-struct LinkageQuantities {
-  bool position = true, rates = true, reactions = true, drive = true, shaking = true,
-       transmission_angle = true, power = true;
-  bool dynamic() const { return reactions || drive || shaking || power; }
 };
 
 /// `[quality]`: what is asked beyond the table, of linkages with one input.

@@ -348,10 +348,6 @@ Field motion_field(bool rotary, int order, std::string_view key, std::string_vie
   return motion_fields::value(rotary ? JointKind::rotary : JointKind::linear, key, summary, required, order);
 }
 
-const LinkageJoint& input_joint(const Linkage& l, std::size_t input) {
-  return l.joints[static_cast<std::size_t>(l.driven[input])];
-}
-
 // Index of the input that a table with `joint` means; the only one when it names none.
 std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& l) {
   std::string joint;

@@ -9,6 +9,7 @@
 
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage_branch.h"
+#include "linkwright/planar/linkage_columns.h"
 #include "linkwright/planar/linkage_limits.h"
 #include "linkwright/planar/linkage_quality.h"
 #include "linkwright/planar/linkage_reactions.h"
@@ -24,181 +25,16 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // Below it a dyad is said to transmit force badly: reactions grow like the reciprocal of its sine.
 constexpr double poor_transmission = 5 * pi / 180;
 
-// What one row is made from.
-struct Instant {
-  double time = 0;
-  std::vector<InputMotion> inputs;
-  const LinkageMotion* motion = nullptr;
-  const LinkageForces* forces = nullptr;
-};
-struct RowColumn {
-  std::string key, label;
-  std::function<double(const Instant&)> value;
-  bool angle = false;  // to be unwrapped
-};
-
-std::string identifier(std::string_view name) {
-  std::string out;
-  for (char c : name)
-    out += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? c : '_';
-  return out;
-}
-std::string group_key(const std::string& name) {
-  std::string text = name;
-  for (std::size_t i; (i = text.find(" + ")) != std::string::npos;) text.replace(i, 3, "_");
-  return identifier(text);
-}
-
-const LinkageJoint& input_joint(const Linkage& l, std::size_t input) { return l.joints[at(l.driven[input])]; }
-std::string input_key(const LinkageStudy& s, std::size_t input) {
-  return identifier(input_joint(s.linkage, input).name) + (s.plan.rotary[input] ? "_angle_rad" : "_way_m");
-}
-std::string input_label(const LinkageStudy& s, std::size_t input) {
-  return fmt::format("{} {}", input_joint(s.linkage, input).name,
-                     s.plan.rotary[input] ? "angle (rad)" : "way (m)");
-}
-
-// The table's columns, in the order of the quantities.
-std::vector<RowColumn> columns_of(const LinkageStudy& s) {
-  const Linkage& l = s.linkage;
-  const LinkagePlan& plan = s.plan;
-  const LinkageQuantities& q = s.quantities;
-  std::vector<RowColumn> out;
-  const auto add = [&](std::string key, std::string label, std::function<double(const Instant&)> value) {
-    out.push_back({std::move(key), std::move(label), std::move(value)});
-  };
+// Columns of the table: time or not, inputs, quantities.
+std::vector<LinkageColumn> columns_of(const LinkageStudy& s) {
+  std::vector<LinkageColumn> out;
   if (std::holds_alternative<TimeSamples>(s.sweep))
-    add("time_s", "time (s)", [](const Instant& i) { return i.time; });
-  for (std::size_t k = 0; k < plan.inputs(); ++k)
-    add(input_key(s, k), input_label(s, k), [k](const Instant& i) { return i.inputs[k].value; });
-  const auto moving = [&](auto&& each) {
-    for (int b = 1; b < static_cast<int>(l.bodies.size()); ++b)
-      if (plan.bodies[at(b)].part != 0) each(b, identifier(l.bodies[at(b)].name), l.bodies[at(b)].name);
-  };
-  const auto traced = [&](auto&& each) {
-    for (const BodyPoint& t : s.traces) {
-      const LinkageBody& body = l.bodies[at(t.body)];
-      const LinkagePoint& point = body.points[at(t.point)];
-      each(t.body, point.at, identifier(body.name) + "_" + identifier(point.name),
-           body.name + "." + point.name);
-    }
-  };
-  // A slide's way and its rates, second point from first along the slide.
-  const auto slides = [&](auto&& each) {
-    for (std::size_t j = 0; j < l.joints.size(); ++j)
-      if (l.joints[j].type == JointType::prismatic) each(j, identifier(l.joints[j].name), l.joints[j].name);
-  };
-  const auto way = [&plan, &l](const Instant& i, std::size_t j, int order) {
-    const LinkageJoint& joint = l.joints[j];
-    const auto place = [&](const BodyPoint& p) {
-      return point_motion(plan, *i.motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
-    };
-    const PartState<double> first = body_state(plan, *i.motion, joint.first.body);
-    const Vec<double> along = turn(first.direction, unit(joint.slide_first));
-    const PointMotion a = place(joint.first), b = place(joint.second);
-    if (order == 0) return dot(along, b.position - a.position);
-    const Vec<double> slip = b.velocity - velocity_at(first, b.position);
-    if (order == 1) return dot(along, slip);
-    return dot(along, b.acceleration - acceleration_at(first, b.position));
-  };
-  if (q.position) {
-    moving([&](int b, const std::string& key, const std::string& name) {
-      add(key + "_angle_rad", name + " angle (rad)",
-          [&plan, b](const Instant& i) { return angle_of(body_state(plan, *i.motion, b).direction); });
-      out.back().angle = true;
-      add(key + "_x_m", name + " origin x (m)",
-          [&plan, b](const Instant& i) { return body_state(plan, *i.motion, b).origin.x; });
-      add(key + "_y_m", name + " origin y (m)",
-          [&plan, b](const Instant& i) { return body_state(plan, *i.motion, b).origin.y; });
-    });
-    slides([&](std::size_t j, const std::string& key, const std::string& name) {
-      if (std::find(l.driven.begin(), l.driven.end(), static_cast<int>(j)) != l.driven.end()) return;
-      add(key + "_way_m", name + " way (m)", [way, j](const Instant& i) { return way(i, j, 0); });
-    });
-    traced([&](int b, std::complex<double> p, const std::string& key, const std::string& name) {
-      add(key + "_x_m", name + " x (m)",
-          [&plan, b, p](const Instant& i) { return point_motion(plan, *i.motion, b, p).position.x; });
-      add(key + "_y_m", name + " y (m)",
-          [&plan, b, p](const Instant& i) { return point_motion(plan, *i.motion, b, p).position.y; });
-    });
-  }
-  if (q.rates) {
-    moving([&](int b, const std::string& key, const std::string& name) {
-      add(key + "_speed_rad_per_s", name + " speed (rad/s)",
-          [&plan, b](const Instant& i) { return body_state(plan, *i.motion, b).speed; });
-      add(key + "_acceleration_rad_per_s2", name + " acceleration (rad/s2)",
-          [&plan, b](const Instant& i) { return body_state(plan, *i.motion, b).angular_acceleration; });
-    });
-    slides([&](std::size_t j, const std::string& key, const std::string& name) {
-      add(key + "_speed_m_per_s", name + " speed (m/s)", [way, j](const Instant& i) { return way(i, j, 1); });
-      add(key + "_acceleration_m_per_s2", name + " acceleration (m/s2)",
-          [way, j](const Instant& i) { return way(i, j, 2); });
-    });
-    traced([&](int b, std::complex<double> p, const std::string& key, const std::string& name) {
-      add(key + "_speed_x_m_per_s", name + " speed x (m/s)",
-          [&plan, b, p](const Instant& i) { return point_motion(plan, *i.motion, b, p).velocity.x; });
-      add(key + "_speed_y_m_per_s", name + " speed y (m/s)",
-          [&plan, b, p](const Instant& i) { return point_motion(plan, *i.motion, b, p).velocity.y; });
-      add(key + "_acceleration_x_m_per_s2", name + " acceleration x (m/s2)",
-          [&plan, b, p](const Instant& i) { return point_motion(plan, *i.motion, b, p).acceleration.x; });
-      add(key + "_acceleration_y_m_per_s2", name + " acceleration y (m/s2)",
-          [&plan, b, p](const Instant& i) { return point_motion(plan, *i.motion, b, p).acceleration.y; });
-    });
-  }
-  if (q.reactions)
-    for (std::size_t j = 0; j < l.joints.size(); ++j) {
-      const LinkageJoint& joint = l.joints[j];
-      const std::string key = identifier(joint.name);
-      const std::string pair =
-          fmt::format("{} on {}", l.bodies[at(joint.first.body)].name, l.bodies[at(joint.second.body)].name);
-      if (joint.type != JointType::gear) {
-        add(key + "_x_N", fmt::format("{} x, {} (N)", joint.name, pair),
-            [j](const Instant& i) { return i.forces->joints[j].force.x; });
-        add(key + "_y_N", fmt::format("{} y, {} (N)", joint.name, pair),
-            [j](const Instant& i) { return i.forces->joints[j].force.y; });
-        add(key + "_N", fmt::format("{} (N)", joint.name),
-            [j](const Instant& i) { return norm(i.forces->joints[j].force); });
-      }
-      if (joint.type == JointType::prismatic || joint.type == JointType::fixed ||
-          joint.type == JointType::gear)
-        add(key + "_moment_N_m", fmt::format("{} moment, {} (N m)", joint.name, pair),
-            [j](const Instant& i) { return i.forces->joints[j].moment; });
-    }
-  if (q.drive)
-    for (std::size_t k = 0; k < plan.inputs(); ++k) {
-      const std::string& name = input_joint(l, k).name;
-      add(identifier(name) + (plan.rotary[k] ? "_drive_torque_N_m" : "_drive_force_N"),
-          fmt::format("drive {} at {}", plan.rotary[k] ? "torque (N m)" : "force (N)", name),
-          [k](const Instant& i) { return i.forces->drives[k]; });
-    }
-  if (q.shaking) {
-    add("shaking_force_x_N", "shaking force x (N)",
-        [](const Instant& i) { return i.forces->shaking_force.x; });
-    add("shaking_force_y_N", "shaking force y (N)",
-        [](const Instant& i) { return i.forces->shaking_force.y; });
-    add("shaking_force_N", "shaking force (N)",
-        [](const Instant& i) { return norm(i.forces->shaking_force); });
-    add("shaking_moment_N_m", "shaking moment about the origin, without drive torques (N m)",
-        [](const Instant& i) { return i.forces->shaking_moment; });
-    add("shaking_moment_with_drive_N_m", "shaking moment about the origin, with the drives (N m)",
-        [](const Instant& i) { return i.forces->shaking_moment_with_drive; });
-  }
-  if (q.transmission_angle)
-    for (std::size_t g = 0; g < plan.groups.size(); ++g)
-      if (plan.groups[g].parts.size() == 2 && plan.groups[g].type != GroupType::general)
-        add(group_key(plan.groups[g].name) + "_transmission_angle_rad",
-            plan.groups[g].name + " transmission angle (rad)",
-            [g](const Instant& i) { return std::asin(std::min(1.0, std::abs(i.motion->groups[g].sine))); });
-  if (q.power) {
-    add("drive_power_W", "power of the drives (W)", [](const Instant& i) { return i.forces->drive_power; });
-    add("weight_power_W", "power of the weight (W)", [](const Instant& i) { return i.forces->weight_power; });
-    add("load_power_W", "power of springs and loads (W)",
-        [](const Instant& i) { return i.forces->load_power; });
-    add("kinetic_power_W", "rate of the kinetic energy (W)",
-        [](const Instant& i) { return i.forces->kinetic_power; });
-  }
-  add("closure_residual_m", "closure residual (m)",
-      [](const Instant& i) { return i.motion->closure_residual; });
+    out.push_back({"time_s", "time (s)", [](const LinkageInstant& i) { return i.time; }});
+  for (std::size_t k = 0; k < s.plan.inputs(); ++k)
+    out.push_back({input_key(s.linkage, s.plan, k), input_label(s.linkage, s.plan, k),
+                   [k](const LinkageInstant& i) { return i.inputs[k].value; }});
+  for (LinkageColumn& c : linkage_columns(s.linkage, s.plan, s.quantities, s.traces))
+    out.push_back(std::move(c));
   return out;
 }
 
@@ -290,7 +126,9 @@ class Runner {
     return at(std::get<InputGrid>(s_.sweep).inputs.back().samples);
   }
   std::size_t scene_axis() const { return s_.plan.inputs() - 1; }
-  std::string scene_input_key() const { return over_time() ? "time_s" : input_key(s_, scene_axis()); }
+  std::string scene_input_key() const {
+    return over_time() ? "time_s" : input_key(s_.linkage, s_.plan, scene_axis());
+  }
   std::string scene_input_label() const {
     return over_time() ? "time"
                        : input_joint(s_.linkage, scene_axis()).name +
@@ -311,7 +149,7 @@ class Runner {
     const bool closed = s_.plan.closed_form();
     values_.assign(columns_.size(), {});
     for (auto& v : values_) v.reserve(rows_.inputs.size());
-    Instant now{.motion = &motion, .forces = &forces};
+    LinkageInstant now{.motion = &motion, .forces = &forces};
     std::vector<double> last;
     for (std::size_t r = 0; r < rows_.inputs.size(); ++r) {
       now.time = rows_.time[r];
@@ -459,7 +297,7 @@ class Runner {
       force.push_back(std::isfinite(a.force_ratio) ? a.force_ratio : nan);
       table.status.emplace_back(to_string(motion.status));
     }
-    table.add(input_key(s_, 0), input_label(s_, 0), std::move(input));
+    table.add(input_key(s_.linkage, s_.plan, 0), input_label(s_.linkage, s_.plan, 0), std::move(input));
     table.add("rate_ratio", "rate of " + s_.quality.output_joint + " over that of the input",
               std::move(rate));
     table.add("mechanical_advantage", "force at " + s_.quality.output_joint + " over that of the drive",
@@ -467,7 +305,7 @@ class Runner {
     result_.plots.push_back({.name = "rate-ratio",
                              .title = "Rate ratio of " + s_.quality.output_joint,
                              .table = "advantage",
-                             .x = input_key(s_, 0),
+                             .x = input_key(s_.linkage, s_.plan, 0),
                              .y = {"rate_ratio"},
                              .scene = "motion"});
     result_.tables.push_back(std::move(table));
@@ -494,7 +332,7 @@ class Runner {
                           identifier(s_.linkage.bodies[at(all[k].second)].name));
       }
     }
-    table.add(input_key(s_, 0), input_label(s_, 0), std::move(input));
+    table.add(input_key(s_.linkage, s_.plan, 0), input_label(s_.linkage, s_.plan, 0), std::move(input));
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       table.add(pairs[k] + "_x_m", pairs[k] + " instant centre x (m)", std::move(x[k]));
       table.add(pairs[k] + "_y_m", pairs[k] + " instant centre y (m)", std::move(y[k]));
@@ -504,7 +342,7 @@ class Runner {
 
   std::vector<std::string> columns_ending(std::string_view ending, std::size_t most) const {
     std::vector<std::string> out;
-    for (const RowColumn& c : columns_)
+    for (const LinkageColumn& c : columns_)
       if (c.key.ends_with(ending) && out.size() < most) out.push_back(c.key);
     return out;
   }
@@ -553,7 +391,7 @@ class Runner {
       plot("transmission", "Transmission angles", columns_ending("_transmission_angle_rad", 8));
     if (q.position) {
       std::vector<std::string> angles, ways = columns_ending("_way_m", 8);
-      for (const RowColumn& c : columns_)
+      for (const LinkageColumn& c : columns_)
         if (c.angle && angles.size() < 8) angles.push_back(c.key);
       plot("angles", "Angles of the bodies", angles);
       if (s_.plan.inputs() == 1 && !s_.plan.rotary[0] && !ways.empty()) ways.erase(ways.begin());
@@ -720,7 +558,7 @@ class Runner {
 
   const LinkageStudy& s_;
   RunContext& context_;
-  std::vector<RowColumn> columns_;
+  std::vector<LinkageColumn> columns_;
   Rows rows_;
   std::vector<std::vector<double>> values_;
   std::vector<Status> statuses_;

@@ -18,7 +18,7 @@ std::vector<ArmElement> elements(const SerialArm& arm) {
   return out;
 }
 
-PointMotion point(const ArmLinkRates& link, std::complex<double> place) {
+ArmPointMotion point(const ArmLinkRates& link, std::complex<double> place) {
   // Written out: products of std::complex take care of infinities that cannot be here.
   const double x = place.real() * link.direction.real() - place.imag() * link.direction.imag();
   const double y = place.real() * link.direction.imag() + place.imag() * link.direction.real();
@@ -32,7 +32,7 @@ void rates(std::span<const ArmElement> arm, std::complex<double> base, std::span
            std::span<ArmLinkRates> rates) {
   LINKWRIGHT_REQUIRE(motion.size() == arm.size() && rates.size() == arm.size(),
                      "{} motions and {} rates for {} links", motion.size(), rates.size(), arm.size());
-  PointMotion joint{.position = base};
+  ArmPointMotion joint{.position = base};
   for (std::size_t k = 0; k < arm.size(); ++k) {
     const Motion& m = motion[k];
     rates[k] = {{std::cos(m.value), std::sin(m.value)}, m.rate, m.acceleration, joint};

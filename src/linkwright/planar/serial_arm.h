@@ -34,7 +34,7 @@ struct ArmElement {
 std::vector<ArmElement> elements(const SerialArm& arm);
 
 /// A point in motion, global frame: m, m/s, m/s2.
-struct PointMotion {
+struct ArmPointMotion {
   std::complex<double> position{0}, velocity{0}, acceleration{0};
 };
 
@@ -42,11 +42,11 @@ struct PointMotion {
 struct ArmLinkRates {
   std::complex<double> direction;      ///< e^(i angle) of the link line
   double speed = 0, acceleration = 0;  ///< rad/s, rad/s2, absolute
-  PointMotion joint;                   ///< the link's own joint
+  ArmPointMotion joint;                ///< the link's own joint
 };
 
 /// A point of a link, given in its frame (m): own joint in the origin, link line along x.
-PointMotion point(const ArmLinkRates& link, std::complex<double> place);
+ArmPointMotion point(const ArmLinkRates& link, std::complex<double> place);
 
 /// Rates of all links from their absolute angles (motion[k].value, .rate, .acceleration; the jerk is not
 /// used), outwards from the base. The tip is point(rates.back(), length of the last link). Allocates nothing.

@@ -22,7 +22,7 @@ struct Row {
   std::vector<double> angles;
   std::vector<ArmLinkRates> rates;
   std::vector<ArmJointLoads> loads;
-  PointMotion tip;
+  ArmPointMotion tip;
   ArmEnergy energy;
   double energy_rate = 0;
 
