@@ -18,7 +18,8 @@ TEST(Studies, AreThoseOfPlanarLinkages) {
   }
   EXPECT_THAT(names, ::testing::ElementsAre("synthesis/planar.four_bar/path_points",
                                             "analysis/planar.four_bar", "analysis/planar.linkage",
-                                            "analysis/planar.slider_crank", "analysis/planar.serial_arm"));
+                                            "analysis/planar.slider_crank", "simulation/planar.linkage",
+                                            "simulation/planar.slider_crank", "analysis/planar.serial_arm"));
   EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/planar.four_bar/path_points"));
 }
 

@@ -510,27 +510,25 @@ class Runner {
   }
   // Positions where the branch is a choice.
   void change_points(const std::function<void(std::string, std::string)>& warn) const {
-    if (!limits_) return;
+    if (!branch_) return;
     std::vector<double> told;
-    for (const InputRange& r : limits_->ranges)
-      for (const RangeEnd& end : {r.from, r.to}) {
-        if (end.kind != EndKind::change_point) continue;
-        const double value = limits_->rotary ? math::wrap_angle(end.value) : end.value;
-        if (std::any_of(told.begin(), told.end(), [&](double t) { return std::abs(t - value) < 1e-6; }))
-          continue;
-        told.push_back(value);
-        std::string groups;
-        for (int g : end.groups) groups += (groups.empty() ? "" : ", ") + s_.plan.groups[at(g)].name;
-        warn(fmt::format(
-                 "at {} the assembly modes of {} meet and cross: which way the linkage goes on there is a "
-                 "choice",
-                 shown(value, limits_->rotary), groups),
-             s_.at_change_point == AtChangePoint::smooth
-                 ? "the rows go on smoothly; sweep.at_change_point = \"keep_sign\" takes the other branch"
-             : s_.at_change_point == AtChangePoint::keep_sign
-                 ? "the rows take the branch with a kink; sweep.at_change_point = \"smooth\" is the other"
-                 : "the rows end there");
-      }
+    for (const RangeEnd& end : branch_->change_points) {
+      const double value = limits_->rotary ? math::wrap_angle(end.value) : end.value;
+      if (std::any_of(told.begin(), told.end(), [&](double t) { return std::abs(t - value) < 1e-6; }))
+        continue;
+      told.push_back(value);
+      std::string groups;
+      for (int g : end.groups) groups += (groups.empty() ? "" : ", ") + s_.plan.groups[at(g)].name;
+      warn(fmt::format(
+               "at {} the assembly modes of {} meet and cross: which way the linkage goes on there is a "
+               "choice",
+               shown(value, limits_->rotary), groups),
+           s_.at_change_point == AtChangePoint::smooth
+               ? "the rows go on smoothly; sweep.at_change_point = \"keep_sign\" takes the other branch"
+           : s_.at_change_point == AtChangePoint::keep_sign
+               ? "the rows take the branch with a kink; sweep.at_change_point = \"smooth\" is the other"
+               : "the rows end there");
+    }
   }
 
   void headline() {
