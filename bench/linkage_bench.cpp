@@ -4,8 +4,10 @@
 #include <vector>
 
 #include "linkwright/planar/linkage_general.h"
+#include "linkwright/planar/linkage_limits.h"
 #include "linkwright/planar/linkage_reactions.h"
 #include "linkwright/planar/linkage_samples.h"
+#include "linkwright/planar/linkage_sweep.h"
 
 namespace linkwright::planar {
 namespace {
@@ -60,6 +62,45 @@ BENCHMARK(linkage_jansen_rates);
 BENCHMARK(linkage_jansen_forces);
 BENCHMARK(linkage_triad_position);
 BENCHMARK(linkage_triad_forces);
+
+// The same turn through SIMD registers, many positions at a time, and what keeping it in flat rows costs.
+void linkage_sweep(benchmark::State& state, const char* name, const SweepWanted& wanted) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  const LinkageSample& sample = linkage_sample(name);
+  LinkageSweep sweep(sample.linkage, plan(sample.linkage).plan, wanted);
+  std::vector<double> value(n);
+  for (std::size_t i = 0; i < n; ++i)
+    value[i] =
+        sample.from[0] + (sample.to[0] - sample.from[0]) * static_cast<double>(i) / static_cast<double>(n);
+  const SweepInput input{value, {&sample.speed, 1}, {}};
+  for (auto _ : state) {
+    sweep.run({&input, 1});
+    benchmark::ClobberMemory();
+  }
+  if (!sweep.batched()) state.SkipWithError("not in registers");
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(n));
+  state.SetLabel(sweep_kernel_name());
+}
+constexpr SweepWanted places_only{.rates = false, .forces = false}, rates_too{.rates = true, .forces = false},
+    forces_too{.rates = true, .forces = true};
+BENCHMARK_CAPTURE(linkage_sweep, four_bar_position, "four_bar", places_only)->Arg(360);
+BENCHMARK_CAPTURE(linkage_sweep, four_bar_rates, "four_bar", rates_too)->Arg(360);
+BENCHMARK_CAPTURE(linkage_sweep, four_bar_forces, "four_bar", forces_too)->Arg(360)->Arg(3600);
+BENCHMARK_CAPTURE(linkage_sweep, jansen_position, "jansen_leg", places_only)->Arg(360);
+BENCHMARK_CAPTURE(linkage_sweep, jansen_rates, "jansen_leg", rates_too)->Arg(360);
+BENCHMARK_CAPTURE(linkage_sweep, jansen_forces, "jansen_leg", forces_too)->Arg(360);
+
+// Limits, change points and circuits over a full turn, in all modes.
+void linkage_limits(benchmark::State& state, const char* name) {
+  const LinkageSample& sample = linkage_sample(name);
+  const LinkagePlan p = plan(sample.linkage).plan;
+  for (auto _ : state) {
+    const InputLimits limits = input_limits(p, sample.from, 0, 0, 2 * std::numbers::pi);
+    benchmark::DoNotOptimize(limits.circuits);
+  }
+}
+BENCHMARK_CAPTURE(linkage_limits, four_bar, "four_bar")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(linkage_limits, jansen_leg, "jansen_leg")->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace linkwright::planar

@@ -2,12 +2,12 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "linkwright/planar/linkage_build.h"
 #include "linkwright/planar/linkage_plan.h"
+#include "linkwright/planar/linkage_samples.h"
 
 // Linkages that tests of several units use.
 namespace linkwright::planar {
@@ -60,40 +60,7 @@ inline Linkage rod_row(int n) {
   return l;
 }
 
-/// One leg of Jansen's walking mechanism with the lengths he published (in units of his; here decimetres),
-/// crank centre at the origin.
-inline Linkage jansen_leg() {
-  const double a = 0.38, b = 0.415, c = 0.393, d = 0.401, e = 0.558, f = 0.394, g = 0.367, h = 0.657,
-               i = 0.49, j = 0.5, k = 0.619, drop = 0.078, m = 0.15;
-  const auto apex = [](double base, double from_start, double from_end, double side) {
-    const double x = (base * base + from_start * from_start - from_end * from_end) / (2 * base);
-    return std::complex<double>(x, side * std::sqrt(from_start * from_start - x * x));
-  };
-  Linkage l = grounded({{"O", {0, 0}}, {"B", {-a, -drop}}});
-  add_bar(l, "crank", "O", "A", m);
-  add_bar(l, "upper_rod", "A", "E", j);
-  add_body(l, "upper_triangle", {{"B", {0, 0}}, {"E", {b, 0}}, {"D", apex(b, d, e, 1)}});
-  add_bar(l, "lower_rod", "A", "C", k);
-  add_bar(l, "rocker", "B", "C", c);
-  add_bar(l, "link", "D", "F", f);
-  add_body(l, "foot", {{"C", {0, 0}}, {"F", {g, 0}}, {"toe", apex(g, i, h, 1)}});
-  add_pin(l, "O", "ground.O", "crank.O");
-  add_pin(l, "A_upper", "crank.A", "upper_rod.A");
-  add_pin(l, "E", "upper_rod.E", "upper_triangle.E");
-  add_pin(l, "B_upper", "ground.B", "upper_triangle.B");
-  add_pin(l, "A_lower", "crank.A", "lower_rod.A");
-  add_pin(l, "C", "lower_rod.C", "rocker.C");
-  add_pin(l, "B_lower", "ground.B", "rocker.B");
-  add_pin(l, "D", "upper_triangle.D", "link.D");
-  add_pin(l, "F", "link.F", "foot.F");
-  add_pin(l, "C_foot", "rocker.C", "foot.C");
-  add_drive(l, "O");
-  set_mode(l, "upper_rod", "upper_triangle", AssemblyMode::minus);
-  set_mode(l, "lower_rod", "rocker", AssemblyMode::plus);
-  set_mode(l, "link", "foot", AssemblyMode::plus);
-  set_uniform_all(l, 2);
-  return l;
-}
+inline Linkage jansen_leg() { return linkage_sample("jansen_leg").linkage; }
 
 /// Crank that moves a plate on three legs, one from the crank and two from the ground: its four bodies are
 /// one group without closed form (an Assur group of class III).

@@ -21,8 +21,7 @@ std::vector<PartState<double>> placed(const Linkage& l, double mode, GroupType t
   std::vector<PartState<double>> parts(r.plan.parts.size());
   parts[0] = {{0, 0}, {1, 0}, {0, 0}, 0, {0, 0}, 0};
   GroupState<double> state;
-  const Group& g = r.plan.groups[0];
-  for_dyad(g.type, [&](auto dyad) { place_dyad(dyad, g, mode, parts.data(), state); });
+  for_dyad(type, [&](auto dyad) { place_dyad(dyad, r.plan.groups[0], mode, parts.data(), state); });
   return parts;
 }
 
@@ -129,10 +128,10 @@ TEST(LinkageKernel, IsTheSameForBatches) {
         drive_velocity(g, B(in.rate), parts.data());
         drive_acceleration(g, B(in.rate), B(in.acceleration), parts.data());
       } else {
-        for_dyad(g.type, [&](auto dyad) {
-          place_dyad(dyad, g, B(g.mode), parts.data(), states[k]);
-          dyad_velocity(dyad, g, parts.data(), states[k]);
-          dyad_acceleration(dyad, g, parts.data(), states[k]);
+        for_dyad(g.type, [&](auto type) {
+          place_dyad(type, g, B(g.mode), parts.data(), states[k]);
+          dyad_velocity(type, g, parts.data(), states[k]);
+          dyad_acceleration(type, g, parts.data(), states[k]);
         });
       }
     }
@@ -144,8 +143,8 @@ TEST(LinkageKernel, IsTheSameForBatches) {
       if (g.type == GroupType::driver)
         torque[index(g.input)] = driver_force(g, parts.data(), needed.data());
       else
-        for_dyad(g.type, [&](auto dyad) {
-          dyad_forces(dyad, g, parts.data(), states[k], needed.data(), joints[k].data());
+        for_dyad(g.type, [&](auto type) {
+          dyad_forces(type, g, parts.data(), states[k], needed.data(), joints[k].data());
         });
     }
     LinkageMotion m(p);

@@ -1,5 +1,7 @@
 #include "linkwright/planar/linkage_limits.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -82,7 +84,7 @@ TEST(LinkageLimits, OfAJansenLegTurnFullyAsItIsBuilt) {
   EXPECT_TRUE(r->full_turn);
   EXPECT_EQ(assembly_range_text(l, modes), "assembles over the full turn");
   EXPECT_EQ(mode_text(p, modes),
-            "upper_rod + upper_triangle minus, lower_rod + rocker plus, link + foot plus");
+            "upper rod + upper plate minus, lower rod + lower rocker plus, side rod + foot plate minus");
 }
 
 TEST(LinkageLimits, EveryRangeAssemblesInsideAndNotOutside) {
@@ -131,6 +133,11 @@ TEST(LinkageLimits, InWords) {
             "assembles nowhere from 114.6 to 229.2 deg");
   EXPECT_EQ(assembly_range_text(turn_limits(four_bar_linkage(2, 1, 2, 1)), modes),
             "assembles over the full turn");
+  // Across the end of the turn, up to where coupler and rocker lie in line: law of cosines.
+  const Linkage rocker = four_bar_linkage(0.4, 0.3, 0.25, 0.3);
+  const double far = math::degrees(std::acos((0.16 + 0.09 - 0.55 * 0.55) / 0.24));
+  EXPECT_EQ(assembly_range_text(turn_limits(rocker), modes),
+            fmt::format("assembles from {:.1f} to {:.1f} deg", -far, far));
   LinkageMotion m(p);
   solve_position(p, std::vector<InputMotion>{{math::radians(81.5), 0, 0}}, m);
   EXPECT_EQ(assembly_gap_text(p, m, 0, math::radians(81.5)),

@@ -413,6 +413,49 @@ TEST(LinkageReactions, OfAPlanetGear) {
   EXPECT_NEAR(f.drive_power + f.weight_power, f.kinetic_power, 1e-11);
 }
 
+// The same gear between bodies that are welded to others, at angles of their own.
+TEST(LinkageReactions, OfAPlanetGearBetweenWeldedBodies) {
+  Linkage l = grounded({{"O", {0, 0}}});
+  add_bar(l, "hub", "O", "end", 0.1);
+  add_bar(l, "arm", "start", "C", 0.3);
+  add_bar(l, "pointer", "C", "end", 0.2);
+  add_body(l, "planet", {{"C", {0, 0}}, {"rim", {0.1, 0}}});
+  add_pin(l, "O", "ground.O", "hub.O");
+  add_weld(l, "weld", "hub.end", "arm.start", 0.3);
+  add_weld(l, "weld 2", "pointer.C", "planet.C", -0.7);
+  add_pin(l, "C", "arm.C", "pointer.C");
+  add_gear(l, "gear", "ground", "planet", -2, 0.2, "arm");
+  add_drive(l, "O");
+  set_uniform_all(l, 2);
+  const LinkagePlan p = planned(l);
+  LinkageMotion m(p);
+  LinkageForces f;
+  const std::vector<InputMotion> in{{0.3, 6, 4}};
+  solve_motion(p, in, m);
+  // The arm stands at 0.6: the planet at 0.6 - 2 (0 - 0.6) + 0.2.
+  EXPECT_LE(norm(body_state(p, m, 4).direction - unit(2.0)), 1e-14);
+  EXPECT_LE(open_joints(l, p, m), 1e-14);
+  solve_forces(l, p, m, 0, 0, f);
+  EXPECT_LE(unbalance(l, p, m, f), 1e-12 * largest_force(f));
+}
+TEST(LinkageReactions, OfADrivenSlideStayInTheShakingMoment) {
+  Linkage l = grounded({{"guide", {0, 0.5}}});
+  add_body(l, "slider", {{"middle", {0, 0}}});
+  add_slide(l, "guide", "ground.guide", "slider.middle");
+  add_drive(l, "guide");
+  l.bodies[1].mass = BodyMass{2, 0, {0, 0}};
+  l.gravity = 0;
+  const LinkagePlan p = planned(l);
+  LinkageMotion m(p);
+  LinkageForces f;
+  const std::vector<InputMotion> in{{0.1, 0, 3}};
+  solve_motion(p, in, m);
+  solve_forces(l, p, m, 0, 0, f);
+  EXPECT_NEAR(f.shaking_force.x, -6, 1e-15);
+  EXPECT_NEAR(f.shaking_moment, 3, 1e-15);  // -6 N at 0.5 m above the origin
+  EXPECT_EQ(f.shaking_moment, f.shaking_moment_with_drive);
+}
+
 TEST(LinkageReactions, OfASlotAreNormalToIt) {
   const LinkageSample& s = linkage_sample("whitworth");
   const LinkagePlan p = planned(s.linkage);
@@ -594,6 +637,10 @@ TEST(LinkageFriction, OfAGuideFeelsTheMoment) {
   ASSERT_EQ(r.forces.status, Status::done);
   // 50 N x 0.2 m on 0.4 m: 25 N at each end.
   EXPECT_NEAR(r.forces.drives[0], 50 + 0.1 * 50, 1e-12);
+  // With 80 N across in the middle 40 + 25 N and 40 - 25 N: as many as without the moment.
+  l.forces.push_back({.name = "across", .point = {1, 0}, .force = {0, 80}});
+  EXPECT_NEAR(rub(l, 0.3, 1).forces.drives[0], 50 + 0.1 * 80, 1e-12);
+  l.forces.pop_back();
   l.joints[0].guide_length = 0;
   EXPECT_NEAR(rub(l, 0.3, 1).forces.drives[0], 50, 1e-12);
 }

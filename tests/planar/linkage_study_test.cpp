@@ -167,7 +167,8 @@ TEST(LinkageStudy, EverySampleRunsByItsNameAloneAndIsWrittenOut) {
 TEST(LinkageStudy, FollowsMotionLawsOverTime) {
   std::string text = replaced(four_bar_text, "speed_rpm = 300",
                               "law = \"cycloidal\"\nfrom_deg = 0\nto_deg = 180\nduration_s = 0.5");
-  text = text.substr(0, text.find("[sweep]")) + "[sweep]\ntype = \"time\"\n[sweep.time]\nto_s = 0.5\nsamples = 101\n";
+  text = text.substr(0, text.find("[sweep]")) +
+         "[sweep]\ntype = \"time\"\n[sweep.time]\nto_s = 0.5\nsamples = 101\n";
   const study::Result r = run(text);
   EXPECT_EQ(r.status, Status::done);
   const Table& t = r.tables[0];
@@ -187,11 +188,69 @@ TEST(LinkageStudy, TellsWhereALinkageAssembles) {
   EXPECT_NEAR(limit, 96.9, 0.05);
   EXPECT_THAT(to_string(r.diagnostics[0]),
               testing::AllOf(HasSubstr("do not assemble: coupler + rocker would have to be longer"),
-                             HasSubstr("it assembles from 0° to 95.4° and 264.6° to 360°")));
+                             HasSubstr("it assembles from -96.9 to 96.9 deg")));
   const Table& t = r.tables[0];
   EXPECT_EQ(t.status[100], "no_assembly");
   EXPECT_TRUE(std::isnan(t.find("coupler_angle_rad")->values[100]));
   EXPECT_FALSE(std::isnan(t.find("coupler_angle_rad")->values[10]));
+}
+
+// Rods of a parallelogram: where they lie in line the branch is a choice.
+TEST(LinkageStudy, GoesOnThroughChangePointsAsTheStudySays) {
+  std::string text = replaced(four_bar_text, "O4 = [0.6, 0]", "O4 = [0.4, 0]");
+  text = replaced(text, "O3 = [0.32, 0]", "O3 = [0.1, 0]");
+  text = replaced(text, "from_deg = 0\nto_deg = 360\nsamples = 201",
+                  "from_deg = 10\nto_deg = 350\nsamples = 171");
+  const study::Result smooth = run(text);
+  // A parallelogram stays one: the rocker is parallel to the crank, on both sides of 180 degrees.
+  const Table& t = smooth.tables[0];
+  std::size_t parallel = 0, singular = 0;
+  for (std::size_t i = 0; i < t.rows(); ++i) {
+    if (t.status[i] == "singular") {
+      ++singular;
+      continue;
+    }
+    const double apart =
+        std::remainder(t.find("rocker_angle_rad")->values[i] - t.find("crank_angle_rad")->values[i], 2 * pi);
+    parallel += std::abs(apart) < 1e-6;  // near the flat position angles are known to the root of rounding
+  }
+  EXPECT_EQ(singular, 1u);  // 180 degrees is a row
+  EXPECT_EQ(parallel, t.rows() - singular);
+  EXPECT_THAT(
+      to_string(smooth.diagnostics[1]),
+      HasSubstr("the assembly modes of coupler + rocker meet and cross: which way the linkage goes on there "
+                "is a choice; the rows go on smoothly"));
+  const study::Result other =
+      run(replaced(text, "type = \"grid\"", "type = \"grid\"\nat_change_point = \"keep_sign\""));
+  const Table& u = other.tables[0];
+  EXPECT_GT(std::abs(std::remainder(
+                u.find("rocker_angle_rad")->values[150] - u.find("crank_angle_rad")->values[150], 2 * pi)),
+            0.1);
+}
+
+TEST(LinkageStudy, TellsRatiosCentresAndRanges) {
+  const study::Result r =
+      run(std::string(four_bar_text) +
+          "[quality]\noutput_joint = \"O4\"\ncentrodes = [\"coupler\"]\ninstant_centres = true\n");
+  const auto table = [&](std::string_view name) -> const Table& {
+    for (const Table& t : r.tables)
+      if (t.name == name) return t;
+    throw std::runtime_error("no table " + std::string(name));
+  };
+  // The ratio of the speeds is that of the table of the analysis.
+  for (std::size_t i = 0; i < 201; i += 20)
+    EXPECT_NEAR(table("advantage").find("rate_ratio")->values[i],
+                table("sweep").find("rocker_speed_rad_per_s")->values[i] / (10 * pi), 1e-13);
+  EXPECT_EQ(table("ranges").rows(), 2u);  // both modes turn fully, each a circuit of its own
+  EXPECT_EQ(table("ranges").find("full_turn")->values, (std::vector<double>{1, 1}));
+  EXPECT_EQ(table("ranges").find("circuit")->values, (std::vector<double>{1, 2}));
+  // The instant centre of the coupler lies on the lines of crank and rocker.
+  const Table& centres = table("instant_centres");
+  const double x = centres.find("ground_coupler_x_m")->values[30],
+               y = centres.find("ground_coupler_y_m")->values[30];
+  const double crank = table("sweep").find("crank_angle_rad")->values[30];
+  EXPECT_NEAR(x * std::sin(crank) - y * std::cos(crank), 0, 1e-12);
+  EXPECT_EQ(table("centrodes-coupler").rows(), 201u);
 }
 
 TEST(LinkageStudy, NamesWhatIsWrongWithALinkage) {

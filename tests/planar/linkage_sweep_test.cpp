@@ -84,26 +84,25 @@ void expect_same(const Linkage& linkage, const LinkagePlan& plan, const LinkageS
   }
 }
 
-std::vector<Linkage> closed_forms() {
-  std::vector<Linkage> out{jansen_leg(), rod_row(4)};
-  for (const LinkageSample& s : {four_bar_sample(), slider_crank_sample(), offset_slider_crank_sample(),
-                                 inverted_slider_crank_sample(), scotch_yoke_sample(), whitworth_sample()})
-    out.push_back(s.linkage);
-  return out;
-}
-
 TEST(LinkageSweepTest, AgreesWithOnePositionAtATime) {
-  for (const Linkage& l : closed_forms()) {
-    SCOPED_TRACE(l.bodies.back().name);
-    const LinkagePlan p = planned(l);
-    LinkageSweep sweep(l, p, {.rates = true, .forces = true});
-    EXPECT_TRUE(sweep.batched());
+  int together = 0;
+  std::vector<LinkageSample> samples(linkage_samples().begin(), linkage_samples().end());
+  samples.push_back({"rod_row", "", rod_row(4), {0.1}, {3}, 1, {}});
+  for (const LinkageSample& s : samples) {
+    if (s.from.size() != 1) continue;
+    SCOPED_TRACE(s.name);
+    const LinkagePlan p = planned(s.linkage);
+    LinkageSweep sweep(s.linkage, p, {.rates = true, .forces = true});
+    together += sweep.batched();
+    // Without closed form there are several answers; the test of following is elsewhere.
+    if (!p.closed_form()) continue;
     for (const std::size_t n : {1u, 3u, 8u, 61u}) {
-      const Inputs in = turn_of(n);
+      const Inputs in = turn_of(n, s.from[0], s.to[0]);
       sweep.run(std::vector<SweepInput>{in.view()});
-      expect_same(l, p, sweep, in);
+      expect_same(s.linkage, p, sweep, in);
     }
   }
+  EXPECT_GE(together, 10);
 }
 
 TEST(LinkageSweepTest, TellsWhereItDoesNotAssemble) {

@@ -38,7 +38,7 @@ class CheckLayers(ScratchCase):
         self.assertEqual(self.findings("planar/path_study_read.cpp", line), [])
         self.assertEqual(self.findings("planar/scene.h", line), [])
         self.assertEqual(self.findings("planar/path_synthesis.cpp", line),
-                         ["src/linkwright/planar/path_synthesis.cpp:1: only studies*, *_study*, scene* of a domain use study"])
+                         ["src/linkwright/planar/path_synthesis.cpp:1: only studies*, *_study*, scene*, *_scene* of a domain use study"])
 
     def test_room_without_floor(self):
         [finding] = self.findings("gears/model.h", "")

@@ -10,13 +10,12 @@ namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-std::string group_key(const std::string& name) {
-  std::string text = name;
-  for (std::size_t i; (i = text.find(" + ")) != std::string::npos;) text.replace(i, 3, "_");
-  return identifier(text);
-}
-
 }  // namespace
+
+std::string group_key(std::string name) {
+  for (std::size_t i; (i = name.find(" + ")) != std::string::npos;) name.replace(i, 3, "_");
+  return identifier(name);
+}
 
 const std::vector<Word>& linkage_quantity_words() {
   static const std::vector<Word> words = {

@@ -37,6 +37,9 @@ struct LinkageColumn {
 /// A name as part of a column key: what is no letter or digit becomes '_'.
 std::string identifier(std::string_view name);
 
+/// The name of a group as part of a column key: "coupler + rocker" becomes "coupler_rocker".
+std::string group_key(std::string name);
+
 /// The joint of an input, the key of its column ("O_angle_rad") and its label.
 const LinkageJoint& input_joint(const Linkage& linkage, std::size_t input);
 std::string input_key(const Linkage& linkage, const LinkagePlan& plan, std::size_t input);

@@ -127,9 +127,14 @@ GeneralGroupPointer general_group_memory(const LinkagePlan& plan, const Group& g
 
 double determinant_sign(const GeneralGroupMemory& memory) {
   const auto& lu = memory.factors.matrixLU();
-  double s = static_cast<double>(memory.factors.permutationP().determinant());
-  for (Index i = 0; i < lu.rows(); ++i) s *= lu(i, i) < 0 ? -1.0 : 1.0;
-  return s;
+  // Inversions of the row exchanges are counted here, as Eigen allocates for their sign.
+  const auto& order = memory.factors.permutationP().indices();
+  bool negative = false;
+  for (Index i = 0; i < lu.rows(); ++i) {
+    negative ^= lu(i, i) < 0;
+    for (Index k = 0; k < i; ++k) negative ^= order[k] > order[i];
+  }
+  return negative ? -1.0 : 1.0;
 }
 
 double conditioning(const GeneralGroupMemory& memory) {

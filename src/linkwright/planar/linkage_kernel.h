@@ -95,24 +95,46 @@ LINKWRIGHT_KERNEL Vec<T> acceleration_at(const PartState<T>& part, const Vec<T>&
   return part.acceleration + part.angular_acceleration * left(arm) - (part.speed * part.speed) * arm;
 }
 
+// The same for a part by number: the ground, part 0, stands still in the global frame, and nothing is
+// computed for it.
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> point_on(const PartState<T>* parts, const PartPoint& p) {
+  if (p.part == 0) return spread<T>(p.at);
+  return point_on(parts[p.part], p.at);
+}
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> direction_on(const PartState<T>* parts, const PartPoint& p) {
+  if (p.part == 0) return spread<T>(p.direction);
+  return turn(parts[p.part].direction, spread<T>(p.direction));
+}
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> velocity_at(const PartState<T>* parts, int part, const Vec<T>& point) {
+  if (part == 0) return {T(0), T(0)};
+  return velocity_at(parts[part], point);
+}
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> acceleration_at(const PartState<T>* parts, int part, const Vec<T>& point) {
+  if (part == 0) return {T(0), T(0)};
+  return acceleration_at(parts[part], point);
+}
+
 // ---- position
 // -----------------------------------------------------------------------------------------------
 
 template <class T>
 LINKWRIGHT_KERNEL void place_driver(const Group& g, const T& value, PartState<T>* parts) {
   const PlanJoint& j = g.joints[0];
-  const PartState<T>& base = parts[j.before.part];
   PartState<T>& moved = parts[j.after.part];
-  const Vec<T> pivot = point_on(base, j.before.at);
+  const Vec<T> pivot = point_on(parts, j.before);
   const T way = j.reversed ? -value : value;
   if (j.slide) {
-    const Vec<T> along = turn(base.direction, spread<T>(j.before.direction));
+    const Vec<T> along = direction_on(parts, j.before);
     moved.direction = turn(along, spread<T>({j.after.direction.x, -j.after.direction.y}));
     moved.origin = pivot + way * along - turn(moved.direction, spread<T>(j.after.at));
   } else {
     Vec<T> rotation;
     math::sincos(way, rotation.y, rotation.x);
-    const Vec<T> turned = turn(turn(base.direction, spread<T>(j.before.direction)), rotation);
+    const Vec<T> turned = turn(direction_on(parts, j.before), rotation);
     moved.direction = tidy_unit(turn(turned, spread<T>({j.after.direction.x, -j.after.direction.y})));
     moved.origin = pivot - turn(moved.direction, spread<T>(j.after.at));
   }
@@ -126,8 +148,8 @@ LINKWRIGHT_KERNEL void place_rrr(const Group& g, const T& mode, PartState<T>* pa
   using std::sqrt;
   const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
-  const Vec<T> a = point_on(parts[j1.before.part], j1.before.at);
-  const Vec<T> b = point_on(parts[j3.after.part], j3.after.at);
+  const Vec<T> a = point_on(parts, j1.before);
+  const Vec<T> b = point_on(parts, j3.after);
   const Vec<T> d = b - a;
   const T d2 = dot(d, d);
   const double reach = g.first_length + g.second_length, fold = g.first_length - g.second_length;
@@ -153,12 +175,11 @@ LINKWRIGHT_KERNEL void place_rrp(const Group& g, const T& mode, PartState<T>* pa
   using std::sqrt;
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
-  const PartState<T>& guide = parts[j3.after.part];
-  const Vec<T> a = point_on(parts[j1.before.part], j1.before.at);
-  const Vec<T> e = turn(guide.direction, spread<T>(j3.after.direction));
+  const Vec<T> a = point_on(parts, j1.before);
+  const Vec<T> e = direction_on(parts, j3.after);
   second.direction = turn(e, spread<T>({j3.before.direction.x, -j3.before.direction.y}));
   // The inner pin runs along e through `start`.
-  const Vec<T> start = point_on(guide, j3.after.at) + turn(second.direction, spread<T>(g.second_link));
+  const Vec<T> start = point_on(parts, j3.after) + turn(second.direction, spread<T>(g.second_link));
   const Vec<T> m = a - start;
   const T across = cross(e, m);
   state.radicand = T(g.first_square) - across * across;
@@ -179,8 +200,8 @@ LINKWRIGHT_KERNEL void place_rpr(const Group& g, const T& mode, PartState<T>* pa
   using std::sqrt;
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
-  const Vec<T> a = point_on(parts[j1.before.part], j1.before.at);
-  const Vec<T> b = point_on(parts[j3.after.part], j3.after.at);
+  const Vec<T> a = point_on(parts, j1.before);
+  const Vec<T> b = point_on(parts, j3.after);
   const Vec<T> d = b - a;
   const T d2 = dot(d, d);
   const double offset = g.first_link.y - g.second_link.y;  // links seen from the slide direction
@@ -202,13 +223,12 @@ template <class T>
 LINKWRIGHT_KERNEL void place_prp(const Group& g, PartState<T>* parts, GroupState<T>& state) {
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
-  const PartState<T>&base1 = parts[j1.before.part], &base3 = parts[j3.after.part];
-  const Vec<T> e1 = turn(base1.direction, spread<T>(j1.before.direction));
-  const Vec<T> e3 = turn(base3.direction, spread<T>(j3.after.direction));
+  const Vec<T> e1 = direction_on(parts, j1.before);
+  const Vec<T> e3 = direction_on(parts, j3.after);
   first.direction = turn(e1, spread<T>({j1.after.direction.x, -j1.after.direction.y}));
   second.direction = turn(e3, spread<T>({j3.before.direction.x, -j3.before.direction.y}));
-  const Vec<T> start1 = point_on(base1, j1.before.at) + turn(first.direction, spread<T>(g.first_link));
-  const Vec<T> start3 = point_on(base3, j3.after.at) + turn(second.direction, spread<T>(g.second_link));
+  const Vec<T> start1 = point_on(parts, j1.before) + turn(first.direction, spread<T>(g.first_link));
+  const Vec<T> start3 = point_on(parts, j3.after) + turn(second.direction, spread<T>(g.second_link));
   const Vec<T> pin = start1 + (cross(start3 - start1, e3) / cross(e1, e3)) * e1;
   first.origin = pin - turn(first.direction, spread<T>(j2.before.at));
   second.origin = pin - turn(second.direction, spread<T>(j2.after.at));
@@ -221,16 +241,15 @@ template <class T>
 LINKWRIGHT_KERNEL void place_rpp(const Group& g, PartState<T>* parts, GroupState<T>& state) {
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
-  const PartState<T>& guide = parts[j3.after.part];
-  const Vec<T> e3 = turn(guide.direction, spread<T>(j3.after.direction));
+  const Vec<T> e3 = direction_on(parts, j3.after);
   second.direction = turn(e3, spread<T>({j3.before.direction.x, -j3.before.direction.y}));
   const Vec<T> e2 = turn(second.direction, spread<T>(j2.after.direction));
   first.direction = turn(e2, spread<T>({j2.before.direction.x, -j2.before.direction.y}));
-  const Vec<T> a = point_on(parts[j1.before.part], j1.before.at);
+  const Vec<T> a = point_on(parts, j1.before);
   first.origin = a - turn(first.direction, spread<T>(j1.after.at));
   const Vec<T> start2 = point_on(first, j2.before.at);
   // The second part's inner point runs along e2 through start2 and along e3 through start3.
-  const Vec<T> start3 = point_on(guide, j3.after.at) + turn(second.direction, spread<T>(g.second_link));
+  const Vec<T> start3 = point_on(parts, j3.after) + turn(second.direction, spread<T>(g.second_link));
   const Vec<T> meet = start2 + (cross(start3 - start2, e3) / cross(e2, e3)) * e2;
   second.origin = meet - turn(second.direction, spread<T>(j2.after.at));
   state.reference = a;
@@ -269,12 +288,11 @@ LINKWRIGHT_KERNEL void drive_velocity(const Group& g, const T& rate, PartState<T
   const T way = j.reversed ? -rate : rate;
   if (j.slide) {
     moved.speed = base.speed;
-    moved.velocity =
-        velocity_at(base, moved.origin) + way * turn(base.direction, spread<T>(j.before.direction));
+    moved.velocity = velocity_at(parts, j.before.part, moved.origin) + way * direction_on(parts, j.before);
   } else {
-    const Vec<T> pivot = point_on(base, j.before.at);
+    const Vec<T> pivot = point_on(parts, j.before);
     moved.speed = base.speed + way;
-    moved.velocity = velocity_at(base, pivot) - moved.speed * left(pivot - moved.origin);
+    moved.velocity = velocity_at(parts, j.before.part, pivot) - moved.speed * left(pivot - moved.origin);
   }
 }
 template <class T>
@@ -285,17 +303,17 @@ LINKWRIGHT_KERNEL void drive_acceleration(const Group& g, const T& rate, const T
   PartState<T>& moved = parts[j.after.part];
   const T way = j.reversed ? -acceleration : acceleration;
   if (j.slide) {
-    const Vec<T> along = turn(base.direction, spread<T>(j.before.direction));
+    const Vec<T> along = direction_on(parts, j.before);
     const T sliding = j.reversed ? -rate : rate;
     moved.angular_acceleration = base.angular_acceleration;
-    moved.acceleration =
-        acceleration_at(base, moved.origin) + way * along + (T(2) * base.speed * sliding) * left(along);
+    moved.acceleration = acceleration_at(parts, j.before.part, moved.origin) + way * along +
+                         (T(2) * base.speed * sliding) * left(along);
   } else {
-    const Vec<T> pivot = point_on(base, j.before.at);
+    const Vec<T> pivot = point_on(parts, j.before);
     const Vec<T> arm = pivot - moved.origin;
     moved.angular_acceleration = base.angular_acceleration + way;
-    moved.acceleration = acceleration_at(base, pivot) - moved.angular_acceleration * left(arm) +
-                         (moved.speed * moved.speed) * arm;
+    moved.acceleration = acceleration_at(parts, j.before.part, pivot) -
+                         moved.angular_acceleration * left(arm) + (moved.speed * moved.speed) * arm;
   }
 }
 
@@ -306,7 +324,8 @@ LINKWRIGHT_KERNEL void dyad_velocity(DyadType<type>, const Group& g, PartState<T
   const PartState<T>&before = parts[j1.before.part], &after = parts[j3.after.part];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
   constexpr DyadLayout at = layout(type);
-  const Vec<T> jump = velocity_at(after, s.reference) - velocity_at(before, s.reference);
+  const Vec<T> jump =
+      velocity_at(parts, j3.after.part, s.reference) - velocity_at(parts, j1.before.part, s.reference);
   s.rate_x = cross(jump, s.column_y) * s.inverse;
   s.rate_y = cross(s.column_x, jump) * s.inverse;
   constexpr bool turns_x = !at.slide(at.x), turns_y = !at.slide(at.y);
@@ -316,9 +335,9 @@ LINKWRIGHT_KERNEL void dyad_velocity(DyadType<type>, const Group& g, PartState<T
   const T rate1 = at.zero == 0 ? s.rate_zero : s.rate_x;
   first.speed = at.slide1 ? before.speed : before.speed + rate1;
   second.speed = at.slide3 ? after.speed : after.speed - s.rate_y;
-  const Vec<T> at_first =
-      velocity_at(before, s.reference) + (at.zero == 0 ? Vec<T>{T(0), T(0)} : s.rate_x * s.column_x);
-  const Vec<T> at_second = velocity_at(after, s.reference) - s.rate_y * s.column_y;
+  const Vec<T> at_first = velocity_at(parts, j1.before.part, s.reference) +
+                          (at.zero == 0 ? Vec<T>{T(0), T(0)} : s.rate_x * s.column_x);
+  const Vec<T> at_second = velocity_at(parts, j3.after.part, s.reference) - s.rate_y * s.column_y;
   first.velocity = at_first - first.speed * left(s.reference - first.origin);
   second.velocity = at_second - second.speed * left(s.reference - second.origin);
 }
@@ -340,8 +359,8 @@ LINKWRIGHT_KERNEL void dyad_acceleration(DyadType<type>, const Group& g, PartSta
   const PartState<T>&before = parts[j1.before.part], &after = parts[j3.after.part];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
   constexpr DyadLayout at = layout(type);
-  const Vec<T> from_before = acceleration_at(before, s.reference),
-               from_after = acceleration_at(after, s.reference);
+  const Vec<T> from_before = acceleration_at(parts, j1.before.part, s.reference),
+               from_after = acceleration_at(parts, j3.after.part, s.reference);
   const Vec<T> bias_x = at.zero == 0
                             ? joint_bias(at.slide(at.x), s.column_x, s.rate_x, first.speed, second.speed)
                             : joint_bias(at.slide(at.x), s.column_x, s.rate_x, before.speed, first.speed);

@@ -153,12 +153,14 @@ std::string assembly_range_text(const InputLimits& limits, std::span<const doubl
   for (const InputRange& r : limits.ranges) {
     if (!std::equal(modes.begin(), modes.end(), r.modes.begin(), r.modes.end())) continue;
     if (r.full_turn) return "assembles over the full turn";
+    // A range across the end of the turn is told about the start when more of it lies there: -96 to 96 deg.
+    const bool beyond = limits.closed && (r.from.value + r.to.value) / 2 >= limits.to - same_place;
+    const double from = r.from.value - (beyond ? full_turn : 0), to = r.to.value - (beyond ? full_turn : 0);
     // Ranges that meet at a change point are one to the reader.
-    if (!parts.empty() &&
-        std::abs(parts.back().second - r.from.value) <= same_place * (limits.to - limits.from))
-      parts.back().second = r.to.value;
+    if (!parts.empty() && std::abs(parts.back().second - from) <= same_place * (limits.to - limits.from))
+      parts.back().second = to;
     else
-      parts.emplace_back(r.from.value, r.to.value);
+      parts.emplace_back(from, to);
   }
   if (parts.empty())
     return fmt::format("assembles nowhere from {} to {} {}", place(rotary, limits.from),

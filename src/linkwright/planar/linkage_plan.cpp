@@ -532,11 +532,10 @@ class Planner {
                           mobility(l_), l_.driven.size()));
       else if (free < 0)
         error(key,
-              fmt::format("{} ha{} {} constraint{} too many: a rigid or overdetermined structure",
-                          names(component), component.size() == 1 ? "s" : "ve", -free, free == -1 ? "" : "s"),
-              fmt::format(
-                  "the linkage has {} degree(s) of freedom and {} drive(s): leave out a joint or a drive",
-                  mobility(l_), l_.driven.size()));
+              fmt::format("{} {} {} constraint{} too many: a rigid or overdetermined structure",
+                          names(component), component.size() == 1 ? "has" : "have", -free,
+                          free == -1 ? "" : "s"),
+              "leave out a joint or a drive");
       else
         error(key,
               fmt::format("{} {} constrained too much in one place and too little in another",

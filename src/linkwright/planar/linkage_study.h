@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "linkwright/planar/linkage_branch.h"
 #include "linkwright/planar/linkage_columns.h"
 #include "linkwright/planar/linkage_form.h"
 #include "linkwright/planar/linkage_plan.h"
@@ -54,13 +55,23 @@ struct InputGrid {
   std::vector<InputSamples> inputs;  ///< in the order of the linkage's drives
 };
 
+/// `[quality]`: what is asked beyond the table, of linkages with one input.
+struct LinkageQuality {
+  std::string output_joint;  ///< joint whose rate and force ratio to the input, and dead centres, are told
+  std::vector<std::string>
+      centrodes;                 ///< bodies whose fixed and moving centrode against the ground are tabled
+  bool instant_centres = false;  ///< table of all instant centres at every row
+};
+
 /// A study of a linkage as read.
 struct LinkageStudy {
   Linkage linkage;
   LinkagePlan plan;
   std::vector<LinkageDrive> drives;  ///< one an input
   std::variant<InputGrid, TimeSamples> sweep;
+  AtChangePoint at_change_point = AtChangePoint::smooth;  ///< of a grid over one input
   std::vector<BodyPoint> traces;
+  LinkageQuality quality;
   LinkageQuantities quantities;
 };
 

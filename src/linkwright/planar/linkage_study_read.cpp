@@ -12,6 +12,16 @@
 
 namespace linkwright::planar {
 
+template <class Visitor>
+void fields(Visitor&& visit, LinkageQuality& q) {
+  visit(Field{.key = "output_joint", .summary = "joint whose ratios to the input and dead centres are told"},
+        q.output_joint);
+  visit(Field{.key = "centrodes", .summary = "bodies whose centrodes against the ground are tabled"},
+        q.centrodes);
+  visit(Field{.key = "instant_centres", .summary = "table of all instant centres at every position"},
+        q.instant_centres);
+}
+
 // ---- the shorthand -----------------------------------------------------------------------------------
 
 template <class Visitor>
@@ -322,6 +332,9 @@ constexpr std::array<EnumName<SweepType>, 2> names(SweepType) {
   return {{{SweepType::grid, "grid", "all combinations of evenly spaced inputs"},
            {SweepType::time, "time", "evenly spaced times; the drives follow their laws"}}};
 }
+constexpr Field change_point_field{
+    .key = "at_change_point",
+    .summary = "grid over one input: how the linkage goes on where assembly modes meet"};
 constexpr double most_rows = 1e6;
 
 Field motion_field(bool rotary, int order, std::string_view key, std::string_view summary, bool required) {
@@ -423,9 +436,26 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageStudy& s, Va
   if (rows > most_rows)
     sweep.error("input", fmt::format("the grid has {:.0f} rows, at most {:.0f} are allowed", rows, most_rows),
                 "take fewer samples");
+  sweep(change_point_field, s.at_change_point);
   canonical["type"] = "grid";
   canonical["input"] = Value(std::move(axes));
+  study::ObjectWriter(canonical).operator()(change_point_field, s.at_change_point);
   s.sweep = std::move(grid);
+}
+
+void read_quality(study::ObjectReader& document, const Linkage& l, LinkageQuality& quality) {
+  auto table = document.table("quality");
+  if (!table) return;
+  table->read(quality);
+  if (l.driven.size() != 1)
+    table->error("output_joint",
+                 fmt::format("the linkage has {} inputs; this is for one input", l.driven.size()),
+                 "leave [quality] out");
+  if (!quality.output_joint.empty() && joint_index(l, quality.output_joint) < 0)
+    table->error("output_joint", fmt::format("there is no joint '{}'", quality.output_joint), {});
+  for (const std::string& body : quality.centrodes)
+    if (body_index(l, body) <= 0)
+      table->error("centrodes", fmt::format("there is no moving body '{}'", body), {});
 }
 
 study::Prepared prepare(study::ObjectReader& document, const study::Common& common, LinkageType type) {
@@ -439,6 +469,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   if (sweep) (*sweep)(Field{.key = "type", .summary = "how rows are placed"}, how);
   if (!description) {
     if (sweep) sweep->members();
+    if (auto quality = document.table("quality")) quality->members();
     for (study::ObjectReader& drive : document.tables("drive")) drive.members();
     return prepared;
   }
@@ -490,7 +521,9 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
     s.sweep = times;
     read_drives(document, l, true, s, drives);
   }
+  read_quality(document, l, s.quality);
   write_linkage(*description, prepared.canonical);
+  if (document.has("quality")) prepared.canonical["quality"] = study::write_fields(s.quality);
   prepared.canonical["drive"] = Value(std::move(drives));
   prepared.canonical["sweep"] = std::move(canonical_sweep);
   s.linkage = std::move(description->linkage);
@@ -528,8 +561,11 @@ void describe(study::SchemaWriter& document, LinkageType type) {
   sweep(Field{.key = "type", .summary = "how rows are placed"}, SweepType::grid);
   sweep.property(Field{.key = "input", .summary = "axes of a grid"},
                  study::schema_array(std::move(axis).finish()));
+  sweep(change_point_field, AtChangePoint::smooth);
   sweep.property(Field{.key = "time", .summary = "times of the rows"}, study::schema_fields<TimeSamples>());
   document.property(Field{.key = "sweep", .summary = "where it is evaluated"}, std::move(sweep).finish());
+  document.property(Field{.key = "quality", .summary = "what is asked beyond the table"},
+                    study::schema_fields<LinkageQuality>());
 }
 
 study::Kind kind_of(LinkageType type) {

@@ -5,9 +5,13 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage_branch.h"
 #include "linkwright/planar/linkage_columns.h"
+#include "linkwright/planar/linkage_limits.h"
+#include "linkwright/planar/linkage_quality.h"
 #include "linkwright/planar/linkage_reactions.h"
 #include "linkwright/planar/linkage_scene.h"
 #include "linkwright/planar/linkage_study.h"
@@ -101,10 +105,12 @@ class Runner {
       : s_(s), context_(context), columns_(columns_of(s)), rows_(rows_of(s)) {}
 
   study::Result run() {
+    find_limits();
     evaluate();
     finish_table();
     result_.scenes.push_back(
         linkage_scene(s_.linkage, s_.plan, recorded_, s_.traces, scene_input_key(), scene_input_label()));
+    quality();
     plots();
     facts();
     warnings();
@@ -152,6 +158,9 @@ class Runner {
       for (const InputMotion& i : now.inputs) next.push_back(i.value);
       // General groups are followed from row to row, so that they keep their branch.
       bool there = true;
+      if (branch_ && branch_->status == Status::done)
+        there = modes_at(*branch_, now.inputs[0].value, motion.modes) == Status::done;
+      if (!there) motion.status = Status::limit_reached;
       if (!closed && !last.empty()) there = follow(s_.plan, last, next, motion).arrived;
       if (there) solve_motion(s_.plan, now.inputs, motion);
       if (there && motion.status == Status::done) last = next;
@@ -210,6 +219,124 @@ class Runner {
     result_.status = interruption_ != Status::done ? interruption_
                      : bad != statuses_.end()      ? *bad
                                                    : Status::done;
+    result_.tables.push_back(std::move(table));
+  }
+
+  // Ranges of the one input of a linkage in closed form, and the branch that the rows follow through change
+  // points. More than 64 combinations of modes are not listed.
+  void find_limits() {
+    modes_ = LinkageMotion(s_.plan).modes;
+    const auto pairs = std::count_if(s_.plan.groups.begin(), s_.plan.groups.end(),
+                                     [](const Group& g) { return has_modes(g.type); });
+    if (s_.plan.inputs() != 1 || over_time() || !s_.plan.closed_form() || pairs > 6) return;
+    const InputSamples& axis = std::get<InputGrid>(s_.sweep).inputs[0];
+    const std::vector<double> inputs{axis.from};
+    const bool turn = s_.plan.rotary[0] && periodic(s_.plan, 0);
+    const double low = std::min(axis.from, axis.to), high = std::max(axis.from, axis.to);
+    limits_ = turn ? input_limits(s_.plan, inputs, 0, -pi, pi) : input_limits(s_.plan, inputs, 0, low, high);
+    const bool choice = std::any_of(limits_->ranges.begin(), limits_->ranges.end(), [](const InputRange& r) {
+      return r.from.kind == EndKind::change_point || r.to.kind == EndKind::change_point;
+    });
+    if (choice) branch_ = branch_path(s_.plan, inputs, 0, modes_, low, high, s_.at_change_point);
+  }
+  // Ranges and circuits, and what [quality] asks for.
+  void quality() {
+    if (s_.plan.inputs() != 1 || over_time()) return;
+    const InputSamples& axis = std::get<InputGrid>(s_.sweep).inputs[0];
+    const std::vector<double> inputs{axis.from};
+    if (limits_) ranges_table(*limits_);
+    LinkageMotion motion(s_.plan);
+    if (!s_.quality.output_joint.empty()) advantage_table(axis, motion);
+    for (const std::string& body : s_.quality.centrodes) {
+      Table table = centrodes(s_.plan, inputs, 0, axis.from, axis.to, at(axis.samples),
+                              body_index(s_.linkage, body), 0, motion);
+      table.name = "centrodes-" + identifier(body);
+      result_.plots.push_back({.name = table.name,
+                               .title = "Fixed centrode of " + body,
+                               .table = table.name,
+                               .x = table.columns[0].key,
+                               .y = {"fixed_x_m", "fixed_y_m"},
+                               .style = study::Plot::Style::polar});
+      result_.tables.push_back(std::move(table));
+    }
+    if (s_.quality.instant_centres) centres_table(axis, motion);
+  }
+  void ranges_table(const InputLimits& limits) {
+    Table table{.name = "ranges"};
+    const std::string unit = limits.rotary ? "rad" : "m";
+    std::vector<double> circuit, from, to, turns;
+    for (const InputRange& r : limits.ranges) {
+      circuit.push_back(r.circuit);
+      from.push_back(r.from.value);
+      to.push_back(r.to.value);
+      turns.push_back(r.full_turn);
+      table.status.emplace_back("done");
+    }
+    table.add("circuit", "circuit", std::move(circuit));
+    table.add("from_" + unit, "input from (" + unit + ")", std::move(from));
+    table.add("to_" + unit, "input to (" + unit + ")", std::move(to));
+    table.add("full_turn", "turns fully (1 = yes)", std::move(turns));
+    for (std::size_t g = 0; g < s_.plan.groups.size(); ++g) {
+      if (!has_modes(s_.plan.groups[g].type)) continue;
+      std::vector<double> mode;
+      for (const InputRange& r : limits.ranges) mode.push_back(r.modes[g]);
+      table.add(group_key(s_.plan.groups[g].name) + "_mode", s_.plan.groups[g].name + " mode (1 = plus)",
+                std::move(mode));
+    }
+    result_.tables.push_back(std::move(table));
+  }
+  void advantage_table(const InputSamples& axis, LinkageMotion& motion) {
+    const int joint = joint_index(s_.linkage, s_.quality.output_joint);
+    Table table{.name = "advantage"};
+    std::vector<double> input, rate, force;
+    for (int i = 0; i < axis.samples; ++i) {
+      input.push_back(sample_at(axis.from, axis.to, axis.samples, i));
+      solve_position(s_.plan, std::vector<InputMotion>{{input.back(), 0, 0}}, motion);
+      const Advantage a = advantage(s_.linkage, s_.plan, 0, joint, motion);
+      rate.push_back(a.rate_ratio);
+      force.push_back(std::isfinite(a.force_ratio) ? a.force_ratio : nan);
+      table.status.emplace_back(to_string(motion.status));
+    }
+    table.add(input_key(s_.linkage, s_.plan, 0), input_label(s_.linkage, s_.plan, 0), std::move(input));
+    table.add("rate_ratio", "rate of " + s_.quality.output_joint + " over that of the input",
+              std::move(rate));
+    table.add("mechanical_advantage", "force at " + s_.quality.output_joint + " over that of the drive",
+              std::move(force));
+    result_.plots.push_back({.name = "rate-ratio",
+                             .title = "Rate ratio of " + s_.quality.output_joint,
+                             .table = "advantage",
+                             .x = input_key(s_.linkage, s_.plan, 0),
+                             .y = {"rate_ratio"},
+                             .scene = "motion"});
+    result_.tables.push_back(std::move(table));
+  }
+  void centres_table(const InputSamples& axis, LinkageMotion& motion) {
+    Table table{.name = "instant_centres"};
+    std::vector<double> input;
+    std::vector<std::vector<double>> x, y;
+    std::vector<std::string> pairs;
+    for (int i = 0; i < axis.samples; ++i) {
+      input.push_back(sample_at(axis.from, axis.to, axis.samples, i));
+      const std::vector<InputMotion> in{{input.back(), 1, 0}};
+      solve_position(s_.plan, in, motion);
+      solve_velocity(s_.plan, in, motion);
+      table.status.emplace_back(to_string(motion.status));
+      const std::vector<InstantCentre> all = instant_centres(s_.plan, motion);
+      x.resize(all.size()), y.resize(all.size());
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        const bool there = motion.status == Status::done && all[k].kind == InstantCentre::Kind::point;
+        x[k].push_back(there ? all[k].position.x : nan);
+        y[k].push_back(there ? all[k].position.y : nan);
+        if (i == 0)
+          pairs.push_back(identifier(s_.linkage.bodies[at(all[k].first)].name) + "_" +
+                          identifier(s_.linkage.bodies[at(all[k].second)].name));
+      }
+    }
+    table.add(input_key(s_.linkage, s_.plan, 0), input_label(s_.linkage, s_.plan, 0), std::move(input));
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      table.add(pairs[k] + "_x_m", pairs[k] + " instant centre x (m)", std::move(x[k]));
+      table.add(pairs[k] + "_y_m", pairs[k] + " instant centre y (m)", std::move(y[k]));
+    }
     result_.tables.push_back(std::move(table));
   }
 
@@ -296,6 +423,14 @@ class Runner {
       plot("power", "Power", {"drive_power_W", "weight_power_W", "load_power_W", "kinetic_power_W"});
   }
 
+  // The joint with the largest force; past the end when there is none.
+  std::size_t strongest() const {
+    std::size_t most = joints_.size();
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+      if (joints_[j].any && (most == joints_.size() || joints_[j].value > joints_[most].value)) most = j;
+    return most;
+  }
+
   void facts() {
     using Verdict = study::Fact::Verdict;
     const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
@@ -307,17 +442,20 @@ class Runner {
       order += fmt::format("{}{} ({}{})", order.empty() ? "" : " → ", g.name, name_of(g.type),
                            has_modes(g.type) ? g.mode > 0 ? ", plus" : ", minus" : "");
     fact("solved in this order", order);
+    if (limits_) {
+      fact("range of the input", assembly_range_text(*limits_, modes_));
+      fact("circuits", fmt::format("{} over all assembly modes", limits_->circuits));
+    }
     for (std::size_t k = 0; k < drives_.size(); ++k)
       if (s_.quantities.drive && drives_[k].any)
         fact(fmt::format("largest drive {} at {}", s_.plan.rotary[k] ? "torque" : "force",
                          input_joint(s_.linkage, k).name),
              fmt::format("{:.5g} {} at {}", drives_[k].value, s_.plan.rotary[k] ? "N m" : "N",
                          where(drives_[k].row)));
-    if (s_.quantities.reactions)
-      for (std::size_t j = 0; j < joints_.size() && j < 8; ++j)
-        if (joints_[j].any && s_.linkage.joints[j].type != JointType::gear)
-          fact(fmt::format("largest force at {}", s_.linkage.joints[j].name),
-               fmt::format("{:.5g} N at {}", joints_[j].value, where(joints_[j].row)));
+    if (s_.quantities.reactions && strongest() < joints_.size())
+      fact("largest joint force",
+           fmt::format("{:.5g} N at {}, {}", joints_[strongest()].value, s_.linkage.joints[strongest()].name,
+                       where(joints_[strongest()].row)));
     if (s_.quantities.shaking && shaking_.any)
       fact("largest shaking force", fmt::format("{:.5g} N at {}", shaking_.value, where(shaking_.row)));
     if (transmission_.any)
@@ -358,6 +496,7 @@ class Runner {
         warn(fmt::format("{} have no answer ({})", place, to_string(s)),
              s == Status::limit_reached ? "a limit of the motion lies before them" : "");
     }
+    change_points(warn);
     if (transmission_.any && transmission_.value < poor_transmission)
       warn(fmt::format("the transmission angle of {} falls to {:.2f}° at {}: near a dead point forces grow "
                        "without bound",
@@ -365,17 +504,31 @@ class Runner {
                        where(transmission_.row)),
            {});
   }
-  // Runs of rows that assemble, for one input.
+  // Where the linkage assembles: exactly for one input in closed form, else nothing.
   std::string assembled_ranges() const {
-    if (s_.plan.inputs() != 1 || over_time()) return {};
-    std::string out;
-    for (std::size_t i = 0; i < statuses_.size(); ++i) {
-      if (statuses_[i] == Status::no_assembly || (i > 0 && statuses_[i - 1] != Status::no_assembly)) continue;
-      std::size_t j = i;
-      while (j + 1 < statuses_.size() && statuses_[j + 1] != Status::no_assembly) ++j;
-      out += (out.empty() ? "it assembles from " : " and ") + where(i) + " to " + where(j);
+    return limits_ ? "it " + assembly_range_text(*limits_, modes_) : std::string();
+  }
+  // Positions where the branch is a choice.
+  void change_points(const std::function<void(std::string, std::string)>& warn) const {
+    if (!branch_) return;
+    std::vector<double> told;
+    for (const RangeEnd& end : branch_->change_points) {
+      const double value = limits_->rotary ? math::wrap_angle(end.value) : end.value;
+      if (std::any_of(told.begin(), told.end(), [&](double t) { return std::abs(t - value) < 1e-6; }))
+        continue;
+      told.push_back(value);
+      std::string groups;
+      for (int g : end.groups) groups += (groups.empty() ? "" : ", ") + s_.plan.groups[at(g)].name;
+      warn(fmt::format(
+               "at {} the assembly modes of {} meet and cross: which way the linkage goes on there is a "
+               "choice",
+               shown(value, limits_->rotary), groups),
+           s_.at_change_point == AtChangePoint::smooth
+               ? "the rows go on smoothly; sweep.at_change_point = \"keep_sign\" takes the other branch"
+           : s_.at_change_point == AtChangePoint::keep_sign
+               ? "the rows take the branch with a kink; sweep.at_change_point = \"smooth\" is the other"
+               : "the rows end there");
     }
-    return out.empty() ? "it assembles nowhere in the sweep" : out;
   }
 
   void headline() {
@@ -390,13 +543,10 @@ class Runner {
     if (s_.quantities.drive && !drives_.empty() && drives_[0].any)
       text = fmt::format("The drive {} reaches {:.5g} {} at {}", s_.plan.rotary[0] ? "torque" : "force",
                          drives_[0].value, s_.plan.rotary[0] ? "N m" : "N", where(drives_[0].row));
-    std::size_t most = 0;
-    for (std::size_t j = 0; j < joints_.size(); ++j)
-      if (joints_[j].value > joints_[most].value) most = j;
-    if (s_.quantities.reactions && !joints_.empty())
-      text +=
-          fmt::format("{} {:.5g} N in {}", text.empty() ? "The joint forces reach" : " and the joint forces",
-                      joints_[most].value, s_.linkage.joints[most].name);
+    if (s_.quantities.reactions && strongest() < joints_.size())
+      text += fmt::format("{} {:.5g} N at joint {}",
+                          text.empty() ? "The joint forces reach" : " and the joint forces",
+                          joints_[strongest()].value, s_.linkage.joints[strongest()].name);
     if (text.empty()) text = fmt::format("{} of {} positions computed", good, statuses_.size());
     result_.headline = text + ".";
     if (good != static_cast<std::ptrdiff_t>(statuses_.size()) && s_.quantities.dynamic())
@@ -416,6 +566,9 @@ class Runner {
   std::vector<Worst> drives_, joints_;
   std::size_t weakest_ = 0;
   int failed_group_ = -1;
+  std::optional<InputLimits> limits_;
+  std::optional<BranchPath> branch_;
+  std::vector<double> modes_;
   study::Result result_;
 };
 

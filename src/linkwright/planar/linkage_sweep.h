@@ -106,12 +106,13 @@ struct SweepTask {
   std::size_t good = 0;     ///< 1 where all groups assemble clear of dead points, else 0
 };
 /// Linkages with more parts or groups go sample by sample.
-inline constexpr std::size_t most_sweep_parts = 64;
+inline constexpr std::size_t most_sweep_parts = 32;
 
-/// Implementations, one a translation unit; all but the baseline need the machine to have the instructions.
-using SweepKernel = void (*)(const SweepTask&);
-void sweep_baseline(const SweepTask& task);
-void sweep_avx2(const SweepTask& task);
-void sweep_avx512(const SweepTask& task);
+/// Fill the rows; true when all samples are good. Implementations, one a translation unit; all but the
+/// baseline need the machine to have the instructions.
+using SweepKernel = bool (*)(const SweepTask&);
+bool sweep_baseline(const SweepTask& task);
+bool sweep_avx2(const SweepTask& task);
+bool sweep_avx512(const SweepTask& task);
 
 }  // namespace linkwright::planar

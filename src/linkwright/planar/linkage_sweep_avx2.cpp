@@ -2,6 +2,8 @@
 
 namespace linkwright::planar {
 
-void sweep_avx2(const SweepTask& task) { sweep_with<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>(task); }
+bool sweep_avx2(const SweepTask& task) {
+  return sweep_with<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>(task);
+}
 
 }  // namespace linkwright::planar

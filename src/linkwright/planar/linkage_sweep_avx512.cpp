@@ -2,6 +2,6 @@
 
 namespace linkwright::planar {
 
-void sweep_avx512(const SweepTask& task) { sweep_with<xsimd::batch<double, xsimd::avx512f>>(task); }
+bool sweep_avx512(const SweepTask& task) { return sweep_with<xsimd::batch<double, xsimd::avx512f>>(task); }
 
 }  // namespace linkwright::planar

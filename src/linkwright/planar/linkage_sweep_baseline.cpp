@@ -2,6 +2,6 @@
 
 namespace linkwright::planar {
 
-void sweep_baseline(const SweepTask& task) { sweep_with<xsimd::batch<double, xsimd::sse2>>(task); }
+bool sweep_baseline(const SweepTask& task) { return sweep_with<xsimd::batch<double, xsimd::sse2>>(task); }
 
 }  // namespace linkwright::planar
