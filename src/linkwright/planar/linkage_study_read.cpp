@@ -20,6 +20,9 @@ void fields(Visitor&& visit, LinkageQuality& q) {
         q.centrodes);
   visit(Field{.key = "instant_centres", .summary = "table of all instant centres at every position"},
         q.instant_centres);
+  visit(Field{.key = "assembly_modes",
+              .summary = "table of all ways to assemble the linkage at the first position"},
+        q.assembly_modes);
 }
 
 // ---- the shorthand -----------------------------------------------------------------------------------

@@ -11,6 +11,7 @@
 #include "linkwright/planar/linkage_branch.h"
 #include "linkwright/planar/linkage_columns.h"
 #include "linkwright/planar/linkage_limits.h"
+#include "linkwright/planar/linkage_modes.h"
 #include "linkwright/planar/linkage_quality.h"
 #include "linkwright/planar/linkage_reactions.h"
 #include "linkwright/planar/linkage_scene.h"
@@ -260,6 +261,7 @@ class Runner {
       result_.tables.push_back(std::move(table));
     }
     if (s_.quality.instant_centres) centres_table(axis, motion);
+    if (s_.quality.assembly_modes) modes_table(inputs);
   }
   void ranges_table(const InputLimits& limits) {
     Table table{.name = "ranges"};
@@ -283,6 +285,29 @@ class Runner {
       table.add(group_key(s_.plan.groups[g].name) + "_mode", s_.plan.groups[g].name + " mode (1 = plus)",
                 std::move(mode));
     }
+    result_.tables.push_back(std::move(table));
+  }
+  void modes_table(const std::vector<double>& inputs) {
+    const AssemblyModes all = assembly_modes(s_.plan, inputs);
+    Table table{.name = "assembly_modes"};
+    const auto add = [&](const std::string& key, const std::string& label, auto&& value) {
+      std::vector<double> values;
+      for (const AssembledMode& m : all.found) values.push_back(value(m));
+      table.add(key, label, std::move(values));
+    };
+    for (std::size_t g = 0; g < s_.plan.groups.size(); ++g)
+      if (has_modes(s_.plan.groups[g].type))
+        add(group_key(s_.plan.groups[g].name) + "_mode", s_.plan.groups[g].name + " mode (1 = plus)",
+            [g](const AssembledMode& m) { return m.modes[g]; });
+    for (std::size_t p = 1; p < s_.plan.parts.size(); ++p) {
+      const std::string key = group_key(s_.plan.parts[p]), &name = s_.plan.parts[p];
+      add(key + "_x_m", name + " origin x (m)", [p](const AssembledMode& m) { return m.parts[p].origin.x; });
+      add(key + "_y_m", name + " origin y (m)", [p](const AssembledMode& m) { return m.parts[p].origin.y; });
+      add(key + "_angle_rad", name + " angle (rad)",
+          [p](const AssembledMode& m) { return angle_of(m.parts[p].direction); });
+    }
+    table.status.assign(all.found.size(), "done");
+    result_.facts.push_back({"assembly modes at the first position", all.text});
     result_.tables.push_back(std::move(table));
   }
   void advantage_table(const InputSamples& axis, LinkageMotion& motion) {
