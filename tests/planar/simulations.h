@@ -1,0 +1,79 @@
+#pragma once
+
+#include <vector>
+
+#include "linkages.h"
+#include "linkwright/planar/linkage_coordinates.h"
+#include "linkwright/planar/linkage_dynamics.h"
+#include "linkwright/planar/linkage_simulation.h"
+
+namespace linkwright::planar::testing {
+
+/// What a simulation gave, with copies of its rows.
+struct SimulationRun {
+  struct Row {
+    double time;
+    Status status;
+    std::vector<InputMotion> inputs;
+    double kinetic, potential, work, drift;
+    std::vector<PartState<double>> parts;
+  };
+  SimulationReport report;
+  std::vector<Row> rows;
+};
+
+using SimulationFunction = decltype(&simulate);
+
+inline SimulationRun simulated(const Linkage& l, const LinkagePlan& plan,
+                               const std::vector<InputCourse>& courses, const std::vector<double>& times,
+                               const SimulationOptions& options = {}, SimulationFunction route = simulate) {
+  SimulationRun run;
+  run.report = route(
+      l, plan, courses, times, options,
+      [&](const SimulationInstant& now) {
+        run.rows.push_back({now.time,
+                            now.status,
+                            {now.inputs.begin(), now.inputs.end()},
+                            now.kinetic,
+                            now.potential,
+                            now.work,
+                            now.drift,
+                            now.motion->parts});
+        return true;
+      },
+      nullptr);
+  return run;
+}
+
+inline std::vector<double> evenly(double from, double to, int samples) {
+  std::vector<double> times;
+  for (int i = 0; i < samples; ++i) times.push_back(from + (to - from) * i / (samples - 1));
+  return times;
+}
+
+/// `links` uniform bars of 1 m and 1 kg in a row, all joints free inputs.
+inline Linkage pendulum(int links) {
+  Linkage l = grounded({{"base", {0, 0}}});
+  std::string last = "ground.base";
+  for (int k = 1; k <= links; ++k) {
+    const std::string n = std::to_string(k);
+    add_bar(l, "bar " + n, "from", "to", 1);
+    set_uniform(l, "bar " + n, 1);
+    add_pin(l, "pin " + n, last, "bar " + n + ".from");
+    add_drive(l, "pin " + n);
+    last = "bar " + n + ".to";
+  }
+  return l;
+}
+
+/// A body of 2 kg on a level slide, joint "slide"; nothing acts on it along the slide.
+inline Linkage slider() {
+  Linkage l = grounded({{"O", {0, 0}}, {"wall", {-1, 0}}});
+  add_body(l, "block", {{"B", {0, 0}}});
+  l.bodies[1].mass = BodyMass{2, 0, 0};
+  add_slide(l, "slide", "ground.O", "block.B");
+  add_drive(l, "slide");
+  return l;
+}
+
+}  // namespace linkwright::planar::testing
