@@ -1,0 +1,77 @@
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "linkwright/planar/linkage_coordinates.h"
+#include "linkwright/planar/linkage_dynamics.h"
+#include "linkwright/planar/linkage_samples.h"
+
+namespace linkwright::planar {
+namespace {
+
+// The equations of motion at one instant.
+void linkage_dynamics_andrews(benchmark::State& state) {
+  const LinkageSample s = andrews_squeezer_sample();
+  const LinkagePlan p = plan(s.linkage).plan;
+  LinkageDynamics dynamics(s.linkage, p, {true});
+  InputMotion crank{s.from[0], 1000, 0};
+  for (auto _ : state) {
+    crank.value += 1e-3;
+    benchmark::DoNotOptimize(dynamics.solve(0, std::span(&crank, 1)));
+  }
+}
+BENCHMARK(linkage_dynamics_andrews);
+
+// Andrews' squeezer over 0.03 s at a relative tolerance of 10^-range, search for change points included;
+// `digits` against the published angle of the crank.
+void andrews(benchmark::State& state, decltype(&simulate) route, math::OdeMethod method) {
+  const LinkageSample s = andrews_squeezer_sample();
+  const LinkagePlan p = plan(s.linkage).plan;
+  const InputCourse course{{}, s.from[0], 0};
+  const std::array<double, 2> times{0, 0.03};
+  const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
+  double angle = 0, open = 0;
+  for (auto _ : state)
+    route(
+        s.linkage, p, std::span(&course, 1), times,
+        {.method = method, .relative_tolerance = tolerance, .absolute_tolerance = tolerance},
+        [&](const SimulationInstant& now) {
+          angle = now.inputs[0].value;
+          open = now.motion->closure_residual;
+          return true;
+        },
+        nullptr);
+  state.counters["digits"] = -std::log10(std::abs(angle / 15.81077119629904 - 1));
+  state.counters["closure"] = open;
+}
+void linkage_simulate_andrews(benchmark::State& s) {
+  andrews(s, simulate, math::OdeMethod::explicit_runge_kutta_8);
+}
+void linkage_simulate_andrews_5(benchmark::State& s) {
+  andrews(s, simulate, math::OdeMethod::explicit_runge_kutta_5);
+}
+void linkage_simulate_andrews_all(benchmark::State& s) {
+  andrews(s, simulate_all_coordinates, math::OdeMethod::explicit_runge_kutta_8);
+}
+BENCHMARK(linkage_simulate_andrews)->Arg(7)->Arg(9)->Unit(benchmark::kMillisecond);
+BENCHMARK(linkage_simulate_andrews_5)->Arg(7)->Arg(9)->Unit(benchmark::kMillisecond);
+BENCHMARK(linkage_simulate_andrews_all)->Arg(7)->Unit(benchmark::kMillisecond);
+
+// Forty four-bars through twenty change points in 20 s; `drift` of the energy in J of 4855.
+void linkage_simulate_chain(benchmark::State& state) {
+  const Linkage l = four_bar_chain_sample(40).linkage;
+  const LinkagePlan p = plan(l).plan;
+  const InputCourse course{{}, std::numbers::pi / 2, -1};
+  const std::array<double, 2> times{0, 20};
+  SimulationReport report;
+  for (auto _ : state)
+    report = simulate(l, p, std::span(&course, 1), times,
+                      {.relative_tolerance = 1e-10, .absolute_tolerance = 1e-11}, {});
+  state.counters["drift"] = report.largest_drift;
+}
+BENCHMARK(linkage_simulate_chain)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace linkwright::planar
