@@ -231,7 +231,7 @@ TEST(LinkageStudy, GoesOnThroughChangePointsAsTheStudySays) {
 TEST(LinkageStudy, TellsRatiosCentresAndRanges) {
   const study::Result r =
       run(std::string(four_bar_text) +
-          "[quality]\noutput_joint = \"O4\"\ncentrodes = [\"coupler\"]\ninstant_centres = true\n");
+          "[quality]\noutput_joint = \"O4\"\ncentrodes = [\"coupler\"]\ninstant_centres = true\nassembly_modes = true\n");
   const auto table = [&](std::string_view name) -> const Table& {
     for (const Table& t : r.tables)
       if (t.name == name) return t;
@@ -251,6 +251,7 @@ TEST(LinkageStudy, TellsRatiosCentresAndRanges) {
   const double crank = table("sweep").find("crank_angle_rad")->values[30];
   EXPECT_NEAR(x * std::sin(crank) - y * std::cos(crank), 0, 1e-12);
   EXPECT_EQ(table("centrodes-coupler").rows(), 201u);
+  EXPECT_EQ(table("assembly_modes").find("coupler_rocker_mode")->values, (std::vector<double>{1, -1}));
 }
 
 TEST(LinkageStudy, NamesWhatIsWrongWithALinkage) {

@@ -233,7 +233,14 @@ class Artist {
       if (joint.type != JointType::revolute) continue;
       study::Scene::Moment m{
           .name = "drive torque at " + joint.name, .unit = "N m", .point = point(joint.second)};
-      for (const LinkageRecord& r : records_) m.value.push_back(r.drives.empty() ? nan : r.drives[k]);
+      double largest = 0, force = 0;
+      for (const LinkageRecord& r : records_) {
+        m.value.push_back(r.drives.empty() ? nan : r.drives[k]);
+        if (!r.drives.empty()) largest = std::max(largest, std::abs(r.drives[k]));
+        for (const JointReaction& joint_force : r.joints) force = std::max(force, norm(joint_force.force));
+      }
+      // A free joint has no drive: what is left of its torque is rounding.
+      if (!(largest > 1e-9 * force * plan_.size)) continue;
       scene_.moments.push_back(std::move(m));
     }
   }

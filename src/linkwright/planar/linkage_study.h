@@ -10,33 +10,12 @@
 #include "linkwright/planar/linkage_form.h"
 #include "linkwright/planar/linkage_plan.h"
 #include "linkwright/planar/motion_law.h"
+#include "linkwright/planar/slider_crank.h"
 #include "linkwright/study/kind.h"
 
 // The analysis of any planar linkage over its inputs or over time: what its file holds, how it is read, run
 // and reported. `planar.slider_crank` is a shorthand that is written out as a linkage.
 namespace linkwright::planar {
-
-/// `[mechanism.parameters]` of planar.slider_crank; Boskovic 2018, Eqs. (4.7)-(4.11) in joint coordinates:
-/// crank O-A, rod A-B, slider B on a guide.
-struct SliderCrankForm {
-  double crank = 0, rod = 0;
-  double offset = 0;       ///< of the guide line from the crank pivot, along the left normal of its direction
-  double guide_angle = 0;  ///< direction of the guide
-  double pivot_x = 0, pivot_y = 0;
-  double rod_u = 0, rod_v = 0;  ///< tracing point on the rod, from A along A->B and along its left normal
-};
-struct SliderCrankMass {
-  double mass = 0, inertia = 0, centre_distance = 0, centre_angle = 0;
-};
-struct SliderCrankMasses {
-  SliderCrankMass crank, rod;
-  double slider = 0;
-};
-
-/// The linkage of it, with joints O, A, B and guide; `forward`: the slider runs ahead of the crank along the
-/// guide direction, else behind.
-Linkage slider_crank(const SliderCrankForm& form, const std::optional<SliderCrankMasses>& masses,
-                     bool forward);
 
 /// How a driven joint moves: over a grid its rate and acceleration, over time its law.
 struct LinkageDrive {
@@ -61,6 +40,7 @@ struct LinkageQuality {
   std::vector<std::string>
       centrodes;                 ///< bodies whose fixed and moving centrode against the ground are tabled
   bool instant_centres = false;  ///< table of all instant centres at every row
+  bool assembly_modes = false;   ///< table of all ways to assemble the linkage at the first row
 };
 
 /// A study of a linkage as read.
@@ -82,6 +62,12 @@ study::Kind slider_crank_kind();
 /// Evaluates every row and reports. Rows that do not assemble, or stand at a dead point, hold what is known
 /// of them and their status; the status of the result is then the first of these.
 study::Result run_linkage_study(const LinkageStudy& study, RunContext& context);
+
+/// The table `ranges`: where the linkage assembles in which modes, and circuits.
+void add_limits(const LinkageStudy& study, const InputLimits& limits, study::Result& result);
+/// The tables that `[quality]` asks for, of a grid over one input; `branch` through change points if there
+/// are any.
+void add_quality(const LinkageStudy& study, const std::optional<BranchPath>& branch, study::Result& result);
 
 // ---- shared with other studies of linkages
 // ------------------------------------------------------------------

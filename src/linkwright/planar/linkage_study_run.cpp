@@ -11,7 +11,6 @@
 #include "linkwright/planar/linkage_branch.h"
 #include "linkwright/planar/linkage_columns.h"
 #include "linkwright/planar/linkage_limits.h"
-#include "linkwright/planar/linkage_quality.h"
 #include "linkwright/planar/linkage_reactions.h"
 #include "linkwright/planar/linkage_scene.h"
 #include "linkwright/planar/linkage_study.h"
@@ -110,7 +109,8 @@ class Runner {
     finish_table();
     result_.scenes.push_back(
         linkage_scene(s_.linkage, s_.plan, recorded_, s_.traces, scene_input_key(), scene_input_label()));
-    quality();
+    if (limits_) add_limits(s_, *limits_, result_);
+    if (s_.plan.inputs() == 1 && !over_time()) add_quality(s_, branch_, result_);
     plots();
     facts();
     warnings();
@@ -239,107 +239,6 @@ class Runner {
     });
     if (choice) branch_ = branch_path(s_.plan, inputs, 0, modes_, low, high, s_.at_change_point);
   }
-  // Ranges and circuits, and what [quality] asks for.
-  void quality() {
-    if (s_.plan.inputs() != 1 || over_time()) return;
-    const InputSamples& axis = std::get<InputGrid>(s_.sweep).inputs[0];
-    const std::vector<double> inputs{axis.from};
-    if (limits_) ranges_table(*limits_);
-    LinkageMotion motion(s_.plan);
-    if (!s_.quality.output_joint.empty()) advantage_table(axis, motion);
-    for (const std::string& body : s_.quality.centrodes) {
-      Table table = centrodes(s_.plan, inputs, 0, axis.from, axis.to, at(axis.samples),
-                              body_index(s_.linkage, body), 0, motion);
-      table.name = "centrodes-" + identifier(body);
-      result_.plots.push_back({.name = table.name,
-                               .title = "Fixed centrode of " + body,
-                               .table = table.name,
-                               .x = table.columns[0].key,
-                               .y = {"fixed_x_m", "fixed_y_m"},
-                               .style = study::Plot::Style::polar});
-      result_.tables.push_back(std::move(table));
-    }
-    if (s_.quality.instant_centres) centres_table(axis, motion);
-  }
-  void ranges_table(const InputLimits& limits) {
-    Table table{.name = "ranges"};
-    const std::string unit = limits.rotary ? "rad" : "m";
-    std::vector<double> circuit, from, to, turns;
-    for (const InputRange& r : limits.ranges) {
-      circuit.push_back(r.circuit);
-      from.push_back(r.from.value);
-      to.push_back(r.to.value);
-      turns.push_back(r.full_turn);
-      table.status.emplace_back("done");
-    }
-    table.add("circuit", "circuit", std::move(circuit));
-    table.add("from_" + unit, "input from (" + unit + ")", std::move(from));
-    table.add("to_" + unit, "input to (" + unit + ")", std::move(to));
-    table.add("full_turn", "turns fully (1 = yes)", std::move(turns));
-    for (std::size_t g = 0; g < s_.plan.groups.size(); ++g) {
-      if (!has_modes(s_.plan.groups[g].type)) continue;
-      std::vector<double> mode;
-      for (const InputRange& r : limits.ranges) mode.push_back(r.modes[g]);
-      table.add(group_key(s_.plan.groups[g].name) + "_mode", s_.plan.groups[g].name + " mode (1 = plus)",
-                std::move(mode));
-    }
-    result_.tables.push_back(std::move(table));
-  }
-  void advantage_table(const InputSamples& axis, LinkageMotion& motion) {
-    const int joint = joint_index(s_.linkage, s_.quality.output_joint);
-    Table table{.name = "advantage"};
-    std::vector<double> input, rate, force;
-    for (int i = 0; i < axis.samples; ++i) {
-      input.push_back(sample_at(axis.from, axis.to, axis.samples, i));
-      solve_position(s_.plan, std::vector<InputMotion>{{input.back(), 0, 0}}, motion);
-      const Advantage a = advantage(s_.linkage, s_.plan, 0, joint, motion);
-      rate.push_back(a.rate_ratio);
-      force.push_back(std::isfinite(a.force_ratio) ? a.force_ratio : nan);
-      table.status.emplace_back(to_string(motion.status));
-    }
-    table.add(input_key(s_.linkage, s_.plan, 0), input_label(s_.linkage, s_.plan, 0), std::move(input));
-    table.add("rate_ratio", "rate of " + s_.quality.output_joint + " over that of the input",
-              std::move(rate));
-    table.add("mechanical_advantage", "force at " + s_.quality.output_joint + " over that of the drive",
-              std::move(force));
-    result_.plots.push_back({.name = "rate-ratio",
-                             .title = "Rate ratio of " + s_.quality.output_joint,
-                             .table = "advantage",
-                             .x = input_key(s_.linkage, s_.plan, 0),
-                             .y = {"rate_ratio"},
-                             .scene = "motion"});
-    result_.tables.push_back(std::move(table));
-  }
-  void centres_table(const InputSamples& axis, LinkageMotion& motion) {
-    Table table{.name = "instant_centres"};
-    std::vector<double> input;
-    std::vector<std::vector<double>> x, y;
-    std::vector<std::string> pairs;
-    for (int i = 0; i < axis.samples; ++i) {
-      input.push_back(sample_at(axis.from, axis.to, axis.samples, i));
-      const std::vector<InputMotion> in{{input.back(), 1, 0}};
-      solve_position(s_.plan, in, motion);
-      solve_velocity(s_.plan, in, motion);
-      table.status.emplace_back(to_string(motion.status));
-      const std::vector<InstantCentre> all = instant_centres(s_.plan, motion);
-      x.resize(all.size()), y.resize(all.size());
-      for (std::size_t k = 0; k < all.size(); ++k) {
-        const bool there = motion.status == Status::done && all[k].kind == InstantCentre::Kind::point;
-        x[k].push_back(there ? all[k].position.x : nan);
-        y[k].push_back(there ? all[k].position.y : nan);
-        if (i == 0)
-          pairs.push_back(identifier(s_.linkage.bodies[at(all[k].first)].name) + "_" +
-                          identifier(s_.linkage.bodies[at(all[k].second)].name));
-      }
-    }
-    table.add(input_key(s_.linkage, s_.plan, 0), input_label(s_.linkage, s_.plan, 0), std::move(input));
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      table.add(pairs[k] + "_x_m", pairs[k] + " instant centre x (m)", std::move(x[k]));
-      table.add(pairs[k] + "_y_m", pairs[k] + " instant centre y (m)", std::move(y[k]));
-    }
-    result_.tables.push_back(std::move(table));
-  }
-
   std::vector<std::string> columns_ending(std::string_view ending, std::size_t most) const {
     std::vector<std::string> out;
     for (const LinkageColumn& c : columns_)
