@@ -159,26 +159,26 @@ SteadyCycle steady_cycle(const Linkage& l, const LinkagePlan& plan, const Regula
   std::vector<double> angles;
   for (int i = 0; i <= setup.samples; ++i)
     angles.push_back(setup.start + sense * full_turn * i / setup.samples);
-  // Speed and time over the angle.
+  // Squared speed, which goes through zero evenly where the machine stops, and time over the angle.
   const auto slope = [&](double angle, std::span<const double> y, std::span<double> rate) {
-    if (!(y[0] * sense > 0)) return false;
-    InputMotion input{angle, y[0], 0};
+    if (!(y[0] > 0)) return false;
+    InputMotion input{angle, sense * std::sqrt(y[0]), 0};
     if (dynamics.solve(0, std::span(&input, 1)) != Status::done) return false;
-    rate[0] = input.acceleration / y[0];
-    rate[1] = 1 / y[0];
+    rate[0] = 2 * input.acceleration;
+    rate[1] = 1 / input.rate;
     return true;
   };
   const math::OdeOptions options{.relative_tolerance = 1e-11,
-                                 .absolute_tolerance = 1e-12 * std::abs(setup.mean_speed)};
+                                 .absolute_tolerance = 1e-12 * setup.mean_speed * setup.mean_speed};
   // The speed after a turn that begins with `speed`.
   const auto turn = [&](double speed) {
-    std::array<double, 2> y{speed, 0};
+    std::array<double, 2> y{speed * speed, 0};
     out.input.clear();
     out.speed.clear();
     math::OdeHooks hooks{.output_times = angles, .context = context};
     hooks.output = [&](double angle, std::span<const double> now) {
       out.input.push_back(angle);
-      out.speed.push_back(now[0]);
+      out.speed.push_back(sense * std::sqrt(std::max(now[0], 0.0)));
       return true;
     };
     const math::OdeReport report =
@@ -186,14 +186,16 @@ SteadyCycle steady_cycle(const Linkage& l, const LinkagePlan& plan, const Regula
     ++out.cycles;
     out.period = y[1];
     out.status = report.status;
-    if (report.status == Status::limit_reached || report.status == Status::infeasible) {
+    const bool given_up = report.status == Status::limit_reached || report.status == Status::not_converged ||
+                          report.status == Status::infeasible;
+    if (given_up && y[0] < 1e-3 * setup.mean_speed * setup.mean_speed) {
       out.status = Status::limit_reached;
       out.message = fmt::format("it comes to rest at {:.6g} deg: the motor does not carry it over",
                                 math::degrees(report.t));
     } else if (report.status != Status::done) {
-      out.message = report.message;
+      out.message = fmt::format("at {:.6g} deg: {}", math::degrees(report.t), report.message);
     }
-    return y[0];
+    return sense * std::sqrt(std::max(y[0], 0.0));
   };
   double speed = setup.mean_speed, last = 0, last_gain = 0;
   for (int cycle = 0; cycle < 200; ++cycle) {
