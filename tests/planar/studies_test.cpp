@@ -19,7 +19,8 @@ TEST(Studies, AreThoseOfPlanarLinkages) {
   EXPECT_THAT(names, ::testing::ElementsAre("synthesis/planar.four_bar/path_points",
                                             "analysis/planar.four_bar", "analysis/planar.linkage",
                                             "analysis/planar.slider_crank", "simulation/planar.linkage",
-                                            "simulation/planar.slider_crank", "analysis/planar.serial_arm"));
+                                            "simulation/planar.slider_crank", "regulation/planar.linkage",
+                                            "regulation/planar.slider_crank", "analysis/planar.serial_arm"));
   EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/planar.four_bar/path_points"));
 }
 

@@ -151,6 +151,8 @@ class Checker {
     for (const PointForce& f : l_.forces) {
       if (!has(f.point)) error("force." + f.name, "refers to a body or point that does not exist", {});
       if (!finite(f.force)) error("force." + f.name, "is not finite", {});
+      if (f.factor.against == LoadArgument::speed)
+        error("force." + f.name, "a force turns nothing: its table cannot go by speed", "give a torque");
       factor("force." + f.name, f.factor);
     }
     for (const BodyTorque& t : l_.torques) {

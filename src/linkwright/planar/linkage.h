@@ -124,19 +124,21 @@ struct TorsionSpring {
 };
 
 /// What a force or torque depends on.
-enum class LoadArgument { constant, input, time, x, y };
-constexpr std::array<EnumName<LoadArgument>, 5> names(LoadArgument) {
+enum class LoadArgument { constant, input, time, x, y, speed };
+constexpr std::array<EnumName<LoadArgument>, 6> names(LoadArgument) {
   return {{{LoadArgument::constant, "constant", "nothing"},
            {LoadArgument::input, "input", "the coordinate of the first driven joint"},
            {LoadArgument::time, "time", "the time"},
            {LoadArgument::x, "x", "x of the point, global"},
-           {LoadArgument::y, "y", "y of the point, global"}}};
+           {LoadArgument::y, "y", "y of the point, global"},
+           {LoadArgument::speed, "speed",
+            "of a torque: angular speed of its body against the body it comes from, as of a motor"}}};
 }
 
 /// How strong a load is: a factor that is 1, or interpolated linearly in a table and held at its ends.
 struct LoadFactor {
   LoadArgument against = LoadArgument::constant;
-  std::vector<double> argument;  ///< rising; rad, m or s
+  std::vector<double> argument;  ///< rising; rad, m, s or rad/s
   std::vector<double> factor;
 };
 

@@ -218,7 +218,7 @@ void fields(Visitor&& visit, TorsionSpringForm& s) {
 template <class Visitor>
 void fields(Visitor&& visit, FactorForm& f) {
   visit(Field{.key = "against", .summary = "what the load depends on"}, f.against);
-  visit(Field{.key = "argument", .summary = "rising values of it, in rad, m or s"}, f.argument);
+  visit(Field{.key = "argument", .summary = "rising values of it, in rad, m, s or rad/s"}, f.argument);
   visit(Field{.key = "factor", .summary = "factor of the load at each of them, straight lines between"},
         f.factor);
 }

@@ -22,7 +22,7 @@ double factor_at(const LoadFactor& f, double argument) {
   const double share = (argument - f.argument[i - 1]) / (f.argument[i] - f.argument[i - 1]);
   return f.factor[i - 1] + share * (f.factor[i] - f.factor[i - 1]);
 }
-double strength(const LoadFactor& f, double time, double input, const Vec<double>& point) {
+double strength(const LoadFactor& f, double time, double input, const Vec<double>& point, double speed) {
   switch (f.against) {
     case LoadArgument::constant:
       return 1;
@@ -34,6 +34,8 @@ double strength(const LoadFactor& f, double time, double input, const Vec<double
       return factor_at(f, point.x);
     case LoadArgument::y:
       return factor_at(f, point.y);
+    case LoadArgument::speed:
+      return factor_at(f, speed);
   }
   return 1;
 }
@@ -286,12 +288,13 @@ void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotio
   }
   for (const PointForce& p : l.forces) {
     const Vec<double> there = point_of(l, plan, motion, p.point).position;
-    Vec<double> force = strength(p.factor, time, input, there) * vec(p.force);
+    Vec<double> force = strength(p.factor, time, input, there, 0) * vec(p.force);
     if (p.turns_with_body) force = turn(body_state(plan, motion, p.point.body).direction, force);
     loads.push_back({p.point.body, there, force, 0});
   }
   for (const BodyTorque& t : l.torques) {
-    const double torque = t.torque * strength(t.factor, time, input, {0, 0});
+    const double speed = part_of(plan, motion, t.body).speed - part_of(plan, motion, t.from).speed;
+    const double torque = t.torque * strength(t.factor, time, input, {0, 0}, speed);
     loads.push_back({t.body, part_of(plan, motion, t.body).origin, {0, 0}, torque});
     loads.push_back({t.from, part_of(plan, motion, t.from).origin, {0, 0}, -torque});
   }

@@ -11,100 +11,23 @@
 #include "linkwright/core/check.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage_dynamics.h"
+#include "linkwright/planar/linkage_smooth_branch.h"
 
 namespace linkwright::planar {
 namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Half width of the zone about a change point where accelerations are interpolated, rad or sizes. Rounding of
-// the closed forms grows with the square of one over the distance, and along chains of groups; interpolation
-// at the nodes is off by 5e-14 (width / 0.05)^8 of the eighth derivative.
-constexpr double zone_width = 0.08;
-constexpr std::array<double, 8> nodes{-2.5, -2, -1.5, -1, 1, 1.5, 2, 2.5};  // in half widths
-using Weights = std::array<double, nodes.size()>;
 // The motion ends when a group is so near to its dead point: the time left is then known to a millionth.
 constexpr double dead_sine = 1e-3;
 // From here on a group is watched for its dead point.
 constexpr double watched_sine = 0.3;
-
-Weights interpolation(double x) {
-  Weights out;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    out[i] = 1;
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      if (k != i) out[i] *= (x - nodes[k]) / (nodes[i] - nodes[k]);
-  }
-  return out;
-}
 
 std::string place(const Linkage& l, const LinkagePlan& plan, std::size_t input, double value) {
   const std::string& name = l.joints[at(l.driven[input])].name;
   return plan.rotary[input] ? fmt::format("{} at {:.4f} deg", name, math::degrees(value))
                             : fmt::format("{} at {:.5g} mm", name, value * 1e3);
 }
-
-// The smooth branch that one input moves the linkage on, with its change points.
-class Branch {
- public:
-  Branch(const LinkagePlan& plan, double value, std::span<const double> modes) : plan_(plan) {
-    const double reach = plan.rotary[0] ? 4 * std::numbers::pi : 4 * plan.size;
-    path_ = branch_path(plan, std::span(&value, 1), 0, modes, value - reach, value + reach,
-                        AtChangePoint::smooth);
-    half_width_ = zone_width * (plan.rotary[0] ? 1 : plan.size);
-    if (path_.change_points.empty()) return;
-    // Nodes stay clear of what comes next.
-    double gap = path_.period > 0 ? path_.period : infinity;
-    for (std::size_t i = 0; i < path_.change_points.size(); ++i) {
-      const double here = path_.change_points[i].value;
-      if (i > 0) gap = std::min(gap, here - path_.change_points[i - 1].value);
-      if (path_.period == 0) gap = std::min({gap, here - path_.low.value, path_.high.value - here});
-    }
-    if (path_.period > 0)
-      gap =
-          std::min(gap, path_.change_points.front().value + path_.period - path_.change_points.back().value);
-    // One change point a turn, met twice, is no gap.
-    if (gap > 0) half_width_ = std::min(half_width_, gap / 6);
-  }
-
-  const BranchPath& path() const { return path_; }
-  bool has_change_points() const { return !path_.change_points.empty(); }
-  double half_width() const { return half_width_; }
-  void set_modes(double value, LinkageMotion& motion) const { modes_at(path_, value, motion.modes); }
-
-  struct Near {
-    double value = infinity;
-    const RangeEnd* end = nullptr;
-  };
-  // The change point nearest to a value, or the next one from it in a direction.
-  Near nearest(double value) const {
-    return best(value, [&](double there) { return std::abs(there - value); });
-  }
-  Near next(double value, double sense) const {
-    return best(value, [&](double there) {
-      const double way = (there - value) * sense;
-      return way > 0 ? way : infinity;
-    });
-  }
-
- private:
-  template <class Distance>
-  Near best(double value, Distance&& distance) const {
-    Near out;
-    double least = infinity;
-    const double turn = path_.period > 0 ? std::floor((value - path_.start) / path_.period) : 0;
-    for (const RangeEnd& end : path_.change_points)
-      for (int k = path_.period > 0 ? -1 : 0; k <= (path_.period > 0 ? 1 : 0); ++k) {
-        const double there = end.value + (turn + k) * path_.period;
-        if (const double d = distance(there); d < least) least = d, out = {there, &end};
-      }
-    return out;
-  }
-
-  const LinkagePlan& plan_;
-  BranchPath path_;
-  double half_width_ = 0;
-};
 
 class Simulation {
  public:
@@ -226,7 +149,7 @@ class Simulation {
     }
     const double value = inputs_[0].value;
     if (branch_->has_change_points()) {
-      const Branch::Near near = branch_->nearest(value);
+      const SmoothBranch::Near near = branch_->nearest(value);
       const double x = (value - near.value) / branch_->half_width();
       if (std::abs(x) < 1) return interpolated(t, near.value, x);
       branch_->set_modes(value, dynamics_.motion);
@@ -235,12 +158,12 @@ class Simulation {
     return {status, dynamics_.power, dynamics_.inertia()[0]};
   }
   Answer interpolated(double t, double centre, double x) {
-    const Weights weights = interpolation(x);
+    const ChangeZone::Weights weights = ChangeZone::interpolation(x);
     const double value = inputs_[0].value;
     double acceleration = 0;
     Answer out;
-    for (std::size_t i = 0; i < nodes.size() && out.status == Status::done; ++i) {
-      inputs_[0].value = centre + nodes[i] * branch_->half_width();
+    for (std::size_t i = 0; i < ChangeZone::nodes.size() && out.status == Status::done; ++i) {
+      inputs_[0].value = centre + ChangeZone::nodes[i] * branch_->half_width();
       branch_->set_modes(inputs_[0].value, dynamics_.motion);
       out.status = dynamics_.solve(t, inputs_);
       acceleration += weights[i] * inputs_[0].acceleration;
@@ -357,11 +280,12 @@ class Simulation {
   // Exactly at a change point the parts behind it have no place of their own.
   double interpolated_potential() {
     const InputMotion here = inputs_[0];
-    const Branch::Near near = branch_->nearest(here.value);
-    const Weights weights = interpolation((here.value - near.value) / branch_->half_width());
+    const SmoothBranch::Near near = branch_->nearest(here.value);
+    const ChangeZone::Weights weights =
+        ChangeZone::interpolation((here.value - near.value) / branch_->half_width());
     double sum = 0;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      inputs_[0].value = near.value + nodes[i] * branch_->half_width();
+    for (std::size_t i = 0; i < ChangeZone::nodes.size(); ++i) {
+      inputs_[0].value = near.value + ChangeZone::nodes[i] * branch_->half_width();
       sum += weights[i] * potential_energy(l_, plan_, placed());
     }
     inputs_[0] = here;
@@ -430,7 +354,7 @@ class Simulation {
     below_ = -infinity;
     above_ = infinity;
     if (!branch_ || !branch_->has_change_points()) return;
-    const Branch::Near down = branch_->next(value, -1), up = branch_->next(value, 1);
+    const SmoothBranch::Near down = branch_->next(value, -1), up = branch_->next(value, 1);
     if (down.end) below_ = down.value;
     if (up.end) above_ = up.value;
   }
@@ -441,7 +365,7 @@ class Simulation {
     const double sense = now.value > before.value ? 1 : -1, span = last_time_ - from;
     double value = before.value;
     while (true) {
-      const Branch::Near next = branch_->next(value, sense);
+      const SmoothBranch::Near next = branch_->next(value, sense);
       if (!next.end || (next.value - now.value) * sense > 0) return;
       value = next.value;
       double low = 0, high = 1;
@@ -468,7 +392,7 @@ class Simulation {
         continue;
       }
       const double value = event == 0 ? below_ : above_, sense = event == 0 ? -1 : 1;
-      const Branch::Near here = branch_->nearest(value);
+      const SmoothBranch::Near here = branch_->nearest(value);
       if (options_.at_change_point == AtChangePoint::stop) {
         report_.passages.push_back({t, value, here.end->groups, 0});
         report_.group = here.end->groups.empty() ? -1 : here.end->groups.front();
@@ -495,9 +419,9 @@ class Simulation {
   std::vector<PartState<double>> unit_motion(double value) {
     std::vector<PartState<double>> sum(plan_.parts.size());
     for (PartState<double>& s : sum) s = {{0, 0}, {0, 0}, {0, 0}, 0, {0, 0}, 0};
-    const Weights weights = interpolation(0);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const InputMotion there{value + nodes[i] * branch_->half_width(), 1, 0};
+    const ChangeZone::Weights weights = ChangeZone::interpolation(0);
+    for (std::size_t i = 0; i < ChangeZone::nodes.size(); ++i) {
+      const InputMotion there{value + ChangeZone::nodes[i] * branch_->half_width(), 1, 0};
       branch_->set_modes(there.value, dynamics_.motion);
       solve_motion(plan_, std::span(&there, 1), dynamics_.motion);
       if (dynamics_.motion.status != Status::done) return {};
@@ -622,7 +546,7 @@ class Simulation {
     MotionCurve curve;
   };
   std::vector<Law> laws_;
-  std::optional<Branch> branch_;
+  std::optional<SmoothBranch> branch_;
   bool friction_ = false;
   std::vector<double> last_sines_;
   std::vector<PartState<double>> good_parts_;

@@ -1,5 +1,6 @@
 #include "linkwright/planar/studies.h"
 
+#include "linkwright/planar/linkage_regulation_study.h"
 #include "linkwright/planar/linkage_simulation_study.h"
 #include "linkwright/planar/linkage_study.h"
 #include "linkwright/planar/path_study.h"
@@ -9,8 +10,14 @@
 namespace linkwright::planar {
 
 std::vector<study::Kind> studies() {
-  return {path_kind(),         reactions_kind(),          linkage_kind(),
-          slider_crank_kind(), linkage_simulation_kind(), slider_crank_simulation_kind(),
+  return {path_kind(),
+          reactions_kind(),
+          linkage_kind(),
+          slider_crank_kind(),
+          linkage_simulation_kind(),
+          slider_crank_simulation_kind(),
+          linkage_regulation_kind(),
+          slider_crank_regulation_kind(),
           serial_arm_kind()};
 }
 
