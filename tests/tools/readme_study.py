@@ -1,4 +1,4 @@
-"""Runs the study that the README shows.
+"""Runs the studies that the README shows.
 
     readme_study.py LINKWRIGHT README
 """
@@ -10,8 +10,12 @@ import tempfile
 from pathlib import Path
 
 program, readme = sys.argv[1:]
-[study] = re.findall(r"```toml\n(.*?)```", Path(readme).read_text(encoding="utf-8"), re.DOTALL)
-with tempfile.TemporaryDirectory() as folder:
-    file = Path(folder) / "study.toml"
-    file.write_text(study, encoding="utf-8")
-    sys.exit(subprocess.run([program, "run", file, "--out", Path(folder) / "out"], check=False).returncode)
+studies = re.findall(r"```toml\n(.*?)```", Path(readme).read_text(encoding="utf-8"), re.DOTALL)
+assert studies, "the README shows no study"
+for study in studies:
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "study.toml"
+        file.write_text(study, encoding="utf-8")
+        code = subprocess.run([program, "run", file, "--out", Path(folder) / "out"], check=False).returncode
+        if code:
+            sys.exit(code)
