@@ -108,9 +108,10 @@ name      = "ground"
 points_mm = { O = [0, 0] }
 
 [[mechanism.body]]
-name      = "crank"
-points_mm = { O = [0, 0], A = [40, 0] }
-mass_kg   = 6.0                     # inertia and centre: those of a uniform bar unless given
+name          = "crank"
+points_mm     = { O = [0, 0], A = [40, 0] }
+mass_kg       = 6.0                 # inertia and centre: those of a uniform bar unless given
+inertia_kg_m2 = 0.1
 
 [[mechanism.body]]
 name      = "rod"
