@@ -98,9 +98,9 @@ LinkageDynamics::LinkageDynamics(const Linkage& linkage, const LinkagePlan& plan
   friction_ = std::any_of(linkage.joints.begin(), linkage.joints.end(),
                           [](const LinkageJoint& j) { return j.friction > 0; });
   const auto damped = [](const auto& s) { return s.damping != 0; };
-  lasting_ = friction_ || !linkage.forces.empty() || !linkage.torques.empty() ||
-             std::any_of(linkage.springs.begin(), linkage.springs.end(), damped) ||
-             std::any_of(linkage.torsion_springs.begin(), linkage.torsion_springs.end(), damped);
+  damped_ = std::any_of(linkage.springs.begin(), linkage.springs.end(), damped) ||
+            std::any_of(linkage.torsion_springs.begin(), linkage.torsion_springs.end(), damped);
+  lasting_ = friction_ || damped_ || !linkage.forces.empty() || !linkage.torques.empty();
   unit_.resize(free.size());
   bias_.resize(free.size());
   unit_rates_.resize(free.size() * plan.parts.size());
@@ -123,6 +123,16 @@ void LinkageDynamics::unit_velocities(std::span<const InputMotion> inputs) {
     for (std::size_t p = 1; p < plan_.parts.size(); ++p)
       rates[p] = {motion.parts[p].velocity, motion.parts[p].speed};
   }
+}
+
+// Velocities are proportional to the rate of an only input, and those of its unit rate are in `motion`.
+void LinkageDynamics::scale_velocities(double rate) {
+  for (std::size_t p = 1; p < plan_.parts.size(); ++p) {
+    PartState<double>& part = motion.parts[p];
+    part.velocity = rate * part.velocity;
+    part.speed *= rate;
+  }
+  for (GroupState<double>& g : motion.groups) g.rate_x *= rate, g.rate_y *= rate, g.rate_zero *= rate;
 }
 
 // Cholesky's factor of the mass matrix; false when a free input moves no mass.
@@ -193,7 +203,10 @@ Status LinkageDynamics::solve(double time, std::span<InputMotion> inputs) {
   solve_position(plan_, inputs, motion);
   if (motion.status != Status::done) return failed(motion.status);
   unit_velocities(inputs);
-  solve_velocity(plan_, inputs, motion);
+  if (plan_.inputs() == 1)
+    scale_velocities(inputs[0].rate);
+  else
+    solve_velocity(plan_, inputs, motion);
   solve_acceleration(plan_, inputs, motion);
 
   loads_.clear();
@@ -234,7 +247,12 @@ Status LinkageDynamics::solve(double time, std::span<InputMotion> inputs) {
   for (std::size_t j = 0; j < n; ++j) inputs[free_[j]].acceleration = right_[j];
   if (friction_) return settle_friction(time, inputs) ? Status::done : failed(Status::not_converged);
 
-  if (lasting_) power = lasting_power(linkage_, plan_, motion, loads_);
+  if (damped_)
+    power = lasting_power(linkage_, plan_, motion, loads_);
+  else if (lasting_)  // what springs do is in their potential energy; their loads come first, two each
+    for (std::size_t i = 2 * (linkage_.springs.size() + linkage_.torsion_springs.size()); i < loads_.size();
+         ++i)
+      power += power_of(plan_, motion, loads_[i]);
   if (prescribed_)
     for (const std::size_t k : all_) {
       if (std::find(free_.begin(), free_.end(), k) != free_.end()) continue;

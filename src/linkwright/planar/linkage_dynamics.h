@@ -56,6 +56,7 @@ class LinkageDynamics {
     double speed;
   };
   void unit_velocities(std::span<const InputMotion> inputs);
+  void scale_velocities(double rate);
   bool factorise();
   void resolve(std::span<double> right) const;
   bool settle_friction(double time, std::span<InputMotion> inputs);
@@ -63,7 +64,7 @@ class LinkageDynamics {
   const Linkage& linkage_;
   const LinkagePlan& plan_;
   std::vector<std::size_t> free_, all_;
-  bool prescribed_, friction_, lasting_;
+  bool prescribed_, friction_, damped_, lasting_;
   std::vector<InputMotion> unit_, bias_;
   std::vector<PartRate> unit_rates_;  // parts of an input after those of the input before
   std::vector<AppliedLoad> loads_;

@@ -272,8 +272,8 @@ void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotio
     const PointMotion a = point_of(l, plan, motion, s.first), b = point_of(l, plan, motion, s.second);
     const Vec<double> way = b.position - a.position;
     const double length = norm(way);
-    if (length == 0) continue;  // no direction: as if at rest length
-    const Vec<double> along = (1 / length) * way;
+    // Without a length there is no direction: as if at rest length.
+    const Vec<double> along = length > 0 ? (1 / length) * way : Vec<double>{0, 0};
     const double pull =
         s.stiffness * (length - s.free_length) + s.damping * dot(along, b.velocity - a.velocity);
     loads.push_back({s.first.body, a.position, pull * along, 0});

@@ -46,8 +46,9 @@ struct LinkageForces {
   std::vector<double> group_drives;
 };
 
-/// Forces of springs, dampers, forces and torques at the present motion, appended to `loads`. `time` in s and
-/// `input` (value of the first input, rad or m) are what load tables may depend on.
+/// Forces of springs, dampers, forces and torques at the present motion, appended to `loads` in this order,
+/// two for each spring and torque. `time` in s and `input` (value of the first input, rad or m) are what load
+/// tables may depend on.
 void applied_loads(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion, double time,
                    double input, std::vector<AppliedLoad>& loads);
 

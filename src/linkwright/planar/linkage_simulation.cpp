@@ -409,7 +409,9 @@ class Simulation {
       }
       kinks_ -= *lost;
       neighbours(value + sense * branch_->half_width() / 2);
-      (sense > 0 ? below_ : above_) = value;
+      // The event leaves the input within rounding of the change point, on either side of it; only a return
+      // beyond that is another passage.
+      (sense > 0 ? below_ : above_) = value - sense * 1e-9;
       action = math::OdeAction::restart;
     }
     return action;

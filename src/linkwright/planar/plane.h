@@ -65,7 +65,8 @@ LINKWRIGHT_KERNEL Vec<T> spread(const Vec<double>& a) {
   return {T(a.x), T(a.y)};
 }
 
-inline double norm(const Vec<double>& a) { return std::hypot(a.x, a.y); }
+/// Lengths of mechanisms are far from the ends of a double, so there is no need of hypot's care.
+inline double norm(const Vec<double>& a) { return std::sqrt(dot(a, a)); }
 inline Vec<double> unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
 inline double angle_of(const Vec<double>& a) { return std::atan2(a.y, a.x); }
 inline Vec<double> vec(std::complex<double> z) { return {z.real(), z.imag()}; }
