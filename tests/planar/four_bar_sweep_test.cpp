@@ -164,6 +164,15 @@ TEST(FourBarSweep, EveryInstructionSetGivesTheSameUpToRounding) {
   }
 }
 
+TEST(FourBarSweep, OfNothingIsEmpty) {
+  const double speed = 3, angle = 1;
+  FourBarSweep sweep({});
+  sweep.run(crank_rocker.linkage, crank_rocker.masses, 9.81, {{}, {&speed, 1}, {}});
+  EXPECT_TRUE(sweep.row(FourBarRow::drive_torque).empty());
+  sweep.run({}, 9.81, {{&angle, 1}, {&speed, 1}, {}});
+  EXPECT_TRUE(sweep.status().empty());
+}
+
 TEST(FourBarSweep, AllocatesNothingTheSecondTime) {
   const std::vector<double> angle(100, 0.3);
   const std::vector<FourBarMachine> machines(10, crank_rocker);

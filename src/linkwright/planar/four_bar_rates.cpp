@@ -8,16 +8,6 @@
 #include "linkwright/planar/four_bar_forces_kernel.h"
 
 namespace linkwright::planar {
-namespace {
-
-Direction<double> direction(double angle) {
-  Direction<double> e;
-  math::sincos_of_any(angle, e.y, e.x);
-  return e;
-}
-
-}  // namespace
-
 FourBarRates rates(const FourBar& linkage, double crank_angle, double crank_speed,
                    double crank_acceleration) {
   require_lengths(linkage);
@@ -29,9 +19,10 @@ FourBarRates rates(const FourBar& linkage, double crank_angle, double crank_spee
   FourBarRates out;
   out.crank_speed = crank_speed;
   out.crank_acceleration = crank_acceleration;
-  const auto [e1x, e1y] = direction(linkage.frame_angle + crank_angle);
+  double e1x, e1y, fx = 1, fy = 0;
+  math::sincos_of_any(linkage.frame_angle + crank_angle, e1y, e1x);
+  if (linkage.frame_angle != 0) math::sincos_of_any(linkage.frame_angle, fy, fx);
   out.crank_direction = {e1x, e1y};
-  const auto [fx, fy] = direction(linkage.frame_angle);
   out.ground_direction = {fx, fy};
   const FourBarShape<double> shape = four_bar_shape(linkage.ground * fx, linkage.ground * fy, linkage.crank,
                                                     linkage.coupler, linkage.rocker, sign(linkage.branch));

@@ -62,8 +62,11 @@ std::array<double, four_bar_row_count> all_rows(const FourBarRates& r, const Fou
           f.shaking_moment_with_drive};
 }
 
-double one_of(std::span<const double> values, std::size_t i) {
-  return values.empty() ? 0 : values[values.size() == 1 ? 0 : i];
+// `count` numbers: those given, the last (or only) one repeated, or zeros for none.
+void spread(std::span<const double> from, std::size_t count, std::vector<double>& to) {
+  to.resize(count);
+  const auto rest = std::copy(from.begin(), from.end(), to.begin());
+  std::fill(rest, to.end(), from.empty() ? 0 : from.back());
 }
 
 }  // namespace
@@ -102,7 +105,7 @@ void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, boo
   task.angles = over_machines ? n : 1;
 
   const std::size_t width = over_machines ? task.lanes : 1;
-  constants.resize(four_bar_constants * task.lanes);
+  constants.resize(four_bar_constants * std::max(task.lanes, line));  // read even when there is no angle
   for (std::size_t k = 0; k < width && !machines.empty(); ++k) {
     const auto& [l, m] = machines[std::min(k, machines.size() - 1)];
     require_lengths(l);
@@ -120,18 +123,16 @@ void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, boo
   }
 
   const std::size_t steps = over_machines ? n : task.lanes;
-  rate.resize(steps);
-  acceleration.resize(steps);
-  for (auto [from, to] : {std::pair{crank.rate, &rate}, std::pair{crank.acceleration, &acceleration}})
-    for (std::size_t i = 0; i < steps && n > 0; ++i) (*to)[i] = one_of(from, std::min(i, n - 1));
+  const std::span<const double> none;  // with no angles there is no room for the one rate of all
+  spread(n > 0 ? crank.rate : none, steps, rate);
+  spread(n > 0 ? crank.acceleration : none, steps, acceleration);
   if (over_machines) {
     cosine.resize(n);
     sine.resize(n);
     for (std::size_t i = 0; i < n; ++i) math::sincos_of_any(crank.value[i], sine[i], cosine[i]);
   } else {
-    angle.resize(steps);
-    for (std::size_t i = 0; i < steps && n > 0; ++i)
-      angle[i] = machines[0].linkage.frame_angle + crank.value[std::min(i, n - 1)];
+    spread(crank.value, steps, angle);
+    for (double& a : angle) a += machines[0].linkage.frame_angle;
   }
   data.resize(task.rows * task.angles * task.lanes);
   good.resize(task.angles * task.lanes);
