@@ -27,6 +27,7 @@ NO_TEST = {
     "study/read_syntax.h": "part of read, tested in read_test.cpp",
     "optimise/kernels_body.h": "part of kernels, compiled once per instruction set and compared by kernels_test.cpp",
     "optimise/differential_evolution_base.h": "shared part of both forms, tested through them",
+    "planar/four_bar_sweep_kernel.h": "part of four_bar_sweep, compiled once per instruction set and compared by its test",
     "planar/linkage_sweep_kernel.h": "part of linkage_sweep, compiled once per instruction set and compared by its test",
     "planar/path_objective_kernel.h": "part of path_objective, compiled once per instruction set and compared by its test",
 }

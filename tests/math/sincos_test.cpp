@@ -53,6 +53,16 @@ TEST(Sincos, IsExactAtZeroAndSmallAngles) {
   EXPECT_EQ(cosine, 1);
 }
 
+TEST(Sincos, OfAnyAngleGoesOnBeyondTheRange) {
+  for (const double x : {0.5, 1e5, -1e5, 1.2e5, -3e9, 1e300}) {
+    double sine = 0, cosine = 0;
+    sincos_of_any(x, sine, cosine);
+    // At 1e5 the bound of sincos, beyond it the rounding of the library.
+    EXPECT_NEAR(sine, std::sin(x), 4e-14) << x;
+    EXPECT_NEAR(cosine, std::cos(x), 4e-14) << x;
+  }
+}
+
 TEST(Sincos, BatchGivesTheBitsOfTheScalar) {
   using Batch = xsimd::batch<double, xsimd::sse2>;
   RandomStream random({.seed = 2});

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "linkwright/math/scalar.h"
 
 namespace linkwright::math {
@@ -38,6 +40,16 @@ LINKWRIGHT_KERNEL void sincos(const T& x, T& sine, T& cosine) {
   // sin: q = 0: s, 1: c, +-2: -s, -1: -c;  cos: q = 0: c, 1: -s, +-2: -c, -1: s.
   sine = S::choose((q == T(1.0)) | (q == T(0.0)), swapped_s, -swapped_s);
   cosine = S::choose((q == T(0.0)) | (q == T(-1.0)), swapped_c, -swapped_c);
+}
+
+/// The same for any x: beyond its range by the functions of the library.
+inline void sincos_of_any(double x, double& sine, double& cosine) {
+  if (std::abs(x) <= 1e5) {
+    sincos(x, sine, cosine);
+  } else {
+    sine = std::sin(x);
+    cosine = std::cos(x);
+  }
 }
 
 }  // namespace linkwright::math

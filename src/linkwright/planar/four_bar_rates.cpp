@@ -4,10 +4,10 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/tolerance.h"
-#include "linkwright/planar/four_bar_kernel.h"
+#include "linkwright/math/sincos.h"
+#include "linkwright/planar/four_bar_forces_kernel.h"
 
 namespace linkwright::planar {
-
 FourBarRates rates(const FourBar& linkage, double crank_angle, double crank_speed,
                    double crank_acceleration) {
   require_lengths(linkage);
@@ -19,48 +19,37 @@ FourBarRates rates(const FourBar& linkage, double crank_angle, double crank_spee
   FourBarRates out;
   out.crank_speed = crank_speed;
   out.crank_acceleration = crank_acceleration;
-  const double angle = linkage.frame_angle + crank_angle;
-  const double e1x = std::cos(angle), e1y = std::sin(angle);
+  double e1x, e1y, fx = 1, fy = 0;
+  math::sincos_of_any(linkage.frame_angle + crank_angle, e1y, e1x);
+  if (linkage.frame_angle != 0) math::sincos_of_any(linkage.frame_angle, fy, fx);
   out.crank_direction = {e1x, e1y};
-  const double fx = std::cos(linkage.frame_angle), fy = std::sin(linkage.frame_angle);
   out.ground_direction = {fx, fy};
-  const double gx = linkage.ground * fx, gy = linkage.ground * fy;
-  const double wx = linkage.crank * e1x, wy = linkage.crank * e1y;
-  const double l2 = linkage.coupler, l3 = linkage.rocker;
-  const Closure<double> closure = close_loop(gx, gy, wx, wy, l2, l3, sign(linkage.branch));
-  const double distance = std::sqrt(closure.r2);
-  if (loop_gap(distance, l2, l3) > 0) {
+  const FourBarShape<double> shape = four_bar_shape(linkage.ground * fx, linkage.ground * fy, linkage.crank,
+                                                    linkage.coupler, linkage.rocker, sign(linkage.branch));
+  const Closure<double> closure = close_at_crank(shape, e1x, e1y);
+  const double shortest = tolerance::closure * (linkage.coupler + linkage.rocker);
+  if (closure.radicand < 0 && loop_gap(std::sqrt(closure.r2), linkage.coupler, linkage.rocker) > 0) {
     out.status = Status::no_assembly;
     return out;
   }
-  if (distance <= tolerance::closure * (l2 + l3)) {
+  if (closure.r2 <= shortest * shortest) {
     out.status = Status::singular;
     return out;
   }
-  const auto [e2x, e2y] = coupler_direction(closure, l2);
-  const double e3x = (wx + l2 * e2x - gx) / l3, e3y = (wy + l2 * e2y - gy) / l3;
-  out.coupler_direction = {e2x, e2y};
-  out.rocker_direction = {e3x, e3y};
-  const double root = std::sqrt(math::Scalar<double>::positive_part(closure.radicand));
-  const double s = sign(linkage.branch) * (root / (2 * l2 * l3));
+  const FourBarDirections<double> e = four_bar_directions(shape, e1x, e1y, closure, 0.5 / closure.r2);
+  out.coupler_direction = {e.e2x, e.e2y};
+  out.rocker_direction = {e.e3x, e.e3y};
+  const double s = shape.sign * sine_size(shape, closure);
   out.transmission_sine = s;
   if (std::abs(s) < tolerance::toggle_angle) {
     out.status = Status::singular;
     return out;
   }
-  // L1 w1 n1 + L2 w2 n2 = L3 w3 n3, taken along e3 and e2.
-  const double speed = linkage.crank * crank_speed / s;
-  const double w2 = speed * (e3x * e1y - e3y * e1x) / l2;
-  const double w3 = speed * (e2x * e1y - e2y * e1x) / l3;
-  // What the second derivative of the loop holds beside L2 eps2 n2 - L3 eps3 n3.
-  const double a1 = linkage.crank * crank_acceleration, c1 = linkage.crank * crank_speed * crank_speed;
-  const double c2 = l2 * w2 * w2, c3 = l3 * w3 * w3;
-  const double zx = -a1 * e1y - c1 * e1x - c2 * e2x + c3 * e3x;
-  const double zy = a1 * e1x - c1 * e1y - c2 * e2y + c3 * e3y;
-  out.coupler_speed = w2;
-  out.rocker_speed = w3;
-  out.coupler_acceleration = -(zx * e3x + zy * e3y) / (l2 * s);
-  out.rocker_acceleration = -(zx * e2x + zy * e2y) / (l3 * s);
+  const FourBarTurning<double> turning = four_bar_turning(shape, e, 1 / s, crank_speed, crank_acceleration);
+  out.coupler_speed = turning.w2;
+  out.rocker_speed = turning.w3;
+  out.coupler_acceleration = turning.a2;
+  out.rocker_acceleration = turning.a3;
   return out;
 }
 

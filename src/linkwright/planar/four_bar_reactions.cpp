@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/math/sincos.h"
+#include "linkwright/planar/four_bar_forces_kernel.h"
 
 namespace linkwright::planar {
 namespace {
@@ -21,7 +23,6 @@ double cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
 double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
 Vector left(Vector a) { return {-a.y, a.x}; }
 Vector vector(std::complex<double> z) { return {z.real(), z.imag()}; }
-std::complex<double> number(Vector a) { return {a.x, a.y}; }
 
 // A link as Newton and Euler see it.
 struct Body {
@@ -81,6 +82,14 @@ void add_shaking(FourBarReactions& out, const FourBar& linkage, const FourBarRat
   out.shaking_moment_with_drive = out.shaking_moment - out.drive_torque;
 }
 
+// The base parameters of a link whose masses have been checked.
+LinkBase<double> link_base(const LinkMass& m) {
+  double sine = 0, cosine = 1;
+  if (m.centre_angle != 0) math::sincos_of_any(m.centre_angle, sine, cosine);
+  const double moment = m.mass * m.centre_distance;
+  return {m.mass, moment * cosine, moment * sine, m.inertia + moment * m.centre_distance};
+}
+
 // Inertia force and support of the weight.
 Vector load(const LinkMass& mass, const Body& body, double gravity) {
   return mass.mass * (body.acceleration + Vector{0, gravity});
@@ -94,22 +103,33 @@ FourBarReactions reactions(const FourBar& linkage, const FourBarMasses& masses, 
   FourBarReactions out;
   out.status = rates.status;
   if (rates.status != Status::done) return out;
-  const Bodies b = bodies(linkage, masses, rates);
-  const Vector load1 = load(masses.crank, b.crank, gravity), load2 = load(masses.coupler, b.coupler, gravity),
-               load3 = load(masses.rocker, b.rocker, gravity);
-  // No motor at A and B0: e2 x R3 = k2 / L2 and e3 x R3 = -k3 / L3.
-  const double k2 = masses.coupler.inertia * b.coupler.angular_acceleration + cross(b.coupler.arm, load2);
-  const double k3 = masses.rocker.inertia * b.rocker.angular_acceleration + cross(b.rocker.arm, load3);
-  const Vector r3 = (1 / rates.transmission_sine) * ((k2 / linkage.coupler) * vector(rates.rocker_direction) +
-                                                     (k3 / linkage.rocker) * vector(rates.coupler_direction));
-  const Vector r2 = load2 - r3;
-  out.ground_on_crank = number(load1 + r2);
-  out.crank_on_coupler = number(r2);
-  out.rocker_on_coupler = number(r3);
-  out.ground_on_rocker = number(load3 + r3);
-  out.drive_torque = masses.crank.inertia * b.crank.angular_acceleration + cross(b.crank.arm, load1) +
-                     cross(b.crank.line, r2);
-  add_shaking(out, linkage, rates);
+  const std::complex<double> ground = linkage.ground * rates.ground_direction;
+  const FourBarShape<double> shape = four_bar_shape(ground.real(), ground.imag(), linkage.crank,
+                                                    linkage.coupler, linkage.rocker, sign(linkage.branch));
+  const FourBarDirections<double> e = {rates.crank_direction.real(),   rates.crank_direction.imag(),
+                                       rates.coupler_direction.real(), rates.coupler_direction.imag(),
+                                       rates.rocker_direction.real(),  rates.rocker_direction.imag()};
+  const auto [ax, ay] =
+      crank_pin_acceleration(linkage.crank, e.e1x, e.e1y, rates.crank_speed, rates.crank_acceleration);
+  const FourBarTurning<double> turning = {rates.crank_speed,
+                                          rates.coupler_speed,
+                                          rates.rocker_speed,
+                                          rates.crank_acceleration,
+                                          rates.coupler_acceleration,
+                                          rates.rocker_acceleration,
+                                          ax,
+                                          ay};
+  const FourBarForces<double> f = four_bar_forces(
+      shape, e, 1 / rates.transmission_sine, turning,
+      {link_base(masses.crank), link_base(masses.coupler), link_base(masses.rocker)}, gravity);
+  out.ground_on_crank = {f.ground_on_crank_x, f.ground_on_crank_y};
+  out.crank_on_coupler = {f.crank_on_coupler_x, f.crank_on_coupler_y};
+  out.rocker_on_coupler = {f.rocker_on_coupler_x, f.rocker_on_coupler_y};
+  out.ground_on_rocker = {f.ground_on_rocker_x, f.ground_on_rocker_y};
+  out.drive_torque = f.drive_torque;
+  out.shaking_force = {f.shaking_x, f.shaking_y};
+  out.shaking_moment = f.shaking_moment;
+  out.shaking_moment_with_drive = f.shaking_moment_with_drive;
   return out;
 }
 

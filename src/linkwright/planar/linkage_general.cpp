@@ -15,8 +15,8 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 struct GeneralGroupMemory {
-  std::vector<int> column;  // first column of a part, -1 of a known one
-  Eigen::MatrixXd jacobian;
+  std::vector<int> column;             // first column of a part, -1 of a known one
+  Eigen::MatrixXd jacobian, factored;  // the last one assembled, and that of the factors
   Eigen::VectorXd residual, solution;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors;
 };
@@ -119,6 +119,7 @@ GeneralGroupPointer general_group_memory(const LinkagePlan& plan, const Group& g
     memory->column[at(group.parts[i])] = static_cast<int>(3 * i);
   const auto n = static_cast<Index>(3 * group.parts.size());
   memory->jacobian.resize(n, n);
+  memory->factored = Eigen::MatrixXd::Constant(n, n, std::numeric_limits<double>::quiet_NaN());
   memory->residual.resize(n);
   memory->solution.resize(n);
   memory->factors = Eigen::PartialPivLU<Eigen::MatrixXd>(n);
@@ -148,12 +149,17 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
   // Newton's method; near the solution it doubles the digits with each step, and two steps without gain at
   // the rounding level end it. Far off, a step turns no part by more than half a radian and moves none by
   // more than the linkage's size, so that the search does not leap to another branch.
+  //
+  // Factors are kept where they serve: at the start, when the parts still are where the last search left
+  // them; and after a small step, as long as each further step gains a digit. They always end as those of the
+  // last place.
   double reach = plan.size;  // far from the origin coordinates are rounded more coarsely
   for (const PlanJoint& j : g.joints)
     reach = std::max(reach, norm(point_on(motion.parts[at(j.before.part)], j.before.at)));
   const double rounding = 64 * tolerance::epsilon * reach;
   double last = std::numeric_limits<double>::infinity();
   double largest = last;
+  bool small_step = false;
   for (int iteration = 0; iteration < 60; ++iteration) {
     Index row = 0;
     for (std::size_t k = 0; k < g.joints.size(); ++k) {
@@ -165,8 +171,13 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
     }
     largest = m.residual.cwiseAbs().maxCoeff();
     if (!std::isfinite(largest)) break;
-    assemble(plan, g, motion, m);
-    m.factors.compute(m.jacobian);
+    if (!(small_step && largest > rounding && largest < 0.1 * last)) {
+      assemble(plan, g, motion, m);
+      if (m.jacobian != m.factored) {
+        m.factors.compute(m.jacobian);
+        m.factored = m.jacobian;
+      }
+    }
     if (largest <= rounding && (largest == 0 || largest > 0.25 * last || iteration > 0)) break;
     last = largest;
     m.solution = m.factors.solve(m.residual);
@@ -180,6 +191,7 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
       largest = std::numeric_limits<double>::infinity();
       break;
     }
+    small_step = m.solution.cwiseAbs().maxCoeff() < 1e-3 * plan.size;
     for (int p : g.parts) {
       PartState<double>& part = motion.parts[at(p)];
       const int c = m.column[at(p)];
