@@ -408,10 +408,11 @@ class Simulation {
         return math::OdeAction::stop;
       }
       kinks_ -= *lost;
-      neighbours(value + sense * branch_->half_width() / 2);
-      // The event leaves the input within rounding of the change point, on either side of it; only a return
-      // beyond that is another passage.
-      (sense > 0 ? below_ : above_) = value - sense * 1e-9;
+      // The impact may throw the linkage back: it leaves along the new branch to either side. The event
+      // leaves the input within rounding of the change point; only a return beyond that is another passage.
+      const double way = y[1] >= 0 ? 1 : -1;
+      neighbours(value + way * branch_->half_width() / 2);
+      (way > 0 ? below_ : above_) = value - way * 1e-9;
       action = math::OdeAction::restart;
     }
     return action;
