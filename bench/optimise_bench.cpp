@@ -33,6 +33,8 @@ void overhead(benchmark::State& state, OptimiserOptions options) {
   options.differential_evolution.population = n;
   options.self_adaptive_differential_evolution.population = n;
   options.grey_wolf.population = n;
+  options.particle_swarm.population = n;
+  options.jade.population = n;
   options.grey_wolf.generations = 1000;
   const Problem problem = sphere(10);
   const auto optimiser = make_optimiser(problem.variables, options, {});
@@ -52,6 +54,8 @@ void whole_run(benchmark::State& state, OptimiserOptions options) {
   options.differential_evolution.population = n;
   options.self_adaptive_differential_evolution.population = n;
   options.grey_wolf.population = n;
+  options.particle_swarm.population = n;
+  options.jade.population = n;
   MinimiseOptions minimise_options;
   minimise_options.stop.generations = generations;
   const Problem problem = sphere(10);
@@ -82,10 +86,16 @@ void sphere_only(benchmark::State& state) {
 const OptimiserOptions de = {.method = Method::differential_evolution};
 const OptimiserOptions jde = {.method = Method::self_adaptive_differential_evolution};
 const OptimiserOptions wolf = {.method = Method::grey_wolf};
+const OptimiserOptions jade = {.method = Method::jade};
+const OptimiserOptions best_1 = {.differential_evolution = {.scheme = MutationScheme::best_1}};
+const OptimiserOptions swarm = {.method = Method::particle_swarm};
 
 BENCHMARK_CAPTURE(overhead, differential_evolution, de)->Arg(30)->Arg(100)->Arg(1000);
 BENCHMARK_CAPTURE(overhead, self_adaptive_differential_evolution, jde)->Arg(30)->Arg(100)->Arg(1000);
 BENCHMARK_CAPTURE(overhead, grey_wolf, wolf)->Arg(30)->Arg(100)->Arg(1000);
+BENCHMARK_CAPTURE(overhead, differential_evolution_best_1, best_1)->Arg(30)->Arg(100)->Arg(1000);
+BENCHMARK_CAPTURE(overhead, jade, jade)->Arg(30)->Arg(100)->Arg(1000);
+BENCHMARK_CAPTURE(overhead, particle_swarm, swarm)->Arg(30)->Arg(100)->Arg(1000);
 BENCHMARK_CAPTURE(whole_run, differential_evolution, de)->Arg(30)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(whole_run, self_adaptive_differential_evolution, jde)
     ->Arg(30)

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "linkwright/optimise/statistics.h"
@@ -80,13 +82,89 @@ TEST(DifferentialEvolution, MembersNeverGetWorse) {
   }
 }
 
+constexpr MutationScheme later_schemes[] = {MutationScheme::best_1, MutationScheme::target_to_best_1,
+                                            MutationScheme::rand_2, MutationScheme::best_2};
+
+TEST(DifferentialEvolution, EverySchemeFindsTheKnownOptima) {
+  for (const MutationScheme scheme : later_schemes) {
+    OptimiserOptions method = {.method = Method::differential_evolution};
+    method.differential_evolution.population = 60;
+    method.differential_evolution.scheme = scheme;
+    const auto successes = [&](const Problem& problem, int generations, double threshold) {
+      return run(problem, method, generations, 20, threshold).statistics.successes;
+    };
+    EXPECT_EQ(successes(test::sphere(5), 1500, 1e-10), 20) << name_of(scheme);
+    // Two differences keep the members apart for long; those that follow the best close in early.
+    EXPECT_GE(successes(test::rosenbrock(4), 6000, 1e-10), 16) << name_of(scheme);
+    EXPECT_EQ(successes(test::g06(), 2000, -6961.8138), 20) << name_of(scheme);
+  }
+}
+
+TEST(DifferentialEvolution, MutantsAreOfTheirScheme) {
+  // With CR = 1 every trial must be a mutant for some distinct members; all choices are tried. Some
+  // components must be inside of the box by themselves.
+  const std::vector<Variable> variables = {{"x", -100, 100}, {"y", -100, 100}};
+  for (const MutationScheme scheme : later_schemes) {
+    const double f = 0.3;
+    const auto optimiser = make_optimiser(
+        variables,
+        DifferentialEvolutionOptions{.population = 6, .scale = f, .crossover = 1, .scheme = scheme}, {});
+    std::vector<double> cost = {5, 4, 1, 2, 3, 6}, none(6, 0.0);
+    const PopulationView first = optimiser->ask();
+    std::array<std::array<double, 2>, 6> x;
+    for (std::size_t i = 0; i < 6; ++i) x[i] = {first(0, i), first(1, i)};
+    const std::array<double, 2> best = x[2];
+    optimiser->tell(cost, none);
+    const PopulationView trial = optimiser->ask();
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+      std::array<std::size_t, 5> r;
+      const auto matches = [&] {
+        std::size_t free = 0;
+        for (std::size_t j = 0; j < 2; ++j) {
+          const auto d = [&](std::size_t a, std::size_t b) { return f * (x[r[a]][j] - x[r[b]][j]); };
+          const double v = scheme == MutationScheme::best_1 ? best[j] + d(0, 1)
+                           : scheme == MutationScheme::target_to_best_1
+                               ? x[i][j] + f * (best[j] - x[i][j]) + d(0, 1)
+                           : scheme == MutationScheme::rand_2 ? x[r[0]][j] + d(1, 2) + d(3, 4)
+                                                              : best[j] + d(0, 1) + d(2, 3);
+          const double base = scheme == MutationScheme::rand_2             ? x[r[0]][j]
+                              : scheme == MutationScheme::target_to_best_1 ? x[i][j]
+                                                                           : best[j];
+          const double kept = v < -100 ? (base - 100) / 2 : v > 100 ? (base + 100) / 2 : v;
+          if (std::abs(kept - trial(j, i)) > 1e-12 * 100) return false;
+          free += kept == v;
+        }
+        inside += free;
+        return true;
+      };
+      bool found = false;
+      for (std::size_t code = 0; code < 6 * 6 * 6 * 6 * 6 && !found; ++code) {
+        std::size_t rest = code;
+        bool distinct = true;
+        for (std::size_t k = 0; k < 5; ++k, rest /= 6) {
+          r[k] = rest % 6;
+          distinct = distinct && r[k] != i && std::find(r.begin(), r.begin() + k, r[k]) == r.begin() + k;
+        }
+        found = distinct && matches();
+      }
+      EXPECT_TRUE(found) << name_of(scheme) << " " << i;
+    }
+    EXPECT_GE(inside, 4u) << name_of(scheme);
+  }
+}
+
 TEST(DifferentialEvolution, SaysWhichOptionIsOutOfRange) {
   const Problem problem = test::sphere(2);
   const auto with = [&](const DifferentialEvolutionOptions& o) {
     return message([&] { make_optimiser(problem.variables, o, {}); });
   };
   EXPECT_THAT(with({.population = 3}),
-              HasSubstr("differential_evolution: population must be 0 or at least 4, got 3"));
+              HasSubstr("differential_evolution: population must be 0 or at least 4 with rand_1, got 3"));
+  EXPECT_THAT(with({.population = 5, .scheme = MutationScheme::rand_2}),
+              HasSubstr("differential_evolution: population must be 0 or at least 6 with rand_2, got 5"));
+  EXPECT_THAT(with({.population = 4, .scheme = MutationScheme::best_2}),
+              HasSubstr("differential_evolution: population must be 0 or at least 5 with best_2, got 4"));
   EXPECT_THAT(with({.scale = 0}), HasSubstr("differential_evolution: scale must be more than 0, got 0"));
   EXPECT_THAT(with({.crossover = 1.5}),
               HasSubstr("differential_evolution: crossover must be at most 1, got 1.5"));

@@ -20,13 +20,16 @@ TEST(Methods, NamesAreFullAndJdeIsAnAlias) {
   EXPECT_EQ(name_of(Method::differential_evolution), "differential_evolution");
   EXPECT_EQ(name_of(Method::self_adaptive_differential_evolution), "self_adaptive_differential_evolution");
   EXPECT_EQ(name_of(Method::grey_wolf), "grey_wolf");
+  EXPECT_EQ(name_of(Method::particle_swarm), "particle_swarm");
+  EXPECT_EQ(name_of(Method::jade), "jade");
   EXPECT_EQ(names(Method{}).back().name, "jde");
   EXPECT_EQ(names(Method{}).back().value, Method::self_adaptive_differential_evolution);
 }
 
 TEST(Methods, FieldsAreThoseOfTheChosenMethod) {
-  EXPECT_EQ(keys({.method = Method::differential_evolution}),
-            (std::vector<std::string>{"method", "population", "generations", "scale", "crossover"}));
+  EXPECT_EQ(
+      keys({.method = Method::differential_evolution}),
+      (std::vector<std::string>{"method", "population", "generations", "scale", "crossover", "scheme"}));
   EXPECT_EQ(keys({.method = Method::grey_wolf}),
             (std::vector<std::string>{"method", "population", "generations", "reset_worst_half",
                                       "absolute_value"}));
@@ -56,7 +59,14 @@ TEST(Methods, MakeTheChosenOptimiserWithItsDefaults) {
                            OptimiserOptions{.method = Method::self_adaptive_differential_evolution}, {})
                 ->population(),
             100u);
+  EXPECT_EQ(
+      make_optimiser(problem.variables, OptimiserOptions{.method = Method::particle_swarm}, {})->population(),
+      40u);
+  EXPECT_EQ(make_optimiser(problem.variables, OptimiserOptions{.method = Method::jade}, {})->population(),
+            100u);
+  EXPECT_EQ(generations({.method = Method::jade}), 1500);
   EXPECT_EQ(generations({.method = Method::grey_wolf}), 50);
+  EXPECT_EQ(generations({.method = Method::particle_swarm}), 500);
   EXPECT_EQ(generations({}), 10000);
 }
 

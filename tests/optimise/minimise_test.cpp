@@ -19,7 +19,8 @@ using linkwright::test::message;
 using testing::HasSubstr;
 
 constexpr Method all_methods[] = {Method::differential_evolution,
-                                  Method::self_adaptive_differential_evolution, Method::grey_wolf};
+                                  Method::self_adaptive_differential_evolution, Method::jade,
+                                  Method::grey_wolf, Method::particle_swarm};
 
 void expect_same_bits(const Report& a, const Report& b) {
   EXPECT_EQ(a.status, b.status);

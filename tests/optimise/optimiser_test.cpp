@@ -19,7 +19,8 @@ using linkwright::test::message;
 using testing::HasSubstr;
 
 constexpr Method all_methods[] = {Method::differential_evolution,
-                                  Method::self_adaptive_differential_evolution, Method::grey_wolf};
+                                  Method::self_adaptive_differential_evolution, Method::jade,
+                                  Method::grey_wolf, Method::particle_swarm};
 
 TEST(Optimiser, FirstCandidatesAreUniformAndOneOfEachStream) {
   const Problem problem = test::sphere(3);
@@ -129,6 +130,15 @@ std::vector<OptimiserOptions> all_options() {
   for (const Method method : all_methods) all.push_back({.method = method});
   all.push_back({.method = Method::grey_wolf});
   all.back().grey_wolf.reset_worst_half = true;
+  all.push_back({.method = Method::particle_swarm});
+  all.back().particle_swarm.bounds = SwarmBounds::reflect;
+  for (const MutationScheme scheme : {MutationScheme::best_1, MutationScheme::target_to_best_1,
+                                      MutationScheme::rand_2, MutationScheme::best_2}) {
+    all.push_back({.method = Method::differential_evolution});
+    all.back().differential_evolution.scheme = scheme;
+  }
+  all.push_back({.method = Method::jade});
+  all.back().jade.archive = false;
   return all;
 }
 

@@ -172,7 +172,8 @@ TEST(PathStudyRun, AnswersWithEvidence) {
 }
 
 TEST(PathStudyRun, PopulationMethodsReportWhatTheyReach) {
-  for (const char* method : {"grey_wolf", "differential_evolution", "self_adaptive_differential_evolution"}) {
+  for (const char* method : {"grey_wolf", "differential_evolution", "self_adaptive_differential_evolution",
+                             "jade", "particle_swarm"}) {
     std::string messages;
     const auto study = prepare(
         target(std::string("closed = true\ntiming = { mode = \"equal_steps\", step_deg = 90 }\n") + square) +

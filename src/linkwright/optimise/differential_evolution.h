@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 
@@ -8,15 +9,34 @@
 
 namespace linkwright::optimise {
 
-/// Differential evolution rand/1/bin (Storn and Price 1997), synchronous: the old population is used
-/// throughout a generation. A component that leaves the box becomes the midpoint of the base vector's
-/// component and the bound it violates; a trial replaces its target when it is as good or better. Defaults of
-/// the wheel-guide studies: F = 0.6, CR = 0.9, five members a variable.
+/// How the mutant of member i is made; r1 ... r5 are members chosen at random, distinct and not i.
+enum class MutationScheme {
+  rand_1,            ///< x_r1 + F (x_r2 - x_r3)
+  best_1,            ///< x_best + F (x_r1 - x_r2)
+  target_to_best_1,  ///< x_i + F (x_best - x_i) + F (x_r1 - x_r2)
+  rand_2,            ///< x_r1 + F (x_r2 - x_r3) + F (x_r4 - x_r5)
+  best_2,            ///< x_best + F (x_r1 - x_r2) + F (x_r3 - x_r4)
+};
+constexpr std::array<EnumName<MutationScheme>, 5> names(MutationScheme) {
+  return {{{MutationScheme::rand_1, "rand_1", "a random member and one difference"},
+           {MutationScheme::best_1, "best_1", "the best member and one difference"},
+           {MutationScheme::target_to_best_1, "target_to_best_1",
+            "the member itself, moved towards the best, and one difference"},
+           {MutationScheme::rand_2, "rand_2", "a random member and two differences"},
+           {MutationScheme::best_2, "best_2", "the best member and two differences"}}};
+}
+
+/// Differential evolution with binomial crossover (Storn and Price 1997), synchronous: the old population is
+/// used throughout a generation. A component that leaves the box becomes the midpoint of the base vector's
+/// component (the first term of its scheme) and the bound it violates; a trial replaces its target when it is
+/// as good or better. Defaults of the wheel-guide studies: rand/1, F = 0.6, CR = 0.9, five members a
+/// variable.
 struct DifferentialEvolutionOptions {
-  int population = 0;  ///< 0 = five a variable, at least 4
+  int population = 0;  ///< 0 = five a variable, at least as many as the scheme needs
   int generations = 10000;
   double scale = 0.6;      ///< F
   double crossover = 0.9;  ///< CR
+  MutationScheme scheme = MutationScheme::rand_1;
 };
 template <class Visitor>
 void fields(Visitor&& visit, DifferentialEvolutionOptions& o) {
@@ -36,6 +56,7 @@ void fields(Visitor&& visit, DifferentialEvolutionOptions& o) {
               .minimum = 0,
               .maximum = 1},
         o.crossover);
+  visit(Field{.key = "scheme", .summary = "how mutants are made"}, o.scheme);
 }
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,

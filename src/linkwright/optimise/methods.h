@@ -7,20 +7,31 @@
 #include "linkwright/core/field.h"
 #include "linkwright/optimise/differential_evolution.h"
 #include "linkwright/optimise/grey_wolf.h"
+#include "linkwright/optimise/jade.h"
+#include "linkwright/optimise/particle_swarm.h"
 #include "linkwright/optimise/self_adaptive_differential_evolution.h"
 
 namespace linkwright::optimise {
 
 /// The population methods by name. A new one needs a line here, in OptimiserOptions and in its
 /// `visit_method`.
-enum class Method { differential_evolution, self_adaptive_differential_evolution, grey_wolf };
+enum class Method {
+  differential_evolution,
+  self_adaptive_differential_evolution,
+  jade,
+  grey_wolf,
+  particle_swarm
+};
 
 /// The first name of a method is its full one; "jde" is accepted in files as the short name it goes by.
-constexpr std::array<EnumName<Method>, 4> names(Method) {
-  return {{{Method::differential_evolution, "differential_evolution", "rand/1/bin with constant factors"},
+constexpr std::array<EnumName<Method>, 6> names(Method) {
+  return {{{Method::differential_evolution, "differential_evolution",
+            "differential evolution with constant factors"},
            {Method::self_adaptive_differential_evolution, "self_adaptive_differential_evolution",
             "rand/1/bin in which every member carries its own factors"},
+           {Method::jade, "jade", "current-to-pbest/1/bin with adaptive factors and an archive"},
            {Method::grey_wolf, "grey_wolf", "grey wolf optimiser"},
+           {Method::particle_swarm, "particle_swarm", "particle swarm with linearly decreasing inertia"},
            {Method::self_adaptive_differential_evolution, "jde",
             "short for self_adaptive_differential_evolution"}}};
 }
@@ -30,7 +41,9 @@ struct OptimiserOptions {
   Method method = Method::differential_evolution;
   DifferentialEvolutionOptions differential_evolution = {};
   SelfAdaptiveDifferentialEvolutionOptions self_adaptive_differential_evolution = {};
+  JadeOptions jade = {};
   GreyWolfOptions grey_wolf = {};
+  ParticleSwarmOptions particle_swarm = {};
 };
 
 /// Calls f with the options of the chosen method.
@@ -39,8 +52,12 @@ decltype(auto) visit_method(Options&& o, F&& f) {
   switch (o.method) {
     case Method::self_adaptive_differential_evolution:
       return f(o.self_adaptive_differential_evolution);
+    case Method::jade:
+      return f(o.jade);
     case Method::grey_wolf:
       return f(o.grey_wolf);
+    case Method::particle_swarm:
+      return f(o.particle_swarm);
     case Method::differential_evolution:
       break;
   }

@@ -60,6 +60,21 @@ double spread(const PopulationView& members, std::span<const double> x, std::vec
   return std::sqrt(*std::max_element(squares.begin(), squares.end()));
 }
 
+/// Whether two members are further apart than `most`. Before the swarm has nearly closed in, its distances to
+/// the first member tell.
+bool wider_than(double most, const PopulationView& members, std::vector<double>& squares) {
+  for (std::size_t k = 0; k < members.size; ++k) {
+    std::fill(squares.begin(), squares.end(), 0.0);
+    for (std::size_t j = 0; j < members.dimension; ++j)
+      for (std::size_t i = k + 1; i < members.size; ++i) {
+        const double d = members(j, i) - members(j, k);
+        squares[i] += d * d;
+      }
+    if (std::sqrt(*std::max_element(squares.begin(), squares.end())) > most) return true;
+  }
+  return false;
+}
+
 constexpr std::size_t log_part = 4096;  // generations; finished parts of the log are kept once
 constexpr std::size_t log_numbers = 5;  // of a generation
 
@@ -226,6 +241,8 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     else if (stop.spread > 0 && (optimiser.improved() || optimiser.equalled()) &&
              spread(optimiser.members(), report.x, scratch) < stop.spread)
       report.stop_reason = fmt::format("every member within {} of the best", stop.spread);
+    else if (stop.diameter > 0 && !wider_than(stop.diameter, optimiser.members(), scratch))
+      report.stop_reason = fmt::format("no two members more than {} apart", stop.diameter);
     else if (stop.stagnation > 0 && unimproved >= stop.stagnation)
       report.stop_reason = fmt::format("no better candidate in {} generations", unimproved);
     else if (report.generations >= generations)

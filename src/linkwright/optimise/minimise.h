@@ -25,6 +25,8 @@ struct StopCriteria {
   /// The best was improved or equalled in this generation and no member is further than this from it
   /// (Euclidean, in the units of the variables); 0 = never. The criterion of the wheel-guide studies.
   double spread = 0;
+  /// No two members are further apart than this (Euclidean, in the units of the variables); 0 = never.
+  double diameter = 0;
 };
 template <class Visitor>
 void fields(Visitor&& visit, StopCriteria& o) {
@@ -42,6 +44,10 @@ void fields(Visitor&& visit, StopCriteria& o) {
               .summary = "end when no member is further than this from the best; 0 = never",
               .minimum = 0},
         o.spread);
+  visit(Field{.key = "diameter",
+              .summary = "end when no two members are further apart than this; 0 = never",
+              .minimum = 0},
+        o.diameter);
 }
 
 /// How candidates that violate constraints are ranked.

@@ -225,18 +225,26 @@ using GreyWolf = PopulationMethod<optimise::GreyWolfOptions>;
 using DifferentialEvolution = PopulationMethod<optimise::DifferentialEvolutionOptions>;
 using SelfAdaptiveDifferentialEvolution =
     PopulationMethod<optimise::SelfAdaptiveDifferentialEvolutionOptions>;
+using Jade = PopulationMethod<optimise::JadeOptions>;
+using ParticleSwarm = PopulationMethod<optimise::ParticleSwarmOptions>;
 constexpr Word choice_word(const GreyWolf&) {
   return {"grey_wolf", "grey wolf optimiser (Mirjalili et al. 2014)"};
 }
 constexpr Word choice_word(const DifferentialEvolution&) {
-  return {"differential_evolution", "rand/1/bin with constant factors (Storn and Price 1997)"};
+  return {"differential_evolution", "differential evolution with constant factors (Storn and Price 1997)"};
 }
 constexpr Word choice_word(const SelfAdaptiveDifferentialEvolution&) {
   return {"self_adaptive_differential_evolution", "jDE (Brest et al. 2006)"};
 }
+constexpr Word choice_word(const Jade&) {
+  return {"jade", "adaptive differential evolution with an archive (Zhang and Sanderson 2009)"};
+}
+constexpr Word choice_word(const ParticleSwarm&) {
+  return {"particle_swarm", "particle swarm with decreasing inertia (Shi and Eberhart 1998)"};
+}
 
-using PathMethod =
-    std::variant<Recommended, GreyWolf, DifferentialEvolution, SelfAdaptiveDifferentialEvolution>;
+using PathMethod = std::variant<Recommended, GreyWolf, DifferentialEvolution,
+                                SelfAdaptiveDifferentialEvolution, Jade, ParticleSwarm>;
 struct PathOptimiser {
   PathMethod method;
 };
