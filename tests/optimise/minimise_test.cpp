@@ -127,7 +127,7 @@ TEST(Minimise, StopsForEachReason) {
   EXPECT_GT(target.log[target.log.size() - 2].best_cost, 1e-6);
 
   const Report budget = run({.evaluations = 100});  // 15 members: six generations are 90
-  EXPECT_EQ(budget.stop_reason, "another generation would exceed 100 evaluations");
+  EXPECT_EQ(budget.stop_reason, "another generation could exceed 100 evaluations");
   EXPECT_EQ(budget.evaluations, 90);
   EXPECT_EQ(run({.evaluations = 1}).evaluations, 15);
 
@@ -343,14 +343,18 @@ TEST(Minimise, RefusesWhatItDidNotKeep) {
   EXPECT_EQ(refusal([](auto& e) { e["here/state"] = Value(1); }), "here: has no 'stop_reason'");
   EXPECT_EQ(refusal([](auto& e) { e["here/state"]["generations"] = 10; }),
             "here: 'generations' is not an integer from 1 to 9");
+  EXPECT_EQ(refusal([](auto& e) { e["here/state"]["evaluations"] = 0; }),
+            "here: 'evaluations' is not an integer from 1 to 9007199254740992");
+  EXPECT_EQ(refusal([](auto& e) { e["here/log 0"] = pack_numbers(std::vector<double>(54, -1)); }),
+            "here/log 0: -1 evaluations");
   EXPECT_EQ(refusal([](auto& e) { e["here/state"]["optimiser"] = ""; }),
             "here: is no state of this method and problem");
   EXPECT_EQ(refusal([](auto& e) {
               e["here/state"]["best"] = pack_numbers(std::vector<double>{NAN, 0});
             }),
             "here: is no state of this method and problem");
-  EXPECT_EQ(refusal([](auto& e) { e["here/log 0"] = pack_numbers(std::vector<double>(44)); }),
-            "here/log 0: has 44 numbers, must be 45");
+  EXPECT_EQ(refusal([](auto& e) { e["here/log 0"] = pack_numbers(std::vector<double>(53)); }),
+            "here/log 0: has 53 numbers, must be 54");
   EXPECT_EQ(refusal([](auto& e) { e.erase("here/log 0"); }),
             "here/log 0: expected packed numbers, found null");
 }

@@ -195,10 +195,10 @@ TEST(Optimiser, RefusesStatesThatItCannotHaveReached) {
     EXPECT_FALSE(accepts(outside));
   }
   const auto asked = make_optimiser(problem.variables, GreyWolfOptions{}, {});
-  EXPECT_THAT(message([&] { asked->state(); }), HasSubstr("no state between ask and tell"));
+  EXPECT_THAT(message([&] { asked->state(); }), HasSubstr("no state within a generation"));
   generation(problem, *asked);
   asked->ask();
-  EXPECT_THAT(message([&] { asked->state(); }), HasSubstr("no state between ask and tell"));
+  EXPECT_THAT(message([&] { asked->state(); }), HasSubstr("no state within a generation"));
 }
 
 TEST(Optimiser, SaysWhatIsWrong) {
