@@ -27,6 +27,8 @@ NO_TEST = {
     "study/read_syntax.h": "part of read, tested in read_test.cpp",
     "optimise/kernels_body.h": "part of kernels, compiled once per instruction set and compared by kernels_test.cpp",
     "optimise/differential_evolution_base.h": "shared part of both forms, tested through them",
+    "optimise/firefly_base.h": "shared part of the forms of the firefly algorithm, tested through them",
+    "optimise/swarm_base.h": "shared part of fireflies and cuckoos, tested through them",
     "planar/linkage_sweep_kernel.h": "part of linkage_sweep, compiled once per instruction set and compared by its test",
     "planar/path_objective_kernel.h": "part of path_objective, compiled once per instruction set and compared by its test",
 }

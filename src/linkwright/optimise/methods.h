@@ -5,22 +5,40 @@
 #include <span>
 
 #include "linkwright/core/field.h"
+#include "linkwright/optimise/cuckoo_search.h"
 #include "linkwright/optimise/differential_evolution.h"
+#include "linkwright/optimise/firefly.h"
 #include "linkwright/optimise/grey_wolf.h"
+#include "linkwright/optimise/hybrid_cuckoo_firefly.h"
 #include "linkwright/optimise/self_adaptive_differential_evolution.h"
+#include "linkwright/optimise/subpopulation_firefly.h"
 
 namespace linkwright::optimise {
 
 /// The population methods by name. A new one needs a line here, in OptimiserOptions and in its
 /// `visit_method`.
-enum class Method { differential_evolution, self_adaptive_differential_evolution, grey_wolf };
+enum class Method {
+  differential_evolution,
+  self_adaptive_differential_evolution,
+  grey_wolf,
+  firefly,
+  cuckoo_search,
+  hybrid_cuckoo_firefly,
+  subpopulation_firefly,
+};
 
 /// The first name of a method is its full one; "jde" is accepted in files as the short name it goes by.
-constexpr std::array<EnumName<Method>, 4> names(Method) {
+constexpr std::array<EnumName<Method>, 8> names(Method) {
   return {{{Method::differential_evolution, "differential_evolution", "rand/1/bin with constant factors"},
            {Method::self_adaptive_differential_evolution, "self_adaptive_differential_evolution",
             "rand/1/bin in which every member carries its own factors"},
            {Method::grey_wolf, "grey_wolf", "grey wolf optimiser"},
+           {Method::firefly, "firefly", "fireflies that move towards brighter ones"},
+           {Method::cuckoo_search, "cuckoo_search", "Levy flights and abandoned nests"},
+           {Method::hybrid_cuckoo_firefly, "hybrid_cuckoo_firefly",
+            "Levy flights of cuckoos, then moves of fireflies (H-CS-FA)"},
+           {Method::subpopulation_firefly, "subpopulation_firefly",
+            "fireflies in two parts that are split anew all the time (SP-FA)"},
            {Method::self_adaptive_differential_evolution, "jde",
             "short for self_adaptive_differential_evolution"}}};
 }
@@ -31,6 +49,10 @@ struct OptimiserOptions {
   DifferentialEvolutionOptions differential_evolution = {};
   SelfAdaptiveDifferentialEvolutionOptions self_adaptive_differential_evolution = {};
   GreyWolfOptions grey_wolf = {};
+  FireflyOptions firefly = {};
+  CuckooSearchOptions cuckoo_search = {};
+  HybridCuckooFireflyOptions hybrid_cuckoo_firefly = {};
+  SubpopulationFireflyOptions subpopulation_firefly = {};
 };
 
 /// Calls f with the options of the chosen method.
@@ -41,6 +63,14 @@ decltype(auto) visit_method(Options&& o, F&& f) {
       return f(o.self_adaptive_differential_evolution);
     case Method::grey_wolf:
       return f(o.grey_wolf);
+    case Method::firefly:
+      return f(o.firefly);
+    case Method::cuckoo_search:
+      return f(o.cuckoo_search);
+    case Method::hybrid_cuckoo_firefly:
+      return f(o.hybrid_cuckoo_firefly);
+    case Method::subpopulation_firefly:
+      return f(o.subpopulation_firefly);
     case Method::differential_evolution:
       break;
   }
