@@ -9,7 +9,7 @@
 
 namespace linkwright::optimise {
 
-/// Cuckoo search (Yang and Deb 2009; Boskovic 2018, Algorithm 2.1): one after the other, a cuckoo from every
+/// Cuckoo search (Yang and Deb 2009; Boskovic 2018, Algorithm 2.2): one after the other, a cuckoo from every
 /// nest makes a Levy flight and takes over a nest chosen at random if it is better; then a share of the
 /// components of the nests is found out and replaced by random differences of nests, where that is better.
 /// Candidates are clipped to the box. Defaults of Boskovic 2018, Table 2.5; nests are abandoned with

@@ -18,11 +18,14 @@ FireflyBase::FireflyBase(std::span<const Variable> variables, int population, co
 bool FireflyBase::next_move(Sweep& sweep) {
   for (; sweep.mover < sweep.list.size(); ++sweep.mover, sweep.target = 0) {
     const std::uint32_t i = sweep.list[sweep.mover];
-    if (sweep.target == 0) sweep.random = random(1, i);
+    if (sweep.target == 0) {
+      sweep.random = random(1, i);
+      sweep.randomness = move_.randomness * std::pow(decay_, iteration());
+    }
     while (sweep.target < sweep.list.size()) {
       const std::uint32_t j = sweep.list[sweep.target++];
       if (!member_better(j, i)) continue;
-      move(i, j, sweep.random);
+      move(i, j, sweep.randomness, sweep.random);
       sweep.moved = i;
       return true;
     }
@@ -30,7 +33,7 @@ bool FireflyBase::next_move(Sweep& sweep) {
   return false;
 }
 
-void FireflyBase::move(std::size_t i, std::size_t j, RandomStream& random) {
+void FireflyBase::move(std::size_t i, std::size_t j, double randomness, RandomStream& random) {
   double square = 0;
   for (std::size_t k = 0; k < dimension(); ++k) {
     const double d = (members_(k, j) - members_(k, i)) * inverse_width_[k];
@@ -38,10 +41,9 @@ void FireflyBase::move(std::size_t i, std::size_t j, RandomStream& random) {
   }
   const double beta = move_.attraction_least +
                       (move_.attraction - move_.attraction_least) * std::exp(-move_.absorption * square);
-  const double alpha = move_.randomness * std::pow(decay_, iteration());
   for (std::size_t k = 0; k < dimension(); ++k) {
     const double x = members_(k, i);
-    const double y = x + beta * (members_(k, j) - x) + alpha * (random.uniform() - 0.5) * width_[k];
+    const double y = x + beta * (members_(k, j) - x) + randomness * (random.uniform() - 0.5) * width_[k];
     candidates_(k, 0) = std::clamp(y, lower_[k], upper_[k]);
   }
 }

@@ -24,9 +24,10 @@ class FireflyBase : public SwarmBase {
   ///     }
   struct Sweep {
     std::span<const std::uint32_t> list;
-    std::size_t mover = 0, target = 0;  ///< places in the list of the next pair to look at
-    std::uint32_t moved = 0;            ///< member that candidate 0 is a move of
-    RandomStream random = RandomStream({});
+    std::size_t mover = 0, target = 0;       ///< places in the list of the next pair to look at
+    std::uint32_t moved = 0;                 ///< member that candidate 0 is a move of
+    RandomStream random = RandomStream({});  ///< of that member
+    double randomness = 0;                   ///< alpha_t
   };
   /// Makes candidate 0 for the next move; false when there is none left.
   bool next_move(Sweep& sweep);
@@ -34,7 +35,7 @@ class FireflyBase : public SwarmBase {
   std::vector<std::uint32_t> everyone_;  ///< 0, 1, ...
 
  private:
-  void move(std::size_t i, std::size_t j, RandomStream& random);
+  void move(std::size_t i, std::size_t j, double randomness, RandomStream& random);
 
   FireflyMove move_;
   double decay_;  ///< of the randomness in an iteration

@@ -10,7 +10,7 @@
 
 namespace linkwright::optimise {
 
-/// Firefly algorithm with two sub-populations, SP-FA (Boskovic 2018, Algorithm 2.5; with one objective). In
+/// Firefly algorithm with two sub-populations, SP-FA (Boskovic 2018, Algorithm 2.1; with one objective). In
 /// every generation the fireflies are split anew at random; each makes Levy flights from where it is until
 /// one meets every constraint, and stays at the last if that is better; the two parts exchange their best
 /// fireflies and are swept as in firefly, each by itself. Candidates are clipped to the box. The publication

@@ -225,6 +225,10 @@ using GreyWolf = PopulationMethod<optimise::GreyWolfOptions>;
 using DifferentialEvolution = PopulationMethod<optimise::DifferentialEvolutionOptions>;
 using SelfAdaptiveDifferentialEvolution =
     PopulationMethod<optimise::SelfAdaptiveDifferentialEvolutionOptions>;
+using Firefly = PopulationMethod<optimise::FireflyOptions>;
+using CuckooSearch = PopulationMethod<optimise::CuckooSearchOptions>;
+using HybridCuckooFirefly = PopulationMethod<optimise::HybridCuckooFireflyOptions>;
+using SubpopulationFirefly = PopulationMethod<optimise::SubpopulationFireflyOptions>;
 constexpr Word choice_word(const GreyWolf&) {
   return {"grey_wolf", "grey wolf optimiser (Mirjalili et al. 2014)"};
 }
@@ -234,9 +238,22 @@ constexpr Word choice_word(const DifferentialEvolution&) {
 constexpr Word choice_word(const SelfAdaptiveDifferentialEvolution&) {
   return {"self_adaptive_differential_evolution", "jDE (Brest et al. 2006)"};
 }
+constexpr Word choice_word(const Firefly&) {
+  return {"firefly", "firefly algorithm (Yang 2009; Boskovic 2018)"};
+}
+constexpr Word choice_word(const CuckooSearch&) {
+  return {"cuckoo_search", "cuckoo search (Yang and Deb 2009; Boskovic 2018)"};
+}
+constexpr Word choice_word(const HybridCuckooFirefly&) {
+  return {"hybrid_cuckoo_firefly", "cuckoos that move as fireflies, H-CS-FA (Boskovic 2018)"};
+}
+constexpr Word choice_word(const SubpopulationFirefly&) {
+  return {"subpopulation_firefly", "fireflies in two parts, SP-FA (Boskovic 2018)"};
+}
 
 using PathMethod =
-    std::variant<Recommended, GreyWolf, DifferentialEvolution, SelfAdaptiveDifferentialEvolution>;
+    std::variant<Recommended, GreyWolf, DifferentialEvolution, SelfAdaptiveDifferentialEvolution, Firefly,
+                 CuckooSearch, HybridCuckooFirefly, SubpopulationFirefly>;
 struct PathOptimiser {
   PathMethod method;
 };
