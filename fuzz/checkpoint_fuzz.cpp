@@ -44,7 +44,8 @@ void restore_state(const Value& value) {
     optimise::OptimiserOptions options{.method = method.value};
     options.differential_evolution.population = options.grey_wolf.population =
         options.self_adaptive_differential_evolution.population = options.particle_swarm.population =
-            options.jade.population = 4;
+            options.jade.population = options.firefly.population = options.cuckoo_search.population =
+                options.hybrid_cuckoo_firefly.population = options.subpopulation_firefly.population = 4;
     const auto optimiser = make_optimiser(variables, options, {});
     if (!optimiser->restore(state)) continue;
     const optimise::PopulationView x = optimiser->ask();

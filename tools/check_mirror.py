@@ -28,6 +28,8 @@ NO_TEST = {
     "optimise/kernels_body.h": "part of kernels, compiled once per instruction set and compared by kernels_test.cpp",
     "optimise/differential_evolution_base.h": "shared part of both forms, tested through them",
     "planar/four_bar_sweep_kernel.h": "part of four_bar_sweep, compiled once per instruction set and compared by its test",
+    "optimise/firefly_base.h": "shared part of the forms of the firefly algorithm, tested through them",
+    "optimise/swarm_base.h": "shared part of fireflies and cuckoos, tested through them",
     "planar/linkage_sweep_kernel.h": "part of linkage_sweep, compiled once per instruction set and compared by its test",
     "planar/path_objective_kernel.h": "part of path_objective, compiled once per instruction set and compared by its test",
 }

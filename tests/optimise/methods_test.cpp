@@ -34,6 +34,14 @@ TEST(Methods, FieldsAreThoseOfTheChosenMethod) {
             (std::vector<std::string>{"method", "population", "generations", "reset_worst_half",
                                       "absolute_value"}));
   EXPECT_EQ(keys({.method = Method::self_adaptive_differential_evolution}).size(), 9u);
+  EXPECT_EQ(keys({.method = Method::firefly}),
+            (std::vector<std::string>{"method", "population", "generations", "randomness", "absorption",
+                                      "attraction", "attraction_least"}));
+  EXPECT_EQ(keys({.method = Method::cuckoo_search}),
+            (std::vector<std::string>{"method", "population", "generations", "discovery", "levy_exponent",
+                                      "levy_step", "levy"}));
+  EXPECT_EQ(keys({.method = Method::hybrid_cuckoo_firefly}).size(), 11u);
+  EXPECT_EQ(keys({.method = Method::subpopulation_firefly}).size(), 11u);
 }
 
 TEST(Methods, TheMethodReadFirstDecidesAboutTheKeysAfterIt) {
@@ -68,6 +76,15 @@ TEST(Methods, MakeTheChosenOptimiserWithItsDefaults) {
   EXPECT_EQ(generations({.method = Method::grey_wolf}), 50);
   EXPECT_EQ(generations({.method = Method::particle_swarm}), 500);
   EXPECT_EQ(generations({}), 10000);
+  // Table 2.5 of Boskovic 2018, and the first population.
+  for (const auto& [method, population] : {std::pair{Method::firefly, 40u},
+                                           {Method::cuckoo_search, 25u},
+                                           {Method::hybrid_cuckoo_firefly, 25u},
+                                           {Method::subpopulation_firefly, 40u}}) {
+    EXPECT_EQ(make_optimiser(problem.variables, OptimiserOptions{.method = method}, {})->population(),
+              population);
+    EXPECT_EQ(generations({.method = method}), 501);
+  }
 }
 
 }  // namespace

@@ -19,8 +19,14 @@ using linkwright::test::message;
 using testing::HasSubstr;
 
 constexpr Method all_methods[] = {Method::differential_evolution,
-                                  Method::self_adaptive_differential_evolution, Method::jade,
-                                  Method::grey_wolf, Method::particle_swarm};
+                                  Method::self_adaptive_differential_evolution,
+                                  Method::jade,
+                                  Method::grey_wolf,
+                                  Method::particle_swarm,
+                                  Method::firefly,
+                                  Method::cuckoo_search,
+                                  Method::hybrid_cuckoo_firefly,
+                                  Method::subpopulation_firefly};
 
 void expect_same_bits(const Report& a, const Report& b) {
   EXPECT_EQ(a.status, b.status);
@@ -46,14 +52,17 @@ TEST(Minimise, IsAskEvaluateTell) {
     options.stop.generations = 40;
     const Report report = minimise(problem, {.method = method}, options, {.seed = 3}, context);
     const auto optimiser = make_optimiser(problem.variables, OptimiserOptions{.method = method}, {.seed = 3});
-    std::vector<double> cost(optimiser->population()), violation(cost.size());
-    for (int generation = 0; generation < 40; ++generation) {
-      problem.evaluate(optimiser->ask(), cost, violation);
+    std::int64_t evaluations = 0;
+    while (optimiser->generation() < 40) {
+      const PopulationView x = optimiser->ask();
+      std::vector<double> cost(x.size), violation(x.size);
+      problem.evaluate(x, cost, violation);
       optimiser->tell(cost, violation);
+      evaluations += static_cast<std::int64_t>(x.size);
     }
     EXPECT_EQ(report.cost, optimiser->best_cost());
     EXPECT_TRUE(std::equal(report.x.begin(), report.x.end(), optimiser->best().begin()));
-    EXPECT_EQ(report.evaluations, 40 * static_cast<std::int64_t>(cost.size()));
+    EXPECT_EQ(report.evaluations, evaluations);
     EXPECT_EQ(report.stop_reason, "40 generations");
     EXPECT_EQ(report.status, Status::done);
   }
@@ -128,7 +137,7 @@ TEST(Minimise, StopsForEachReason) {
   EXPECT_GT(target.log[target.log.size() - 2].best_cost, 1e-6);
 
   const Report budget = run({.evaluations = 100});  // 15 members: six generations are 90
-  EXPECT_EQ(budget.stop_reason, "another generation would exceed 100 evaluations");
+  EXPECT_EQ(budget.stop_reason, "another generation could exceed 100 evaluations");
   EXPECT_EQ(budget.evaluations, 90);
   EXPECT_EQ(run({.evaluations = 1}).evaluations, 15);
 
@@ -140,6 +149,33 @@ TEST(Minimise, StopsForEachReason) {
   EXPECT_EQ(close.stop_reason, "every member within 1e-05 of the best");
   EXPECT_LT(std::sqrt(close.cost), 1e-4);
   EXPECT_LT(close.generations, 500);
+}
+
+TEST(Minimise, ABudgetIsNotExceededByGenerationsOfUnknownSize) {
+  // A generation of 40 fireflies may take any number of moves up to 40 * 39.
+  const Problem problem = test::sphere(3);
+  RunContext context;
+  MinimiseOptions options;
+  options.stop.evaluations = 5000;
+  const Report report = minimise(problem, {.method = Method::firefly}, options, {}, context);
+  EXPECT_LE(report.evaluations, 5000);
+  EXPECT_GT(report.evaluations, 5000 - 40 * 39);
+  EXPECT_EQ(report.log.back().evaluations, report.evaluations);
+  EXPECT_EQ(report.log[0].evaluations, 40);
+}
+
+TEST(Minimise, AGenerationWithoutMovesIsOneOfNoEvaluations) {
+  // Nobody is brighter than anybody.
+  const Problem problem = test::make_problem(2, 0, 1, [](std::span<const double>) { return test::Value{1}; });
+  RunContext context;
+  MinimiseOptions options;
+  options.stop.generations = 5;
+  const Report report = minimise(problem, {.method = Method::firefly}, options, {}, context);
+  EXPECT_EQ(report.evaluations, 40);
+  EXPECT_EQ(report.generations, 5);
+  EXPECT_EQ(report.log[0].median, 1);
+  EXPECT_TRUE(std::isnan(report.log[4].median));
+  EXPECT_TRUE(std::isnan(report.log[4].violated));
 }
 
 TEST(Minimise, CancelAndDeadlineKeepTheBestSoFar) {
@@ -246,7 +282,7 @@ TEST(Minimise, SaysWhichOptionIsOutOfRange) {
 TEST(Minimise, GoesOnFromAnyGenerationWithTheSameBits) {
   const Problem problem = test::g06();
   for (const Constraints constraints : {Constraints::feasibility_rules, Constraints::penalty})
-    for (const Method method : {Method::differential_evolution, Method::grey_wolf}) {
+    for (const Method method : all_methods) {
       MinimiseOptions options = {.constraints = constraints, .checkpoint = "here"};
       options.stop.generations = 40;
       options.stop.stagnation = 30;
@@ -344,14 +380,18 @@ TEST(Minimise, RefusesWhatItDidNotKeep) {
   EXPECT_EQ(refusal([](auto& e) { e["here/state"] = Value(1); }), "here: has no 'stop_reason'");
   EXPECT_EQ(refusal([](auto& e) { e["here/state"]["generations"] = 10; }),
             "here: 'generations' is not an integer from 1 to 9");
+  EXPECT_EQ(refusal([](auto& e) { e["here/state"]["evaluations"] = 0; }),
+            "here: 'evaluations' is not an integer from 1 to 9007199254740992");
+  EXPECT_EQ(refusal([](auto& e) { e["here/log 0"] = pack_numbers(std::vector<double>(54, -1)); }),
+            "here/log 0: -1 evaluations");
   EXPECT_EQ(refusal([](auto& e) { e["here/state"]["optimiser"] = ""; }),
             "here: is no state of this method and problem");
   EXPECT_EQ(refusal([](auto& e) {
               e["here/state"]["best"] = pack_numbers(std::vector<double>{NAN, 0});
             }),
             "here: is no state of this method and problem");
-  EXPECT_EQ(refusal([](auto& e) { e["here/log 0"] = pack_numbers(std::vector<double>(44)); }),
-            "here/log 0: has 44 numbers, must be 45");
+  EXPECT_EQ(refusal([](auto& e) { e["here/log 0"] = pack_numbers(std::vector<double>(53)); }),
+            "here/log 0: has 53 numbers, must be 54");
   EXPECT_EQ(refusal([](auto& e) { e.erase("here/log 0"); }),
             "here/log 0: expected packed numbers, found null");
 }

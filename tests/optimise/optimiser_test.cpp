@@ -19,8 +19,14 @@ using linkwright::test::message;
 using testing::HasSubstr;
 
 constexpr Method all_methods[] = {Method::differential_evolution,
-                                  Method::self_adaptive_differential_evolution, Method::jade,
-                                  Method::grey_wolf, Method::particle_swarm};
+                                  Method::self_adaptive_differential_evolution,
+                                  Method::jade,
+                                  Method::grey_wolf,
+                                  Method::particle_swarm,
+                                  Method::firefly,
+                                  Method::cuckoo_search,
+                                  Method::hybrid_cuckoo_firefly,
+                                  Method::subpopulation_firefly};
 
 TEST(Optimiser, FirstCandidatesAreUniformAndOneOfEachStream) {
   const Problem problem = test::sphere(3);
@@ -45,9 +51,9 @@ TEST(Optimiser, CandidatesStayInTheBoxAndFixedVariablesFixed) {
       OptimiserOptions options = {.method = method};
       options.grey_wolf.reset_worst_half = reset;
       const auto optimiser = make_optimiser(problem.variables, options, {});
-      std::vector<double> cost(optimiser->population()), violation(optimiser->population());
-      for (int generation = 0; generation < 60; ++generation) {
+      while (optimiser->generation() < 60) {
         const PopulationView x = optimiser->ask();
+        std::vector<double> cost(x.size), violation(x.size);
         problem.evaluate(x, cost, violation);
         // An optimum outside the box pushes against the bounds.
         for (std::size_t i = 0; i < x.size; ++i) {
@@ -116,15 +122,15 @@ TEST(Optimiser, AGenerationAllocatesNothing) {
       const auto optimiser = make_optimiser(problem.variables, options, {});
       const std::vector<double> violation(optimiser->population(), 0.0);
       const auto before = linkwright::test::allocations();
-      for (int generation = 0; generation < 50; ++generation) {
+      while (optimiser->generation() < 50) {
         const PopulationView x = optimiser->ask();
-        optimiser->tell({x.row(0), x.size}, violation);
+        optimiser->tell({x.row(0), x.size}, {violation.data(), x.size});
       }
       EXPECT_EQ(linkwright::test::allocations(), before) << name_of(method);
     }
 }
 
-/// Every method, and the variant of grey wolf that keeps more.
+/// Every method, the variant of grey wolf that keeps more, and a hybrid with other options.
 std::vector<OptimiserOptions> all_options() {
   std::vector<OptimiserOptions> all;
   for (const Method method : all_methods) all.push_back({.method = method});
@@ -139,13 +145,21 @@ std::vector<OptimiserOptions> all_options() {
   }
   all.push_back({.method = Method::jade});
   all.back().jade.archive = false;
+  all.push_back({.method = Method::hybrid_cuckoo_firefly});
+  all.back().hybrid_cuckoo_firefly.swept = 0.25;
+  all.back().hybrid_cuckoo_firefly.flight.form = LevyForm::best_difference;
   return all;
 }
 
-void generation(const Problem& problem, Optimiser& optimiser) {
-  std::vector<double> cost(optimiser.population()), violation(optimiser.population());
-  problem.evaluate(optimiser.ask(), cost, violation);
+void round(const Problem& problem, Optimiser& optimiser) {
+  const PopulationView x = optimiser.ask();
+  std::vector<double> cost(x.size), violation(x.size);
+  problem.evaluate(x, cost, violation);
   optimiser.tell(cost, violation);
+}
+
+void generation(const Problem& problem, Optimiser& optimiser) {
+  for (const auto now = optimiser.generation(); optimiser.generation() == now;) round(problem, optimiser);
 }
 
 TEST(Optimiser, ARestoredStateGoesOnWithTheSameBits) {
@@ -205,10 +219,33 @@ TEST(Optimiser, RefusesStatesThatItCannotHaveReached) {
     EXPECT_FALSE(accepts(outside));
   }
   const auto asked = make_optimiser(problem.variables, GreyWolfOptions{}, {});
-  EXPECT_THAT(message([&] { asked->state(); }), HasSubstr("no state between ask and tell"));
+  EXPECT_THAT(message([&] { asked->state(); }), HasSubstr("no state within a generation"));
   generation(problem, *asked);
   asked->ask();
-  EXPECT_THAT(message([&] { asked->state(); }), HasSubstr("no state between ask and tell"));
+  EXPECT_THAT(message([&] { asked->state(); }), HasSubstr("no state within a generation"));
+  // Between two rounds of one generation, too.
+  const auto firefly = make_optimiser(problem.variables, FireflyOptions{.population = 5}, {});
+  generation(problem, *firefly);
+  const OptimiserState state = firefly->state();
+  round(problem, *firefly);
+  EXPECT_EQ(firefly->generation(), 1u);
+  EXPECT_THAT(message([&] { firefly->state(); }), HasSubstr("no state within a generation"));
+  EXPECT_THAT(message([&] { firefly->restore(state); }),
+              HasSubstr("a state cannot be restored within a generation"));
+}
+
+TEST(Optimiser, AnEarlierStateCanBeTakenUpAgain) {
+  const Problem problem = test::g06();
+  for (const OptimiserOptions& options : all_options()) {
+    const auto optimiser = make_optimiser(problem.variables, options, {});
+    for (int k = 0; k < 3; ++k) generation(problem, *optimiser);
+    const OptimiserState early = optimiser->state();
+    for (int k = 0; k < 3; ++k) generation(problem, *optimiser);
+    const OptimiserState late = optimiser->state();
+    ASSERT_TRUE(optimiser->restore(early));
+    for (int k = 0; k < 3; ++k) generation(problem, *optimiser);
+    EXPECT_EQ(optimiser->state(), late) << name_of(options.method);
+  }
 }
 
 TEST(Optimiser, SaysWhatIsWrong) {

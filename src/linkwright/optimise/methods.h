@@ -5,11 +5,15 @@
 #include <span>
 
 #include "linkwright/core/field.h"
+#include "linkwright/optimise/cuckoo_search.h"
 #include "linkwright/optimise/differential_evolution.h"
+#include "linkwright/optimise/firefly.h"
 #include "linkwright/optimise/grey_wolf.h"
+#include "linkwright/optimise/hybrid_cuckoo_firefly.h"
 #include "linkwright/optimise/jade.h"
 #include "linkwright/optimise/particle_swarm.h"
 #include "linkwright/optimise/self_adaptive_differential_evolution.h"
+#include "linkwright/optimise/subpopulation_firefly.h"
 
 namespace linkwright::optimise {
 
@@ -20,11 +24,15 @@ enum class Method {
   self_adaptive_differential_evolution,
   jade,
   grey_wolf,
-  particle_swarm
+  particle_swarm,
+  firefly,
+  cuckoo_search,
+  hybrid_cuckoo_firefly,
+  subpopulation_firefly,
 };
 
 /// The first name of a method is its full one; "jde" is accepted in files as the short name it goes by.
-constexpr std::array<EnumName<Method>, 6> names(Method) {
+constexpr std::array<EnumName<Method>, 10> names(Method) {
   return {{{Method::differential_evolution, "differential_evolution",
             "differential evolution with constant factors"},
            {Method::self_adaptive_differential_evolution, "self_adaptive_differential_evolution",
@@ -32,6 +40,12 @@ constexpr std::array<EnumName<Method>, 6> names(Method) {
            {Method::jade, "jade", "current-to-pbest/1/bin with adaptive factors and an archive"},
            {Method::grey_wolf, "grey_wolf", "grey wolf optimiser"},
            {Method::particle_swarm, "particle_swarm", "particle swarm with linearly decreasing inertia"},
+           {Method::firefly, "firefly", "fireflies that move towards brighter ones"},
+           {Method::cuckoo_search, "cuckoo_search", "Levy flights and abandoned nests"},
+           {Method::hybrid_cuckoo_firefly, "hybrid_cuckoo_firefly",
+            "Levy flights of cuckoos, then moves of fireflies (H-CS-FA)"},
+           {Method::subpopulation_firefly, "subpopulation_firefly",
+            "fireflies in two parts that are split anew all the time (SP-FA)"},
            {Method::self_adaptive_differential_evolution, "jde",
             "short for self_adaptive_differential_evolution"}}};
 }
@@ -44,6 +58,10 @@ struct OptimiserOptions {
   JadeOptions jade = {};
   GreyWolfOptions grey_wolf = {};
   ParticleSwarmOptions particle_swarm = {};
+  FireflyOptions firefly = {};
+  CuckooSearchOptions cuckoo_search = {};
+  HybridCuckooFireflyOptions hybrid_cuckoo_firefly = {};
+  SubpopulationFireflyOptions subpopulation_firefly = {};
 };
 
 /// Calls f with the options of the chosen method.
@@ -58,6 +76,14 @@ decltype(auto) visit_method(Options&& o, F&& f) {
       return f(o.grey_wolf);
     case Method::particle_swarm:
       return f(o.particle_swarm);
+    case Method::firefly:
+      return f(o.firefly);
+    case Method::cuckoo_search:
+      return f(o.cuckoo_search);
+    case Method::hybrid_cuckoo_firefly:
+      return f(o.hybrid_cuckoo_firefly);
+    case Method::subpopulation_firefly:
+      return f(o.subpopulation_firefly);
     case Method::differential_evolution:
       break;
   }

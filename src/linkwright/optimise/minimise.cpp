@@ -13,7 +13,7 @@ namespace linkwright::optimise {
 namespace {
 
 constexpr std::size_t evaluation_block = 256;  // a multiple of 8, see PopulationView::slice
-constexpr std::size_t longest_reserved_log = 1 << 16;
+constexpr std::size_t longest_reserved_log = 1 << 16, longest_reserved_generation = 1 << 16;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 void evaluate(const Problem& problem, const PopulationView& candidates, std::span<double> cost,
@@ -29,23 +29,37 @@ void evaluate(const Problem& problem, const PopulationView& candidates, std::spa
   });
 }
 
-GenerationLog summarise(std::span<const double> cost, std::span<const double> violation,
-                        std::vector<double>& feasible) {
-  feasible.clear();
+/// Costs of the rounds of one generation.
+struct GenerationCosts {
+  std::vector<double> feasible;
+  std::size_t candidates = 0;
   double sum = 0;
-  for (std::size_t i = 0; i < cost.size(); ++i)
-    if (violation[i] == 0) {
-      feasible.push_back(cost[i]);
-      sum += cost[i];
-    }
+
+  void clear() {
+    feasible.clear();
+    candidates = 0;
+    sum = 0;
+  }
+  void add(std::span<const double> cost, std::span<const double> violation) {
+    candidates += cost.size();
+    for (std::size_t i = 0; i < cost.size(); ++i)
+      if (violation[i] == 0) {
+        feasible.push_back(cost[i]);
+        sum += cost[i];
+      }
+  }
+};
+
+GenerationLog summarise(GenerationCosts& costs) {
+  std::vector<double>& feasible = costs.feasible;
   GenerationLog entry = {.median = nan, .mean = nan};
   const std::size_t n = feasible.size();
-  entry.violated = 1 - static_cast<double>(n) / static_cast<double>(cost.size());
+  entry.violated = 1 - static_cast<double>(n) / static_cast<double>(costs.candidates);
   if (n == 0) return entry;
   const auto middle = feasible.begin() + static_cast<std::ptrdiff_t>(n / 2);
   std::nth_element(feasible.begin(), middle, feasible.end());
   entry.median = n % 2 == 1 ? *middle : (*middle + *std::max_element(feasible.begin(), middle)) / 2;
-  entry.mean = sum / static_cast<double>(n);
+  entry.mean = costs.sum / static_cast<double>(n);
   return entry;
 }
 
@@ -76,7 +90,8 @@ bool wider_than(double most, const PopulationView& members, std::vector<double>&
 }
 
 constexpr std::size_t log_part = 4096;  // generations; finished parts of the log are kept once
-constexpr std::size_t log_numbers = 5;  // of a generation
+constexpr std::size_t log_numbers = 6;  // of a generation
+constexpr std::int64_t most_evaluations = std::int64_t{1} << 53;  // exact as a double
 
 /// Keeps a minimisation in the checkpoint of the run: `NAME/log K` with generations of the log, then
 /// `NAME/state`. The log may thus be ahead of the state, never behind it.
@@ -93,6 +108,7 @@ class StateKeeper {
     if (value.is_null()) return;
     const Value& reason = kept_member(value, "stop_reason", name_);
     report.generations = static_cast<int>(kept_integer(value, "generations", 1, generations, name_));
+    report.evaluations = kept_integer(value, "evaluations", 1, most_evaluations, name_);
     unimproved = static_cast<int>(kept_integer(value, "unimproved", 0, generations, name_));
     const std::vector<double> best = unpack_numbers(kept_member(value, "best", name_), name_);
     OptimiserState state;
@@ -106,9 +122,7 @@ class StateKeeper {
     report.cost = best[0];
     report.violation = best[1];
     std::copy(optimiser.best().begin(), optimiser.best().end(), report.x.begin());
-    const auto n = static_cast<std::int64_t>(optimiser.population());
-    report.evaluations = report.generations * n;
-    if (log) restore_log(static_cast<std::size_t>(report.generations), n, report.log);
+    if (log) restore_log(static_cast<std::size_t>(report.generations), report.log);
     kept_once_ = true;
   }
 
@@ -132,13 +146,15 @@ class StateKeeper {
       std::vector<double> numbers;
       for (std::size_t k = kept_log_; k < std::min(kept_log_ + log_part, report.log.size()); ++k) {
         const GenerationLog& g = report.log[k];
-        numbers.insert(numbers.end(), {g.best_cost, g.best_violation, g.median, g.mean, g.violated});
+        numbers.insert(numbers.end(), {static_cast<double>(g.evaluations), g.best_cost, g.best_violation,
+                                       g.median, g.mean, g.violated});
       }
       checkpoint_->keep(log_name(kept_log_), pack_numbers(numbers));
     }
     const OptimiserState state = optimiser.state();
     Value value;
     value["generations"] = report.generations;
+    value["evaluations"] = report.evaluations;
     value["unimproved"] = unimproved;
     value["best"] = pack_numbers(std::vector<double>{report.cost, report.violation});
     value["optimiser_generation"] = static_cast<std::int64_t>(state.generation);
@@ -150,7 +166,7 @@ class StateKeeper {
     kept_once_ = true;
   }
 
-  void restore_log(std::size_t generations, std::int64_t n, std::vector<GenerationLog>& log) {
+  void restore_log(std::size_t generations, std::vector<GenerationLog>& log) {
     for (std::size_t first = 0; first < generations; first += log_part) {
       const std::vector<double> v = unpack_numbers(checkpoint_->find(log_name(first)), log_name(first));
       const std::size_t count = std::min(log_part, generations - first);
@@ -159,12 +175,14 @@ class StateKeeper {
             fmt::format("{}: has {} numbers, must be {}", log_name(first), v.size(), log_numbers * count));
       for (std::size_t k = 0; k < count; ++k) {
         const double* g = &v[log_numbers * k];
-        log.push_back({.evaluations = static_cast<std::int64_t>(first + k + 1) * n,
-                       .best_cost = g[0],
-                       .best_violation = g[1],
-                       .median = g[2],
-                       .mean = g[3],
-                       .violated = g[4]});
+        if (!(g[0] >= 0 && g[0] <= static_cast<double>(most_evaluations)))
+          throw CheckpointError(fmt::format("{}: {} evaluations", log_name(first), g[0]));
+        log.push_back({.evaluations = static_cast<std::int64_t>(g[0]),
+                       .best_cost = g[1],
+                       .best_violation = g[2],
+                       .median = g[3],
+                       .mean = g[4],
+                       .violated = g[5]});
       }
     }
     kept_log_ = generations - generations % log_part;
@@ -192,7 +210,11 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
                      problem.variables.size());
   const std::size_t n = optimiser.population();
   const bool penalty = options.constraints == Constraints::penalty;
-  std::vector<double> cost(n), violation(n), merit(penalty ? n : 0), none(penalty ? n : 0), scratch(n);
+  std::vector<double> cost(n), violation(n), merit(penalty ? n : 0), none(penalty ? n : 0), squares(n);
+  GenerationCosts of_generation;
+  if (options.log)
+    of_generation.feasible.reserve(
+        std::min(std::max(n, optimiser.largest_generation()), longest_reserved_generation));
   Report report;
   report.x.resize(optimiser.dimension());
   if (options.log)
@@ -204,28 +226,35 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
   Status interruption = Status::done;
   const bool was_at_its_end = !report.stop_reason.empty();
   while (report.stop_reason.empty()) {
-    const PopulationView candidates = optimiser.ask();
-    evaluate(problem, candidates, cost, violation, context.threads());
-    if (penalty) {
-      for (std::size_t i = 0; i < n; ++i)
-        merit[i] = cost[i] + (violation[i] > 0 ? options.penalty_weight : 0);
-      optimiser.tell(merit, none);
-    } else {
-      optimiser.tell(cost, violation);
+    of_generation.clear();
+    bool improved = false, equalled = false;
+    const std::uint32_t generation = optimiser.generation();
+    while (optimiser.generation() == generation) {
+      const PopulationView candidates = optimiser.ask();
+      const std::size_t asked = candidates.size;
+      const std::span<double> costs(cost.data(), asked), violations(violation.data(), asked);
+      if (asked > 0) evaluate(problem, candidates, costs, violations, context.threads());
+      if (penalty) {
+        for (std::size_t i = 0; i < asked; ++i)
+          merit[i] = cost[i] + (violation[i] > 0 ? options.penalty_weight : 0);
+        optimiser.tell({merit.data(), asked}, {none.data(), asked});
+      } else {
+        optimiser.tell(costs, violations);
+      }
+      report.evaluations += static_cast<std::int64_t>(asked);
+      improved |= optimiser.improved();
+      equalled |= optimiser.equalled();
+      if (optimiser.improved()) {
+        report.cost = cost[optimiser.best_candidate()];
+        report.violation = violation[optimiser.best_candidate()];
+        std::copy(optimiser.best().begin(), optimiser.best().end(), report.x.begin());
+      }
+      if (options.log) of_generation.add(costs, violations);
     }
     ++report.generations;
-    report.evaluations += static_cast<std::int64_t>(n);
-    if (optimiser.improved()) {
-      report.cost = cost[optimiser.best_candidate()];
-      report.violation = violation[optimiser.best_candidate()];
-      std::copy(optimiser.best().begin(), optimiser.best().end(), report.x.begin());
-      unimproved = 0;
-    } else {
-      ++unimproved;
-    }
+    unimproved = improved ? 0 : unimproved + 1;
     if (options.log) {
-      GenerationLog entry = summarise(cost, violation, scratch);
-      scratch.resize(n);
+      GenerationLog entry = summarise(of_generation);
       entry.evaluations = report.evaluations;
       entry.best_cost = report.cost;
       entry.best_violation = report.violation;
@@ -238,8 +267,8 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
 
     if (report.violation == 0 && report.cost <= stop.target_cost)
       report.stop_reason = fmt::format("target cost {} reached", stop.target_cost);
-    else if (stop.spread > 0 && (optimiser.improved() || optimiser.equalled()) &&
-             spread(optimiser.members(), report.x, scratch) < stop.spread)
+    else if (stop.spread > 0 && (improved || equalled) &&
+             spread(optimiser.members(), report.x, squares) < stop.spread)
       report.stop_reason = fmt::format("every member within {} of the best", stop.spread);
     else if (stop.diameter > 0 && !wider_than(stop.diameter, optimiser.members(), scratch))
       report.stop_reason = fmt::format("no two members more than {} apart", stop.diameter);
@@ -247,8 +276,10 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
       report.stop_reason = fmt::format("no better candidate in {} generations", unimproved);
     else if (report.generations >= generations)
       report.stop_reason = fmt::format("{} generations", report.generations);
-    else if (stop.evaluations > 0 && report.evaluations + static_cast<std::int64_t>(n) > stop.evaluations)
-      report.stop_reason = fmt::format("another generation would exceed {} evaluations", stop.evaluations);
+    else if (stop.evaluations > 0 &&
+             report.evaluations + static_cast<std::int64_t>(optimiser.largest_generation()) >
+                 stop.evaluations)
+      report.stop_reason = fmt::format("another generation could exceed {} evaluations", stop.evaluations);
     else if (interruption = context.interruption(); interruption != Status::done)
       break;
     else

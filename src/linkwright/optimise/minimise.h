@@ -18,7 +18,7 @@ namespace linkwright::optimise {
 /// When a run ends, whichever comes first.
 struct StopCriteria {
   std::int64_t evaluations =
-      0;                ///< no generation begins that would exceed this; 0 = no limit; the first always runs
+      0;                ///< no generation begins that could exceed this; 0 = no limit; the first always runs
   int generations = 0;  ///< 0 = as the options of the method say
   double target_cost = -std::numeric_limits<double>::infinity();  ///< a feasible candidate costs at most this
   int stagnation = 0;  ///< generations in a row without a better candidate; 0 = no limit
@@ -83,7 +83,7 @@ void fields(Visitor&& visit, MinimiseOptions& o) {
         o.penalty_weight);
 }
 
-/// One generation; NaN where there is no feasible candidate.
+/// One generation; NaN where there is no (feasible) candidate.
 struct GenerationLog {
   std::int64_t evaluations = 0;  ///< so far, this generation included
   double best_cost = 0;          ///< of the best candidate so far

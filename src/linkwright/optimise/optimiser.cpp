@@ -30,15 +30,17 @@ PopulationView Optimiser::ask() {
       for (std::size_t j = 0; j < dimension(); ++j)
         candidates_(j, i) = std::min(random.uniform(lower_[j], upper_[j]), upper_[j]);
     }
+    round_ = population();
   } else if (!asked_) {
     propose({seed_.seed, seed_.run, generation_});
+    round_ = proposed();
   }
-  asked_ = true;
-  return candidates_.view();
+  asked_ = within_generation_ = true;
+  return candidates_.view().slice(0, round_);
 }
 
 void Optimiser::tell(std::span<const double> cost, std::span<const double> violation) {
-  const std::size_t n = population();
+  const std::size_t n = round_;
   LINKWRIGHT_REQUIRE(asked_, "nothing was asked");
   LINKWRIGHT_REQUIRE(cost.size() == n && violation.size() == n,
                      "{} costs and {} violations for {} candidates", cost.size(), violation.size(), n);
@@ -66,7 +68,8 @@ void Optimiser::tell(std::span<const double> cost, std::span<const double> viola
   std::copy(violation.begin(), violation.end(), told_violation_.begin());
   accept(told_cost_.data(), told_violation_.data());
   asked_ = false;
-  ++generation_;
+  within_generation_ = generation_ > 0 && goes_on();
+  if (!within_generation_) ++generation_;
 }
 
 void Optimiser::visit_population(Population& population, StateVisitor visit) {
@@ -82,7 +85,8 @@ void Optimiser::visit_all(StateVisitor visit) {
 }
 
 OptimiserState Optimiser::state() const {
-  LINKWRIGHT_REQUIRE(generation_ > 0 && !asked_, "no state between ask and tell, nor before the first");
+  LINKWRIGHT_REQUIRE(generation_ > 0 && !within_generation_,
+                     "no state within a generation, nor before the first");
   OptimiserState state{.generation = generation_};
   // The list hands over what may be overwritten; here it is only read.
   const_cast<Optimiser&>(*this).visit_all([&](std::span<double> numbers, double, double) {
@@ -92,6 +96,7 @@ OptimiserState Optimiser::state() const {
 }
 
 bool Optimiser::restore(const OptimiserState& state) {
+  LINKWRIGHT_REQUIRE(!within_generation_, "a state cannot be restored within a generation");
   best_.resize(dimension());
   bool good = state.generation > 0;
   std::size_t used = 0;
@@ -104,7 +109,7 @@ bool Optimiser::restore(const OptimiserState& state) {
     }
   });
   generation_ = state.generation;
-  improved_ = equalled_ = asked_ = false;
+  improved_ = equalled_ = false;
   return good && used == state.numbers.size();
 }
 

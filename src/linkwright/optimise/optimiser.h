@@ -35,13 +35,15 @@ struct OptimiserState {
   friend bool operator==(const OptimiserState&, const OptimiserState&) = default;
 };
 
-/// A population method as a conversation: `ask` for the candidates of the next generation, evaluate them
-/// anywhere and in any order, `tell` the answers. `minimise` is built on this.
+/// A population method as a conversation: `ask` for the next candidates, evaluate them anywhere and in any
+/// order, `tell` the answers. `minimise` is built on this. Most methods ask for a whole generation at a time;
+/// in a method whose moves follow from one another a generation takes several rounds of `ask` and `tell`,
+/// often of a single candidate, and `generation` counts on with the last of them.
 ///
 ///     auto wolves = make_optimiser(problem.variables, GreyWolfOptions{}, {.seed = 7});
 ///     while (...) {
 ///       const PopulationView candidates = wolves->ask();
-///       problem.evaluate(candidates, cost, violation);
+///       problem.evaluate(candidates, cost, violation);  // cost and violation of candidates.size numbers
 ///       wolves->tell(cost, violation);
 ///     }
 ///
@@ -52,8 +54,9 @@ class Optimiser {
   Optimiser(const Optimiser&) = delete;
   Optimiser& operator=(const Optimiser&) = delete;
 
-  /// Candidates of the next generation, the first time uniform in the bounds; the same ones until `tell`.
-  /// The view is valid until the next `ask` after it.
+  /// Candidates of the next round, the first time the whole population, uniform in the bounds; the same ones
+  /// until `tell`, and the view is valid until then. At most `population()`; none in a generation in which no
+  /// member has reason to move.
   PopulationView ask();
 
   /// Answers to the candidates of the last `ask`, in their order, as Problem::evaluate gives them. Throws
@@ -62,8 +65,10 @@ class Optimiser {
 
   std::size_t dimension() const { return lower_.size(); }
   std::size_t population() const { return candidates_.size(); }
-  /// Generations told so far.
+  /// Generations told so far, completely.
   std::uint32_t generation() const { return generation_; }
+  /// No generation after the first asks for more candidates than this.
+  virtual std::size_t largest_generation() const { return population(); }
 
   /// Best candidate told so far, by the feasibility rules; empty before the first `tell`.
   std::span<const double> best() const { return best_; }
@@ -77,12 +82,12 @@ class Optimiser {
   /// The population that the next candidates will be made from.
   virtual PopulationView members() const = 0;
 
-  /// The state between `tell` and the next `ask`, at least one generation told. An optimiser made with the
-  /// same arguments that restores it goes on with the same bits.
+  /// The state between two generations, at least one told. An optimiser made with the same arguments that
+  /// restores it goes on with the same bits. Throws ContractError within a generation.
   OptimiserState state() const;
   /// Takes up a state instead of its own; `improved`, `equalled` and `best_candidate` count from then on.
   /// False for a state that these arguments cannot lead to (wrong number of numbers, a candidate out of its
-  /// bounds); the optimiser can then be used no more.
+  /// bounds); the optimiser can then be used no more. Throws ContractError within a generation.
   bool restore(const OptimiserState& state);
 
  protected:
@@ -95,10 +100,14 @@ class Optimiser {
 
   Optimiser(std::span<const Variable> variables, std::size_t population, const Seed& seed);
 
-  /// Makes the candidates of a generation after the first.
+  /// Makes the candidates of a round after the first.
   virtual void propose(const GenerationKey& key) = 0;
+  /// How many candidates `propose` made.
+  virtual std::size_t proposed() const { return population(); }
   /// Takes in the answers. They are padded to the stride of the population.
   virtual void accept(const double* cost, const double* violation) = 0;
+  /// Whether the generation goes on after the answers taken in.
+  virtual bool goes_on() const { return false; }
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -117,8 +126,10 @@ class Optimiser {
   double best_violation_ = std::numeric_limits<double>::infinity();
   std::size_t best_candidate_ = 0;
   std::uint32_t generation_ = 0;
+  std::size_t round_ = 0;  ///< candidates asked for
   bool improved_ = false, equalled_ = false;
   bool asked_ = false;
+  bool within_generation_ = false;
 };
 
 /// Throws ContractError naming the first option outside the range of its field: "grey_wolf: population must

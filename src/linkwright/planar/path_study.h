@@ -227,6 +227,10 @@ using SelfAdaptiveDifferentialEvolution =
     PopulationMethod<optimise::SelfAdaptiveDifferentialEvolutionOptions>;
 using Jade = PopulationMethod<optimise::JadeOptions>;
 using ParticleSwarm = PopulationMethod<optimise::ParticleSwarmOptions>;
+using Firefly = PopulationMethod<optimise::FireflyOptions>;
+using CuckooSearch = PopulationMethod<optimise::CuckooSearchOptions>;
+using HybridCuckooFirefly = PopulationMethod<optimise::HybridCuckooFireflyOptions>;
+using SubpopulationFirefly = PopulationMethod<optimise::SubpopulationFireflyOptions>;
 constexpr Word choice_word(const GreyWolf&) {
   return {"grey_wolf", "grey wolf optimiser (Mirjalili et al. 2014)"};
 }
@@ -243,8 +247,22 @@ constexpr Word choice_word(const ParticleSwarm&) {
   return {"particle_swarm", "particle swarm with decreasing inertia (Shi and Eberhart 1998)"};
 }
 
-using PathMethod = std::variant<Recommended, GreyWolf, DifferentialEvolution,
-                                SelfAdaptiveDifferentialEvolution, Jade, ParticleSwarm>;
+constexpr Word choice_word(const Firefly&) {
+  return {"firefly", "firefly algorithm (Yang 2009; Boskovic 2018)"};
+}
+constexpr Word choice_word(const CuckooSearch&) {
+  return {"cuckoo_search", "cuckoo search (Yang and Deb 2009; Boskovic 2018)"};
+}
+constexpr Word choice_word(const HybridCuckooFirefly&) {
+  return {"hybrid_cuckoo_firefly", "cuckoos that move as fireflies, H-CS-FA (Boskovic 2018)"};
+}
+constexpr Word choice_word(const SubpopulationFirefly&) {
+  return {"subpopulation_firefly", "fireflies in two parts, SP-FA (Boskovic 2018)"};
+}
+
+using PathMethod =
+    std::variant<Recommended, GreyWolf, DifferentialEvolution, SelfAdaptiveDifferentialEvolution, Jade,
+                 ParticleSwarm, Firefly, CuckooSearch, HybridCuckooFirefly, SubpopulationFirefly>;
 struct PathOptimiser {
   PathMethod method;
 };

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "linkwright/core/field.h"
+#include "linkwright/optimise/firefly.h"
+#include "linkwright/optimise/levy_flight.h"
+#include "linkwright/optimise/optimiser.h"
+
+namespace linkwright::optimise {
+
+/// Hybrid of cuckoo search and firefly algorithm, H-CS-FA (Boskovic 2018, Algorithm 2.4; with one objective):
+/// the flights of cuckoo_search, and then, in place of discovery, the sweep of firefly over the nests.
+/// Candidates are clipped to the box. Defaults of Boskovic 2018, Table 2.5.
+///
+/// Candidates are asked for one at a time, as in firefly.
+struct HybridCuckooFireflyOptions {
+  int population = 25;
+  int generations = 501;  ///< the first population included: T = 500 iterations
+  /// Share of the nests that are swept, the worst ones. The listing has all, the text speaks of bad ones.
+  double swept = 1;
+  FireflyMove move = {};
+  LevyFlight flight = {};
+};
+template <class Visitor>
+void fields(Visitor&& visit, HybridCuckooFireflyOptions& o) {
+  visit(Field{.key = "population", .summary = "nests", .minimum = 2, .maximum = 1e4}, o.population);
+  visit(Field{.key = "generations",
+              .summary = "generations, the first included; randomness decays over them",
+              .minimum = 1,
+              .maximum = 1e9},
+        o.generations);
+  visit(Field{.key = "swept",
+              .summary = "share of the nests, the worst ones, that move as fireflies",
+              .minimum = 0,
+              .maximum = 1,
+              .exclusive_minimum = true},
+        o.swept);
+  fields(visit, o.move);
+  fields(visit, o.flight);
+}
+
+std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,
+                                          const HybridCuckooFireflyOptions& options, const Seed& seed);
+
+}  // namespace linkwright::optimise

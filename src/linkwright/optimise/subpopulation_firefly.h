@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "linkwright/core/field.h"
+#include "linkwright/optimise/firefly.h"
+#include "linkwright/optimise/levy_flight.h"
+#include "linkwright/optimise/optimiser.h"
+
+namespace linkwright::optimise {
+
+/// Firefly algorithm with two sub-populations, SP-FA (Boskovic 2018, Algorithm 2.1; with one objective). In
+/// every generation the fireflies are split anew at random; each makes Levy flights from where it is until
+/// one meets every constraint, and stays at the last if that is better; the two parts exchange their best
+/// fireflies and are swept as in firefly, each by itself. Candidates are clipped to the box. The publication
+/// gives no settings: defaults of firefly.
+///
+/// The flights of all fireflies are asked for at once, the moves of the sweeps one at a time.
+struct SubpopulationFireflyOptions {
+  int population = 40;
+  int generations = 501;  ///< the first population included: T = 500 iterations
+  int flights = 50;       ///< most flights of a firefly in search of a feasible place
+  FireflyMove move = {};
+  LevyFlight flight = {};
+};
+template <class Visitor>
+void fields(Visitor&& visit, SubpopulationFireflyOptions& o) {
+  visit(Field{.key = "population", .summary = "fireflies", .minimum = 2, .maximum = 1e4}, o.population);
+  visit(Field{.key = "generations",
+              .summary = "generations, the first included; randomness decays over them",
+              .minimum = 1,
+              .maximum = 1e9},
+        o.generations);
+  visit(Field{.key = "flights",
+              .summary = "most Levy flights of a firefly in search of a feasible place",
+              .minimum = 1,
+              .maximum = 1e4},
+        o.flights);
+  fields(visit, o.move);
+  fields(visit, o.flight);
+}
+
+std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,
+                                          const SubpopulationFireflyOptions& options, const Seed& seed);
+
+}  // namespace linkwright::optimise

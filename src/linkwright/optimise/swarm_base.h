@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "linkwright/core/random.h"
+#include "linkwright/optimise/levy_flight.h"
+#include "linkwright/optimise/optimiser.h"
+#include "linkwright/optimise/rounds.h"
+
+namespace linkwright::optimise {
+
+/// What fireflies and cuckoos share: members with their costs, moved one after the other, so that a
+/// generation has as many rounds as moves. Distances and steps are those of the unit cube, in parts of the
+/// width of the box.
+///
+/// Random numbers are those of a stream for each member and use, not of one sequence: numbers that a move
+/// does not draw shift no others.
+class SwarmBase : public Optimiser {
+ public:
+  PopulationView members() const override { return members_.view(); }
+
+ protected:
+  SwarmBase(std::span<const Variable> variables, int population, const Seed& seed);
+
+  void propose(const GenerationKey&) final;
+  std::size_t proposed() const final { return made_; }
+  void accept(const double* cost, const double* violation) final;
+  bool goes_on() const final { return made_ != Rounds::generation_over; }
+  void visit_state(StateVisitor visit) final;
+
+  /// Iterations finished: t = 0 in the generation after the first.
+  double iteration() const { return generation() - 1.0; }
+
+  /// Streams of this generation. `use` 0 and 1 have one for each member, 2 one for all.
+  RandomStream random(std::uint32_t use, std::size_t member = 0) const;
+
+  /// Makes `order` a random permutation of 0, 1, ...
+  static void shuffle(std::span<std::uint32_t> order, RandomStream& random);
+
+  bool member_better(std::size_t a, std::size_t b) const {
+    return better(cost_[a], violation_[a], cost_[b], violation_[b]);
+  }
+  /// Whether candidate c, now evaluated, is better than member i.
+  bool candidate_better(std::size_t c, std::size_t i) const {
+    return better(answer_cost_[c], answer_violation_[c], cost_[i], violation_[i]);
+  }
+  bool candidate_feasible(std::size_t c) const { return !(answer_violation_[c] > 0); }
+  /// Member i becomes candidate c, now evaluated.
+  void replace(std::size_t i, std::size_t c);
+
+  /// Candidate c = a Levy flight of member i, Eq. (2.130).
+  void fly(std::size_t c, std::size_t i, const LevyFlight& flight, double scale, RandomStream& random);
+
+  /// The loop of the method; a derived class sets it at the end of its construction.
+  Rounds rounds_;
+  Population members_;
+  std::vector<double> cost_, violation_;
+  std::vector<double> width_, inverse_width_;  ///< of the box; the inverse of 0 is 0
+
+ private:
+  std::size_t made_ = 0;
+  const double *answer_cost_ = nullptr, *answer_violation_ = nullptr;
+};
+
+}  // namespace linkwright::optimise
