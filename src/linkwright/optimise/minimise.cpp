@@ -270,7 +270,7 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     else if (stop.spread > 0 && (improved || equalled) &&
              spread(optimiser.members(), report.x, squares) < stop.spread)
       report.stop_reason = fmt::format("every member within {} of the best", stop.spread);
-    else if (stop.diameter > 0 && !wider_than(stop.diameter, optimiser.members(), scratch))
+    else if (stop.diameter > 0 && !wider_than(stop.diameter, optimiser.members(), squares))
       report.stop_reason = fmt::format("no two members more than {} apart", stop.diameter);
     else if (stop.stagnation > 0 && unimproved >= stop.stagnation)
       report.stop_reason = fmt::format("no better candidate in {} generations", unimproved);
