@@ -5,46 +5,21 @@
 #include <filesystem>
 #include <string>
 
-#include "linkwright/planar/studies.h"
-#include "linkwright/study/read.h"
-#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
+#include "planar/studies.h"
 
 namespace linkwright::planar {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const auto at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  if (at != std::string::npos) text.replace(at, what.size(), by);
-  return text;
-}
-std::optional<study::Study> prepare(const std::string& text, std::string& messages) {
-  static const std::vector<study::Kind> kinds = studies();
-  Diagnostics diagnostics;
-  const Value document = study::read_text(text, study::Syntax::toml, "study.toml", diagnostics);
-  auto prepared = study::prepare(document, "study.toml", ".", kinds, diagnostics);
-  for (const Diagnostic& d : diagnostics) messages += to_string(d) + "\n";
-  return prepared;
-}
-std::string problems(const std::string& text) {
-  std::string messages;
-  EXPECT_FALSE(prepare(text, messages)) << text;
-  return messages;
-}
-study::Result run(const std::string& text) {
-  std::string messages;
-  const auto prepared = prepare(text, messages);
-  EXPECT_TRUE(prepared) << messages;
-  RunContext context;
-  return prepared ? study::run_study(*prepared, context) : study::Result{};
-}
+using testing::prepare;
+using testing::problems_of;
+using testing::replaced;
+using testing::run_text;
 
 TEST(LinkageRegulationStudy, SizesAFlywheelAndFindsTheSteadyCycle) {
-  const study::Result r = run(linkage_regulation_kind().example);
+  const study::Result r = run_text(linkage_regulation_kind().example);
   ASSERT_EQ(r.status, Status::done);
   EXPECT_THAT(r.diagnostics, IsEmpty());
   EXPECT_THAT(r.headline, HasSubstr("kg m2 on O keeps the speed within 0.05 of its mean of 180 rpm."));
@@ -62,7 +37,7 @@ TEST(LinkageRegulationStudy, SizesAFlywheelAndFindsTheSteadyCycle) {
 }
 
 TEST(LinkageRegulationStudy, TakesASliderCrankWithoutAMotor) {
-  const study::Result r = run(slider_crank_regulation_kind().example);
+  const study::Result r = run_text(slider_crank_regulation_kind().example);
   ASSERT_EQ(r.status, Status::done);
   EXPECT_EQ(r.tables.size(), 1u);
   // Weight alone does no work over a turn.
@@ -80,15 +55,16 @@ TEST(LinkageRegulationStudy, WritesWhatItReads) {
 
 TEST(LinkageRegulationStudy, NamesWhatIsWrong) {
   const std::string text = linkage_regulation_kind().example;
-  EXPECT_THAT(problems(replaced(text, "mean_speed_rpm = 180.0", "mean_speed_rpm = 0.0")),
+  EXPECT_THAT(problems_of(replaced(text, "mean_speed_rpm = 180.0", "mean_speed_rpm = 0.0")),
               HasSubstr("a machine at rest has no cycle"));
-  EXPECT_THAT(problems(replaced(text, "against  = \"input\"", "against  = \"time\"")),
+  EXPECT_THAT(problems_of(replaced(text, "against  = \"input\"", "against  = \"time\"")),
               HasSubstr("force 'press' goes by time, which a cycle does not have"));
-  EXPECT_THAT(problems(replaced(text, "against  = \"input\"", "against  = \"speed\"")),
+  EXPECT_THAT(problems_of(replaced(text, "against  = \"input\"", "against  = \"speed\"")),
               HasSubstr("a force turns nothing: its table cannot go by speed"));
   const std::string driven_ram = replaced(text, "[[drive]]\njoint = \"O\"", "[[drive]]\njoint = \"guide\"");
-  EXPECT_THAT(problems(replaced(driven_ram, "bodies = [\"rod\", \"ram\"]", "bodies = [\"crank\", \"rod\"]")),
-              HasSubstr("regulation needs one input that turns"));
+  EXPECT_THAT(
+      problems_of(replaced(driven_ram, "bodies = [\"rod\", \"ram\"]", "bodies = [\"crank\", \"rod\"]")),
+      HasSubstr("regulation needs one input that turns"));
 }
 
 TEST(LinkageRegulationStudy, ExamplePassesItsChecks) {

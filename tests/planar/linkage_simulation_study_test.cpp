@@ -6,53 +6,25 @@
 #include <filesystem>
 #include <string>
 
-#include "linkwright/planar/studies.h"
-#include "linkwright/study/read.h"
-#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
+#include "planar/studies.h"
 
 namespace linkwright::planar {
 namespace {
 
 using ::testing::Each;
+using testing::fact;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::prepare;
+using testing::problems_of;
+using testing::replaced;
+using testing::run_text;
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const auto at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  if (at != std::string::npos) text.replace(at, what.size(), by);
-  return text;
-}
-std::optional<study::Study> prepare(const std::string& text, std::string& messages) {
-  static const std::vector<study::Kind> kinds = studies();
-  Diagnostics diagnostics;
-  const Value document = study::read_text(text, study::Syntax::toml, "study.toml", diagnostics);
-  auto prepared = study::prepare(document, "study.toml", ".", kinds, diagnostics);
-  for (const Diagnostic& d : diagnostics) messages += to_string(d) + "\n";
-  return prepared;
-}
-std::string problems(const std::string& text) {
-  std::string messages;
-  EXPECT_FALSE(prepare(text, messages)) << text;
-  return messages;
-}
-study::Result run(const std::string& text) {
-  std::string messages;
-  const auto prepared = prepare(text, messages);
-  EXPECT_TRUE(prepared) << messages;
-  RunContext context;
-  return prepared ? study::run_study(*prepared, context) : study::Result{};
-}
-std::string fact(const study::Result& r, const std::string& label) {
-  for (const study::Fact& f : r.facts)
-    if (f.label == label) return f.text;
-  return "none";
-}
 std::string pendulum() { return linkage_simulation_kind().example; }
 
 TEST(LinkageSimulationStudy, ReportsMotionForcesAndTheEnergyAudit) {
-  const study::Result r = run(pendulum());
+  const study::Result r = run_text(pendulum());
   EXPECT_EQ(r.status, Status::done);
   const Table& t = r.tables.at(0);
   EXPECT_EQ(t.name, "motion");
@@ -82,7 +54,7 @@ TEST(LinkageSimulationStudy, ReportsMotionForcesAndTheEnergyAudit) {
 TEST(LinkageSimulationStudy, TakesEitherRoute) {
   const std::string text =
       replaced(slider_crank_simulation_kind().example, "to_s = 0.5", "to_s = 0.2\nsamples = 21");
-  const study::Result free = run(text), all = run(text + "route = \"all_coordinates\"\n");
+  const study::Result free = run_text(text), all = run_text(text + "route = \"all_coordinates\"\n");
   ASSERT_EQ(free.status, Status::done);
   ASSERT_EQ(all.status, Status::done);
   for (const char* key : {"O_angle_rad", "guide_way_m", "B_N", "kinetic_energy_J"}) {
@@ -97,7 +69,7 @@ TEST(LinkageSimulationStudy, MixesFreeAndDrivenJoints) {
                                     "joint           = \"O\"\nfree            = true\nstart_deg       = "
                                     "0.0\nstart_speed_rpm = 0.0",
                                     "joint = \"O\"\nlaw = \"constant_speed\"\nspeed_rpm = 30.0");
-  const study::Result r = run(text);
+  const study::Result r = run_text(text);
   EXPECT_EQ(r.status, Status::done);
   EXPECT_EQ(fact(r, "degrees of freedom"), "2, 1 free and 1 driven");
   const Table& t = r.tables.at(0);
@@ -117,20 +89,20 @@ TEST(LinkageSimulationStudy, WritesWhatItReads) {
 }
 
 TEST(LinkageSimulationStudy, NamesWhatIsWrong) {
-  EXPECT_THAT(problems(replaced(pendulum(), "free      = true", "free = false")),
+  EXPECT_THAT(problems_of(replaced(pendulum(), "free      = true", "free = false")),
               HasSubstr("joint 'A' has neither a motion law nor free = true"));
-  EXPECT_THAT(problems(replaced(pendulum(), "free      = true", "free = true\nlaw = \"harmonic\"")),
+  EXPECT_THAT(problems_of(replaced(pendulum(), "free      = true", "free = true\nlaw = \"harmonic\"")),
               HasSubstr("joint 'A' is free and has a motion law"));
-  EXPECT_THAT(problems(replaced(pendulum(), "to_s    = 5.0", "to_s = -1.0")),
+  EXPECT_THAT(problems_of(replaced(pendulum(), "to_s    = 5.0", "to_s = -1.0")),
               HasSubstr("the simulation ends at -1 s, but starts at 0 s"));
-  EXPECT_THAT(problems(replaced(pendulum(), "mass_kg   = 0.3", "")), HasSubstr("'lower' has none"));
-  EXPECT_THAT(problems(pendulum() + "\n[extra]\n"), HasSubstr("extra"));
+  EXPECT_THAT(problems_of(replaced(pendulum(), "mass_kg   = 0.3", "")), HasSubstr("'lower' has none"));
+  EXPECT_THAT(problems_of(pendulum() + "\n[extra]\n"), HasSubstr("extra"));
   const std::string slider_crank = slider_crank_simulation_kind().example;
-  EXPECT_THAT(problems(replaced(slider_crank,
-                                "free            = true\nstart_deg       = 90.0\nstart_speed_rpm = 600.0",
-                                "law = \"constant_speed\"\nspeed_rpm = 60.0")),
+  EXPECT_THAT(problems_of(replaced(slider_crank,
+                                   "free            = true\nstart_deg       = 90.0\nstart_speed_rpm = 600.0",
+                                   "law = \"constant_speed\"\nspeed_rpm = 60.0")),
               HasSubstr("every drive has a motion law: nothing is left for forces to move"));
-  EXPECT_THAT(problems(slider_crank + "route = \"all_coordinates\"\nmethod = \"adams\"\n"),
+  EXPECT_THAT(problems_of(slider_crank + "route = \"all_coordinates\"\nmethod = \"adams\"\n"),
               HasSubstr("all_coordinates are projected after every step, which adams does not allow"));
 }
 
@@ -150,11 +122,11 @@ start_speed_rad_per_s = -1.0
 to_s = 2.0
 samples = 201
 )";
-  const study::Result stopped = run(chain + "at_change_point = \"stop\"\n");
+  const study::Result stopped = run_text(chain + "at_change_point = \"stop\"\n");
   EXPECT_EQ(stopped.status, Status::limit_reached);
   EXPECT_EQ(stopped.tables[0].find("time_s")->values.size(), 72u);
   EXPECT_THAT(to_string(stopped.diagnostics.at(0)), HasSubstr("can go on in two ways"));
-  const study::Result smooth = run(chain);
+  const study::Result smooth = run_text(chain);
   EXPECT_EQ(smooth.status, Status::done);
   EXPECT_THAT(fact(smooth, "change points"), ::testing::StartsWith("2, the first at 0.7143 s with P0 at"));
   EXPECT_THAT(to_string(smooth.diagnostics.at(0)),

@@ -7,10 +7,8 @@
 #include <string>
 
 #include "linkwright/planar/linkage_samples.h"
-#include "linkwright/planar/studies.h"
-#include "linkwright/study/read.h"
-#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
+#include "planar/studies.h"
 
 namespace linkwright::planar {
 namespace {
@@ -18,6 +16,10 @@ namespace {
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::prepare;
+using testing::problems_of;
+using testing::replaced;
+using testing::run_text;
 
 constexpr double pi = std::numbers::pi;
 
@@ -76,33 +78,6 @@ samples = 201
 point = "coupler.C"
 )";
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const auto at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  if (at != std::string::npos) text.replace(at, what.size(), by);
-  return text;
-}
-
-std::optional<study::Study> prepare(const std::string& text, std::string& messages) {
-  static const std::vector<study::Kind> kinds = studies();
-  Diagnostics diagnostics;
-  const Value document = study::read_text(text, study::Syntax::toml, "study.toml", diagnostics);
-  auto prepared = study::prepare(document, "study.toml", ".", kinds, diagnostics);
-  for (const Diagnostic& d : diagnostics) messages += to_string(d) + "\n";
-  return prepared;
-}
-std::string problems(const std::string& text) {
-  std::string messages;
-  EXPECT_FALSE(prepare(text, messages)) << text;
-  return messages;
-}
-study::Result run(const std::string& text) {
-  std::string messages;
-  const auto prepared = prepare(text, messages);
-  EXPECT_TRUE(prepared) << messages;
-  RunContext context;
-  return prepared ? study::run_study(*prepared, context) : study::Result{};
-}
 double peak(const study::Result& r, const char* column) {
   const Column* c = r.tables.at(0).find(column);
   EXPECT_TRUE(c) << column;
@@ -113,7 +88,7 @@ double peak(const study::Result& r, const char* column) {
 }
 
 TEST(LinkageStudy, GivesTheFiguresOfTheFourBarStudy) {
-  const study::Result r = run(four_bar_text);
+  const study::Result r = run_text(four_bar_text);
   EXPECT_EQ(r.status, Status::done);
   // Boskovic 2018, original mechanism of Table 2.2: largest values over 201 samples, as recomputed with more
   // digits; half a unit of the last one.
@@ -169,7 +144,7 @@ TEST(LinkageStudy, FollowsMotionLawsOverTime) {
                               "law = \"cycloidal\"\nfrom_deg = 0\nto_deg = 180\nduration_s = 0.5");
   text = text.substr(0, text.find("[sweep]")) +
          "[sweep]\ntype = \"time\"\n[sweep.time]\nto_s = 0.5\nsamples = 101\n";
-  const study::Result r = run(text);
+  const study::Result r = run_text(text);
   EXPECT_EQ(r.status, Status::done);
   const Table& t = r.tables[0];
   EXPECT_NEAR(t.find("O1_angle_rad")->values[50], pi / 2, 1e-14);
@@ -180,15 +155,15 @@ TEST(LinkageStudy, FollowsMotionLawsOverTime) {
 }
 
 TEST(LinkageStudy, TellsWhereALinkageAssembles) {
-  const study::Result r = run(replaced(four_bar_text, "O3 = [0.32, 0]", "O3 = [0.22, 0]"));
+  const study::Result r = run_text(replaced(four_bar_text, "O3 = [0.32, 0]", "O3 = [0.22, 0]"));
   EXPECT_EQ(r.status, Status::no_assembly);
   ASSERT_FALSE(r.diagnostics.empty());
   // At angle a the crank pin is sqrt(0.37 - 0.12 cos a) from O4; coupler and rocker reach 0.62 m.
   const double limit = std::acos((0.37 - 0.62 * 0.62) / 0.12) * 180 / pi;
   EXPECT_NEAR(limit, 96.9, 0.05);
   EXPECT_THAT(to_string(r.diagnostics[0]),
-              testing::AllOf(HasSubstr("do not assemble: coupler + rocker would have to be longer"),
-                             HasSubstr("it assembles from -96.9 to 96.9 deg")));
+              ::testing::AllOf(HasSubstr("do not assemble: coupler + rocker would have to be longer"),
+                               HasSubstr("it assembles from -96.9 to 96.9 deg")));
   const Table& t = r.tables[0];
   EXPECT_EQ(t.status[100], "no_assembly");
   EXPECT_TRUE(std::isnan(t.find("coupler_angle_rad")->values[100]));
@@ -201,7 +176,7 @@ TEST(LinkageStudy, GoesOnThroughChangePointsAsTheStudySays) {
   text = replaced(text, "O3 = [0.32, 0]", "O3 = [0.1, 0]");
   text = replaced(text, "from_deg = 0\nto_deg = 360\nsamples = 201",
                   "from_deg = 10\nto_deg = 350\nsamples = 171");
-  const study::Result smooth = run(text);
+  const study::Result smooth = run_text(text);
   // A parallelogram stays one: the rocker is parallel to the crank, on both sides of 180 degrees.
   const Table& t = smooth.tables[0];
   std::size_t parallel = 0, singular = 0;
@@ -221,7 +196,7 @@ TEST(LinkageStudy, GoesOnThroughChangePointsAsTheStudySays) {
       HasSubstr("the assembly modes of coupler + rocker meet and cross: which way the linkage goes on there "
                 "is a choice; the rows go on smoothly"));
   const study::Result other =
-      run(replaced(text, "type = \"grid\"", "type = \"grid\"\nat_change_point = \"keep_sign\""));
+      run_text(replaced(text, "type = \"grid\"", "type = \"grid\"\nat_change_point = \"keep_sign\""));
   const Table& u = other.tables[0];
   EXPECT_GT(std::abs(std::remainder(
                 u.find("rocker_angle_rad")->values[150] - u.find("crank_angle_rad")->values[150], 2 * pi)),
@@ -229,9 +204,9 @@ TEST(LinkageStudy, GoesOnThroughChangePointsAsTheStudySays) {
 }
 
 TEST(LinkageStudy, TellsRatiosCentresAndRanges) {
-  const study::Result r =
-      run(std::string(four_bar_text) +
-          "[quality]\noutput_joint = \"O4\"\ncentrodes = [\"coupler\"]\ninstant_centres = true\nassembly_modes = true\n");
+  const study::Result r = run_text(std::string(four_bar_text) +
+                                   "[quality]\noutput_joint = \"O4\"\ncentrodes = "
+                                   "[\"coupler\"]\ninstant_centres = true\nassembly_modes = true\n");
   const auto table = [&](std::string_view name) -> const Table& {
     for (const Table& t : r.tables)
       if (t.name == name) return t;
@@ -255,26 +230,26 @@ TEST(LinkageStudy, TellsRatiosCentresAndRanges) {
 }
 
 TEST(LinkageStudy, NamesWhatIsWrongWithALinkage) {
-  EXPECT_THAT(problems(replaced(four_bar_text, "first = \"crank.O2\"", "first = \"crnk.O2\"")),
+  EXPECT_THAT(problems_of(replaced(four_bar_text, "first = \"crank.O2\"", "first = \"crnk.O2\"")),
               HasSubstr("mechanism.joint[1].first: there is no body 'crnk'; did you mean 'crank'?"));
-  EXPECT_THAT(problems(replaced(four_bar_text, "first = \"crank.O2\"", "first = \"crank.O5\"")),
+  EXPECT_THAT(problems_of(replaced(four_bar_text, "first = \"crank.O2\"", "first = \"crank.O5\"")),
               HasSubstr("body 'crank' has no point 'O5'"));
-  EXPECT_THAT(problems(replaced(four_bar_text, "O2 = [0.1, 0]", "O2 = [0, 0]")),
+  EXPECT_THAT(problems_of(replaced(four_bar_text, "O2 = [0.1, 0]", "O2 = [0, 0]")),
               HasSubstr("has no length: its joints O1 and O2 lie in one point"));
-  EXPECT_THAT(problems(replaced(four_bar_text, "joint = \"O1\"\nspeed_rpm", "joint = \"O9\"\nspeed_rpm")),
+  EXPECT_THAT(problems_of(replaced(four_bar_text, "joint = \"O1\"\nspeed_rpm", "joint = \"O9\"\nspeed_rpm")),
               HasSubstr("there is no joint 'O9'; did you mean 'O1'?"));
-  EXPECT_THAT(problems(replaced(four_bar_text, "mass_kg = 1.046", "#")),
+  EXPECT_THAT(problems_of(replaced(four_bar_text, "mass_kg = 1.046", "#")),
               HasSubstr("forces and torques need the mass of every body: 'rocker' has none"));
-  EXPECT_THAT(problems(replaced(four_bar_text, "[[drive]]\njoint = \"O1\"",
-                                "[[drive]]\njoint = \"O4\"\n[[drive]]\njoint = \"O1\"")),
+  EXPECT_THAT(problems_of(replaced(four_bar_text, "[[drive]]\njoint = \"O1\"",
+                                   "[[drive]]\njoint = \"O4\"\n[[drive]]\njoint = \"O1\"")),
               HasSubstr("two drives on one freedom"));
   const std::string no_rocker_pin =
       replaced(four_bar_text,
                "[[mechanism.joint]]\nname = \"O4\"\nfirst = \"ground.O4\"\nsecond = \"rocker.O4\"\n", "");
-  EXPECT_THAT(
-      problems(replaced(no_rocker_pin,
-                        "[[mechanism.assembly]]\nbodies = [\"coupler\", \"rocker\"]\nmode = \"plus\"\n", "")),
-      HasSubstr("keep 2 degrees of freedom without a drive"));
+  EXPECT_THAT(problems_of(replaced(
+                  no_rocker_pin,
+                  "[[mechanism.assembly]]\nbodies = [\"coupler\", \"rocker\"]\nmode = \"plus\"\n", "")),
+              HasSubstr("keep 2 degrees of freedom without a drive"));
   const std::string strut = R"([[mechanism.body]]
 name = "strut"
 points_m = { P = [0, 0], Q = [0.3, 0] }
@@ -289,12 +264,12 @@ first = "coupler.O3"
 second = "strut.Q"
 [[mechanism.assembly]]
 )";
-  EXPECT_THAT(problems(replaced(four_bar_text, "[[mechanism.assembly]]\n", strut)),
+  EXPECT_THAT(problems_of(replaced(four_bar_text, "[[mechanism.assembly]]\n", strut)),
               HasSubstr("'strut' has 1 constraint too many: a rigid or overdetermined structure"));
-  EXPECT_THAT(problems(replaced(four_bar_text, "bodies = [\"coupler\", \"rocker\"]",
-                                "bodies = [\"crank\", \"rocker\"]")),
+  EXPECT_THAT(problems_of(replaced(four_bar_text, "bodies = [\"coupler\", \"rocker\"]",
+                                   "bodies = [\"crank\", \"rocker\"]")),
               HasSubstr("are no pair with two assembly modes; these are: coupler + rocker"));
-  EXPECT_THAT(problems(replaced(four_bar_text, "from_deg = 0\nto_deg = 360", "from_deg = 9\nto_deg = 9")),
+  EXPECT_THAT(problems_of(replaced(four_bar_text, "from_deg = 0\nto_deg = 360", "from_deg = 9\nto_deg = 9")),
               HasSubstr("the sweep ends where it begins"));
 }
 
@@ -324,7 +299,7 @@ point = "rod.C"
 [output]
 quantities = ["position"]
 )";
-  const study::Result r = run(text);
+  const study::Result r = run_text(text);
   EXPECT_EQ(r.status, Status::done);
   const double delta = 25 * pi / 180;
   for (int i = 0; i < 37; ++i) {

@@ -7,14 +7,14 @@
 #include <fstream>
 #include <numbers>
 
-#include "linkwright/planar/studies.h"
-#include "linkwright/study/read.h"
-#include "linkwright/study/study.h"
+#include "planar/studies.h"
 
 namespace linkwright::planar {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::prepare;
+using testing::problems_of;
 
 constexpr const char* head = R"(schema = 1
 kind = "synthesis"
@@ -24,60 +24,47 @@ type = "planar.four_bar"
 )";
 constexpr const char* square = "points_m = [[0, 0], [1, 0], [1, 1], [0, 1]]\n";
 
-std::optional<study::Study> prepare(const std::string& text, std::string& messages,
-                                    const std::filesystem::path& folder = ".") {
-  static const std::vector<study::Kind> kinds = studies();
-  Diagnostics diagnostics;
-  const Value document = study::read_text(text, study::Syntax::toml, "study.toml", diagnostics);
-  auto prepared = study::prepare(document, "study.toml", folder, kinds, diagnostics);
-  for (const Diagnostic& d : diagnostics) messages += to_string(d) + "\n";
-  return prepared;
-}
-
-std::string problems(const std::string& text) {
-  std::string messages;
-  EXPECT_FALSE(prepare(text, messages)) << text;
-  return messages;
-}
-
 std::string target(const std::string& lines) {
   return std::string(head) + "[target]\ntype = \"path_points\"\n" + lines;
 }
 
 TEST(PathStudyRead, NamesWhatIsWrongWithThePoints) {
-  EXPECT_THAT(problems(target("")),
+  EXPECT_THAT(problems_of(target("")),
               HasSubstr("the target has no points; write points_m = [[x, y], ...] or points_file"));
-  EXPECT_THAT(problems(target("points_m = []\n")), HasSubstr("there are no points; give at least 3 points"));
+  EXPECT_THAT(problems_of(target("points_m = []\n")),
+              HasSubstr("there are no points; give at least 3 points"));
   EXPECT_THAT(
-      problems(target("points_m = [[0, 0], [1, 0]]\n")),
+      problems_of(target("points_m = [[0, 0], [1, 0]]\n")),
       HasSubstr("study.toml:8:12: error: target.points_m: 2 points make no path, at least 3 are needed"));
-  EXPECT_THAT(problems(target("points_m = [[0, 0], [1, 0], [1, 0], [2, 1]]\n")),
+  EXPECT_THAT(problems_of(target("points_m = [[0, 0], [1, 0], [1, 0], [2, 1]]\n")),
               HasSubstr("point 3 repeats point 2: (1, 0)"));
-  EXPECT_THAT(problems(target("closed = true\npoints_m = [[0, 0], [1, 0], [1, 1], [0, 0]]\n")),
+  EXPECT_THAT(problems_of(target("closed = true\npoints_m = [[0, 0], [1, 0], [1, 1], [0, 0]]\n")),
               HasSubstr("the last point repeats the first: (0, 0); remove it"));
-  EXPECT_THAT(problems(target("points_m = [[0, 0], [1, 0], [1, nan]]\n")), HasSubstr("nan"));
-  EXPECT_THAT(problems(target("points_m = [[0, 0], [1, 0], [1]]\n")), HasSubstr("points_m[2]"));
-  EXPECT_THAT(problems(target(std::string(square) + "points_file = \"p.csv\"\n")),
+  EXPECT_THAT(problems_of(target("points_m = [[0, 0], [1, 0], [1, nan]]\n")), HasSubstr("nan"));
+  EXPECT_THAT(problems_of(target("points_m = [[0, 0], [1, 0], [1]]\n")), HasSubstr("points_m[2]"));
+  EXPECT_THAT(problems_of(target(std::string(square) + "points_file = \"p.csv\"\n")),
               HasSubstr("both points and points_file"));
-  EXPECT_THAT(problems(target("points_file = \"nowhere.csv\"\n")), HasSubstr("cannot read './nowhere.csv'"));
+  EXPECT_THAT(problems_of(target("points_file = \"nowhere.csv\"\n")),
+              HasSubstr("cannot read './nowhere.csv'"));
 }
 
 TEST(PathStudyRead, TimingMustFit) {
-  EXPECT_THAT(problems(target(std::string(square) + "timing = { mode = \"equal_steps\" }\n")),
+  EXPECT_THAT(problems_of(target(std::string(square) + "timing = { mode = \"equal_steps\" }\n")),
               HasSubstr("equal_steps needs step_deg"));
   EXPECT_THAT(
-      problems(target(std::string(square) + "timing = { mode = \"given\", angles_deg = [1, 2, 3] }\n")),
+      problems_of(target(std::string(square) + "timing = { mode = \"given\", angles_deg = [1, 2, 3] }\n")),
       HasSubstr("3 angles for 4 points"));
-  EXPECT_THAT(problems(target(std::string(square) + "timing = { mode = \"free\", step_deg = 10 }\n")),
+  EXPECT_THAT(problems_of(target(std::string(square) + "timing = { mode = \"free\", step_deg = 10 }\n")),
               HasSubstr("step goes with mode equal_steps, the mode is free"));
-  EXPECT_THAT(problems(target(std::string(square) + "timing = { mode = \"equal_step\", step_deg = 10 }\n")),
-              HasSubstr("equal_steps"));
+  EXPECT_THAT(
+      problems_of(target(std::string(square) + "timing = { mode = \"equal_step\", step_deg = 10 }\n")),
+      HasSubstr("equal_steps"));
 }
 
 TEST(PathStudyRead, TellsAllProblemsAtOnce) {
   const std::string text = target("points_m = [[0, 0], [1, 0]]\ntimming = { mode = \"free\" }\n") +
                            "[optimiser]\nmethod = \"grey_wulf\"\n";
-  const std::string messages = problems(text);
+  const std::string messages = problems_of(text);
   EXPECT_THAT(messages, HasSubstr("2 points make no path"));
   EXPECT_THAT(messages, HasSubstr("timming"));
   EXPECT_THAT(messages, HasSubstr("did you mean"));
@@ -87,12 +74,13 @@ TEST(PathStudyRead, TellsAllProblemsAtOnce) {
 TEST(PathStudyRead, ParametersNeedUnitsAndOrder) {
   const std::string parameters = "[mechanism.parameters]\n";
   const std::string rest = std::string("[target]\ntype = \"path_points\"\n") + square;
-  EXPECT_THAT(problems(head + parameters + "crank = 1.0\n" + rest), HasSubstr("crank_m"));
-  EXPECT_THAT(problems(head + parameters + "crank_m = 1.0\ncrank_mm = 10\n" + rest), HasSubstr("crank_mm"));
-  EXPECT_THAT(problems(head + parameters + "crank_m = { min = 2, max = 1 }\n" + rest), HasSubstr("2"));
-  EXPECT_THAT(problems(head + parameters + "crank_m = { min = 0, max = inf }\n" + rest), HasSubstr("inf"));
-  EXPECT_THAT(problems(head + parameters + "crnk_m = 1\n" + rest), HasSubstr("did you mean 'crank_m'"));
-  EXPECT_THAT(problems(head + parameters + "crank_m = -1\n" + rest), HasSubstr("crank_m"));
+  EXPECT_THAT(problems_of(head + parameters + "crank = 1.0\n" + rest), HasSubstr("crank_m"));
+  EXPECT_THAT(problems_of(head + parameters + "crank_m = 1.0\ncrank_mm = 10\n" + rest),
+              HasSubstr("crank_mm"));
+  EXPECT_THAT(problems_of(head + parameters + "crank_m = { min = 2, max = 1 }\n" + rest), HasSubstr("2"));
+  EXPECT_THAT(problems_of(head + parameters + "crank_m = { min = 0, max = inf }\n" + rest), HasSubstr("inf"));
+  EXPECT_THAT(problems_of(head + parameters + "crnk_m = 1\n" + rest), HasSubstr("did you mean 'crank_m'"));
+  EXPECT_THAT(problems_of(head + parameters + "crank_m = -1\n" + rest), HasSubstr("crank_m"));
 }
 
 TEST(PathStudyRead, ConstraintsAreReadByType) {
@@ -102,13 +90,13 @@ TEST(PathStudyRead, ConstraintsAreReadByType) {
                              "x_mm = { min = -500, max = 500 }\ny_m = { min = 0, max = 1 }\n",
                       messages))
       << messages;
-  EXPECT_THAT(problems(path + "[[constraint]]\ntype = \"order\"\nenabled = false\n"),
+  EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"order\"\nenabled = false\n"),
               HasSubstr("the order of the points cannot be given up"));
-  EXPECT_THAT(problems(path + "[[constraint]]\ntype = \"transmission_angle\"\n"), HasSubstr("min"));
-  EXPECT_THAT(problems(path + "[[constraint]]\ntype = \"transmission_angle\"\nmin_deg = 100\n"),
+  EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"transmission_angle\"\n"), HasSubstr("min"));
+  EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"transmission_angle\"\nmin_deg = 100\n"),
               HasSubstr("90"));
   EXPECT_THAT(
-      problems(path + "[[constraint]]\ntype = \"packaging\"\nx_m = 1.0\ny_m = { min = 0, max = 1 }\n"),
+      problems_of(path + "[[constraint]]\ntype = \"packaging\"\nx_m = 1.0\ny_m = { min = 0, max = 1 }\n"),
       HasSubstr("the packaging box has no width"));
 }
 

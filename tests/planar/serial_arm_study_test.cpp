@@ -11,18 +11,20 @@
 
 #include "linkwright/planar/samples.h"
 #include "linkwright/planar/serial_arm_reactions.h"
-#include "linkwright/planar/studies.h"
-#include "linkwright/study/read.h"
-#include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
+#include "planar/studies.h"
 
 namespace linkwright::planar {
 namespace {
 
 using ::testing::ElementsAreArray;
+using testing::fact;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using testing::prepare;
+using testing::problems_of;
+using testing::run_text;
 
 constexpr double pi = std::numbers::pi;
 
@@ -45,39 +47,18 @@ std::string study_text(const std::map<std::string, std::string>& changed = {}) {
   return all;
 }
 
-std::optional<study::Study> prepare(const std::string& text, std::string& messages) {
-  static const std::vector<study::Kind> kinds = studies();
-  Diagnostics diagnostics;
-  const Value document = study::read_text(text, study::Syntax::toml, "study.toml", diagnostics);
-  auto prepared = study::prepare(document, "study.toml", ".", kinds, diagnostics);
-  for (const Diagnostic& d : diagnostics) messages += to_string(d) + "\n";
-  return prepared;
-}
-
 std::string problems(const std::map<std::string, std::string>& changed) {
-  std::string messages;
-  EXPECT_FALSE(prepare(study_text(changed), messages));
-  return messages;
+  return problems_of(study_text(changed));
 }
 
 study::Result run(const std::map<std::string, std::string>& changed = {}) {
-  std::string messages;
-  const auto study = prepare(study_text(changed), messages);
-  EXPECT_TRUE(study) << messages;
-  RunContext context;
-  return study ? study::run_study(*study, context) : study::Result();
+  return run_text(study_text(changed));
 }
 
 std::vector<std::string> keys(const Table& table) {
   std::vector<std::string> out;
   for (const Column& column : table.columns) out.push_back(column.key);
   return out;
-}
-
-std::string fact(const study::Result& result, std::string_view label) {
-  for (const study::Fact& f : result.facts)
-    if (f.label == label) return f.text;
-  return "no fact";
 }
 
 TEST(SerialArmStudyRead, NamesWhatIsWrongWithTheLinks) {

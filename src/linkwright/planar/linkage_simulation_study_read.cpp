@@ -45,19 +45,6 @@ namespace {
 
 constexpr Field free_field{.key = "free", .summary = "no drive: forces move the joint"};
 
-Field start_field(bool rotary, int order, std::string_view key, std::string_view summary) {
-  return motion_fields::value(rotary ? JointKind::rotary : JointKind::linear, key, summary, false, order);
-}
-
-template <JointKind kind>
-void read_law(study::ObjectReader& drive, study::ObjectWriter& writer, InputCourse& course) {
-  DrivenLaw<kind> law;
-  if (!drive(Field{.key = "law", .summary = "motion law"}, law)) return;
-  course.law = motion_law(law);
-  writer(Field{.key = "law", .summary = {}}, law);
-  if (const auto wrong = problem(*course.law)) drive.error(wrong->key, wrong->message, wrong->hint);
-}
-
 void read_courses(study::ObjectReader& document, const LinkageDescription& d, LinkageSimulationStudy& s,
                   Value::Array& canonical) {
   const Linkage& l = d.linkage;
@@ -69,8 +56,8 @@ void read_courses(study::ObjectReader& document, const LinkageDescription& d, Li
     const bool rotary = d.plan.rotary[i];
     study::ObjectWriter writer(canonical[i]);
     writer(free_field, true);
-    writer(start_field(rotary, 0, "start", {}), s.courses[i].value);
-    writer(start_field(rotary, 1, "start_speed", {}), s.courses[i].rate);
+    writer(drive_field(rotary, 0, "start", {}), s.courses[i].value);
+    writer(drive_field(rotary, 1, "start_speed", {}), s.courses[i].rate);
     any_free = true;
   };
   for (std::size_t i = 0; i < l.driven.size(); ++i) {
@@ -88,19 +75,15 @@ void read_courses(study::ObjectReader& document, const LinkageDescription& d, Li
     bool free = false;
     drive(free_field, free);
     if (free) {
-      drive(start_field(rotary, 0, "start", "position at the start"), s.courses[i].value);
-      drive(start_field(rotary, 1, "start_speed", "rate at the start"), s.courses[i].rate);
+      drive(drive_field(rotary, 0, "start", "position at the start"), s.courses[i].value);
+      drive(drive_field(rotary, 1, "start_speed", "rate at the start"), s.courses[i].rate);
       if (drive.has("law"))
         drive.error("law", fmt::format("joint '{}' is free and has a motion law", joint),
                     "remove one of them");
       write_start(i);
       continue;
     }
-    study::ObjectWriter writer(canonical[i]);
-    if (rotary)
-      read_law<JointKind::rotary>(drive, writer, s.courses[i]);
-    else
-      read_law<JointKind::linear>(drive, writer, s.courses[i]);
+    s.courses[i].law = read_law(drive, rotary, false, canonical[i]);
     if (!s.courses[i].law && !drive.has("law"))
       drive.error("law", fmt::format("joint '{}' has neither a motion law nor free = true", joint),
                   "free = true lets forces move it; law = \"constant_speed\" drives it");
@@ -147,12 +130,6 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   return prepared;
 }
 
-Value number_schema() {
-  Value v;
-  v["type"] = "number";
-  return v;
-}
-
 study::Kind kind_of(LinkageType type) {
   study::Kind kind;
   kind.kind = "simulation";
@@ -164,7 +141,7 @@ study::Kind kind_of(LinkageType type) {
     drive(free_field, false);
     for (bool rotary : {true, false})
       for (const auto& [order, key] : {std::pair{0, "start"}, std::pair{1, "start_speed"}})
-        drive.property(start_field(rotary, order, key, "of a free joint"), number_schema());
+        drive.property(drive_field(rotary, order, key, "of a free joint"), study::schema_number());
     drive(Field{.key = "law", .summary = "motion law of a joint that is not free"}, RotaryLaw{});
     document.property(Field{.key = "drive", .summary = "joints that are free, or move as a law says"},
                       study::schema_array(std::move(drive).finish()));

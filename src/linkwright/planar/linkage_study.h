@@ -88,4 +88,14 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
 void write_linkage(const LinkageDescription& description, Value& canonical);
 void describe_linkage(study::SchemaWriter& document, LinkageType type);
 
+/// A key of a driven joint: an angle or a length, or its derivative of that order by time.
+Field drive_field(bool rotary, int order, std::string_view key, std::string_view summary,
+                  bool required = false);
+/// The input that a table with `joint` means: the only one when it names none. Nothing, and the problem told,
+/// when there is no such input.
+std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& linkage);
+/// `law` of a `[[drive]]` with its keys, written into the canonical table as well; nothing when it is absent
+/// or cannot be read. Problems go to the reader.
+std::optional<MotionLaw> read_law(study::ObjectReader& drive, bool rotary, bool required, Value& canonical);
+
 }  // namespace linkwright::planar

@@ -225,4 +225,38 @@ void describe_linkage(study::SchemaWriter& document, LinkageType type) {
                     study::schema_array(std::move(trace).finish()));
 }
 
+Field drive_field(bool rotary, int order, std::string_view key, std::string_view summary, bool required) {
+  return motion_fields::value(rotary ? JointKind::rotary : JointKind::linear, key, summary, required, order);
+}
+
+std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& l) {
+  std::string joint;
+  if (!table(Field{.key = "joint", .summary = {}, .required = l.driven.size() > 1}, joint))
+    return l.driven.size() == 1 && !table.has("joint") ? std::optional<std::size_t>(0) : std::nullopt;
+  for (std::size_t i = 0; i < l.driven.size(); ++i)
+    if (input_joint(l, i).name == joint) return i;
+  table.error("joint", fmt::format("joint '{}' is not driven", joint), "add a [[drive]] for it");
+  return std::nullopt;
+}
+
+namespace {
+
+template <JointKind kind>
+std::optional<MotionLaw> read_law(study::ObjectReader& drive, bool required, Value& canonical) {
+  DrivenLaw<kind> law;
+  if (!drive(Field{.key = "law", .summary = "motion law", .required = required}, law)) return std::nullopt;
+  study::ObjectWriter writer(canonical);
+  writer(Field{.key = "law", .summary = {}}, law);
+  MotionLaw out = motion_law(law);
+  if (const auto wrong = problem(out)) drive.error(wrong->key, wrong->message, wrong->hint);
+  return out;
+}
+
+}  // namespace
+
+std::optional<MotionLaw> read_law(study::ObjectReader& drive, bool rotary, bool required, Value& canonical) {
+  return rotary ? read_law<JointKind::rotary>(drive, required, canonical)
+                : read_law<JointKind::linear>(drive, required, canonical);
+}
+
 }  // namespace linkwright::planar

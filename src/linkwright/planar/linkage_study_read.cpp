@@ -43,21 +43,6 @@ constexpr Field change_point_field{
     .summary = "grid over one input: how the linkage goes on where assembly modes meet"};
 constexpr double most_rows = 1e6;
 
-Field motion_field(bool rotary, int order, std::string_view key, std::string_view summary, bool required) {
-  return motion_fields::value(rotary ? JointKind::rotary : JointKind::linear, key, summary, required, order);
-}
-
-// Index of the input that a table with `joint` means; the only one when it names none.
-std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& l) {
-  std::string joint;
-  if (!table(Field{.key = "joint", .summary = {}, .required = l.driven.size() > 1}, joint))
-    return l.driven.size() == 1 && !table.has("joint") ? std::optional<std::size_t>(0) : std::nullopt;
-  for (std::size_t i = 0; i < l.driven.size(); ++i)
-    if (input_joint(l, i).name == joint) return i;
-  table.error("joint", fmt::format("joint '{}' is not driven", joint), "add a [[drive]] for it");
-  return std::nullopt;
-}
-
 // The kinds of a sweep share the reading of drives: rates over a grid, laws over time.
 void read_drives(study::ObjectReader& document, const Linkage& l, bool over_time, LinkageStudy& s,
                  Value::Array& canonical) {
@@ -72,25 +57,12 @@ void read_drives(study::ObjectReader& document, const Linkage& l, bool over_time
     if (!input) continue;
     const bool rotary = input_joint(l, *input).type == JointType::revolute;
     LinkageDrive& d = s.drives[*input];
-    study::ObjectWriter writer(canonical[*input]);
     if (!over_time) {
-      drive(motion_field(rotary, 1, "speed", "rate at every position", false), d.rate);
-      drive(motion_field(rotary, 2, "acceleration", "acceleration at every position", false), d.acceleration);
-    } else if (rotary) {
-      RotaryLaw law;
-      if (drive(Field{.key = "law", .summary = "motion law", .required = true}, law)) {
-        d.law = motion_law(law);
-        writer(Field{.key = "law", .summary = {}}, law);
-      }
+      drive(drive_field(rotary, 1, "speed", "rate at every position"), d.rate);
+      drive(drive_field(rotary, 2, "acceleration", "acceleration at every position"), d.acceleration);
     } else {
-      LinearLaw law;
-      if (drive(Field{.key = "law", .summary = "motion law", .required = true}, law)) {
-        d.law = motion_law(law);
-        writer(Field{.key = "law", .summary = {}}, law);
-      }
+      d.law = read_law(drive, rotary, true, canonical[*input]);
     }
-    if (d.law)
-      if (const auto wrong = problem(*d.law)) drive.error(wrong->key, wrong->message, wrong->hint);
   }
   for (std::size_t i = 0; i < s.drives.size(); ++i) {
     if (over_time) {
@@ -101,8 +73,8 @@ void read_drives(study::ObjectReader& document, const Linkage& l, bool over_time
     }
     const bool rotary = input_joint(l, i).type == JointType::revolute;
     study::ObjectWriter writer(canonical[i]);
-    writer(motion_field(rotary, 1, "speed", {}, false), s.drives[i].rate);
-    writer(motion_field(rotary, 2, "acceleration", {}, false), s.drives[i].acceleration);
+    writer(drive_field(rotary, 1, "speed", {}), s.drives[i].rate);
+    writer(drive_field(rotary, 2, "acceleration", {}), s.drives[i].acceleration);
   }
 }
 
@@ -117,8 +89,8 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageStudy& s, Va
     const bool rotary = input_joint(l, *input).type == JointType::revolute;
     InputSamples& a = grid.inputs[*input];
     a.joint = input_joint(l, *input).name;
-    axis(motion_field(rotary, 0, "from", "first value", true), a.from);
-    axis(motion_field(rotary, 0, "to", "last value", true), a.to);
+    axis(drive_field(rotary, 0, "from", "first value", true), a.from);
+    axis(drive_field(rotary, 0, "to", "last value", true), a.to);
     axis(samples_field, a.samples);
     rows *= std::max(a.samples, 1);
     if (a.samples >= 2 && a.from == a.to)
@@ -135,8 +107,8 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageStudy& s, Va
     const bool rotary = input_joint(l, i).type == JointType::revolute;
     study::ObjectWriter writer(axes[i]);
     writer(Field{.key = "joint", .summary = {}}, input_joint(l, i).name);
-    writer(motion_field(rotary, 0, "from", {}, false), a.from);
-    writer(motion_field(rotary, 0, "to", {}, false), a.to);
+    writer(drive_field(rotary, 0, "from", {}), a.from);
+    writer(drive_field(rotary, 0, "to", {}), a.to);
     writer(samples_field, a.samples);
   }
   if (rows > most_rows)
@@ -194,8 +166,8 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
       Value axis;
       study::ObjectWriter writer(axis);
       writer(Field{.key = "joint", .summary = {}}, grid.inputs[i].joint);
-      writer(motion_field(rotary, 0, "from", {}, false), sample.from[i]);
-      writer(motion_field(rotary, 0, "to", {}, false), sample.to[i]);
+      writer(drive_field(rotary, 0, "from", {}), sample.from[i]);
+      writer(drive_field(rotary, 0, "to", {}), sample.to[i]);
       writer(samples_field, 361);
       axes.push_back(std::move(axis));
     }
@@ -210,7 +182,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
       for (std::size_t i = 0; i < l.driven.size(); ++i) {
         s.drives[i].rate = i == 0 ? sample.speed : 0.0;
         study::ObjectWriter writer(drives[i]);
-        writer(motion_field(description->plan.rotary[i], 1, "speed", {}, false), s.drives[i].rate);
+        writer(drive_field(description->plan.rotary[i], 1, "speed", {}), s.drives[i].rate);
       }
   } else if (how == SweepType::grid) {
     read_grid(*sweep, l, s, canonical_sweep);
@@ -239,12 +211,6 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   return prepared;
 }
 
-Value number_schema() {
-  Value v;
-  v["type"] = "number";
-  return v;
-}
-
 void describe(study::SchemaWriter& document, LinkageType type) {
   describe_linkage(document, type);
   study::SchemaWriter drive;
@@ -253,15 +219,15 @@ void describe(study::SchemaWriter& document, LinkageType type) {
         std::optional<RotaryLaw>().value_or(RotaryLaw{}));
   for (bool rotary : {true, false})
     for (const auto& [order, key] : {std::pair{1, "speed"}, std::pair{2, "acceleration"}})
-      drive.property(motion_field(rotary, order, key, "over a grid: the same at every position", false),
-                     number_schema());
+      drive.property(drive_field(rotary, order, key, "over a grid: the same at every position"),
+                     study::schema_number());
   document.property(Field{.key = "drive", .summary = "how driven joints move"},
                     study::schema_array(std::move(drive).finish()));
   study::SchemaWriter axis;
   axis(Field{.key = "joint", .summary = "driven joint"}, std::string());
   for (bool rotary : {true, false})
     for (const char* key : {"from", "to"})
-      axis.property(motion_field(rotary, 0, key, "end of the axis", false), number_schema());
+      axis.property(drive_field(rotary, 0, key, "end of the axis"), study::schema_number());
   axis(samples_field, 361);
   study::SchemaWriter sweep;
   sweep(Field{.key = "type", .summary = "how rows are placed"}, SweepType::grid);

@@ -82,7 +82,8 @@ void SchemaWriter::property(const Field& field, Value schema) {
 void SchemaWriter::alternative(const Field& field, const Word& word, SchemaWriter options) {
   Value schema = std::move(options).finish();
   // Keys of the surrounding table stand beside these.
-  std::erase_if(schema.as_object(), [](const Value::Member& member) { return member.key == "unevaluatedProperties"; });
+  std::erase_if(schema.as_object(),
+                [](const Value::Member& member) { return member.key == "unevaluatedProperties"; });
   schema["properties"][field.key] = with("const", word.name);
   if (!word.summary.empty()) schema["description"] = word.summary;
   alternatives_.push_back(std::move(schema));
@@ -102,6 +103,12 @@ Value SchemaWriter::finish() && {
 Value schema_array(Value items) {
   Value schema = with("type", "array");
   schema["items"] = std::move(items);
+  return schema;
+}
+
+Value schema_number() {
+  Value schema;
+  schema["type"] = "number";
   return schema;
 }
 

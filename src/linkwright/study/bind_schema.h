@@ -67,6 +67,8 @@ Value schema_fields() {
 
 /// Schema of an array of what `items` describes.
 Value schema_array(Value items);
+/// Schema of any number.
+Value schema_number();
 /// Schema of a value that may be any of these.
 Value schema_any_of(Value::Array alternatives);
 
