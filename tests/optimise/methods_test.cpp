@@ -42,6 +42,8 @@ TEST(Methods, FieldsAreThoseOfTheChosenMethod) {
                                       "levy_step", "levy"}));
   EXPECT_EQ(keys({.method = Method::hybrid_cuckoo_firefly}).size(), 11u);
   EXPECT_EQ(keys({.method = Method::subpopulation_firefly}).size(), 11u);
+  EXPECT_EQ(keys({.method = Method::cma_es}),
+            (std::vector<std::string>{"method", "population", "generations", "initial_step"}));
 }
 
 TEST(Methods, TheMethodReadFirstDecidesAboutTheKeysAfterIt) {

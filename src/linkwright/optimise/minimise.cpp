@@ -7,27 +7,13 @@
 #include <cmath>
 
 #include "linkwright/core/checkpoint.h"
-#include "linkwright/optimise/parallel.h"
+#include "linkwright/optimise/evaluate.h"
 
 namespace linkwright::optimise {
 namespace {
 
-constexpr std::size_t evaluation_block = 256;  // a multiple of 8, see PopulationView::slice
 constexpr std::size_t longest_reserved_log = 1 << 16, longest_reserved_generation = 1 << 16;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-void evaluate(const Problem& problem, const PopulationView& candidates, std::span<double> cost,
-              std::span<double> violation, int threads) {
-  if (threads == 1 || candidates.size <= evaluation_block)
-    return problem.evaluate(candidates, cost, violation);
-  const std::size_t blocks = (candidates.size + evaluation_block - 1) / evaluation_block;
-  parallel_for(blocks, threads, [&](std::size_t block) {
-    const std::size_t first = block * evaluation_block,
-                      count = std::min(evaluation_block, candidates.size - first);
-    problem.evaluate(candidates.slice(first, count), cost.subspan(first, count),
-                     violation.subspan(first, count));
-  });
-}
 
 /// Costs of the rounds of one generation.
 struct GenerationCosts {

@@ -23,9 +23,22 @@ Optimiser::Optimiser(std::span<const Variable> variables, std::size_t population
   best_.reserve(dimension());
 }
 
+void Optimiser::begin_with(const PopulationView& members) {
+  LINKWRIGHT_REQUIRE(!asked_ && generation_ == 0, "members are given before the first are asked for");
+  LINKWRIGHT_REQUIRE(members.dimension == dimension() && members.size == population(),
+                     "{} members of {} variables for {} of {}", members.size, members.dimension, population(),
+                     dimension());
+  for (std::size_t j = 0; j < dimension(); ++j)
+    for (std::size_t i = 0; i < population(); ++i) {
+      LINKWRIGHT_REQUIRE(!std::isnan(members(j, i)), "variable {} of member {} is not a number", j, i);
+      candidates_(j, i) = std::clamp(members(j, i), lower_[j], upper_[j]);
+    }
+  members_given_ = true;
+}
+
 PopulationView Optimiser::ask() {
   if (!asked_ && generation_ == 0) {
-    for (std::size_t i = 0; i < population(); ++i) {
+    for (std::size_t i = 0; i < population() && !members_given_; ++i) {
       RandomStream random({seed_.seed, seed_.run, 0, static_cast<std::uint32_t>(i)});
       for (std::size_t j = 0; j < dimension(); ++j)
         candidates_(j, i) = std::min(random.uniform(lower_[j], upper_[j]), upper_[j]);

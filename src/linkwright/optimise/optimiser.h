@@ -63,6 +63,11 @@ class Optimiser {
   /// ContractError for a wrong number of answers, a NaN, or when nothing was asked.
   void tell(std::span<const double> cost, std::span<const double> violation);
 
+  /// Makes known designs the first candidates instead of random ones, before the first `ask`: as many as the
+  /// population; what is out of bounds is moved to the bound. Throws ContractError for wrong sizes, a NaN, or
+  /// when it comes too late.
+  void begin_with(const PopulationView& members);
+
   std::size_t dimension() const { return lower_.size(); }
   std::size_t population() const { return candidates_.size(); }
   /// Generations told so far, completely.
@@ -129,6 +134,7 @@ class Optimiser {
   std::size_t round_ = 0;  ///< candidates asked for
   bool improved_ = false, equalled_ = false;
   bool asked_ = false;
+  bool members_given_ = false;
   bool within_generation_ = false;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
@@ -27,9 +28,13 @@ struct Violation {
 struct Problem {
   std::vector<Variable> variables;
 
-  /// For each candidate i: cost[i], and violation[i] = sum of the constraint violations (0 = feasible). A
-  /// cost that does not exist is +infinity with violation > 0, never NaN. Must be pure: same input, same
-  /// bits, for any split of the population; called from several threads at once.
+  /// How many objectives are minimised together.
+  std::size_t objectives = 1;
+
+  /// For each candidate i: cost[i * objectives + k] of every objective k, and violation[i] = sum of the
+  /// constraint violations (0 = feasible). A cost that does not exist is +infinity with violation > 0, never
+  /// NaN. Must be pure: same input, same bits, for any split of the population; called from several threads
+  /// at once.
   std::function<void(const PopulationView& candidates, std::span<double> cost, std::span<double> violation)>
       evaluate;
 
