@@ -5,6 +5,7 @@
 
 #include "linkwright/optimise/methods.h"
 #include "linkwright/optimise/minimise.h"
+#include "linkwright/optimise/pagmo_bridge.h"
 
 namespace {
 
@@ -57,6 +58,7 @@ void whole_run(benchmark::State& state, OptimiserOptions options) {
   options.grey_wolf.population = n;
   options.particle_swarm.population = n;
   options.jade.population = n;
+  options.cma_es.population = n;
   options.firefly.population = options.cuckoo_search.population = options.hybrid_cuckoo_firefly.population =
       options.subpopulation_firefly.population = n;
   MinimiseOptions minimise_options;
@@ -68,6 +70,31 @@ void whole_run(benchmark::State& state, OptimiserOptions options) {
   std::int64_t evaluations = 0;
   for (auto _ : state)
     evaluations += minimise(problem, options, minimise_options, {.seed = ++seed}, context).evaluations;
+  state.counters["ns_per_evaluation"] = benchmark::Counter(
+      1e-9 * static_cast<double>(evaluations), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+/// A whole run for two objectives of 10 variables, log and all.
+void fronts(benchmark::State& state, PagmoMethod method) {
+  PagmoOptions options = {.method = method};
+  options.nsga2.population = options.moead.population = static_cast<int>(state.range(0));
+  Problem problem = sphere(10);
+  problem.objectives = 2;
+  problem.evaluate = [](const PopulationView& x, std::span<double> cost, std::span<double> violation) {
+    for (std::size_t i = 0; i < x.size; ++i) {
+      violation[i] = cost[2 * i] = cost[2 * i + 1] = 0;
+      for (std::size_t j = 0; j < x.dimension; ++j) {
+        cost[2 * i] += x(j, i) * x(j, i);
+        cost[2 * i + 1] += (x(j, i) - 2) * (x(j, i) - 2);
+      }
+    }
+  };
+  RunContext context;
+  context.set_threads(1);
+  std::uint64_t seed = 0;
+  std::int64_t evaluations = 0;
+  for (auto _ : state)
+    evaluations += minimise_with_pagmo(problem, options, {}, {.seed = ++seed}, context).evaluations;
   state.counters["ns_per_evaluation"] = benchmark::Counter(
       1e-9 * static_cast<double>(evaluations), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
@@ -95,6 +122,7 @@ const OptimiserOptions swarm = {.method = Method::particle_swarm};
 const OptimiserOptions firefly = {.method = Method::firefly};
 const OptimiserOptions cuckoo = {.method = Method::cuckoo_search};
 const OptimiserOptions hybrid = {.method = Method::hybrid_cuckoo_firefly};
+const OptimiserOptions cma_es = {.method = Method::cma_es};
 const OptimiserOptions parts = {.method = Method::subpopulation_firefly};
 
 BENCHMARK_CAPTURE(overhead, differential_evolution, de)->Arg(30)->Arg(100)->Arg(1000);
@@ -113,6 +141,9 @@ BENCHMARK_CAPTURE(whole_run, firefly, firefly)->Arg(40)->Unit(benchmark::kMillis
 BENCHMARK_CAPTURE(whole_run, cuckoo_search, cuckoo)->Arg(25)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(whole_run, hybrid_cuckoo_firefly, hybrid)->Arg(25)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(whole_run, subpopulation_firefly, parts)->Arg(40)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(whole_run, cma_es, cma_es)->Arg(30)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(fronts, nsga2, PagmoMethod::nsga2)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(fronts, moead, PagmoMethod::moead)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(sphere_only)->Arg(30)->Arg(100);
 
 }  // namespace

@@ -80,12 +80,13 @@ struct AdaptedAlgorithm {
     const auto optimiser = make_optimiser(variables, options, Seed{.seed = seed, .run = runs++});
 
     Population first(n, size);
-    std::vector<double> cost(size), violation(size), x(n);
-    for (std::size_t i = 0; i < size; ++i) first.set(i, members.get_x()[i]);
+    std::vector<double> cost(size), violation(size);
+    const std::vector<pagmo::vector_double>&known_x = members.get_x(), &known_f = members.get_f();
+    for (std::size_t i = 0; i < size; ++i) first.set(i, known_x[i]);
     optimiser->begin_with(first.view());
     optimiser->ask();
     for (std::size_t i = 0; i < size; ++i)
-      std::tie(cost[i], violation[i]) = split(problem, members.get_f()[i].data());
+      std::tie(cost[i], violation[i]) = split(problem, known_f[i].data());
     optimiser->tell(cost, violation);
 
     const std::size_t nf = problem.get_nf();
@@ -104,7 +105,7 @@ struct AdaptedAlgorithm {
       return f;
     };
     const auto last = static_cast<std::uint32_t>(generations(options));
-    pagmo::vector_double best_f = members.get_f()[optimiser->best_candidate()];
+    pagmo::vector_double best_f = known_f[optimiser->best_candidate()];
     while (optimiser->generation() < last) {
       const PopulationView candidates = optimiser->ask();
       const pagmo::vector_double f = evaluate(candidates);

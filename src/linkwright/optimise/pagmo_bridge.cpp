@@ -151,7 +151,7 @@ bool dominated(const pagmo::vector_double& a, const pagmo::vector_double& by) {
 
 /// Members that are feasible and dominated by none.
 std::vector<std::size_t> non_dominated(const pagmo::population& members) {
-  const std::vector<pagmo::vector_double> f = members.get_f();
+  const std::vector<pagmo::vector_double>& f = members.get_f();
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < f.size(); ++i)
     if (f[i][0] < least_violated_cost &&
@@ -161,16 +161,17 @@ std::vector<std::size_t> non_dominated(const pagmo::population& members) {
 }
 
 std::vector<double> least_costs(const pagmo::population& members, const std::vector<std::size_t>& front) {
+  const std::vector<pagmo::vector_double>& f = members.get_f();
   std::vector<double> least(members.get_problem().get_nobj(), infinity);
   for (const std::size_t i : front)
-    for (std::size_t k = 0; k < least.size(); ++k) least[k] = std::min(least[k], members.get_f()[i][k]);
+    for (std::size_t k = 0; k < least.size(); ++k) least[k] = std::min(least[k], f[i][k]);
   return least;
 }
 
 std::vector<FrontDesign> front_of(const pagmo::population& members, const Evaluator& evaluator) {
+  const std::vector<pagmo::vector_double>&x = members.get_x(), &f = members.get_f();
   std::vector<FrontDesign> front;
-  for (const std::size_t i : non_dominated(members))
-    front.push_back(evaluator.design(members.get_x()[i], members.get_f()[i]));
+  for (const std::size_t i : non_dominated(members)) front.push_back(evaluator.design(x[i], f[i]));
   std::sort(front.begin(), front.end(), [](const FrontDesign& a, const FrontDesign& b) {
     return std::tie(a.costs, a.x) < std::tie(b.costs, b.x);
   });

@@ -231,6 +231,7 @@ using Firefly = PopulationMethod<optimise::FireflyOptions>;
 using CuckooSearch = PopulationMethod<optimise::CuckooSearchOptions>;
 using HybridCuckooFirefly = PopulationMethod<optimise::HybridCuckooFireflyOptions>;
 using SubpopulationFirefly = PopulationMethod<optimise::SubpopulationFireflyOptions>;
+using CmaEs = PopulationMethod<optimise::CmaEsOptions>;
 constexpr Word choice_word(const GreyWolf&) {
   return {"grey_wolf", "grey wolf optimiser (Mirjalili et al. 2014)"};
 }
@@ -259,10 +260,13 @@ constexpr Word choice_word(const HybridCuckooFirefly&) {
 constexpr Word choice_word(const SubpopulationFirefly&) {
   return {"subpopulation_firefly", "fireflies in two parts, SP-FA (Boskovic 2018)"};
 }
+constexpr Word choice_word(const CmaEs&) {
+  return {"cma_es", "covariance matrix adaptation evolution strategy, by pagmo (Hansen 2016)"};
+}
 
 using PathMethod =
     std::variant<Recommended, GreyWolf, DifferentialEvolution, SelfAdaptiveDifferentialEvolution, Jade,
-                 ParticleSwarm, Firefly, CuckooSearch, HybridCuckooFirefly, SubpopulationFirefly>;
+                 ParticleSwarm, Firefly, CuckooSearch, HybridCuckooFirefly, SubpopulationFirefly, CmaEs>;
 struct PathOptimiser {
   PathMethod method;
 };
