@@ -69,7 +69,9 @@ class DifferentialEvolution final : public DifferentialEvolutionBase {
     for (std::size_t j = 0; j < dimension(); ++j) {
       const double* x = members_.row(j);
       const bool crossed = random.uniform() < options_.crossover || j == always;
-      candidates_(j, i) = crossed ? mutant(x, x[i], best()[j], r, lower_[j], upper_[j]) : x[i];
+      candidates_(j, i) =
+          crossed ? mutant(x, x[i], std::clamp(best()[j], lower_[j], upper_[j]), r, lower_[j], upper_[j])
+                  : x[i];
     }
   }
 

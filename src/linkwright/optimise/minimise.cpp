@@ -24,9 +24,18 @@ void evaluate(const Problem& problem, const PopulationView& candidates, std::spa
   parallel_for(blocks, threads, [&](std::size_t block) {
     const std::size_t first = block * evaluation_block,
                       count = std::min(evaluation_block, candidates.size - first);
-    problem.evaluate(candidates.slice(first, count), cost.subspan(first, count),
+    problem.evaluate(candidates.slice(first, count),
+                     cost.subspan(first * problem.objectives, count * problem.objectives),
                      violation.subspan(first, count));
   });
+}
+
+/// The one number that several objectives are reported by.
+double mean_of(std::span<const double> costs) {
+  if (costs.size() == 1) return costs[0];
+  double sum = 0;
+  for (const double cost : costs) sum += cost;
+  return sum / static_cast<double>(costs.size());
 }
 
 /// Costs of the rounds of one generation.
@@ -41,11 +50,12 @@ struct GenerationCosts {
     sum = 0;
   }
   void add(std::span<const double> cost, std::span<const double> violation) {
-    candidates += cost.size();
-    for (std::size_t i = 0; i < cost.size(); ++i)
+    candidates += violation.size();
+    const std::size_t objectives = violation.empty() ? 1 : cost.size() / violation.size();
+    for (std::size_t i = 0; i < violation.size(); ++i)
       if (violation[i] == 0) {
-        feasible.push_back(cost[i]);
-        sum += cost[i];
+        feasible.push_back(mean_of(cost.subspan(i * objectives, objectives)));
+        sum += feasible.back();
       }
   }
 };
@@ -89,6 +99,13 @@ bool wider_than(double most, const PopulationView& members, std::vector<double>&
   return false;
 }
 
+void set_best(Report& report, std::span<const double> x, std::span<const double> costs, double violation) {
+  std::copy(x.begin(), x.end(), report.x.begin());
+  std::copy(costs.begin(), costs.end(), report.costs.begin());
+  report.cost = mean_of(costs);
+  report.violation = violation;
+}
+
 constexpr std::size_t log_part = 4096;  // generations; finished parts of the log are kept once
 constexpr std::size_t log_numbers = 6;  // of a generation
 constexpr std::int64_t most_evaluations = std::int64_t{1} << 53;  // exact as a double
@@ -115,13 +132,13 @@ class StateKeeper {
     state.generation = static_cast<std::uint32_t>(
         kept_integer(value, "optimiser_generation", report.generations, UINT32_MAX, name_));
     state.numbers = unpack_numbers(kept_member(value, "optimiser", name_), name_);
-    if (!reason.is_string() || best.size() != 2 || std::isnan(best[0]) || !(best[1] >= 0) ||
+    const std::size_t m = optimiser.objectives();  // costs and, after them, the violation
+    if (!reason.is_string() || best.size() != m + 1 ||
+        std::any_of(best.begin(), best.end(), [](double v) { return std::isnan(v); }) || !(best[m] >= 0) ||
         !optimiser.restore(state))
       throw CheckpointError(fmt::format("{}: is no state of this method and problem", name_));
     report.stop_reason = reason.as_string();
-    report.cost = best[0];
-    report.violation = best[1];
-    std::copy(optimiser.best().begin(), optimiser.best().end(), report.x.begin());
+    set_best(report, optimiser.best(), std::span(best).first(m), best[m]);
     if (log) restore_log(static_cast<std::size_t>(report.generations), report.log);
     kept_once_ = true;
   }
@@ -156,7 +173,9 @@ class StateKeeper {
     value["generations"] = report.generations;
     value["evaluations"] = report.evaluations;
     value["unimproved"] = unimproved;
-    value["best"] = pack_numbers(std::vector<double>{report.cost, report.violation});
+    std::vector<double> best = report.costs;
+    best.push_back(report.violation);
+    value["best"] = pack_numbers(best);
     value["optimiser_generation"] = static_cast<std::int64_t>(state.generation);
     value["optimiser"] = pack_numbers(state.numbers);
     value["stop_reason"] = report.stop_reason;  // empty = not at its end
@@ -208,15 +227,24 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
   LINKWRIGHT_REQUIRE(optimiser.dimension() == problem.variables.size(),
                      "an optimiser of {} variables for a problem of {}", optimiser.dimension(),
                      problem.variables.size());
-  const std::size_t n = optimiser.population();
+  LINKWRIGHT_REQUIRE(optimiser.objectives() == problem.objectives,
+                     "an optimiser of {} objectives for a problem of {}", optimiser.objectives(),
+                     problem.objectives);
+  const std::size_t n = optimiser.population(), m = problem.objectives;
   const bool penalty = options.constraints == Constraints::penalty;
-  std::vector<double> cost(n), violation(n), merit(penalty ? n : 0), none(penalty ? n : 0), squares(n);
+  std::vector<double> cost(n * m), violation(n), merit(penalty ? n * m : 0), none(penalty ? n : 0),
+      squares(n);
   GenerationCosts of_generation;
   if (options.log)
     of_generation.feasible.reserve(
         std::min(std::max(n, optimiser.largest_generation()), longest_reserved_generation));
   Report report;
   report.x.resize(optimiser.dimension());
+  report.costs.assign(m, std::numeric_limits<double>::infinity());
+  if (const Incumbent& known = options.incumbent; !known.x.empty() || !known.costs.empty()) {
+    optimiser.start_from(known.x, known.costs);
+    set_best(report, known.x, known.costs, 0);
+  }
   if (options.log)
     report.log.reserve(std::min<std::size_t>(static_cast<std::size_t>(generations), longest_reserved_log));
 
@@ -232,12 +260,13 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     while (optimiser.generation() == generation) {
       const PopulationView candidates = optimiser.ask();
       const std::size_t asked = candidates.size;
-      const std::span<double> costs(cost.data(), asked), violations(violation.data(), asked);
+      const std::span<double> costs(cost.data(), asked * m), violations(violation.data(), asked);
       if (asked > 0) evaluate(problem, candidates, costs, violations, context.threads());
       if (penalty) {
         for (std::size_t i = 0; i < asked; ++i)
-          merit[i] = cost[i] + (violation[i] > 0 ? options.penalty_weight : 0);
-        optimiser.tell({merit.data(), asked}, {none.data(), asked});
+          for (std::size_t k = 0; k < m; ++k)
+            merit[i * m + k] = cost[i * m + k] + (violation[i] > 0 ? options.penalty_weight : 0);
+        optimiser.tell({merit.data(), asked * m}, {none.data(), asked});
       } else {
         optimiser.tell(costs, violations);
       }
@@ -245,9 +274,8 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
       improved |= optimiser.improved();
       equalled |= optimiser.equalled();
       if (optimiser.improved()) {
-        report.cost = cost[optimiser.best_candidate()];
-        report.violation = violation[optimiser.best_candidate()];
-        std::copy(optimiser.best().begin(), optimiser.best().end(), report.x.begin());
+        const std::size_t best = optimiser.best_candidate();
+        set_best(report, optimiser.best(), costs.subspan(best * m, m), violation[best]);
       }
       if (options.log) of_generation.add(costs, violations);
     }
@@ -296,7 +324,7 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
 
 Report minimise(const Problem& problem, const OptimiserOptions& method, const MinimiseOptions& options,
                 const Seed& seed, RunContext& context) {
-  const auto optimiser = make_optimiser(problem.variables, method, seed);
+  const auto optimiser = make_optimiser(problem.variables, method, seed, problem.objectives);
   const int limit = options.stop.generations > 0 ? options.stop.generations : generations(method);
   return minimise(problem, *optimiser, limit, name_of(method.method), options, context);
 }
