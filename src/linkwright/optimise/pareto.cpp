@@ -67,13 +67,23 @@ bool ParetoArchive::tell(std::span<const double> x, std::span<const double> cost
   for (std::size_t k = 0; k < objectives_; ++k)
     LINKWRIGHT_REQUIRE(!std::isnan(costs[k]), "cost {}: {}", k, costs[k]);
   if (!std::all_of(costs.begin(), costs.end(), [](double v) { return std::isfinite(v); })) return false;
-  for (std::size_t i = 0; i < size_; ++i) {
-    const std::span<const double> other = this->costs(i);
-    if (dominates(other, costs) || std::equal(costs.begin(), costs.end(), other.begin())) return false;
-  }
+  const auto none_more = [m = objectives_](const double* a, const double* b) {
+    for (std::size_t k = 0; k < m; ++k)
+      if (!(a[k] <= b[k])) return false;
+    return true;
+  };
+  const auto refuses = [&](std::size_t i) { return none_more(&costs_[i * objectives_], costs.data()); };
+  // The one that refused the last design probably refuses this one, too.
+  if (refuser_ < size_ && refuses(refuser_)) return false;
+  for (std::size_t i = 0; i < size_; ++i)
+    if (refuses(i)) {
+      refuser_ = i;
+      return false;
+    }
+  // No other has the same costs: whoever is nowhere less is dominated.
   std::size_t left = 0;
   for (std::size_t i = 0; i < size_; ++i)
-    if (!dominates(costs, this->costs(i))) move(i, left++);
+    if (!none_more(costs.data(), &costs_[i * objectives_])) move(i, left++);
   std::copy(x.begin(), x.end(), &x_[left * dimension_]);
   std::copy(costs.begin(), costs.end(), &costs_[left * objectives_]);
   size_ = left + 1;

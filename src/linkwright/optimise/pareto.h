@@ -55,6 +55,7 @@ class ParetoArchive {
   std::size_t most_crowded();
 
   std::size_t dimension_, objectives_, capacity_, size_ = 0;
+  std::size_t refuser_ = 0;        ///< design that refused the last one
   std::vector<double> x_, costs_;  ///< with room for one more
   std::vector<double> distance_;
   std::vector<std::uint32_t> order_;
