@@ -109,7 +109,7 @@ TEST(PagmoBridge, FrontOfZdt1FillsItsHypervolume) {
     EXPECT_LT(volume, exact);
     EXPECT_GT(volume, exact - 0.01) << name_of(method);
     for (std::size_t i = 0; i < report.front.size(); ++i) {
-      const FrontDesign& d = report.front[i];
+      const ParetoPoint& d = report.front[i];
       EXPECT_NEAR(d.costs[1], 1 - std::sqrt(d.costs[0]), 0.02) << name_of(method);
       if (i == 0) continue;
       EXPECT_GT(d.costs[0], report.front[i - 1].costs[0]);  // sorted, and none dominates another
@@ -133,7 +133,7 @@ TEST(PagmoBridge, FrontEndsAtAConstraint) {
     const FrontReport report = run(schaffer(0.5), short_run(method, 60, 60));
     EXPECT_EQ(report.status, Status::done);
     EXPECT_EQ(report.violation, 0);
-    for (const FrontDesign& d : report.front) EXPECT_GE(d.x[0], 0.5);
+    for (const ParetoPoint& d : report.front) EXPECT_GE(d.x[0], 0.5);
     EXPECT_NEAR(report.front.front().costs[0], 0.25, 0.02) << name_of(method);
     EXPECT_NEAR(report.front.back().costs[0], 4, 0.2) << name_of(method);
     EXPECT_GT(report.log[0].violated, 0.2);  // 6.5 of 16 at first
@@ -177,7 +177,7 @@ TEST(PagmoBridge, CandidatesStayInTheBoxAndFixedVariablesFixed) {
     };
     const FrontReport report = run(problem, short_run(method, 30));
     EXPECT_EQ(largest, 40u);
-    for (const FrontDesign& d : report.front) EXPECT_EQ(d.x[2], 0.125);
+    for (const ParetoPoint& d : report.front) EXPECT_EQ(d.x[2], 0.125);
     EXPECT_NEAR(report.front.front().costs[0], 0.25, 0.01);
   }
 }
@@ -380,7 +380,7 @@ TEST(PagmoBridge, HypervolumeSaysWhatIsWrong) {
   EXPECT_THAT(with({1, 2}, {4}), HasSubstr("2 costs for a reference point of 1 objectives"));
   EXPECT_THAT(with({1, NAN}, {4, 4}), HasSubstr("a hypervolume needs finite costs"));
   EXPECT_THAT(message([] {
-                hypervolume(std::vector<FrontDesign>{{{0}, {1, 2, 3}}}, std::vector<double>{4, 4});
+                hypervolume(std::vector<ParetoPoint>{{{0}, {1, 2, 3}}}, std::vector<double>{4, 4});
               }),
               HasSubstr("a design of 3 objectives, a reference point of 2"));
 }

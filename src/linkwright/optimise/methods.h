@@ -103,8 +103,13 @@ void fields(Visitor&& visit, OptimiserOptions& o) {
   visit_method(o, [&](auto& options) { fields(visit, options); });
 }
 
+/// Whether a method minimises several objectives together, see Optimiser::best.
+bool takes_several_objectives(Method method);
+
+/// Throws ContractError for a method that minimises one objective when there are several.
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,
-                                          const OptimiserOptions& options, const Seed& seed);
+                                          const OptimiserOptions& options, const Seed& seed,
+                                          std::size_t objectives = 1);
 
 /// Generations that the chosen method runs when nothing else stops it.
 int generations(const OptimiserOptions& options);

@@ -14,7 +14,6 @@
 #include <pagmo/population.hpp>
 #include <pagmo/problem.hpp>
 #include <pagmo/utils/hypervolume.hpp>
-#include <tuple>
 #include <utility>
 
 #include "linkwright/core/checkpoint.h"
@@ -82,8 +81,8 @@ class Evaluator {
     return told;
   }
 
-  FrontDesign design(const pagmo::vector_double& x, const pagmo::vector_double& costs) const {
-    FrontDesign d = {.costs = costs};
+  ParetoPoint design(const pagmo::vector_double& x, const pagmo::vector_double& costs) const {
+    ParetoPoint d = {.costs = costs};
     for (const Variable& v : problem_.variables) d.x.push_back(v.lower);
     for (std::size_t j = 0; j < x.size(); ++j) d.x[free_[j]] = x[j];
     return d;
@@ -103,7 +102,7 @@ class Evaluator {
   }
 
   std::int64_t evaluations = 0, violated = 0;
-  FrontDesign least_violated;
+  ParetoPoint least_violated;
   double least_violation = infinity;
 
  private:
@@ -140,45 +139,20 @@ pagmo::algorithm make_algorithm(const PagmoOptions& o, std::size_t free, std::si
   return pagmo::algorithm(std::move(nsga2));
 }
 
-bool dominated(const pagmo::vector_double& a, const pagmo::vector_double& by) {
-  bool less = false;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    if (by[k] > a[k]) return false;
-    less |= by[k] < a[k];
-  }
-  return less;
-}
-
-/// Members that are feasible and dominated by none.
-std::vector<std::size_t> non_dominated(const pagmo::population& members) {
-  const std::vector<pagmo::vector_double>& f = members.get_f();
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < f.size(); ++i)
-    if (f[i][0] < least_violated_cost &&
-        std::none_of(f.begin(), f.end(), [&](const auto& other) { return dominated(f[i], other); }))
-      found.push_back(i);
+/// Members that are feasible.
+std::vector<ParetoPoint> feasible(const pagmo::population& members, const Evaluator& evaluator) {
+  const std::vector<pagmo::vector_double>&x = members.get_x(), &f = members.get_f();
+  std::vector<ParetoPoint> found;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (f[i][0] < least_violated_cost) found.push_back(evaluator.design(x[i], f[i]));
   return found;
 }
 
-std::vector<double> least_costs(const pagmo::population& members, const std::vector<std::size_t>& front) {
-  const std::vector<pagmo::vector_double>& f = members.get_f();
-  std::vector<double> least(members.get_problem().get_nobj(), infinity);
-  for (const std::size_t i : front)
-    for (std::size_t k = 0; k < least.size(); ++k) least[k] = std::min(least[k], f[i][k]);
+std::vector<double> least_costs(const std::vector<ParetoPoint>& front, std::size_t objectives) {
+  std::vector<double> least(objectives, infinity);
+  for (const ParetoPoint& point : front)
+    for (std::size_t k = 0; k < objectives; ++k) least[k] = std::min(least[k], point.costs[k]);
   return least;
-}
-
-std::vector<FrontDesign> front_of(const pagmo::population& members, const Evaluator& evaluator) {
-  const std::vector<pagmo::vector_double>&x = members.get_x(), &f = members.get_f();
-  std::vector<FrontDesign> front;
-  for (const std::size_t i : non_dominated(members)) front.push_back(evaluator.design(x[i], f[i]));
-  std::sort(front.begin(), front.end(), [](const FrontDesign& a, const FrontDesign& b) {
-    return std::tie(a.costs, a.x) < std::tie(b.costs, b.x);
-  });
-  front.erase(std::unique(front.begin(), front.end(),
-                          [](const FrontDesign& a, const FrontDesign& b) { return a.x == b.x; }),
-              front.end());
-  return front;
 }
 
 /// A population of pagmo without evaluating it; x is design after design, as are the costs f.
@@ -328,12 +302,12 @@ FrontReport minimise_with_pagmo(const Problem& problem, const PagmoOptions& meth
     }
     ++report.generations;
     if (options.log) {
-      const std::vector<std::size_t> front = non_dominated(members);
+      const std::vector<ParetoPoint> front = non_dominated(feasible(members, evaluator));
       report.log.push_back({.evaluations = evaluator.evaluations,
                             .violated = static_cast<double>(evaluator.violated) /
                                         static_cast<double>(evaluator.evaluations - before),
                             .front = static_cast<int>(front.size()),
-                            .least = least_costs(members, front)});
+                            .least = least_costs(front, problem.objectives)});
     }
     if (options.progress)
       context.report({.stage = name, .fraction = static_cast<double>(report.generations) / generations});
@@ -352,7 +326,7 @@ FrontReport minimise_with_pagmo(const Problem& problem, const PagmoOptions& meth
   if (interruption != Status::done)
     report.stop_reason = interruption == Status::deadline ? "time limit reached" : "cancelled";
   report.evaluations = evaluator.evaluations;
-  report.front = front_of(members, evaluator);
+  report.front = non_dominated(feasible(members, evaluator));
   report.status = interruption;
   if (report.front.empty()) {
     report.front.push_back(evaluator.least_violated);
@@ -388,9 +362,9 @@ double hypervolume(std::span<const double> costs, std::span<const double> refere
   return pagmo::hypervolume(std::move(points), false).compute({reference.begin(), reference.end()});
 }
 
-double hypervolume(std::span<const FrontDesign> front, std::span<const double> reference) {
+double hypervolume(std::span<const ParetoPoint> front, std::span<const double> reference) {
   std::vector<double> costs;
-  for (const FrontDesign& d : front) {
+  for (const ParetoPoint& d : front) {
     LINKWRIGHT_REQUIRE(d.costs.size() == reference.size(),
                        "a design of {} objectives, a reference point of {}", d.costs.size(),
                        reference.size());

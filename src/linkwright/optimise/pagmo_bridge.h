@@ -11,6 +11,7 @@
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/optimise/optimiser.h"
+#include "linkwright/optimise/pareto.h"
 #include "linkwright/optimise/problem.h"
 
 namespace linkwright::optimise {
@@ -118,14 +119,8 @@ void fields(Visitor&& visit, FrontOptions& o) {
 struct FrontLog {
   std::int64_t evaluations = 0;  ///< so far, this generation included
   double violated = 0;           ///< share of the candidates of this generation that violate a constraint
-  int front = 0;                 ///< members that are feasible and dominated by none
-  std::vector<double> least;     ///< of each objective among them; infinite when there are none
-};
-
-/// A design of a front.
-struct FrontDesign {
-  std::vector<double> x;
-  std::vector<double> costs;  ///< one an objective
+  int front = 0;  ///< members that are feasible and dominated by none; of those of equal costs one
+  std::vector<double> least;  ///< of each objective among them; infinite when there are none
 };
 
 struct FrontReport {
@@ -133,8 +128,9 @@ struct FrontReport {
   Status status = Status::done;
   std::string stop_reason;  ///< for people: "250 generations"
   /// Members of the last population that are feasible and dominated by none, by rising costs, the first
-  /// objective first; each design once. When nothing was feasible, the one candidate least violated.
-  std::vector<FrontDesign> front;
+  /// objective first; of those of equal costs one. When nothing was feasible, the one candidate least
+  /// violated.
+  std::vector<ParetoPoint> front;
   double violation = 0;  ///< of all designs of the front
   std::int64_t evaluations = 0;
   int generations = 0;
@@ -169,6 +165,6 @@ double cost_by_feasibility_rules(double cost, double violation);
 double hypervolume(std::span<const double> costs, std::span<const double> reference);
 
 /// The same for a front.
-double hypervolume(std::span<const FrontDesign> front, std::span<const double> reference);
+double hypervolume(std::span<const ParetoPoint> front, std::span<const double> reference);
 
 }  // namespace linkwright::optimise
