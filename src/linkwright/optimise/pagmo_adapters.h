@@ -1,9 +1,10 @@
 #pragma once
 
 // For programs that use pagmo themselves; link Linkwright::pagmo_adapters. It is the one header of this
-// library that shows pagmo. Compile such programs without -march or -mavx: the headers of pagmo bring code
-// for Eigen's matrices along, whose memory is laid out by these flags, and pagmo itself is built without
-// them; its CMA-ES crashes when they differ.
+// library that shows pagmo. Programs that include pagmo's CMA-ES or xNES (or pagmo/pagmo.hpp) are to be
+// compiled without -march, -mavx and sanitizers: these headers bring code for Eigen's matrices along, which
+// allocates memory in another way with such flags, and pagmo itself is built without them; it crashes when
+// they differ. Our cma_es does not mind.
 
 #include <cstdint>
 #include <pagmo/algorithm.hpp>
