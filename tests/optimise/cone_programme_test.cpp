@@ -301,6 +301,19 @@ TEST(ConeProgramme, LongChainsOfCheapVariables) {
   EXPECT_NEAR(r.cost, sum, 1e-8 * sum);
 }
 
+TEST(ConeProgramme, AnOptimumOfZero) {
+  // A point that all norms vanish at: no relative gap can be met, an absolute one is.
+  const ConeProgramme p{
+      .cost = {0, 0, 1},
+      .cones = {{.bound = {{2}, {1}, 0}, .parts = {{{0}, {1}, -3}, {{0, 1}, {1, 2}, 1}}}, at_most(0, 100)}};
+  RunContext context;
+  const ConeReport r = solve(p, {.absolute_gap = 1e-10}, context);
+  EXPECT_EQ(r.status, Status::done) << to_string(r.end);
+  EXPECT_NEAR(r.cost, 0, 1e-9);
+  EXPECT_NEAR(r.x[0], 3, 1e-8);
+  EXPECT_NEAR(r.x[1], -2, 1e-8);
+}
+
 TEST(ConeProgramme, TheSameBitsEveryTime) {
   const ConeProgramme p = random_programme(7, 8);
   EXPECT_EQ(run(p).x, run(p).x);

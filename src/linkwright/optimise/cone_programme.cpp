@@ -390,7 +390,8 @@ Solver::Quality Solver::quality() const {
   q.dual = (scratch_n_ + c_ * tau_).norm() / tau_ / std::max(1.0, c_.norm());
   const double cost = c_.dot(x_) / tau_, bound = -h_.dot(z_) / tau_;
   const double size = c_.cwiseProduct(x_).cwiseAbs().sum() / tau_;
-  const double floor = std::max({std::abs(cost), std::abs(bound), 1e-10 * size, 1e-300});
+  const double absolute = options_.absolute_gap * cost_scale_ / options_.gap;
+  const double floor = std::max({std::abs(cost), std::abs(bound), 1e-10 * size, absolute, 1e-300});
   q.gap = std::max(s_.dot(z_) / (tau_ * tau_), std::abs(cost - bound)) / floor;
   return q;
 }
@@ -620,6 +621,7 @@ std::string_view to_string(ConeEnd end) {
 ConeReport solve(const ConeProgramme& programme, const ConeOptions& options, RunContext& context) {
   const std::size_t n = programme.cost.size();
   LINKWRIGHT_REQUIRE(n > 0, "a cone programme needs variables");
+  LINKWRIGHT_REQUIRE(options.absolute_gap >= 0, "absolute gap {} must not be negative", options.absolute_gap);
   LINKWRIGHT_REQUIRE(options.gap > 0 && options.residual > 0 && options.max_iterations >= 1,
                      "tolerances {} and {} must be more than 0, iterations at least 1, got {}", options.gap,
                      options.residual, options.max_iterations);

@@ -38,6 +38,7 @@ struct ConeProgramme {
 
 struct ConeOptions {
   double gap = 1e-10;       ///< stop when cost and lower bound differ by at most this, relative (see below)
+  double absolute_gap = 0;  ///< or by at most this, in the unit of the cost: for optima of 0
   double residual = 1e-10;  ///< and no equation is off by more than this, relative
   int max_iterations = 100;
 };

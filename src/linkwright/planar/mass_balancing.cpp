@@ -84,6 +84,7 @@ class Balancer {
   void open(const Counterweight& weight);
   void add_objectives();
   void add_objective(std::size_t k, std::size_t t);
+  double cost(std::span<const double> measures) const;
   BalancedMasses answer(const optimise::ConeReport& report);
   void report_active(const optimise::ConeReport& report, BalancedMasses& out) const;
   void check_link(const OpenLink& open, const LinkMass& mass, BalancedMasses& out) const;
@@ -368,6 +369,15 @@ void Balancer::check_weight(const Counterweight& w, const PlacedCounterweight& a
         fmt::format("{} is no point: its inertia about its centre is {:.6g} kg m2", w.name, at.spread));
 }
 
+double Balancer::cost(std::span<const double> measures) const {
+  double cost = 0;
+  for (std::size_t k = 0; k < measures.size(); ++k) {
+    const double share = b_.objectives[k].weight * measures[k] / references_[k];
+    cost = b_.cost == ForceCost::sum ? cost + share : std::max(cost, share);
+  }
+  return cost;
+}
+
 BalancedMasses Balancer::answer(const optimise::ConeReport& report) {
   BalancedMasses out{.status = report.status, .before = before_, .iterations = report.iterations};
   out.lower_bound = report.lower_bound;
@@ -419,13 +429,8 @@ BalancedMasses Balancer::answer(const optimise::ConeReport& report) {
     out.links.push_back(mass);
   }
   out.after = force_measures(b_, out.bases);
-  out.cost = 0;
-  for (std::size_t k = 0; k < out.after.size(); ++k) {
-    const double share = b_.objectives[k].weight * out.after[k] / references_[k];
-    out.cost = b_.cost == ForceCost::sum ? out.cost + share : std::max(out.cost, share);
-  }
-  // Where everything can vanish there is no scale left but that of the references.
-  out.gap = std::max(0.0, out.cost - out.lower_bound) / std::max(out.cost, 1e-9);
+  out.cost = cost(out.after);
+  out.gap = std::max(0.0, out.cost - out.lower_bound) / std::max({out.cost, 1e-3 * cost(before_), 1e-300});
   report_active(report, out);
   return out;
 }
@@ -459,7 +464,7 @@ BalancedMasses Balancer::run(RunContext& context) {
   for (const Counterweight& w : b_.counterweights) open(w);
   LINKWRIGHT_REQUIRE(!programme_.cost.empty(), "there is nothing to choose: all bounds are closed");
   add_objectives();
-  return answer(optimise::solve(programme_, {}, context));
+  return answer(optimise::solve(programme_, {.absolute_gap = 1e-12 * cost(before_)}, context));
 }
 
 }  // namespace

@@ -99,8 +99,9 @@ struct BalancedMasses {
   double cost = std::numeric_limits<double>::infinity();  ///< of the answer, from `after`
   /// No masses within the convex bounds cost less (weak duality, see optimise::ConeReport).
   double lower_bound = -std::numeric_limits<double>::infinity();
-  double gap = std::numeric_limits<double>::infinity();  ///< (cost - lower_bound) / cost
-  std::vector<ActiveBound> active;                       ///< largest effect (price times limit) first
+  /// (cost - lower_bound) / cost; for a cost that vanishes over a thousandth of that of the initial masses.
+  double gap = std::numeric_limits<double>::infinity();
+  std::vector<ActiveBound> active;  ///< largest effect (price times limit) first
   /// Bounds without convexity that the answer breaks, in words; empty: it is the global optimum.
   std::vector<std::string> broken;
   int iterations = 0;
