@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/optimise/cone_scaling.h"
 
 namespace linkwright::optimise {
 namespace {
@@ -18,14 +19,16 @@ using Matrix = Eigen::MatrixXd;
 using VectorRef = Eigen::Ref<Vector>;
 using VectorView = Eigen::Ref<const Vector>;
 
-// The cone of one constraint: rows [first, first + size) of the slacks; size 1 is the half-line s >= 0.
-struct Block {
-  Index first = 0, size = 1;
+template <class V>
+auto view(V&& v) {
+  return std::span(v.data(), static_cast<std::size_t>(v.size()));
+}
+
+// Where the rows of a cone stand.
+struct Place {
   std::size_t group = 0;
-  Index row = 0;         // of the group's matrix
-  double row_scale = 1;  // all rows of a cone alike, so that it stays one
-  // Scaling of Nesterov and Todd: beta (2 v v' - J)^(1/2) with v = w, J = diag(1, -1, ..., -1).
-  double beta = 1;
+  Index first = 0, size = 1, row = 0;  // of the slacks; of the group's matrix
+  double row_scale = 1;                // all rows of a cone alike, so that it stays one
 };
 
 // Rows that use the same variables, one after the other.
@@ -34,11 +37,6 @@ struct Group {
   Matrix g, scaled, normal;   // rows x support; W^-1 G; its square
   std::vector<Index> places;  // of the lower triangle of `normal` among the values of the equations
 };
-
-double j_norm(const VectorView& v) {
-  const double tail = v.tail(v.size() - 1).norm();
-  return std::sqrt(std::max(0.0, (v(0) - tail) * (v(0) + tail)));
-}
 
 // The programme as min c'x, G x + s = h, s in K, equilibrated; and everything the iteration needs.
 class Solver {
@@ -49,19 +47,14 @@ class Solver {
  private:
   void equilibrate();
   void make_equations();
-  bool scale();  // W, lambda; false when an iterate has left its cone
   bool factorise();
   void multiply(const VectorView& x, VectorRef out) const;             // out = G x
   void multiply_transposed(const VectorView& z, VectorRef out) const;  // out = G'z
-  void apply(const VectorView& v, bool inverse, VectorRef out) const;  // W v or W^-1 v
+  void apply(const VectorView& v, bool inverse, VectorRef out) const {
+    cones_.apply(view(v), inverse, view(out));
+  }
   void solve(const VectorView& bx, const VectorView& bz, Vector& x, Vector& z);
   void start();
-  double longest_step(const VectorView& direction) const;  // of lambda + a direction
-  void divide(const VectorView& d, VectorRef out) const;   // lambda \ d
-  void product(const VectorView& a, const VectorView& b, VectorRef out) const;
-  double outside(const VectorView& v) const;  // least a with v + a e in the cone
-  void add_unit(double a, VectorRef v) const;
-
   struct Quality {
     double primal = 0, dual = 0, gap = 0;
     double worst() const { return std::max({primal, dual, gap}); }
@@ -72,15 +65,16 @@ class Solver {
   const ConeProgramme& programme_;
   const ConeOptions& options_;
   Index n_, m_ = 0;
-  std::vector<Block> blocks_;  // in the order of the rows
-  std::vector<std::size_t> block_of_cone_;
+  ConeScaling cones_;
+  std::vector<Place> places_;  // of the blocks of cones_
+  std::vector<std::size_t> place_of_cone_;
   std::vector<Group> groups_;
   Vector c_, h_, column_;
   double cost_scale_ = 1, degree_ = 0;
   Eigen::SparseMatrix<double> equations_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
 
-  Vector x_, s_, z_, w_, lambda_;
+  Vector x_, s_, z_;
   double tau_ = 1, kappa_ = 1;
   mutable Vector scratch_m_, scratch_n_;
 };
@@ -100,15 +94,16 @@ Solver::Solver(const ConeProgramme& programme, const ConeOptions& options)
     support.erase(std::unique(support.begin(), support.end()), support.end());
     by_support[std::move(support)].push_back(k);
   }
-  block_of_cone_.resize(programme.cones.size());
+  place_of_cone_.resize(programme.cones.size());
   std::vector<double> h;
   for (const auto& [support, cones] : by_support) {
     Group group{.support = support};
     Index rows = 0;
     for (const std::size_t k : cones) {
       const auto size = static_cast<Index>(programme.cones[k].parts.size() + 1);
-      block_of_cone_[k] = blocks_.size();
-      blocks_.push_back({.first = m_ + rows, .size = size, .group = groups_.size(), .row = rows});
+      place_of_cone_[k] = places_.size();
+      places_.push_back({.group = groups_.size(), .first = m_ + rows, .size = size, .row = rows});
+      cones_.blocks.push_back({static_cast<std::size_t>(m_ + rows), static_cast<std::size_t>(size)});
       rows += size;
     }
     group.g = Matrix::Zero(rows, static_cast<Index>(support.size()));
@@ -131,11 +126,10 @@ Solver::Solver(const ConeProgramme& programme, const ConeOptions& options)
   }
   c_ = Eigen::Map<const Vector>(programme.cost.data(), n_);
   h_ = Eigen::Map<const Vector>(h.data(), m_);
-  degree_ = static_cast<double>(blocks_.size()) + 1;
+  degree_ = static_cast<double>(places_.size()) + 1;
   scratch_m_.resize(m_);
   scratch_n_.resize(n_);
-  w_.resize(m_);
-  lambda_.resize(m_);
+  cones_.reset(static_cast<std::size_t>(m_));
   equilibrate();
   make_equations();
 }
@@ -145,7 +139,7 @@ void Solver::equilibrate() {
   column_ = Vector::Ones(n_);
   for (int pass = 0; pass < 4; ++pass) {
     Vector most = Vector::Zero(n_);
-    for (Block& b : blocks_) {
+    for (Place& b : places_) {
       Group& group = groups_[b.group];
       auto rows = group.g.middleRows(b.row, b.size);
       const double largest = rows.size() > 0 ? rows.cwiseAbs().maxCoeff() : 0;
@@ -214,58 +208,19 @@ void Solver::multiply_transposed(const VectorView& z, VectorRef out) const {
   }
 }
 
-void Solver::apply(const VectorView& v, bool inverse, VectorRef out) const {
-  for (const Block& b : blocks_) {
-    const double factor = inverse ? 1 / b.beta : b.beta;
-    if (b.size == 1) {
-      out(b.first) = factor * v(b.first);
-      continue;
-    }
-    const double sign = inverse ? -1 : 1, w0 = w_(b.first);
-    const auto w1 = w_.segment(b.first + 1, b.size - 1);
-    const auto v1 = v.segment(b.first + 1, b.size - 1);
-    const double dot = sign * w1.dot(v1), v0 = v(b.first);
-    out(b.first) = factor * (w0 * v0 + dot);
-    out.segment(b.first + 1, b.size - 1) = factor * (v1 + sign * (v0 + dot / (1 + w0)) * w1);
-  }
-}
-
-bool Solver::scale() {
-  for (Block& b : blocks_) {
-    const auto s = s_.segment(b.first, b.size), z = z_.segment(b.first, b.size);
-    if (b.size == 1) {
-      if (!(s(0) > 0) || !(z(0) > 0)) return false;
-      b.beta = std::sqrt(s(0) / z(0));
-      lambda_(b.first) = std::sqrt(s(0)) * std::sqrt(z(0));
-      continue;
-    }
-    const double sn = j_norm(s), zn = j_norm(z);
-    if (!(s(0) > 0) || !(z(0) > 0) || !(sn > 0) || !(zn > 0)) return false;
-    b.beta = std::sqrt(sn / zn);
-    const double gamma = std::sqrt((1 + s.dot(z) / (sn * zn)) / 2);
-    auto w = w_.segment(b.first, b.size);
-    w = (s / sn - z / zn) / (2 * gamma);
-    w(0) = std::sqrt(1 + w.tail(b.size - 1).squaredNorm());
-  }
-  Vector lambda(m_);
-  apply(z_, false, lambda);
-  for (const Block& b : blocks_)
-    if (b.size > 1) lambda_.segment(b.first, b.size) = lambda.segment(b.first, b.size);
-  return lambda_.allFinite();
-}
-
 bool Solver::factorise() {
   for (Group& group : groups_) group.scaled = group.g;
-  for (const Block& b : blocks_) {
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const Place& b = places_[k];
     auto rows = groups_[b.group].scaled.middleRows(b.row, b.size);
     if (b.size > 1) {
-      const double w0 = w_(b.first);
-      const auto w1 = w_.segment(b.first + 1, b.size - 1);
+      const double* w = cones_.w.data() + b.first;
+      const Eigen::Map<const Vector> w1(w + 1, b.size - 1);
       const Eigen::RowVectorXd dot = w1.transpose() * rows.bottomRows(b.size - 1);
-      rows.bottomRows(b.size - 1).noalias() -= w1 * (rows.row(0) - dot / (1 + w0));
-      rows.row(0) = w0 * rows.row(0) - dot;
+      rows.bottomRows(b.size - 1).noalias() -= w1 * (rows.row(0) - dot / (1 + w[0]));
+      rows.row(0) = w[0] * rows.row(0) - dot;
     }
-    rows /= b.beta;
+    rows /= cones_.beta[k];
   }
   double* values = equations_.valuePtr();
   std::fill(values, values + equations_.nonZeros(), 0.0);
@@ -309,75 +264,16 @@ void Solver::solve(const VectorView& bx, const VectorView& bz, Vector& x, Vector
   }
 }
 
-double Solver::outside(const VectorView& v) const {
-  double most = -std::numeric_limits<double>::infinity();
-  for (const Block& b : blocks_)
-    most = std::max(most, b.size == 1 ? -v(b.first) : v.segment(b.first + 1, b.size - 1).norm() - v(b.first));
-  return most;
-}
-
-void Solver::add_unit(double a, VectorRef v) const {
-  for (const Block& b : blocks_) v(b.first) += a;
-}
-
 // The nearest points that solve the equations of either side, moved into their cones.
 void Solver::start() {
-  w_.setZero();
-  for (Block& b : blocks_) {
-    b.beta = 1;
-    w_(b.first) = 1;
-  }
   factorise();
   Vector ignored(n_);
   solve(Vector::Zero(n_), h_, x_, s_);
   s_ = -s_;
   solve(-c_, Vector::Zero(m_), ignored, z_);
   for (Vector* v : {&s_, &z_}) {
-    const double a = outside(*v);
-    if (a >= -1e-8 * std::max(1.0, v->norm())) add_unit(1 + std::max(a, 0.0), *v);
-  }
-}
-
-double Solver::longest_step(const VectorView& direction) const {
-  double most = 0;
-  for (const Block& b : blocks_) {
-    const auto l = lambda_.segment(b.first, b.size);
-    const auto d = direction.segment(b.first, b.size);
-    if (b.size == 1) {
-      most = std::max(most, -d(0) / l(0));
-      continue;
-    }
-    const double norm = j_norm(l), l0 = l(0) / norm;
-    const auto l1 = l.tail(b.size - 1);
-    const auto d1 = d.tail(b.size - 1);
-    const double r0 = l0 * d(0) - l1.dot(d1) / norm;
-    const double r1 = (d1 - (r0 + d(0)) / (l0 + 1) / norm * l1).norm();
-    most = std::max(most, (r1 - r0) / norm);
-  }
-  return most > 0 ? 1 / most : std::numeric_limits<double>::infinity();
-}
-
-void Solver::divide(const VectorView& d, VectorRef out) const {
-  for (const Block& b : blocks_) {
-    if (b.size == 1) {
-      out(b.first) = d(b.first) / lambda_(b.first);
-      continue;
-    }
-    const auto l = lambda_.segment(b.first, b.size);
-    const auto l1 = l.tail(b.size - 1);
-    const double norm = j_norm(l);
-    const double first = (l(0) * d(b.first) - l1.dot(d.segment(b.first + 1, b.size - 1))) / (norm * norm);
-    out(b.first) = first;
-    out.segment(b.first + 1, b.size - 1) = (d.segment(b.first + 1, b.size - 1) - first * l1) / l(0);
-  }
-}
-
-void Solver::product(const VectorView& a, const VectorView& b, VectorRef out) const {
-  for (const Block& k : blocks_) {
-    const auto u = a.segment(k.first, k.size), v = b.segment(k.first, k.size);
-    const double first = u.dot(v);
-    out.segment(k.first, k.size) = u(0) * v + v(0) * u;
-    out(k.first) = first;
+    const double a = cones_.outside(view(*v));
+    if (a >= -1e-8 * std::max(1.0, v->norm())) cones_.add_unit(1 + std::max(a, 0.0), view(*v));
   }
 }
 
@@ -413,7 +309,7 @@ ConeReport Solver::answer(ConeEnd end) const {
       square += v * v;
     }
     report.violation = std::max(report.violation, std::sqrt(square) - value(cone.bound, report.x));
-    const Block& b = blocks_[block_of_cone_[k]];
+    const Place& b = places_[place_of_cone_[k]];
     const double factor = b.row_scale / cost_scale_ * over;
     ConeMultiplier multiplier{.bound = factor * z_(b.first)};
     report.lower_bound -= multiplier.bound * cone.bound.constant;
@@ -486,27 +382,27 @@ ConeReport Solver::run(RunContext& context) {
       end = ConeEnd::interrupted;
       break;
     }
-    if (!scale() || !factorise()) {
+    if (!cones_.update(view(s_), view(z_)) || !factorise()) {
       end = ConeEnd::rounding;
       break;
     }
-    const double mu = (lambda_.squaredNorm() + tau_ * kappa_) / degree_;
+    const double mu = (s_.dot(z_) + tau_ * kappa_) / degree_;
     solve(-c_, h_, x1, z1);
     const double denominator = c_.dot(x1) + h_.dot(z1) - kappa_ / tau_;
 
     double sigma = 0, d_tau = 0, d_kappa = 0, step = 0;
     for (int pass = 0; pass < 2; ++pass) {  // prediction, correction
-      product(lambda_, lambda_, right);
+      cones_.product(cones_.lambda, cones_.lambda, view(right));
       double right_kappa = -tau_ * kappa_;
       right = -right;
       if (pass == 1) {
-        product(scaled_s, scaled_z, t);
+        cones_.product(view(scaled_s), view(scaled_z), view(t));
         right -= t;
-        add_unit(sigma * mu, right);
+        cones_.add_unit(sigma * mu, view(right));
         right_kappa += sigma * mu - d_tau * d_kappa;
       }
       const double share = 1 - sigma;
-      divide(right, t);
+      cones_.divide(view(right), view(t));
       apply(t, false, u);  // W (lambda \ d)
       solve(share * rx, -share * rz - u, x2, z2);
       d_tau = (-share * rt - right_kappa / tau_ - c_.dot(x2) - h_.dot(z2)) / denominator;
@@ -515,7 +411,7 @@ ConeReport Solver::run(RunContext& context) {
       d_kappa = (right_kappa - kappa_ * d_tau) / tau_;
       apply(z2, false, scaled_z);
       scaled_s = t - scaled_z;
-      step = std::min(longest_step(scaled_s), longest_step(scaled_z));
+      step = std::min(cones_.longest_step(view(scaled_s)), cones_.longest_step(view(scaled_z)));
       if (d_tau < 0) step = std::min(step, -tau_ / d_tau);
       if (d_kappa < 0) step = std::min(step, -kappa_ / d_kappa);
       if (pass == 0) {
