@@ -216,7 +216,8 @@ void list(Visitor&& visit, JointKind kind, Polynomial345& law) {
   visit(value(kind, "to", "position after", true), law.to);
   interval(visit, law);
   visit(Field{.key = "higher_coefficients",
-              .summary = "free coefficients of x^6, x^7, ... as shares of the stroke",
+              .summary = "free coefficients of x^6, x^7, ... as shares of the stroke; n of them make the "
+                         "law of degree 5 + n",
               .minimum = -1e6,
               .maximum = 1e6},
         law.higher);
