@@ -20,6 +20,14 @@ TEST(Measures, OfAFewSamples) {
   EXPECT_EQ(max_abs(samples), 12);
 }
 
+TEST(Measures, GoByName) {
+  const std::vector<double> samples = {3, -4, 0, 12, 0};
+  EXPECT_EQ(measure(Measure::rss_over_n, samples), rss_over_n(samples));
+  EXPECT_EQ(measure(Measure::rms, samples), rms(samples));
+  EXPECT_EQ(measure(Measure::mean_abs, samples), mean_abs(samples));
+  EXPECT_EQ(measure(Measure::max_abs, samples), max_abs(samples));
+}
+
 TEST(Measures, KeepWhatIsMissing) {
   const std::vector<double> samples = {3, NAN, 4};
   for (auto measure : {rss_over_n, rms, mean_abs, max_abs}) EXPECT_TRUE(std::isnan(measure(samples)));

@@ -29,4 +29,21 @@ BaseParameters base_parameters(const LinkMass& link, std::span<const PointMass> 
   return base;
 }
 
+LinkMass with_attached(const LinkMass& link, std::span<const PointMass> attached) {
+  const BaseParameters base = base_parameters(link, attached);
+  if (base.mass == 0) return link;
+  const std::complex<double> centre = base.moment / base.mass;
+  // Each part about the common centre: no large numbers are subtracted.
+  const auto place = [](double distance, double angle) {
+    return distance * std::complex<double>(std::cos(angle), std::sin(angle));
+  };
+  double inertia =
+      link.inertia + link.mass * std::norm(place(link.centre_distance, link.centre_angle) - centre);
+  for (const PointMass& m : attached) inertia += m.mass * std::norm(place(m.distance, m.angle) - centre);
+  return {.mass = base.mass,
+          .inertia = inertia,
+          .centre_distance = std::abs(centre),
+          .centre_angle = std::arg(centre)};
+}
+
 }  // namespace linkwright::planar

@@ -88,4 +88,8 @@ struct BaseParameters {
 /// not finite.
 BaseParameters base_parameters(const LinkMass& link, std::span<const PointMass> attached = {});
 
+/// The link and the masses fixed to it as one: mass centre and moment of inertia about it of them all. Throws
+/// ContractError as base_parameters does.
+LinkMass with_attached(const LinkMass& link, std::span<const PointMass> attached);
+
 }  // namespace linkwright::planar

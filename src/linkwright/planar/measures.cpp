@@ -43,4 +43,18 @@ double max_abs(std::span<const double> samples) {
   return most;
 }
 
+double measure(Measure measure, std::span<const double> samples) {
+  switch (measure) {
+    case Measure::rms:
+      return rms(samples);
+    case Measure::mean_abs:
+      return mean_abs(samples);
+    case Measure::max_abs:
+      return max_abs(samples);
+    case Measure::rss_over_n:
+      break;
+  }
+  return rss_over_n(samples);
+}
+
 }  // namespace linkwright::planar

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <span>
+
+#include "linkwright/core/field.h"
 
 // One number for a quantity that was sampled over a motion. All throw ContractError when there are too few
 // samples; a NaN among the samples makes the measure NaN.
@@ -19,5 +22,15 @@ double mean_abs(std::span<const double> samples);
 
 /// Largest absolute value. At least 1 sample.
 double max_abs(std::span<const double> samples);
+
+/// The measures by name.
+enum class Measure { rss_over_n, rms, mean_abs, max_abs };
+constexpr std::array<EnumName<Measure>, 4> names(Measure) {
+  return {{{Measure::rss_over_n, "rss_over_n", "root of the sum of squares over the number of intervals"},
+           {Measure::rms, "rms", "root of the mean of the squares"},
+           {Measure::mean_abs, "mean_abs", "mean of the absolute values"},
+           {Measure::max_abs, "max_abs", "largest absolute value"}}};
+}
+double measure(Measure measure, std::span<const double> samples);
 
 }  // namespace linkwright::planar
