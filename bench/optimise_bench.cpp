@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "linkwright/optimise/combine.h"
 #include "linkwright/optimise/methods.h"
 #include "linkwright/optimise/minimise.h"
 
@@ -72,6 +73,33 @@ void whole_run(benchmark::State& state, OptimiserOptions options) {
       1e-9 * static_cast<double>(evaluations), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
+/// Two objectives, which pull to two corners: the moves of all objectives, the incumbent, and a front of 100.
+void several_objectives(benchmark::State& state, OptimiserOptions options) {
+  Problem problem = sphere(10);
+  problem.objectives = 2;
+  problem.evaluate = [](const PopulationView& x, std::span<double> cost, std::span<double> violation) {
+    for (std::size_t i = 0; i < x.size; ++i) {
+      cost[2 * i] = cost[2 * i + 1] = violation[i] = 0;
+      for (std::size_t j = 0; j < x.dimension; ++j) {
+        cost[2 * i] += x(j, i) * x(j, i);
+        cost[2 * i + 1] += (x(j, i) - 2) * (x(j, i) - 2);
+      }
+    }
+  };
+  if (!takes_several_objectives(options.method)) problem = weighted_sum(problem);
+  MinimiseOptions minimise_options;
+  minimise_options.stop.generations = generations;
+  minimise_options.front = static_cast<std::size_t>(state.range(0));
+  RunContext context;
+  context.set_threads(1);
+  std::uint64_t seed = 0;
+  std::int64_t evaluations = 0;
+  for (auto _ : state)
+    evaluations += minimise(problem, options, minimise_options, {.seed = ++seed}, context).evaluations;
+  state.counters["ns_per_evaluation"] = benchmark::Counter(
+      1e-9 * static_cast<double>(evaluations), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
 void sphere_only(benchmark::State& state) {
   const Problem problem = sphere(10);
   const auto n = static_cast<std::size_t>(state.range(0));
@@ -113,6 +141,15 @@ BENCHMARK_CAPTURE(whole_run, firefly, firefly)->Arg(40)->Unit(benchmark::kMillis
 BENCHMARK_CAPTURE(whole_run, cuckoo_search, cuckoo)->Arg(25)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(whole_run, hybrid_cuckoo_firefly, hybrid)->Arg(25)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(whole_run, subpopulation_firefly, parts)->Arg(40)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(several_objectives, cuckoo_search, cuckoo)->Arg(0)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(several_objectives, subpopulation_firefly, parts)
+    ->Arg(0)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(several_objectives, differential_evolution, de)
+    ->Arg(0)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(sphere_only)->Arg(30)->Arg(100);
 
 }  // namespace

@@ -33,9 +33,9 @@ TEST(Methods, NamesAreFullAndJdeIsAnAlias) {
 }
 
 TEST(Methods, FieldsAreThoseOfTheChosenMethod) {
-  EXPECT_EQ(
-      keys({.method = Method::differential_evolution}),
-      (std::vector<std::string>{"method", "population", "generations", "scale", "crossover", "scheme"}));
+  EXPECT_EQ(keys({.method = Method::differential_evolution}),
+            (std::vector<std::string>{"method", "population", "generations", "scale", "crossover", "scheme",
+                                      "replacement", "bounds"}));
   EXPECT_EQ(keys({.method = Method::grey_wolf}),
             (std::vector<std::string>{"method", "population", "generations", "reset_worst_half",
                                       "absolute_value"}));

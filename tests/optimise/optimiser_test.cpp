@@ -144,6 +144,12 @@ std::vector<OptimiserOptions> all_options() {
     all.push_back({.method = Method::differential_evolution});
     all.back().differential_evolution.scheme = scheme;
   }
+  for (const MutationScheme scheme : {MutationScheme::rand_1, MutationScheme::best_1}) {
+    all.push_back({.method = Method::differential_evolution});
+    all.back().differential_evolution.scheme = scheme;
+    all.back().differential_evolution.replacement = Replacement::in_place;
+    all.back().differential_evolution.bounds = MutantBounds::clip;
+  }
   all.push_back({.method = Method::jade});
   all.back().jade.archive = false;
   all.push_back({.method = Method::hybrid_cuckoo_firefly});

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "linkwright/core/checkpoint.h"
+#include "linkwright/optimise/combine.h"
 #include "linkwright/optimise/parallel.h"
 
 namespace linkwright::optimise {
@@ -99,11 +101,23 @@ bool wider_than(double most, const PopulationView& members, std::vector<double>&
   return false;
 }
 
-void set_best(Report& report, std::span<const double> x, std::span<const double> costs, double violation) {
+/// cost: of one objective, if they were combined.
+void set_best(Report& report, std::span<const double> x, double cost, std::span<const double> costs,
+              double violation) {
   std::copy(x.begin(), x.end(), report.x.begin());
   std::copy(costs.begin(), costs.end(), report.costs.begin());
-  report.cost = mean_of(costs);
+  report.cost = cost;
   report.violation = violation;
+}
+
+void tell_front(ParetoArchive& front, const PopulationView& candidates, std::span<const double> costs,
+                std::span<const double> violation, std::vector<double>& x) {
+  const std::size_t m = costs.size() / candidates.size;
+  for (std::size_t i = 0; i < candidates.size; ++i) {
+    if (violation[i] > 0) continue;
+    for (std::size_t j = 0; j < x.size(); ++j) x[j] = candidates(j, i);
+    front.tell(x, costs.subspan(i * m, m));
+  }
 }
 
 constexpr std::size_t log_part = 4096;  // generations; finished parts of the log are kept once
@@ -120,7 +134,8 @@ class StateKeeper {
   }
 
   /// Takes up what was kept, if anything was.
-  void restore(Optimiser& optimiser, int generations, bool log, Report& report, int& unimproved) {
+  void restore(Optimiser& optimiser, std::span<const Variable> variables, int generations, bool log,
+               Report& report, int& unimproved, std::optional<ParetoArchive>& front) {
     const Value value = checkpoint_ ? checkpoint_->find(name_ + "/state") : Value();
     if (value.is_null()) return;
     const Value& reason = kept_member(value, "stop_reason", name_);
@@ -132,32 +147,34 @@ class StateKeeper {
     state.generation = static_cast<std::uint32_t>(
         kept_integer(value, "optimiser_generation", report.generations, UINT32_MAX, name_));
     state.numbers = unpack_numbers(kept_member(value, "optimiser", name_), name_);
-    const std::size_t m = optimiser.objectives();  // costs and, after them, the violation
-    if (!reason.is_string() || best.size() != m + 1 ||
-        std::any_of(best.begin(), best.end(), [](double v) { return std::isnan(v); }) || !(best[m] >= 0) ||
-        !optimiser.restore(state))
+    if (!reason.is_string() || best.size() != 2 + report.costs.size() ||
+        std::any_of(best.begin(), best.end(), [](double v) { return std::isnan(v); }) || !(best[1] >= 0) ||
+        !optimiser.restore(state) || (front && !restore_front(value, variables, *front)))
       throw CheckpointError(fmt::format("{}: is no state of this method and problem", name_));
     report.stop_reason = reason.as_string();
-    set_best(report, optimiser.best(), std::span(best).first(m), best[m]);
+    set_best(report, optimiser.best(), best[0], std::span(best).subspan(2), best[1]);
     if (log) restore_log(static_cast<std::size_t>(report.generations), report.log);
     kept_once_ = true;
   }
 
   /// Keeps the state if that is due.
-  void generation_done(const Optimiser& optimiser, const Report& report, int unimproved) {
-    if (checkpoint_ && Clock::now() - kept_ >= interval_) keep(optimiser, report, unimproved);
+  void generation_done(const Optimiser& optimiser, const Report& report, int unimproved,
+                       const std::optional<ParetoArchive>& front) {
+    if (checkpoint_ && Clock::now() - kept_ >= interval_) keep(optimiser, report, unimproved, front);
   }
 
   /// At an interruption the state is kept in any case. The end of a minimisation that was quicker than it
   /// could be kept need not be.
-  void ended(const Optimiser& optimiser, const Report& report, int unimproved, bool interrupted) {
-    if (checkpoint_ && (interrupted || kept_once_)) keep(optimiser, report, unimproved);
+  void ended(const Optimiser& optimiser, const Report& report, int unimproved,
+             const std::optional<ParetoArchive>& front, bool interrupted) {
+    if (checkpoint_ && (interrupted || kept_once_)) keep(optimiser, report, unimproved, front);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void keep(const Optimiser& optimiser, const Report& report, int unimproved) {
+  void keep(const Optimiser& optimiser, const Report& report, int unimproved,
+            const std::optional<ParetoArchive>& front) {
     for (; kept_log_ < report.log.size(); kept_log_ = std::min(kept_log_ + log_part, report.log.size())) {
       kept_log_ -= kept_log_ % log_part;
       std::vector<double> numbers;
@@ -173,9 +190,17 @@ class StateKeeper {
     value["generations"] = report.generations;
     value["evaluations"] = report.evaluations;
     value["unimproved"] = unimproved;
-    std::vector<double> best = report.costs;
-    best.push_back(report.violation);
+    std::vector<double> best = {report.cost, report.violation};
+    best.insert(best.end(), report.costs.begin(), report.costs.end());
     value["best"] = pack_numbers(best);
+    if (front) {
+      std::vector<double> numbers;
+      for (std::size_t i = 0; i < front->size(); ++i) {
+        numbers.insert(numbers.end(), front->x(i).begin(), front->x(i).end());
+        numbers.insert(numbers.end(), front->costs(i).begin(), front->costs(i).end());
+      }
+      value["front"] = pack_numbers(numbers);
+    }
     value["optimiser_generation"] = static_cast<std::int64_t>(state.generation);
     value["optimiser"] = pack_numbers(state.numbers);
     value["stop_reason"] = report.stop_reason;  // empty = not at its end
@@ -183,6 +208,24 @@ class StateKeeper {
     kept_ = Clock::now();
     interval_ = checkpoint_->interval();
     kept_once_ = true;
+  }
+
+  /// False for what no front can be.
+  bool restore_front(const Value& value, std::span<const Variable> variables, ParetoArchive& front) const {
+    const std::size_t dimension = variables.size();
+    const std::vector<double> numbers = unpack_numbers(kept_member(value, "front", name_), name_);
+    const std::size_t one = dimension + front.objectives();
+    if (numbers.size() % one != 0 || numbers.size() / one > front.capacity() ||
+        std::any_of(numbers.begin(), numbers.end(), [](double v) { return std::isnan(v); }))
+      return false;
+    bool good = true;
+    for (std::size_t i = 0; i < numbers.size(); i += one) {
+      const std::span<const double> point = std::span(numbers).subspan(i, one);
+      for (std::size_t j = 0; j < dimension; ++j)
+        good &= point[j] >= variables[j].lower && point[j] <= variables[j].upper;
+      good &= front.tell(point.first(dimension), point.subspan(dimension));
+    }
+    return good && front.size() == numbers.size() / one;
   }
 
   void restore_log(std::size_t generations, std::vector<GenerationLog>& log) {
@@ -230,27 +273,37 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
   LINKWRIGHT_REQUIRE(optimiser.objectives() == problem.objectives,
                      "an optimiser of {} objectives for a problem of {}", optimiser.objectives(),
                      problem.objectives);
-  const std::size_t n = optimiser.population(), m = problem.objectives;
+  // What is evaluated are the parts of a combination, `of_parts` costs a candidate; what the optimiser is
+  // told are `m` a candidate.
+  const Combination* combination = problem.combination.get();
+  const Problem& parts = combination ? combination->problem : problem;
+  const std::size_t n = optimiser.population(), m = problem.objectives, of_parts = parts.objectives;
   const bool penalty = options.constraints == Constraints::penalty;
-  std::vector<double> cost(n * m), violation(n), merit(penalty ? n * m : 0), none(penalty ? n : 0),
-      squares(n);
+  std::vector<double> cost(n * of_parts), combined(combination ? n : 0), violation(n),
+      merit(penalty ? n * m : 0), none(penalty ? n : 0), squares(n);
+  std::optional<ParetoArchive> front;
+  if (options.front > 0) front.emplace(optimiser.dimension(), of_parts, options.front);
+  std::vector<double> x(optimiser.dimension());
   GenerationCosts of_generation;
   if (options.log)
     of_generation.feasible.reserve(
         std::min(std::max(n, optimiser.largest_generation()), longest_reserved_generation));
   Report report;
   report.x.resize(optimiser.dimension());
-  report.costs.assign(m, std::numeric_limits<double>::infinity());
+  report.costs.assign(of_parts, std::numeric_limits<double>::infinity());
   if (const Incumbent& known = options.incumbent; !known.x.empty() || !known.costs.empty()) {
-    optimiser.start_from(known.x, known.costs);
-    set_best(report, known.x, known.costs, 0);
+    LINKWRIGHT_REQUIRE(known.costs.size() == of_parts, "an incumbent of {} costs for {} objectives",
+                       known.costs.size(), of_parts);
+    const double cost_of_known = combination ? combination->cost(known.costs) : mean_of(known.costs);
+    optimiser.start_from(known.x, combination ? std::span(&cost_of_known, 1) : std::span(known.costs));
+    set_best(report, known.x, cost_of_known, known.costs, 0);
   }
   if (options.log)
     report.log.reserve(std::min<std::size_t>(static_cast<std::size_t>(generations), longest_reserved_log));
 
   int unimproved = 0;
   StateKeeper keeper(context.checkpoint(), options.checkpoint);
-  keeper.restore(optimiser, generations, options.log, report, unimproved);
+  keeper.restore(optimiser, problem.variables, generations, options.log, report, unimproved, front);
   Status interruption = Status::done;
   const bool was_at_its_end = !report.stop_reason.empty();
   while (report.stop_reason.empty()) {
@@ -260,24 +313,32 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     while (optimiser.generation() == generation) {
       const PopulationView candidates = optimiser.ask();
       const std::size_t asked = candidates.size;
-      const std::span<double> costs(cost.data(), asked * m), violations(violation.data(), asked);
-      if (asked > 0) evaluate(problem, candidates, costs, violations, context.threads());
+      const std::span<double> costs(cost.data(), asked * of_parts), violations(violation.data(), asked);
+      if (asked > 0) evaluate(parts, candidates, costs, violations, context.threads());
+      for (std::size_t i = 0; combination && i < asked; ++i) {
+        const std::span<const double> of_one = costs.subspan(i * of_parts, of_parts);
+        combined[i] = combination->cost(of_one);
+        violation[i] += excess(*combination, of_one);
+      }
+      const std::span<double> told = combination ? std::span(combined.data(), asked) : costs;
+      if (front && asked > 0) tell_front(*front, candidates, costs, violations, x);
       if (penalty) {
         for (std::size_t i = 0; i < asked; ++i)
           for (std::size_t k = 0; k < m; ++k)
-            merit[i * m + k] = cost[i * m + k] + (violation[i] > 0 ? options.penalty_weight : 0);
+            merit[i * m + k] = told[i * m + k] + (violation[i] > 0 ? options.penalty_weight : 0);
         optimiser.tell({merit.data(), asked * m}, {none.data(), asked});
       } else {
-        optimiser.tell(costs, violations);
+        optimiser.tell(told, violations);
       }
       report.evaluations += static_cast<std::int64_t>(asked);
       improved |= optimiser.improved();
       equalled |= optimiser.equalled();
       if (optimiser.improved()) {
         const std::size_t best = optimiser.best_candidate();
-        set_best(report, optimiser.best(), costs.subspan(best * m, m), violation[best]);
+        set_best(report, optimiser.best(), mean_of(told.subspan(best * m, m)),
+                 costs.subspan(best * of_parts, of_parts), violation[best]);
       }
-      if (options.log) of_generation.add(costs, violations);
+      if (options.log) of_generation.add(told, violations);
     }
     ++report.generations;
     unimproved = improved ? 0 : unimproved + 1;
@@ -311,11 +372,12 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     else if (interruption = context.interruption(); interruption != Status::done)
       break;
     else
-      keeper.generation_done(optimiser, report, unimproved);
+      keeper.generation_done(optimiser, report, unimproved, front);
   }
-  if (!was_at_its_end) keeper.ended(optimiser, report, unimproved, interruption != Status::done);
+  if (!was_at_its_end) keeper.ended(optimiser, report, unimproved, front, interruption != Status::done);
   if (interruption != Status::done)
     report.stop_reason = interruption == Status::deadline ? "time limit reached" : "cancelled";
+  if (front) report.front = front->points();
   report.status = interruption != Status::done ? interruption
                   : report.violation > 0       ? Status::infeasible
                                                : Status::done;

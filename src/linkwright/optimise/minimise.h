@@ -11,6 +11,7 @@
 #include "linkwright/core/status.h"
 #include "linkwright/optimise/methods.h"
 #include "linkwright/optimise/optimiser.h"
+#include "linkwright/optimise/pareto.h"
 #include "linkwright/optimise/problem.h"
 
 namespace linkwright::optimise {
@@ -65,7 +66,7 @@ constexpr std::array<EnumName<Constraints>, 2> names(Constraints) {
 /// A known design that a minimisation is to improve on.
 struct Incumbent {
   std::vector<double> x;      ///< need not lie in the bounds
-  std::vector<double> costs;  ///< its own, one an objective
+  std::vector<double> costs;  ///< its own, as in Report::costs
 };
 
 struct MinimiseOptions {
@@ -73,8 +74,11 @@ struct MinimiseOptions {
   Constraints constraints = Constraints::feasibility_rules;
   double penalty_weight = 1e3;
   Incumbent incumbent = {};  ///< see Optimiser::start_from; empty = none
-  bool log = true;           ///< keep one GenerationLog a generation
-  bool progress = true;      ///< report to the run context
+  /// Keep up to so many feasible designs that no other one dominates in the objectives, see ParetoArchive;
+  /// 0 = none.
+  std::size_t front = 0;
+  bool log = true;       ///< keep one GenerationLog a generation
+  bool progress = true;  ///< report to the run context
   /// Name under which the state is kept in the checkpoint of the run context, of its own for every
   /// minimisation of a run; empty = not kept.
   std::string checkpoint = {};
@@ -109,11 +113,15 @@ struct Report {
   std::vector<double> x;    ///< best candidate, also when the run was interrupted
   /// Of the problem, without penalty: its objective, or the mean of all when there are several.
   double cost = std::numeric_limits<double>::infinity();
-  std::vector<double> costs;  ///< all objectives of the best candidate
+  /// All objectives of the best candidate; with a problem that is combined of several (combine.h) those.
+  std::vector<double> costs;
   double violation = std::numeric_limits<double>::infinity();
   std::int64_t evaluations = 0;
   int generations = 0;
   std::vector<GenerationLog> log;
+  /// Feasible designs of the run of which none dominates another, in the order of their costs; as
+  /// MinimiseOptions::front has it. The incumbent to begin with is not among them.
+  std::vector<ParetoPoint> front;
 };
 
 /// Minimises a problem by a population method. Interruption is looked for after every generation; the first
@@ -122,7 +130,8 @@ struct Report {
 ///
 /// Several objectives are minimised together by those methods that can, see takes_several_objectives: what
 /// is best, and stays so, is told at Optimiser::best. The target cost and the log are about the mean of the
-/// objectives; a penalty counts for each of them.
+/// objectives; a penalty counts for each of them. Methods of one objective minimise them combined, see
+/// combine.h and priorities.h.
 ///
 /// With a checkpoint the state is kept whenever Checkpoint::interval() has passed since the last time, and at
 /// an interruption; a later call goes on from there and ends with the same bits. Throws CheckpointError when

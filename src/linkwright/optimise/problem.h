@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ struct Violation {
   double amount = 0;
 };
 
+struct Combination;
+
 /// What is minimised. An optimiser asks for the costs of a whole population, never of one candidate, and
 /// knows nothing else of the problem.
 struct Problem {
@@ -41,6 +44,9 @@ struct Problem {
 
   /// Why one candidate is infeasible, for reports; may be empty.
   std::function<std::vector<Violation>(std::span<const double> x)> explain;
+
+  /// What its one objective was combined of, see combine.h; null if of nothing.
+  std::shared_ptr<const Combination> combination;
 };
 
 /// "Better" by the feasibility rules of Deb (2000): feasible before infeasible, then by cost; infeasible ones
