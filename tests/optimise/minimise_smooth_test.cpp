@@ -52,9 +52,8 @@ TEST(MinimiseSmooth, FindsTheLargest) {
   // Equal on 4 b - 2 a = 3, and within a + b <= 1 nearest to both on the segment of the centres: at t of it,
   // sqrt(5) t = sqrt(5) (1 - t), which is (1/2, 1), not allowed; on the line (1/6, 5/6), 25/18.
   RunContext context;
-  const SmoothReport r =
-      minimise_smooth(testing::two_points(),
-                      {.combination = Combination::largest, .candidates = 64, .starts = 8}, {}, context);
+  const SmoothReport r = minimise_smooth(
+      testing::two_points(), {.goal = SmoothGoal::largest, .candidates = 64, .starts = 8}, {}, context);
   EXPECT_NEAR(r.cost, 25.0 / 18, close);
   EXPECT_NEAR(r.x[0], 1.0 / 6, 1e-6);
   EXPECT_NEAR(r.objectives[0], r.objectives[1], close);
@@ -193,7 +192,8 @@ TEST(MinimiseSmooth, RejectsWhatItCannotUse) {
   EXPECT_THAT(error(good, {.candidates = 0}),
               HasSubstr("minimise_smooth: candidates must be at least 1, got 0"));
   EXPECT_THAT(error(good, {.weights = {1}}), HasSubstr("1 weights for 2 objectives"));
-  EXPECT_THAT(error(good, {.weights = {1, 0}}), HasSubstr("weight 1 must be more than 0, got 0"));
+  EXPECT_THAT(error(good, {.weights = {1, -1}}), HasSubstr("weight 1 must be at least 0, got -1"));
+  EXPECT_THAT(error(good, {.weights = {0, 0}}), HasSubstr("all 2 weights are 0"));
   EXPECT_THAT(error(good, {.caps = {1}}), HasSubstr("1 caps for 2 objectives"));
   EXPECT_THAT(error(good, {.caps = {1, std::nan("")}}), HasSubstr("cap 1 is not a number"));
   EXPECT_THAT(error(good, {.local = {.method = LocalMethod::cobyla}}), HasSubstr("needs slsqp, got cobyla"));

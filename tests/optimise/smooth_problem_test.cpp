@@ -33,16 +33,6 @@ TEST(SmoothProblem, KeepsItsObjectivesForPopulationMethods) {
   EXPECT_EQ(violation, (std::vector<double>{0, 2, 3.5}));
 }
 
-TEST(SmoothProblem, AddsItsObjectivesUp) {
-  const Population population = candidates();
-  std::vector<double> cost(3), violation(3);
-  to_weighted_problem(testing::two_points()).evaluate(population.view(), cost, violation);
-  EXPECT_EQ(cost, (std::vector<double>{2.5, 2.5, infinity}));
-  to_weighted_problem(testing::two_points(), {2, 1}).evaluate(population.view(), cost, violation);
-  EXPECT_EQ(cost, (std::vector<double>{6, 9, infinity}));
-  EXPECT_EQ(violation, (std::vector<double>{0, 2, 3.5}));
-}
-
 TEST(SmoothProblem, ViolationCountsWhatIsPositive) {
   const std::vector<double> met = {5, -1, 0}, two = {5, 0.25, 0.5};
   const std::vector<double> none = {infinity, -1, 0.5}, unknown = {5, std::nan(""), 0.5};
@@ -52,9 +42,7 @@ TEST(SmoothProblem, ViolationCountsWhatIsPositive) {
   EXPECT_EQ(violation_of(unknown, 1), 1.5);
 }
 
-TEST(SmoothProblem, RejectsWeightsOfWrongNumber) {
-  EXPECT_THAT(test::message([] { to_weighted_problem(testing::two_points(), {1}); }),
-              HasSubstr("1 weights for 2 objectives"));
+TEST(SmoothProblem, NeedsObjectives) {
   SmoothProblem none = testing::two_points();
   none.objectives = 0;
   EXPECT_THAT(test::message([&] { to_problem(none); }), HasSubstr("a problem needs objectives"));

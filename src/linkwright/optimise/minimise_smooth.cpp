@@ -32,7 +32,7 @@ struct Task {
   std::vector<double> weights;
   std::vector<std::size_t> capped;
 
-  bool largest() const { return options.combination == Combination::largest; }
+  bool largest() const { return options.goal == SmoothGoal::largest; }
   std::size_t limits() const { return capped.size() + problem.constraints; }
 
   double cost(std::span<const double> values) const {
@@ -73,8 +73,10 @@ Task make_task(const SmoothProblem& problem, const SmoothOptions& options) {
   Task task{problem, options, options.weights, {}};
   if (task.weights.empty()) task.weights.assign(m, task.largest() ? 1 : 1 / static_cast<double>(m));
   for (std::size_t k = 0; k < m; ++k)
-    LINKWRIGHT_REQUIRE(task.weights[k] > 0 && std::isfinite(task.weights[k]),
-                       "weight {} must be more than 0, got {}", k, task.weights[k]);
+    LINKWRIGHT_REQUIRE(task.weights[k] >= 0 && std::isfinite(task.weights[k]),
+                       "weight {} must be at least 0, got {}", k, task.weights[k]);
+  LINKWRIGHT_REQUIRE(*std::max_element(task.weights.begin(), task.weights.end()) > 0, "all {} weights are 0",
+                     m);
   for (std::size_t k = 0; k < options.caps.size(); ++k) {
     LINKWRIGHT_REQUIRE(!std::isnan(options.caps[k]), "cap {} is not a number", k);
     if (options.caps[k] < infinity) task.capped.push_back(k);

@@ -17,22 +17,22 @@
 namespace linkwright::optimise {
 
 /// What is made of several objectives.
-enum class Combination {
+enum class SmoothGoal {
   mean,     ///< the sum of weights times objectives, as they are 1 / number of objectives
   largest,  ///< the largest of weights times objectives, as they are 1, by its epigraph
 };
-constexpr std::array<EnumName<Combination>, 2> names(Combination) {
-  return {{{Combination::mean, "mean", "the weighted mean of the objectives"},
-           {Combination::largest, "largest", "the largest of the objectives"}}};
+constexpr std::array<EnumName<SmoothGoal>, 2> names(SmoothGoal) {
+  return {{{SmoothGoal::mean, "mean", "the weighted mean of the objectives"},
+           {SmoothGoal::largest, "largest", "the largest of the objectives"}}};
 }
 
 struct SmoothOptions {
-  Combination combination = Combination::mean;
+  SmoothGoal goal = SmoothGoal::mean;
   int candidates = 4096;        ///< drawn to choose starts from
   int starts = 96;              ///< local searches at most
   int confirmations = 24;       ///< end when so many of them found the best cost; 0 = make all starts
   double same_cost = 1e-6;      ///< relative: ends that cost at most this much more than the best found it
-  std::vector<double> weights;  ///< one an objective, above 0; empty = as named in Combination
+  std::vector<double> weights;  ///< one an objective, at least 0; empty = as named at SmoothGoal
   std::vector<double> caps;     ///< no objective may exceed its own; infinite = free; empty = all free
   LocalOptions local = {.max_evaluations = 400, .step_tolerance = 1e-8, .decrease_tolerance = 1e-10};
   /// Name under which the ends are kept in the checkpoint of the run context; empty = not kept.
@@ -40,7 +40,7 @@ struct SmoothOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SmoothOptions& o) {
-  visit(Field{.key = "combination", .summary = "what is made of several objectives"}, o.combination);
+  visit(Field{.key = "goal", .summary = "what is made of several objectives"}, o.goal);
   visit(Field{.key = "candidates",
               .summary = "candidates drawn to choose starts from",
               .minimum = 1,
@@ -116,8 +116,8 @@ struct SmoothReport {
 /// Starts run in rounds of eight, in parallel on RunContext::threads() threads; the same bits for any number
 /// of threads. With a checkpoint, finished rounds are kept, and a later call goes on after them; it throws
 /// CheckpointError when what was kept is not of such a minimisation. Throws ContractError for options out of
-/// range, weights not above 0, caps that are NaN, lists of wrong length and bounds that are not finite or not
-/// ordered.
+/// range, weights below 0 or all 0, caps that are NaN, lists of wrong length and bounds that are not finite
+/// or not ordered.
 SmoothReport minimise_smooth(const SmoothProblem& problem, const SmoothOptions& options, const Seed& seed,
                              RunContext& context);
 

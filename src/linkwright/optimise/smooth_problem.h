@@ -30,11 +30,8 @@ struct SmoothProblem {
 /// an objective or a constraint is not finite.
 double violation_of(std::span<const double> values, std::size_t objectives);
 
-/// The same problem for population methods, with as many objectives. Infinite costs where the candidate does
-/// not exist.
+/// The same problem for population methods, with as many objectives (combine.h makes one of them). Infinite
+/// costs where the candidate does not exist.
 Problem to_problem(const SmoothProblem& problem);
-
-/// With one objective: the sum of the objectives times `weights`, one each; empty = their mean.
-Problem to_weighted_problem(const SmoothProblem& problem, std::vector<double> weights = {});
 
 }  // namespace linkwright::optimise

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t block = 32;  // machines swept together
 
 constexpr std::array<std::string_view, four_bar_number_count> number_names = {"crank_m",
                                                                               "coupler_m",
@@ -110,102 +109,71 @@ bool constraints(const FourBarBalancing& b, const Layout& layout, const FourBar&
   return margin >= 0;
 }
 
-// Sums over the samples, one a machine.
+// Sum over the samples, by eight sums that a register can hold.
 template <class Term>
-void accumulate(const FourBarSweep& sweep, FourBarRow row, std::size_t samples, std::size_t machines,
-                double* sums, Term&& term) {
-  std::fill_n(sums, machines, 0.0);
-  for (std::size_t i = 0; i < samples; ++i) {
-    const double* v = sweep.row(row, i).data();
-    for (std::size_t k = 0; k < machines; ++k) sums[k] = term(sums[k], v[k]);
-  }
+double total(std::span<const double> samples, Term&& term) {
+  constexpr std::size_t lanes = 8;
+  std::array<double, lanes> sums{};
+  std::size_t i = 0;
+  for (; i + lanes <= samples.size(); i += lanes)
+    for (std::size_t k = 0; k < lanes; ++k) sums[k] += term(samples[i + k]);
+  for (std::size_t k = 0; i < samples.size(); ++i, ++k) sums[k] += term(samples[i]);
+  double sum = 0;
+  for (const double s : sums) sum += s;
+  return sum;
 }
 
-void measure_all(const FourBarSweep& sweep, const BalancingObjective& o, double softening,
-                 std::size_t samples, std::size_t machines, double* sums, double* most) {
-  const FourBarRow row = row_of(o.component);
-  const auto n = static_cast<double>(samples);
+double measure(const BalancingObjective& o, double softening, std::span<const double> samples) {
+  const auto n = static_cast<double>(samples.size());
   const double s = softening * o.reference;
-  const auto largest = [](double a, double v) {
-    return std::abs(v) > a || std::isnan(v) ? std::abs(v) : a;  // keeps a NaN
-  };
   switch (o.measure) {
-    case Measure::rss_over_n:
-    case Measure::rms: {
-      accumulate(sweep, row, samples, machines, sums, [](double a, double v) { return a + v * v; });
-      const double by = o.measure == Measure::rms ? 1 / std::sqrt(n) : 1 / (n - 1);
-      for (std::size_t k = 0; k < machines; ++k) sums[k] = std::sqrt(sums[k]) * by;
-      break;
-    }
+    case Measure::rms:
+      return std::sqrt(total(samples, [](double v) { return v * v; }) / n);
     case Measure::mean_abs:
-      if (s > 0)
-        accumulate(sweep, row, samples, machines, sums,
-                   [s](double a, double v) { return a + std::sqrt(v * v + s * s); });
-      else
-        accumulate(sweep, row, samples, machines, sums, [](double a, double v) { return a + std::abs(v); });
-      for (std::size_t k = 0; k < machines; ++k) sums[k] /= n;
-      break;
-    case Measure::max_abs:
-      accumulate(sweep, row, samples, machines, sums, largest);
-      if (s > 0) {
-        std::copy_n(sums, machines, most);
-        std::fill_n(sums, machines, 0.0);
-        for (std::size_t i = 0; i < samples; ++i) {
-          const double* v = sweep.row(row, i).data();
-          for (std::size_t k = 0; k < machines; ++k)
-            sums[k] += std::exp((v[k] - most[k]) / s) + std::exp((-v[k] - most[k]) / s);
-        }
-        for (std::size_t k = 0; k < machines; ++k) sums[k] = most[k] + s * std::log(sums[k]);
-      }
+      if (s > 0) return total(samples, [s](double v) { return std::sqrt(v * v + s * s); }) / n;
+      return total(samples, [](double v) { return std::abs(v); }) / n;
+    case Measure::max_abs: {
+      const double most = max_abs(samples);
+      if (s == 0 || std::isnan(most)) return most;
+      return most + s * std::log(total(samples, [s, most](double v) {
+                      return std::exp((v - most) / s) + std::exp((-v - most) / s);
+                    }));
+    }
+    case Measure::rss_over_n:
       break;
   }
-  for (std::size_t k = 0; k < machines; ++k) sums[k] /= o.reference;
+  return std::sqrt(total(samples, [](double v) { return v * v; })) / (n - 1);
 }
 
 // Of a thread.
 struct Memory {
   FourBarSweep sweep{{.directions = false, .rates = false, .forces = true, .shaking = true}};
-  std::vector<FourBarMachine> machines, swept;
-  std::vector<std::size_t> places;
-  std::array<double, block> sums{}, most{};
+  std::vector<FourBarMachine> machines;
 };
 Memory& memory() {
   thread_local Memory of_thread;
   return of_thread;
 }
 
-void sweep_block(const FourBarBalancing& b, const Layout& layout, double softening, Memory& m,
-                 std::span<double> values) {
-  m.sweep.run(m.swept, b.gravity, {layout.angles, {&b.crank_speed, 1}, {&b.crank_acceleration, 1}});
-  for (std::size_t j = 0; j < b.objectives.size(); ++j) {
-    measure_all(m.sweep, b.objectives[j], softening, layout.angles.size(), m.swept.size(), m.sums.data(),
-                m.most.data());
-    for (std::size_t k = 0; k < m.swept.size(); ++k) values[m.places[k] * layout.width + j] = m.sums[k];
-  }
-  m.swept.clear();
-  m.places.clear();
-}
-
-// Machines that can move are swept `block` at a time, whatever stands between them.
+// One machine after the other, registers hold angles: a single candidate is as quick as one of many.
 void evaluate(const FourBarBalancing& b, const Layout& layout, double softening,
               std::span<const FourBarMachine> machines, std::span<double> values) {
-  Memory& m = memory();
-  m.swept.clear();
-  m.places.clear();
-  m.swept.reserve(block);
-  m.places.reserve(block);
+  FourBarSweep& sweep = memory().sweep;
   const std::size_t objectives = b.objectives.size();
   for (std::size_t i = 0; i < machines.size(); ++i) {
+    const FourBarMachine& m = machines[i];
     double* of = values.data() + i * layout.width;
-    if (constraints(b, layout, machines[i].linkage, of + objectives)) {
-      m.swept.push_back(machines[i]);
-      m.places.push_back(i);
-      if (m.swept.size() == block) sweep_block(b, layout, softening, m, values);
-    } else {
+    if (!constraints(b, layout, m.linkage, of + objectives)) {
       std::fill_n(of, objectives, nan);
+      continue;
+    }
+    sweep.run(m.linkage, m.masses, b.gravity,
+              {layout.angles, {&b.crank_speed, 1}, {&b.crank_acceleration, 1}});
+    for (std::size_t k = 0; k < objectives; ++k) {
+      const BalancingObjective& o = b.objectives[k];
+      of[k] = measure(o, softening, sweep.row(row_of(o.component))) / o.reference;
     }
   }
-  if (!m.swept.empty()) sweep_block(b, layout, softening, m, values);
 }
 
 }  // namespace

@@ -129,8 +129,8 @@ std::vector<std::string> balancing_constraints(const FourBarBalancing& balancing
 /// for |x|, and s log(sum of exp(|x| / s)) for the largest, which is at most s log(2 samples) too much; 0 =
 /// exactly those.
 ///
-/// Machines are swept together through SIMD registers (FourBarSweep), in memory of the thread: nothing is
-/// allocated once a thread has come through a call.
+/// Each machine is swept through SIMD registers of angles (FourBarSweep), in memory of the thread: nothing is
+/// allocated once a thread has come through a call, and one machine at a time is as quick as many.
 void balancing_values(const FourBarBalancing& balancing, std::span<const FourBarMachine> machines,
                       std::span<double> values, double softening = 0);
 

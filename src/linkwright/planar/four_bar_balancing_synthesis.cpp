@@ -28,14 +28,14 @@ void measure_exactly(const FourBarBalancing& b, const SmoothOptions& options, Sm
       four_bar_machine(std::span<const double, four_bar_number_count>(report.x), b.branch);
   std::vector<double> values(m + report.constraints.size());
   balancing_values(b, {&machine, 1}, values);
-  report.cost = options.combination == optimise::Combination::mean ? 0 : -HUGE_VAL;
+  report.cost = options.goal == optimise::SmoothGoal::mean ? 0 : -HUGE_VAL;
   double most = 0;
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (k >= m) {
       most = std::max(most, values[k]);
       continue;
     }
-    const bool mean = options.combination == optimise::Combination::mean;
+    const bool mean = options.goal == optimise::SmoothGoal::mean;
     const double weight = !options.weights.empty() ? options.weights[k]
                           : mean                   ? 1 / static_cast<double>(m)
                                                    : 1;
