@@ -320,7 +320,9 @@ class EndKeeper {
       throw CheckpointError(fmt::format("{}: {} numbers are no ends of this problem", name_, numbers.size()));
     for (std::size_t k = 0; k < numbers.size(); k += width) {
       const double* v = &numbers[k];
-      if (!(v[2] >= 0 && v[2] <= static_cast<double>(LocalEnd::interrupted)) || !(v[3] >= 0 && v[3] < 1e15))
+      const bool numbers_only = std::none_of(v, v + width, [](double x) { return std::isnan(x); });
+      if (!numbers_only || !(v[2] >= 0 && v[2] <= static_cast<double>(LocalEnd::interrupted)) ||
+          !(v[3] >= 0 && v[3] < 1e15))
         throw CheckpointError(fmt::format("{}: is no end of a search", name_));
       ends.push_back({.cost = v[0],
                       .violation = v[1],
@@ -383,7 +385,7 @@ SmoothReport minimise_smooth(const SmoothProblem& problem, const SmoothOptions& 
     if (!cut) keeper.keep(report.ends);
     context.report({.stage = "minimise_smooth",
                     .fraction = static_cast<double>(report.ends.size()) / static_cast<double>(starts.size()),
-                    .best = best});
+                    .best = best < infinity ? best : std::numeric_limits<double>::quiet_NaN()});
     if (cut) {
       interruption = context.interruption();
       break;
