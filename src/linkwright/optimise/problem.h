@@ -45,7 +45,8 @@ struct Problem {
   /// Why one candidate is infeasible, for reports; may be empty.
   std::function<std::vector<Violation>(std::span<const double> x)> explain;
 
-  /// What its one objective was combined of, see combine.h; null if of nothing.
+  /// What its one objective was combined of, see combine.h; null if of nothing. `minimise` evaluates that
+  /// instead of `evaluate`, for the objectives of what it finds.
   std::shared_ptr<const Combination> combination;
 };
 
