@@ -3,8 +3,10 @@
 
 #include <vector>
 
+#include "linkwright/optimise/combine.h"
 #include "linkwright/optimise/methods.h"
 #include "linkwright/optimise/minimise.h"
+#include "linkwright/optimise/pagmo_bridge.h"
 
 namespace {
 
@@ -59,6 +61,7 @@ void whole_run(benchmark::State& state, OptimiserOptions options) {
   options.jade.population = n;
   options.firefly.population = options.cuckoo_search.population = options.hybrid_cuckoo_firefly.population =
       options.subpopulation_firefly.population = n;
+  options.cma_es.population = n;
   MinimiseOptions minimise_options;
   minimise_options.stop.generations = generations;
   const Problem problem = sphere(10);
@@ -68,6 +71,54 @@ void whole_run(benchmark::State& state, OptimiserOptions options) {
   std::int64_t evaluations = 0;
   for (auto _ : state)
     evaluations += minimise(problem, options, minimise_options, {.seed = ++seed}, context).evaluations;
+  state.counters["ns_per_evaluation"] = benchmark::Counter(
+      1e-9 * static_cast<double>(evaluations), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+/// Two objectives, which pull to two corners.
+Problem two_spheres() {
+  Problem problem = sphere(10);
+  problem.objectives = 2;
+  problem.evaluate = [](const PopulationView& x, std::span<double> cost, std::span<double> violation) {
+    for (std::size_t i = 0; i < x.size; ++i) {
+      cost[2 * i] = cost[2 * i + 1] = violation[i] = 0;
+      for (std::size_t j = 0; j < x.dimension; ++j) {
+        cost[2 * i] += x(j, i) * x(j, i);
+        cost[2 * i + 1] += (x(j, i) - 2) * (x(j, i) - 2);
+      }
+    }
+  };
+  return problem;
+}
+
+/// The moves of all objectives, the incumbent, and a front of 100.
+void several_objectives(benchmark::State& state, OptimiserOptions options) {
+  Problem problem = two_spheres();
+  if (!takes_several_objectives(options.method)) problem = weighted_sum(problem);
+  MinimiseOptions minimise_options;
+  minimise_options.stop.generations = generations;
+  minimise_options.front = static_cast<std::size_t>(state.range(0));
+  RunContext context;
+  context.set_threads(1);
+  std::uint64_t seed = 0;
+  std::int64_t evaluations = 0;
+  for (auto _ : state)
+    evaluations += minimise(problem, options, minimise_options, {.seed = ++seed}, context).evaluations;
+  state.counters["ns_per_evaluation"] = benchmark::Counter(
+      1e-9 * static_cast<double>(evaluations), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+/// The same by methods of pagmo, log and all.
+void fronts_by_pagmo(benchmark::State& state, PagmoMethod method) {
+  PagmoOptions options = {.method = method};
+  options.nsga2.population = options.moead.population = static_cast<int>(state.range(0));
+  const Problem problem = two_spheres();
+  RunContext context;
+  context.set_threads(1);
+  std::uint64_t seed = 0;
+  std::int64_t evaluations = 0;
+  for (auto _ : state)
+    evaluations += minimise_with_pagmo(problem, options, {}, {.seed = ++seed}, context).evaluations;
   state.counters["ns_per_evaluation"] = benchmark::Counter(
       1e-9 * static_cast<double>(evaluations), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
@@ -86,6 +137,7 @@ void sphere_only(benchmark::State& state) {
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
+const OptimiserOptions cma_es = {.method = Method::cma_es};
 const OptimiserOptions de = {.method = Method::differential_evolution};
 const OptimiserOptions jde = {.method = Method::self_adaptive_differential_evolution};
 const OptimiserOptions wolf = {.method = Method::grey_wolf};
@@ -113,6 +165,18 @@ BENCHMARK_CAPTURE(whole_run, firefly, firefly)->Arg(40)->Unit(benchmark::kMillis
 BENCHMARK_CAPTURE(whole_run, cuckoo_search, cuckoo)->Arg(25)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(whole_run, hybrid_cuckoo_firefly, hybrid)->Arg(25)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(whole_run, subpopulation_firefly, parts)->Arg(40)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(whole_run, cma_es, cma_es)->Arg(30)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(fronts_by_pagmo, nsga2, PagmoMethod::nsga2)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(fronts_by_pagmo, moead, PagmoMethod::moead)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(several_objectives, cuckoo_search, cuckoo)->Arg(0)->Arg(100)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(several_objectives, subpopulation_firefly, parts)
+    ->Arg(0)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(several_objectives, differential_evolution, de)
+    ->Arg(0)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(sphere_only)->Arg(30)->Arg(100);
 
 }  // namespace

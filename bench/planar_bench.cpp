@@ -7,6 +7,7 @@
 
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/minimise.h"
+#include "linkwright/planar/four_bar_balancing_samples.h"
 #include "linkwright/planar/four_bar_reactions.h"
 #include "linkwright/planar/four_bar_sweep.h"
 #include "linkwright/planar/path_objective.h"
@@ -150,6 +151,29 @@ void four_bar_population_sweep(benchmark::State& state, const FourBarWanted& wan
 }
 BENCHMARK_CAPTURE(four_bar_population_sweep, shaking, shaking_only)->Arg(32);
 BENCHMARK_CAPTURE(four_bar_population_sweep, everything, everything)->Arg(8)->Arg(32);
+
+// All objectives of machines near a published design over a turn of 201 positions.
+void balancing_objectives(benchmark::State& state, std::string_view name) {
+  const PublishedBalancing p = published_balancing(name);
+  const optimise::SmoothProblem problem = balancing_problem(p.problem);
+  const auto size = static_cast<std::size_t>(state.range(0));
+  optimise::Population population(four_bar_number_count, size);
+  for (std::size_t i = 0; i < size; ++i) {
+    RandomStream random({.seed = 1, .individual = static_cast<std::uint32_t>(i)});
+    FourBarNumbers x = four_bar_numbers(p.published);
+    for (double& v : x) v *= random.uniform(0.99, 1.01);
+    population.set(i, x);
+  }
+  std::vector<double> values(size * problem.values());
+  for (auto _ : state) {
+    problem.evaluate(population.view(), values);
+    benchmark::DoNotOptimize(values.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(size));
+}
+BENCHMARK_CAPTURE(balancing_objectives, eight, "sp-fa")->Arg(1)->Arg(33)->Arg(1024);
+BENCHMARK_CAPTURE(balancing_objectives, three, "case3")->Arg(1)->Arg(1024);
 
 // One position of an arm of n links with everything: motion, joint forces, torques of both kinds.
 void serial_arm_reactions(benchmark::State& state) {

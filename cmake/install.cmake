@@ -1,8 +1,9 @@
 # Installs the library for find_package(Linkwright): one target a room (Linkwright::planar ...) and
-# Linkwright::linkwright, which is all of them; add_subdirectory gives the same names.
+# Linkwright::linkwright, which is all of them without the extras (Linkwright::pagmo_adapters); add_subdirectory gives the same names.
 
 get_property(rooms GLOBAL PROPERTY LINKWRIGHT_ROOMS)
 list(REMOVE_ITEM rooms linkwright_cli)
+get_property(extras GLOBAL PROPERTY LINKWRIGHT_EXTRAS)
 add_library(linkwright_all INTERFACE)
 target_link_libraries(linkwright_all INTERFACE ${rooms})
 set_target_properties(linkwright_all PROPERTIES EXPORT_NAME linkwright)
@@ -19,7 +20,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Linkwright)
 if(TARGET linkwright)
   install(TARGETS linkwright RUNTIME)
 endif()
-install(TARGETS ${rooms} linkwright_all EXPORT LinkwrightTargets ARCHIVE)
+install(TARGETS ${rooms} ${extras} linkwright_all EXPORT LinkwrightTargets ARCHIVE)
 install(DIRECTORY src/linkwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT LinkwrightTargets NAMESPACE Linkwright:: DESTINATION ${package_dir})
 

@@ -20,6 +20,17 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 
 # linkwright_room(<room> SOURCES <files> [DEPENDS <rooms or libraries>])
 function(linkwright_room room)
+  linkwright_library(${room} ${ARGN})
+  set_property(GLOBAL APPEND PROPERTY LINKWRIGHT_ROOMS linkwright_${room})
+endfunction()
+
+# linkwright_extra(<name> ...): a library for those who link it by its name; Linkwright::linkwright is without it.
+function(linkwright_extra name)
+  linkwright_library(${name} ${ARGN})
+  set_property(GLOBAL APPEND PROPERTY LINKWRIGHT_EXTRAS linkwright_${name})
+endfunction()
+
+function(linkwright_library room)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(linkwright_${room} STATIC ${arg_SOURCES})
   target_include_directories(linkwright_${room} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
@@ -33,7 +44,6 @@ function(linkwright_room room)
   endif()
   set_target_properties(linkwright_${room} PROPERTIES EXPORT_NAME ${room} POSITION_INDEPENDENT_CODE ON)
   add_library(Linkwright::${room} ALIAS linkwright_${room})
-  set_property(GLOBAL APPEND PROPERTY LINKWRIGHT_ROOMS linkwright_${room})
 endfunction()
 
 # linkwright_require(<package> [options]): find_package(... REQUIRED) for a library that rooms link; the installed

@@ -31,6 +31,25 @@ TEST(Catalogue, FindsKindsByNameAndUnambiguousBeginning) {
   EXPECT_THAT(find("x"), HasSubstr("there is: synthesis/sample.lever/angle, analysis/sample.wheel"));
 }
 
+TEST(Catalogue, TablesAreFoundByIdByBeginningOrAllTogether) {
+  const std::vector<study::Reproduction> all = {{.id = "a-1", .title{}, .source{}, .notes{}, .run{}},
+                                                {.id = "a-10", .title{}, .source{}, .notes{}, .run{}},
+                                                {.id = "b-1", .title{}, .source{}, .notes{}, .run{}}};
+  Diagnostics diagnostics;
+  const auto ids = [&](std::string_view id) {
+    std::string out;
+    for (const study::Reproduction* r : find_reproductions(id, all, diagnostics)) out += r->id + " ";
+    return out;
+  };
+  EXPECT_EQ(ids("a-1"), "a-1 ");
+  EXPECT_EQ(ids("a"), "a-1 a-10 ");
+  EXPECT_EQ(ids("all"), "a-1 a-10 b-1 ");
+  EXPECT_TRUE(diagnostics.empty());
+  EXPECT_EQ(ids("c-1"), "");
+  ASSERT_EQ(diagnostics.size(), 1u);
+  EXPECT_THAT(to_string(diagnostics[0]), HasSubstr("there is no published table 'c-1'; did you mean 'a-1'?"));
+}
+
 // Holds for whatever the domains register: names are unique and every example is a study of its kind without
 // errors.
 TEST(Catalogue, EveryKindHasAGoodExampleAndASchema) {

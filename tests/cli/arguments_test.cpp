@@ -34,6 +34,8 @@ TEST(Arguments, TheOtherCommands) {
   EXPECT_EQ(parse({"new", "analysis", "f.toml"}).file, "f.toml");
   EXPECT_EQ(parse({"schema"}).command, Command::schema);
   EXPECT_EQ(parse({"catalogue"}).command, Command::catalogue);
+  EXPECT_EQ(parse({"reproduce"}).command, Command::reproduce);
+  EXPECT_EQ(parse({"reproduce", "all", "--json"}).table, "all");
 }
 
 TEST(Arguments, HelpAndVersionAreNoErrors) {

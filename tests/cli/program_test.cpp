@@ -141,5 +141,12 @@ TEST_F(Program, SchemaAndCatalogue) {
   }
 }
 
+TEST_F(Program, ReproduceListsAndRefuses) {
+  EXPECT_EQ(run({"reproduce"}), 0);
+  EXPECT_EQ(out_, "");  // this program has no tables
+  EXPECT_EQ(run({"reproduce", "table-1"}), 2);
+  EXPECT_THAT(err_, HasSubstr("there is no published table 'table-1'"));
+}
+
 }  // namespace
 }  // namespace linkwright::cli

@@ -9,6 +9,7 @@
 
 #include "linkwright/optimise/statistics.h"
 #include "optimise/functions.h"
+#include "optimise/swarms.h"
 #include "support/message.h"
 
 namespace linkwright::optimise {
@@ -152,6 +153,75 @@ TEST(DifferentialEvolution, MutantsAreOfTheirScheme) {
     }
     EXPECT_GE(inside, 4u) << name_of(scheme);
   }
+}
+
+OptimiserOptions in_place() {
+  OptimiserOptions method;
+  method.differential_evolution = {.population = 60,
+                                   .generations = 101,
+                                   .crossover = 0.5,
+                                   .replacement = Replacement::in_place,
+                                   .bounds = MutantBounds::clip};
+  return method;
+}
+
+TEST(DifferentialEvolution, InPlaceEndsWhereOthersDo) {
+  test::expect_as_listed(test::sphere10(), in_place(), {0.00473, 6060});
+  test::expect_as_listed(test::rosenbrock5(), in_place(), {1.818, 6060});
+}
+
+TEST(DifferentialEvolution, InPlaceLaterTrialsAreMadeFromAcceptedOnes) {
+  // With CR = 1 every trial is x_a + F (x_b - x_c) of the members at that moment, distinct and not its
+  // target.
+  const std::vector<Variable> variables = {{"x", -100, 100}, {"y", -100, 100}};
+  for (const MutantBounds bounds : {MutantBounds::clip, MutantBounds::midpoint}) {
+    const auto optimiser = make_optimiser(
+        variables,
+        DifferentialEvolutionOptions{
+            .population = 4, .crossover = 1, .replacement = Replacement::in_place, .bounds = bounds},
+        {});
+    std::array<std::array<double, 2>, 4> x;
+    const std::array<double, 4> cost = {4, 3, 2, 1};
+    const PopulationView first = optimiser->ask();
+    for (std::size_t i = 0; i < 4; ++i) x[i] = {first(0, i), first(1, i)};
+    optimiser->tell(cost, std::vector<double>(4));
+    for (std::size_t trial = 0; trial < 400; ++trial) {
+      const std::size_t i = trial % 4;
+      EXPECT_EQ(optimiser->generation(), 1 + trial / 4);
+      const PopulationView one = optimiser->ask();
+      ASSERT_EQ(one.size, 1u);
+      bool found = false;
+      for (std::size_t a = 0; a < 4; ++a)
+        for (std::size_t b = 0; b < 4; ++b) {
+          const std::size_t c = 6 - i - a - b;  // of 0 + 1 + 2 + 3 what is left
+          if (a == b || a == i || b == i) continue;
+          const auto kept = [&](std::size_t j) {
+            const double v = x[a][j] + 0.6 * (x[b][j] - x[c][j]);
+            if (v >= -100 && v <= 100) return v;
+            const double bound = v < 0 ? -100 : 100;
+            return bounds == MutantBounds::clip ? bound : (x[a][j] + bound) / 2;
+          };
+          found = found || (std::abs(kept(0) - one(0, 0)) < 1e-11 && std::abs(kept(1) - one(1, 0)) < 1e-11);
+        }
+      ASSERT_TRUE(found) << trial;
+      // One as good as its target is good enough; every third is worse.
+      const bool worse = trial % 3 == 0;
+      if (!worse) x[i] = {one(0, 0), one(1, 0)};
+      optimiser->tell(std::vector<double>{cost[i] + worse}, std::vector<double>{0});
+      EXPECT_EQ(optimiser->members()(0, i), x[i][0]);
+    }
+  }
+}
+
+TEST(DifferentialEvolution, ClipsInAnyReplacement) {
+  // The minimum is in a corner: clipped trials come to it exactly, midpoints only closer and closer.
+  const Problem problem =
+      test::make_problem(3, 1, 2, [](std::span<const double> x) { return test::Value{x[0] + x[1] - x[2]}; });
+  OptimiserOptions method;
+  method.differential_evolution.bounds = MutantBounds::clip;
+  EXPECT_EQ(run(problem, method, 60, 10, 0).statistics.worst, 0);
+  method.differential_evolution.bounds = MutantBounds::midpoint;
+  EXPECT_GT(run(problem, method, 60, 10, 0).statistics.best, 0);
 }
 
 TEST(DifferentialEvolution, SaysWhichOptionIsOutOfRange) {

@@ -91,4 +91,46 @@ inline Problem g06() {
   return problem;
 }
 
+/// Problem of several objectives: f writes them to `costs` and returns the violation.
+inline Problem make_problem(std::size_t dimension, double lower, double upper, std::size_t objectives,
+                            std::function<double(std::span<const double>, std::span<double>)> f) {
+  Problem problem = make_problem(dimension, lower, upper, nullptr);
+  problem.objectives = objectives;
+  problem.evaluate = [objectives, f = std::move(f)](const PopulationView& candidates, std::span<double> cost,
+                                                    std::span<double> violation) {
+    std::vector<double> x(candidates.dimension);
+    for (std::size_t i = 0; i < candidates.size; ++i) {
+      for (std::size_t j = 0; j < x.size(); ++j) x[j] = candidates(j, i);
+      violation[i] = f(x, cost.subspan(i * objectives, objectives));
+    }
+  };
+  return problem;
+}
+
+/// Mean squares of the distances from the origin and from (2, ..., 2) (Schaffer 1985, in n variables). The
+/// front is on the line between them: sqrt(f1) + sqrt(f2) = 2.
+inline Problem schaffer(std::size_t n) {
+  return make_problem(n, -5, 3, 2, [](std::span<const double> x, std::span<double> costs) {
+    costs[0] = costs[1] = 0;
+    for (const double v : x) {
+      costs[0] += v * v / static_cast<double>(x.size());
+      costs[1] += (v - 2) * (v - 2) / static_cast<double>(x.size());
+    }
+    return 0.0;
+  });
+}
+
+/// Binh and Korn 1997, in [0, 5] x [0, 3] taken as a square: two objectives, two constraints.
+inline Problem binh_korn() {
+  Problem problem = make_problem(2, 0, 5, 2, [](std::span<const double> x, std::span<double> costs) {
+    costs[0] = 4 * x[0] * x[0] + 4 * x[1] * x[1];
+    costs[1] = std::pow(x[0] - 5, 2) + std::pow(x[1] - 5, 2);
+    const double g1 = std::pow(x[0] - 5, 2) + x[1] * x[1] - 25;
+    const double g2 = 7.7 - std::pow(x[0] - 8, 2) - std::pow(x[1] + 3, 2);
+    return std::max(g1, 0.0) + std::max(g2, 0.0);
+  });
+  problem.variables[1].upper = 3;
+  return problem;
+}
+
 }  // namespace linkwright::optimise::test

@@ -44,8 +44,7 @@ TEST(HybridCuckooFirefly, SweepsTheWorstNestsWhenAsked) {
     problem.evaluate(optimiser->members(), after, violation);
     std::vector<double> sorted = before;
     std::sort(sorted.begin(), sorted.end());
-    for (std::size_t i = 0; i < 10; ++i)
-      EXPECT_TRUE(before[i] >= sorted[7] || after[i] == before[i]) << i;
+    for (std::size_t i = 0; i < 10; ++i) EXPECT_TRUE(before[i] >= sorted[7] || after[i] == before[i]) << i;
   }
 }
 
@@ -64,6 +63,25 @@ TEST(HybridCuckooFirefly, SaysWhichOptionIsOutOfRange) {
               HasSubstr("hybrid_cuckoo_firefly: population must be at least 2, got 1"));
   EXPECT_THAT(with({.swept = 0}), HasSubstr("hybrid_cuckoo_firefly: swept must be more than 0, got 0"));
   EXPECT_THAT(with({.flight = {.exponent = 0.1}}), HasSubstr("levy_exponent must be at least 0.3, got 0.1"));
+}
+
+TEST(HybridCuckooFirefly, SeveralObjectivesRankNestsByTheMeanRelativeToTheBest) {
+  // The nest with the costs of the best so far, (1, 1000), is not among the two worst, although plain means
+  // would have it last: the two others are swept, and one moves towards the other.
+  const Problem problem = test::schaffer(1);
+  const auto optimiser =
+      make_optimiser(problem.variables, HybridCuckooFireflyOptions{.population = 3, .swept = 0.5}, {}, 2);
+  optimiser->start_from(std::vector<double>{0}, std::vector<double>{1, 1000});
+  optimiser->ask();
+  optimiser->tell(std::vector<double>{10, 10, 1, 1000, 11, 11}, std::vector<double>(3));
+  for (std::uint32_t generation = 1; generation < 10; ++generation) {
+    int rounds = 0;
+    for (; optimiser->generation() == generation; ++rounds) {
+      optimiser->ask();
+      optimiser->tell(std::vector<double>(2, rounds < 3 ? 1e9 : 11), std::vector<double>(1));
+    }
+    EXPECT_EQ(rounds, 4);  // three flights that come to nothing, and the move
+  }
 }
 
 }  // namespace

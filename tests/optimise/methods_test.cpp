@@ -1,14 +1,20 @@
 #include "linkwright/optimise/methods.h"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
 #include "optimise/functions.h"
+#include "support/message.h"
 
 namespace linkwright::optimise {
 namespace {
+
+using linkwright::test::message;
+using testing::HasSubstr;
 
 std::vector<std::string> keys(OptimiserOptions options) {
   std::vector<std::string> found;
@@ -27,9 +33,9 @@ TEST(Methods, NamesAreFullAndJdeIsAnAlias) {
 }
 
 TEST(Methods, FieldsAreThoseOfTheChosenMethod) {
-  EXPECT_EQ(
-      keys({.method = Method::differential_evolution}),
-      (std::vector<std::string>{"method", "population", "generations", "scale", "crossover", "scheme"}));
+  EXPECT_EQ(keys({.method = Method::differential_evolution}),
+            (std::vector<std::string>{"method", "population", "generations", "scale", "crossover", "scheme",
+                                      "replacement", "bounds"}));
   EXPECT_EQ(keys({.method = Method::grey_wolf}),
             (std::vector<std::string>{"method", "population", "generations", "reset_worst_half",
                                       "absolute_value"}));
@@ -42,6 +48,8 @@ TEST(Methods, FieldsAreThoseOfTheChosenMethod) {
                                       "levy_step", "levy"}));
   EXPECT_EQ(keys({.method = Method::hybrid_cuckoo_firefly}).size(), 11u);
   EXPECT_EQ(keys({.method = Method::subpopulation_firefly}).size(), 11u);
+  EXPECT_EQ(keys({.method = Method::cma_es}),
+            (std::vector<std::string>{"method", "population", "generations", "initial_step"}));
 }
 
 TEST(Methods, TheMethodReadFirstDecidesAboutTheKeysAfterIt) {
@@ -85,6 +93,24 @@ TEST(Methods, MakeTheChosenOptimiserWithItsDefaults) {
               population);
     EXPECT_EQ(generations({.method = method}), 501);
   }
+}
+
+TEST(Methods, TellWhichTakeSeveralObjectives) {
+  const Problem problem = test::schaffer(2);
+  for (const EnumName<Method>& entry : names(Method{})) {
+    const OptimiserOptions options = {.method = entry.value};
+    if (takes_several_objectives(entry.value))
+      EXPECT_EQ(make_optimiser(problem.variables, options, {}, 2)->objectives(), 2u);
+    else
+      EXPECT_THAT(message([&] { make_optimiser(problem.variables, options, {}, 2); }),
+                  HasSubstr(fmt::format("{}: minimises one objective; with several use firefly, "
+                                        "cuckoo_search, hybrid_cuckoo_firefly or subpopulation_firefly, or "
+                                        "combine them, see combine.h",
+                                        name_of(entry.value))));
+    EXPECT_EQ(make_optimiser(problem.variables, options, {})->objectives(), 1u);
+  }
+  EXPECT_TRUE(takes_several_objectives(Method::hybrid_cuckoo_firefly));
+  EXPECT_FALSE(takes_several_objectives(Method::jade));
 }
 
 }  // namespace

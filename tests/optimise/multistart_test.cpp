@@ -32,7 +32,7 @@ TEST(Multistart, FindsTheGlobalMinimumAmongLocalOnes) {
   EXPECT_LT(report.ends[report.best].report.cost, 1e-13);
   int worse = 0;
   std::int64_t evaluations = 0;
-  for (const LocalEnd& end : report.ends) {
+  for (const MultistartEnd& end : report.ends) {
     worse += end.report.cost > 1e-3;
     evaluations += end.report.evaluations;
     EXPECT_GE(end.report.cost, report.ends[report.best].report.cost);
@@ -96,7 +96,7 @@ TEST(Multistart, BoundsHold) {
   const std::array<double, 1> lower = {2}, upper = {2.5};
   const auto report =
       multistart_least_squares(waves, 1, 1, lower, upper, uniform_start, {.starts = 5}, {}, context);
-  for (const LocalEnd& end : report.ends) EXPECT_TRUE(end.x[0] >= 2 && end.x[0] <= 2.5);
+  for (const MultistartEnd& end : report.ends) EXPECT_TRUE(end.x[0] >= 2 && end.x[0] <= 2.5);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/methods.h"
+#include "linkwright/optimise/pareto.h"
 #include "optimise/functions.h"
 #include "support/allocations.h"
 #include "support/message.h"
@@ -26,7 +27,8 @@ constexpr Method all_methods[] = {Method::differential_evolution,
                                   Method::firefly,
                                   Method::cuckoo_search,
                                   Method::hybrid_cuckoo_firefly,
-                                  Method::subpopulation_firefly};
+                                  Method::subpopulation_firefly,
+                                  Method::cma_es};
 
 TEST(Optimiser, FirstCandidatesAreUniformAndOneOfEachStream) {
   const Problem problem = test::sphere(3);
@@ -67,6 +69,40 @@ TEST(Optimiser, CandidatesStayInTheBoxAndFixedVariablesFixed) {
       }
       EXPECT_LT(optimiser->best_cost(), -9.9) << name_of(method);
     }
+}
+
+TEST(Optimiser, BeginsWithGivenMembers) {
+  const Problem problem = test::sphere(2);  // -5 to 3
+  Population given(2, 20);
+  for (std::size_t i = 0; i < 20; ++i) {
+    given(0, i) = 0.1 * static_cast<double>(i);
+    given(1, i) = -0.5 * static_cast<double>(i);
+  }
+  for (const Method method : all_methods) {
+    OptimiserOptions options = {.method = method};
+    visit_method(options, [](auto& o) { o.population = 20; });
+    const auto optimiser = make_optimiser(problem.variables, options, {});
+    optimiser->begin_with(given.view());
+    const PopulationView first = optimiser->ask();
+    ASSERT_EQ(first.size, 20u);
+    for (std::size_t i = 0; i < 20; ++i) {
+      EXPECT_EQ(first(0, i), given(0, i));
+      EXPECT_EQ(first(1, i), std::max(given(1, i), -5.0));  // moved to the bound
+    }
+    EXPECT_THAT(message([&] { optimiser->begin_with(given.view()); }),
+                HasSubstr("members are given before the first are asked for"));
+    std::vector<double> cost(20), violation(20);
+    problem.evaluate(first, cost, violation);
+    optimiser->tell(cost, violation);
+    EXPECT_EQ(optimiser->best_cost(), 0) << name_of(method);
+  }
+  const auto wolves = make_optimiser(problem.variables, GreyWolfOptions{}, {});
+  EXPECT_THAT(message([&] { wolves->begin_with(given.view()); }),
+              HasSubstr("20 members of 2 variables for 30 of 2"));
+  const auto twenty = make_optimiser(problem.variables, GreyWolfOptions{.population = 20}, {});
+  given(1, 7) = NAN;
+  EXPECT_THAT(message([&] { twenty->begin_with(given.view()); }),
+              HasSubstr("variable 1 of member 7 is not a number"));
 }
 
 TEST(Optimiser, AskTwiceGivesTheSameCandidates) {
@@ -119,6 +155,7 @@ TEST(Optimiser, AGenerationAllocatesNothing) {
     for (const Method method : all_methods) {
       OptimiserOptions options = {.method = method};
       options.grey_wolf.reset_worst_half = reset;
+      if (method == Method::cma_es) continue;  // that is pagmo's, which does
       const auto optimiser = make_optimiser(problem.variables, options, {});
       const std::vector<double> violation(optimiser->population(), 0.0);
       const auto before = linkwright::test::allocations();
@@ -143,6 +180,12 @@ std::vector<OptimiserOptions> all_options() {
     all.push_back({.method = Method::differential_evolution});
     all.back().differential_evolution.scheme = scheme;
   }
+  for (const MutationScheme scheme : {MutationScheme::rand_1, MutationScheme::best_1}) {
+    all.push_back({.method = Method::differential_evolution});
+    all.back().differential_evolution.scheme = scheme;
+    all.back().differential_evolution.replacement = Replacement::in_place;
+    all.back().differential_evolution.bounds = MutantBounds::clip;
+  }
   all.push_back({.method = Method::jade});
   all.back().jade.archive = false;
   all.push_back({.method = Method::hybrid_cuckoo_firefly});
@@ -153,7 +196,7 @@ std::vector<OptimiserOptions> all_options() {
 
 void round(const Problem& problem, Optimiser& optimiser) {
   const PopulationView x = optimiser.ask();
-  std::vector<double> cost(x.size), violation(x.size);
+  std::vector<double> cost(x.size * problem.objectives), violation(x.size);
   problem.evaluate(x, cost, violation);
   optimiser.tell(cost, violation);
 }
@@ -272,6 +315,170 @@ TEST(Optimiser, SaysWhatIsWrong) {
   const std::vector<Variable> unbounded = {{"crank_m", 0, HUGE_VAL}};
   EXPECT_THAT(message([&] { make_optimiser(unbounded, GreyWolfOptions{}, {}); }),
               HasSubstr("bounds of 'crank_m': 0 to inf"));
+}
+
+// Several objectives.
+
+constexpr Method several_objectives[] = {Method::firefly, Method::cuckoo_search,
+                                         Method::hybrid_cuckoo_firefly, Method::subpopulation_firefly};
+
+OptimiserOptions four(Method method) {
+  OptimiserOptions options = {.method = method};
+  options.firefly.population = options.cuckoo_search.population = options.hybrid_cuckoo_firefly.population =
+      options.subpopulation_firefly.population = 4;
+  return options;
+}
+
+TEST(Incumbent, GivesWayToWhatDominatesItOnly) {
+  const Problem problem = test::schaffer(2);
+  for (const Method method : several_objectives) {
+    const auto optimiser = make_optimiser(problem.variables, four(method), {}, 2);
+    const double known[] = {-9, 7};  // outside the bounds
+    const double known_costs[] = {1, 1};
+    optimiser->start_from(known, known_costs);
+    EXPECT_EQ(optimiser->best()[0], -9);
+    const PopulationView x = optimiser->ask();
+    const double second = x(0, 1);
+    // Worse in the second objective; better in the first, equal in the second; not compared with the
+    // reference but with the one before; cheap but infeasible.
+    optimiser->tell(std::vector<double>{0.1, 1.5, 0.9, 1, 0.95, 0.5, 0.1, 0.1},
+                    std::vector<double>{0, 0, 0, 2});
+    EXPECT_TRUE(optimiser->improved()) << name_of(method);
+    EXPECT_EQ(optimiser->best_candidate(), 1u);
+    EXPECT_EQ(optimiser->best()[0], second);
+    EXPECT_EQ(optimiser->best_costs()[0], 0.9);
+    EXPECT_EQ(optimiser->best_costs()[1], 1);
+    EXPECT_EQ(optimiser->best_violation(), 0);
+  }
+  const auto optimiser = make_optimiser(problem.variables, four(Method::firefly), {}, 2);
+  optimiser->start_from(std::vector<double>{0, 0}, std::vector<double>{1, 1});
+  optimiser->ask();
+  // Two in a row within one round: the second dominates the first.
+  optimiser->tell(std::vector<double>{0.9, 0.9, 1, 1, 0.8, 0.9, 0.8, 0.95}, std::vector<double>(4));
+  EXPECT_EQ(optimiser->best_candidate(), 2u);
+  EXPECT_TRUE(optimiser->equalled());
+}
+
+TEST(Incumbent, IsWithoutAReferenceTheLeastSumOverMedians) {
+  const Problem problem = test::schaffer(2);
+  const auto first = [&](const std::vector<double>& costs, const std::vector<double>& violations) {
+    const auto optimiser = make_optimiser(problem.variables, four(Method::cuckoo_search), {}, 2);
+    optimiser->ask();
+    optimiser->tell(costs, violations);
+    EXPECT_TRUE(optimiser->improved());
+    EXPECT_EQ(optimiser->best_costs()[1], costs[2 * optimiser->best_candidate() + 1]);
+    return optimiser->best_candidate();
+  };
+  // Medians of the feasible ones 2 and 300: sums 2.17, 1.83, 3; by plain sums the first would win.
+  EXPECT_EQ(first({3, 200, 1, 400, 2, 600, 0.1, 0.1}, {0, 0, 0, 1}), 1u);
+  // Medians between two members: 2.5 and 250; sums 2, 2.4, 1.6, 4.
+  EXPECT_EQ(first({1, 400, 2, 400, 3, 100, 9, 100}, {0, 0, 0, 0}), 2u);
+  // A median of zero counts as 1.
+  EXPECT_EQ(first({0, 5, 0, 4, 0, 3, 0, 9}, {0, 0, 0, 0}), 2u);
+  // Of equals the first; with nothing feasible the least violated.
+  EXPECT_EQ(first({1, 1, 1, 1, 1, 1, 1, 1}, {0, 0, 0, 0}), 0u);
+  EXPECT_EQ(first({1, 1, 1, 1, 1, 1, 1, 1}, {4, 3, 2, 3}), 2u);
+  // Cheaper than the chosen one, but not for the sum: it may stay, as nothing dominates it.
+  const auto optimiser = make_optimiser(problem.variables, four(Method::cuckoo_search), {}, 2);
+  optimiser->ask();
+  optimiser->tell(std::vector<double>{1, 9, 2, 2, 9, 1, 4, 4}, std::vector<double>(4));
+  EXPECT_EQ(optimiser->best_candidate(), 1u);
+}
+
+TEST(Incumbent, DominatesAllThatWereBestBefore) {
+  // A poor design to begin with leaves them a way to go.
+  struct Case {
+    Problem problem;
+    std::vector<double> x, costs;
+  };
+  for (const auto& [problem, x0, costs0] :
+       {Case{test::schaffer(3), {-5, -5, -5}, {25, 49}}, Case{test::binh_korn(), {5, 0}, {100, 25}}})
+    for (const Method method : several_objectives) {
+      const auto optimiser = make_optimiser(problem.variables, OptimiserOptions{.method = method}, {}, 2);
+      optimiser->start_from(x0, costs0);
+      std::vector<std::vector<double>> incumbents = {costs0};
+      while (optimiser->generation() < 30) {
+        round(problem, *optimiser);
+        const std::vector<double> costs(optimiser->best_costs().begin(), optimiser->best_costs().end());
+        ASSERT_EQ(optimiser->best_violation(), 0);
+        EXPECT_EQ(optimiser->improved(), incumbents.back() != costs);
+        if (optimiser->improved()) incumbents.push_back(costs);
+        // It is one design, with its own costs.
+        const std::vector<double> x(optimiser->best().begin(), optimiser->best().end());
+        Population one(x.size(), 1);
+        one.set(0, x);
+        std::vector<double> again(2), violation(1);
+        problem.evaluate(one.view(), again, violation);
+        ASSERT_EQ(again, costs);
+      }
+      EXPECT_GE(incumbents.size(), 3u) << name_of(method);
+      for (std::size_t a = 0; a < incumbents.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b)
+          EXPECT_TRUE(dominates(incumbents[a], incumbents[b])) << name_of(method) << " " << a << " " << b;
+    }
+}
+
+TEST(Incumbent, AReferenceOutsideTheBoundsIsPartOfTheState) {
+  const Problem problem = test::schaffer(2);
+  const auto make = [&](Method method, double x) {
+    OptimiserOptions options = four(method);
+    options.cuckoo_search.flight.form = LevyForm::best_difference;  // flights relative to the best
+    auto optimiser = make_optimiser(problem.variables, options, {.seed = 3}, 2);
+    optimiser->start_from(std::vector<double>{x, 0}, std::vector<double>{1e-9, 1e-9});  // nobody's equal
+    return optimiser;
+  };
+  for (const Method method : several_objectives) {
+    const auto whole = make(method, 11), restored = make(method, 11), other = make(method, 10);
+    for (int k = 0; k < 4; ++k) generation(problem, *whole);
+    EXPECT_EQ(whole->best()[0], 11);
+    ASSERT_TRUE(restored->restore(whole->state()));
+    EXPECT_FALSE(other->restore(whole->state()));
+    for (int k = 0; k < 9; ++k) {
+      generation(problem, *whole);
+      generation(problem, *restored);
+      ASSERT_EQ(restored->state(), whole->state()) << name_of(method);
+    }
+  }
+}
+
+TEST(Incumbent, OneObjectiveCanStartFromAReferenceToo) {
+  const Problem problem = test::sphere(2);
+  for (OptimiserOptions options : all_options()) {
+    const auto optimiser = make_optimiser(problem.variables, options, {});
+    optimiser->start_from(std::vector<double>{40, -40}, std::vector<double>{0.5});
+    while (optimiser->generation() < 30) {
+      const PopulationView x = optimiser->ask();
+      for (std::size_t i = 0; i < x.size; ++i)
+        for (std::size_t j = 0; j < 2; ++j)
+          ASSERT_TRUE(x(j, i) >= -5 && x(j, i) <= 3) << name_of(options.method);
+      round(problem, *optimiser);
+      ASSERT_LE(optimiser->best_cost(), 0.5);
+      EXPECT_EQ(optimiser->best_cost() == 0.5, optimiser->best()[0] == 40);
+    }
+  }
+}
+
+TEST(Incumbent, SaysWhatIsWrong) {
+  const Problem problem = test::schaffer(2);
+  const auto optimiser = make_optimiser(problem.variables, four(Method::firefly), {}, 2);
+  const auto start = [&](const std::vector<double>& x, const std::vector<double>& costs) {
+    return message([&] { optimiser->start_from(x, costs); });
+  };
+  EXPECT_THAT(start({1}, {1, 1}), HasSubstr("a design to start from has 1 values for 2 variables and 2 costs "
+                                            "for 2 objectives"));
+  EXPECT_THAT(start({1, 2}, {1}), HasSubstr("1 costs for 2 objectives"));
+  EXPECT_THAT(start({1, HUGE_VAL}, {1, 1}), HasSubstr("a design to start from: values 1, inf"));
+  EXPECT_THAT(start({1, 2}, {1, NAN}), HasSubstr("a design to start from: costs 1, nan"));
+  optimiser->ask();
+  EXPECT_THAT(start({1, 2}, {1, 1}), HasSubstr("a design to start from comes before the first candidates"));
+  EXPECT_THAT(message([&] { optimiser->tell(std::vector<double>(4), std::vector<double>(4)); }),
+              HasSubstr("4 costs and 4 violations for 4 candidates of 2 objectives"));
+  EXPECT_THAT(message([&] {
+                optimiser->tell(std::vector<double>{1, 2, 3, NAN, 5, 6, 7, 8}, std::vector<double>(4));
+              }),
+              HasSubstr("candidate 1: cost 3, nan, violation 0"));
+  EXPECT_THAT(message([&] { make_optimiser(problem.variables, FireflyOptions{}, {}, 0); }),
+              HasSubstr("a problem needs objectives"));
 }
 
 }  // namespace

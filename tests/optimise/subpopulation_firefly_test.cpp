@@ -94,5 +94,25 @@ TEST(SubpopulationFirefly, SaysWhichOptionIsOutOfRange) {
   EXPECT_THAT(with({.flights = 0}), HasSubstr("subpopulation_firefly: flights must be at least 1, got 0"));
 }
 
+TEST(SubpopulationFirefly, SeveralObjectivesRankByTheMeanRelativeToTheBest) {
+  // One member has the costs of the best so far, (1, 1000), and ranks first although the plain means of the
+  // others are less: (10, 10) and the one dominated by it, (11, 11). A part of two and a part of one exchange
+  // their best, so these two come together in two splits of three, and the worse moves towards the better.
+  // No other pair has a move, and with plain means they would never come together.
+  const Problem problem = test::schaffer(1);
+  const auto optimiser =
+      make_optimiser(problem.variables, SubpopulationFireflyOptions{.population = 3}, {}, 2);
+  optimiser->start_from(std::vector<double>{0}, std::vector<double>{1, 1000});
+  optimiser->ask();
+  optimiser->tell(std::vector<double>{10, 10, 1, 1000, 11, 11}, std::vector<double>(3));
+  int moves = 0;
+  while (optimiser->generation() < 61) {
+    const bool moved = optimiser->ask().size == 1;  // or else three flights, which come to nothing
+    moves += moved;
+    optimiser->tell(std::vector<double>(moved ? 2 : 6, moved ? 11 : 1e9), std::vector<double>(moved ? 1 : 3));
+  }
+  EXPECT_NEAR(moves, 40, 15);  // four standard deviations of 60 splits
+}
+
 }  // namespace
 }  // namespace linkwright::optimise

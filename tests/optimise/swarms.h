@@ -59,10 +59,11 @@ inline void expect_as_listed(const Problem& problem, const OptimiserOptions& met
 /// each(candidates, costs) after the evaluation of each round.
 template <class Each>
 void play(const Problem& problem, Optimiser& optimiser, std::uint32_t generations, Each&& each) {
-  std::vector<double> cost(optimiser.population()), violation(optimiser.population());
+  std::vector<double> cost(optimiser.population() * problem.objectives), violation(optimiser.population());
   while (optimiser.generation() < generations) {
     const PopulationView x = optimiser.ask();
-    const std::span<double> costs(cost.data(), x.size), violations(violation.data(), x.size);
+    const std::span<double> costs(cost.data(), x.size * problem.objectives),
+        violations(violation.data(), x.size);
     problem.evaluate(x, costs, violations);
     each(x, costs, violations);
     optimiser.tell(costs, violations);

@@ -28,6 +28,19 @@ TEST(LinkMass, BaseParametersOfARodWithCounterweight) {
   }
 }
 
+TEST(LinkMass, WithAttachedMassesHasTheSameBaseParameters) {
+  const LinkMass rod{3, 1, 1, 0.4};
+  const std::vector<PointMass> attached = {{4, -0.5, 0}, {2, 0.25, 2}};
+  const BaseParameters parts = base_parameters(rod, attached),
+                       one = base_parameters(with_attached(rod, attached));
+  EXPECT_EQ(one.mass, 9);
+  EXPECT_NEAR(std::abs(one.moment - parts.moment), 0, 1e-15);
+  EXPECT_NEAR(one.inertia, parts.inertia, 1e-15);
+  const LinkMass nothing = with_attached({0, 0.5, 0.25, 1}, {});
+  EXPECT_EQ(nothing.inertia, 0.5);
+  EXPECT_EQ(nothing.centre_distance, 0.25);
+}
+
 TEST(LinkMass, RejectsWhatIsNoMass) {
   EXPECT_THAT(test::message([] { base_parameters({.mass = 1, .inertia = -2}); }),
               HasSubstr("mass 1, inertia -2 and centre distance 0 must be finite and not negative"));

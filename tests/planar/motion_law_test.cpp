@@ -96,6 +96,21 @@ TEST(MotionLaw, FreeCoefficientLeavesTheOthersToTheEnds) {
   }
 }
 
+// Boskovic 2018, Eqs. (2.42)-(2.47): a_3 = 10 - a, a_4 = -15 + 3 a, a_5 = 6 - 3 a.
+TEST(MotionLaw, CoefficientsOfRestToRestLaws) {
+  EXPECT_EQ(coefficients(Polynomial345{.from = 1, .to = 4, .higher = {2}}),
+            (std::vector<double>{0, 0, 0, 8, -9, 0, 2}));
+  const std::vector<double> c = coefficients(Polynomial345{.higher = {2, -3, 0.5}});
+  double value = 0, rate = 0, acceleration = 0;
+  for (std::size_t p = 0; p < c.size(); ++p) {
+    const auto q = static_cast<double>(p);
+    value += c[p], rate += q * c[p], acceleration += q * (q - 1) * c[p];
+  }
+  EXPECT_EQ(value, 1);
+  EXPECT_EQ(rate, 0);
+  EXPECT_EQ(acceleration, 0);
+}
+
 TEST(MotionLaw, MeetsItsEndConditionsAndNoOthers) {
   const MotionCurve all(EndConditions{.from = 1,
                                       .to = -2,

@@ -160,9 +160,9 @@ TEST(PathStudyRun, AnswersWithEvidence) {
 }
 
 TEST(PathStudyRun, PopulationMethodsReportWhatTheyReach) {
-  for (const char* method :
-       {"grey_wolf", "differential_evolution", "self_adaptive_differential_evolution", "jade",
-        "particle_swarm", "firefly", "cuckoo_search", "hybrid_cuckoo_firefly", "subpopulation_firefly"}) {
+  for (const char* method : {"grey_wolf", "differential_evolution", "self_adaptive_differential_evolution",
+                             "jade", "particle_swarm", "firefly", "cuckoo_search", "hybrid_cuckoo_firefly",
+                             "subpopulation_firefly", "cma_es"}) {
     std::string messages;
     const auto study = prepare(
         target(std::string("closed = true\ntiming = { mode = \"equal_steps\", step_deg = 90 }\n") + square) +

@@ -258,8 +258,13 @@ TEST(SerialArmStudyRun, DrawsCounterweightsButNotThePayloadAtTheTip) {
   EXPECT_EQ(plain.joints.back().name, "tip");
   const study::Scene balanced =
       run({{"4 payload", "[[mechanism.link.attached]]\nmass_kg = 6\ndistance_m = -0.15\n"}}).scenes[0];
-  ASSERT_EQ(balanced.points.size(), 4u);
-  EXPECT_EQ(balanced.joints.back().name, "6 kg");
+  ASSERT_EQ(balanced.points.size(), 5u);
+  ASSERT_EQ(balanced.circles.size(), 1u);
+  EXPECT_EQ(balanced.circles[0].name, "6 kg");
+  EXPECT_EQ(balanced.circles[0].centre, 3);
+  EXPECT_NEAR(std::hypot(balanced.points[4].x[2] - balanced.points[3].x[2],
+                         balanced.points[4].y[2] - balanced.points[3].y[2]),
+              drawn_radius(6), 1e-15);
   EXPECT_EQ(balanced.bodies.back().points, (std::vector<int>{1, 3}));
   // Behind joint O2, opposite to the tip.
   const auto& p = balanced.points;

@@ -20,8 +20,12 @@ TEST(Studies, AreThoseOfPlanarLinkages) {
                                             "analysis/planar.four_bar", "analysis/planar.linkage",
                                             "analysis/planar.slider_crank", "simulation/planar.linkage",
                                             "simulation/planar.slider_crank", "regulation/planar.linkage",
-                                            "regulation/planar.slider_crank", "analysis/planar.serial_arm"));
-  EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/planar.four_bar/path_points"));
+                                            "regulation/planar.slider_crank", "analysis/planar.serial_arm",
+                                            "balancing/planar.four_bar", "balancing/planar.linkage",
+                                            "balancing/planar.slider_crank", "balancing/planar.serial_arm"));
+  EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/planar.four_bar/path_points",
+                                             "balancing/planar.four_bar", "balancing/planar.linkage",
+                                             "balancing/planar.slider_crank", "balancing/planar.serial_arm"));
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ class CheckLayers(ScratchCase):
         self.assertEqual(self.findings("planar/path_study_read.cpp", line), [])
         self.assertEqual(self.findings("planar/scene.h", line), [])
         self.assertEqual(self.findings("planar/path_synthesis.cpp", line),
-                         ["src/linkwright/planar/path_synthesis.cpp:1: only studies*, *_study*, scene*, *_scene* of a domain use study"])
+                         ["src/linkwright/planar/path_synthesis.cpp:1: only studies*, *_study*, scene*, *_scene*, "
+                          "reproductions* of a domain use study"])
 
     def test_room_without_floor(self):
         [finding] = self.findings("gears/model.h", "")
@@ -54,6 +55,18 @@ class CheckLayers(ScratchCase):
         self.assertEqual(self.findings("study/read.cpp", "#include <toml++/toml.h>\n"), [])
         self.assertEqual(self.findings("study/read.h", "#include <toml++/toml.h>\n"),
                          ["src/linkwright/study/read.h:1: <toml++/toml.h> is heavy: include it in sources, not in headers"])
+
+    def test_header_that_shows_a_heavy_one(self):
+        self.assertEqual(self.findings("optimise/pagmo_adapters.h", "#include <pagmo/problem.hpp>\n"), [])
+        self.assertEqual(self.findings("optimise/pagmo_bridge.h", "#include <pagmo/problem.hpp>\n"),
+                         ["src/linkwright/optimise/pagmo_bridge.h:1: <pagmo/problem.hpp> is heavy: include it in sources, "
+                          "not in headers"])
+        self.write("src/linkwright/optimise/pagmo_bridge.h")
+        include = '#include "linkwright/optimise/pagmo_adapters.h"\n'
+        self.assertEqual(self.findings("optimise/pagmo_adapters.cpp", include), [])
+        self.assertEqual(self.findings("optimise/methods.h", include),
+                         ["src/linkwright/optimise/methods.h:1: <linkwright/optimise/pagmo_adapters.h> shows a heavy header: "
+                          "include it in sources, not in headers"])
 
     def test_include_without_room(self):
         self.write("src/linkwright/core/table.h")

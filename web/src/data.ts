@@ -68,6 +68,16 @@ export interface Plot {
   scene: string;
 }
 
+export interface Change {
+  quantity: string;
+  label: string;
+  measure: string;
+  before: Num;
+  after: Num;
+  percent: Num;
+  wanted: boolean;
+}
+
 export interface Comparison {
   item: string;
   source: string;
@@ -94,6 +104,7 @@ export interface View {
   scenes: Scene[];
   plots: Plot[];
   comparisons: Comparison[];
+  changes: Change[];
 }
 
 export interface Table {

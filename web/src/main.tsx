@@ -1,5 +1,5 @@
 import { render } from "preact";
-import { Banner, Checks, Comparisons, Data, Errors, Parameters, Remarks, Reproduce, Runs, SolutionPicker, Solutions } from "./panels";
+import { Banner, Changes, Checks, Comparisons, Data, Errors, Parameters, Remarks, Reproduce, Runs, SolutionPicker, Solutions } from "./panels";
 import { Machine } from "./player";
 import { Plots } from "./plots";
 import { scene, start } from "./state";
@@ -21,6 +21,7 @@ function Report() {
       <Solutions />
       <Parameters />
       <Runs />
+      <Changes />
       <Comparisons />
       <Remarks />
       <Data />

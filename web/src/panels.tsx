@@ -1,12 +1,12 @@
 // Everything on the page that is text and tables.
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
-import { isObject, resultText, type Json, type JsonObject, type Num, type Table } from "./data";
+import { isObject, resultText, type Change, type Json, type JsonObject, type Num, type Table } from "./data";
 import { Copy } from "./controls";
 import { csv, drawingSvg, dxf, png, save, slug, targetTable } from "./exports";
 import { isAssembled, positionOfTurn } from "./motion";
 import { Convergence, Dots, hasHistogram, hasLoosePlots, LoosePlots } from "./plots";
-import { motion, position, result, runs, scene, sceneIndex, scrub, showScene, view } from "./state";
+import { motion, position, result, runs, scene, sceneIndex, sceneOf, scrub, showScene, view } from "./state";
 import { format, nameOf, quantity, unitOf } from "./units";
 import { targetErrors } from "./view";
 
@@ -92,17 +92,20 @@ export function display(key: string, value: Json | undefined): string {
 }
 
 const keysOf = (objects: (JsonObject | null)[]) => [...new Set(objects.flatMap((o) => Object.keys(o ?? {})))];
-/** Index of the scene of a solution; -1 = it has none. */
-const shownBy = (solution: number) => view.scenes.findIndex((s) => s.name === view.solution_scenes[solution]);
+/** Scenes of no solution: of a balancing, the first design. */
+const others = view.scenes.flatMap((s, i) => (view.solution_scenes.includes(s.name) ? [] : [i]));
 
 export function SolutionPicker() {
   const choices = result.solutions.length
-    ? result.solutions.map((s, i) => ({ label: s.label, scene: shownBy(i), note: display("", firstOf(s.objectives)), defects: texts(s.defects), i }))
+    ? [
+        ...result.solutions.map((s, i) => ({ label: s.label, scene: sceneOf(i), note: display("", firstOf(s.objectives)), defects: texts(s.defects), i })),
+        ...others.map((scene, k) => ({ label: view.scenes[scene].title, scene, note: "", defects: [] as string[], i: result.solutions.length + k })),
+      ]
     : view.scenes.map((s, i) => ({ label: s.title, scene: i, note: "", defects: [] as string[], i }));
   if (choices.length < 2) return null;
   return (
     <div class="card side">
-      <h2>{choices.length} {result.solutions.length ? "solutions" : "scenes"}</h2>
+      <h2>{choices.length} {result.solutions.length && !others.length ? "solutions" : result.solutions.length ? "designs" : "scenes"}</h2>
       <div class="picker" role="radiogroup" aria-label="Solution shown">
         {choices.map((c) => (
           <button type="button" role="radio" aria-checked={c.scene === sceneIndex.value} disabled={c.scene < 0} data-solution={c.i} onClick={() => showScene(c.scene)}>
@@ -136,7 +139,7 @@ export function Solutions() {
           <thead><tr><th scope="col">#</th><th scope="col">solution</th>{objectives.map((k) => <th scope="col" class="num">{heading(k)}</th>)}{classes.map((k) => <th scope="col">{heading(k)}</th>)}<th scope="col">defects</th></tr></thead>
           <tbody>
             {result.solutions.map((s, i) => {
-              const at = shownBy(i);
+              const at = sceneOf(i);
               const defects = texts(s.defects);
               return (
                 <tr class={at >= 0 && at === sceneIndex.value ? "current" : ""} onClick={() => showScene(at)}>
@@ -162,7 +165,7 @@ function Within({ value, lower, upper }: { value: Num; lower: Num; upper: Num })
 }
 
 export function Parameters() {
-  const shown = result.solutions.findIndex((_, i) => shownBy(i) === sceneIndex.value);
+  const shown = result.solutions.findIndex((_, i) => sceneOf(i) === sceneIndex.value);
   const index = shown < 0 ? 0 : shown;
   const list = view.parameters[index];
   if (!list?.length) return null;
@@ -228,6 +231,27 @@ export function Runs() {
           </table></div>
         </details>
       )}
+    </Section>
+  );
+}
+
+/** From the first design to the answer: what was to become small, and what that does to all else. */
+export function Changes() {
+  const [all, setAll] = useState(false);
+  if (!view.changes.length) return null;
+  const wanted = view.changes.filter((c) => c.wanted);
+  const rows = all || !wanted.length ? view.changes : wanted;
+  const percent = (c: Change) => c.percent === null ? "" : `${c.percent > 0 ? "+" : ""}${format(c.percent, 4)} %`;
+  return (
+    <Section title="Before and after" id="changes">
+      <div class="scroll"><table>
+        <thead><tr><th scope="col">quantity</th><th scope="col">measure</th><th scope="col" class="num">before</th><th scope="col" class="num">after</th><th scope="col" class="num">change</th><th scope="col">objective</th></tr></thead>
+        <tbody>{rows.map((c) => (
+          <tr><th scope="row">{c.label}</th><td>{c.measure}</td><td class="num">{format(c.before, 6)}</td><td class="num">{format(c.after, 6)}</td>
+            <td class="num"><span class={`badge ${(c.percent ?? 0) > 0 ? "bad" : "good"}`}>{percent(c)}</span></td><td>{c.wanted ? "yes" : ""}</td></tr>))}</tbody>
+      </table></div>
+      {wanted.length > 0 && wanted.length < view.changes.length && (
+        <button type="button" onClick={() => setAll(!all)}>{all ? "objectives only" : `all ${view.changes.length} rows`}</button>)}
     </Section>
   );
 }

@@ -35,9 +35,10 @@ interface Props {
   linked?: boolean; // x is the input of the scene shown, times `factor`
   factor?: number;
   units?: { label: string; symbol: string }[];
+  pick?: (row: number) => void; // a click at a row of the data
 }
 
-export function Chart({ label, options, data, linked = false, factor = 1, units = [] }: Props) {
+export function Chart({ label, options, data, linked = false, factor = 1, units = [], pick }: Props) {
   const box = useRef<HTMLDivElement>(null);
   const values = useRef<HTMLSpanElement[]>([]);
   useEffect(() => {
@@ -55,6 +56,7 @@ export function Chart({ label, options, data, linked = false, factor = 1, units 
           hooks: {
             ready: [
               (u) => {
+                if (pick) u.over.addEventListener("click", () => typeof u.cursor.idx === "number" && pick(u.cursor.idx));
                 if (!linked) return;
                 now = u.over.appendChild(document.createElement("div"));
                 now.className = "now";
@@ -141,7 +143,11 @@ function TablePlot({ plot, table }: { plot: Plot; table: Table }) {
     const xUnit = unitOf(plot.x, largest([xs]));
     const points = plot.style === "points";
     const bundle = labels.length > many;
+    // Rows that are solutions can be picked.
+    const solutions = column("solution");
+    const scenes = solutions < 0 ? [] : order.map((row) => state.sceneOf((table.data[solutions][row] ?? 0) - 1));
     return {
+      pick: scenes.length ? (row: number) => state.showScene(scenes[row]) : undefined,
       data: [
         xs.map((v) => v * xUnit.factor),
         ...ys.map((i) => scaled(order.map((row) => table.data[i][row]), unit.factor, plot.logarithmic_y)),
@@ -166,7 +172,12 @@ function TablePlot({ plot, table }: { plot: Plot; table: Table }) {
       }),
     };
   }, [plot, table, linked]);
-  return <Chart label={plot.title} data={made.data} options={made.options} linked={linked} factor={made.factor} units={made.units} />;
+  return (
+    <>
+      <Chart label={plot.title} data={made.data} options={made.options} linked={linked} factor={made.factor} units={made.units} pick={made.pick} />
+      {made.pick && <p class="note screen-only">Click a point to see its design.</p>}
+    </>
+  );
 }
 
 const maximumOfDots = 200;

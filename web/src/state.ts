@@ -53,6 +53,9 @@ const print = (now: boolean) => {
 addEventListener("beforeprint", () => print(true));
 addEventListener("afterprint", () => print(false));
 
+/** Index of the scene of a solution; -1 = it has none. */
+export const sceneOf = (solution: number) => view.scenes.findIndex((s) => s.name === view.solution_scenes[solution]);
+
 export function showScene(index: number): void {
   if (index < 0 || index >= view.scenes.length) return;
   const m = motions[index];

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <iterator>
 
+#include "linkwright/planar/reproductions.h"
 #include "linkwright/planar/studies.h"
 #include "linkwright/study/study.h"
 
@@ -52,6 +53,34 @@ const study::Kind* find_kind(std::string_view name, std::span<const study::Kind>
   }
   diagnostics.push_back(std::move(problem));
   return nullptr;
+}
+
+std::span<const study::Reproduction> reproductions() {
+  static const std::vector<study::Reproduction> all = planar::reproductions();
+  return all;
+}
+
+std::vector<const study::Reproduction*> find_reproductions(std::string_view id,
+                                                           std::span<const study::Reproduction> all,
+                                                           Diagnostics& diagnostics) {
+  std::vector<const study::Reproduction*> found;
+  std::vector<std::string_view> ids;
+  for (const study::Reproduction& r : all) {
+    ids.push_back(r.id);
+    if (r.id == id) return {&r};
+    if (id == "all" || r.id.starts_with(id)) found.push_back(&r);
+  }
+  if (found.empty()) {
+    const std::string_view nearest = nearest_word(id, ids);
+    diagnostics.push_back({Diagnostic::Severity::error,
+                           {},
+                           {},
+                           {},
+                           fmt::format("there is no published table '{}'", id),
+                           nearest.empty() ? fmt::format("there is: {}, or all", fmt::join(ids, ", "))
+                                           : fmt::format("did you mean '{}'?", nearest)});
+  }
+  return found;
 }
 
 std::string_view version() { return LINKWRIGHT_VERSION; }

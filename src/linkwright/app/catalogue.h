@@ -2,9 +2,11 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "linkwright/core/diagnostic.h"
 #include "linkwright/study/kind.h"
+#include "linkwright/study/reproduction.h"
 
 namespace linkwright::app {
 
@@ -15,6 +17,14 @@ std::span<const study::Kind> catalogue();
 /// "synthesis/planar.four_bar"). nullptr and a diagnostic if there is none or several.
 const study::Kind* find_kind(std::string_view name, std::span<const study::Kind> kinds,
                              Diagnostics& diagnostics);
+
+/// Every published table that this program can compute anew.
+std::span<const study::Reproduction> reproductions();
+
+/// Those with an id, those whose id begins with it, or all ("all"). Empty and a diagnostic if there are none.
+std::vector<const study::Reproduction*> find_reproductions(std::string_view id,
+                                                           std::span<const study::Reproduction> all,
+                                                           Diagnostics& diagnostics);
 
 /// "0.1.0"
 std::string_view version();

@@ -35,6 +35,17 @@ Value to_value(const study::Check& check) {
   return v;
 }
 
+Value to_value(const study::Change& change) {
+  Value v;
+  v["quantity"] = change.quantity;
+  v["measure"] = change.measure;
+  v["before"] = change.before;
+  v["after"] = change.after;
+  v["change_percent"] = change.percent();
+  v["objective"] = change.wanted;
+  return v;
+}
+
 Value to_value(const study::Comparison& comparison) {
   Value v;
   v["item"] = comparison.item;
@@ -107,6 +118,7 @@ Value result_json(const study::Study& study, const study::Result& result, const 
   v["checks"] = all(result.checks);
   v["best"] = result.solutions.empty() ? Value() : to_value(result.solutions.front());
   v["solutions"] = all(result.solutions);
+  if (!result.changes.empty()) v["changes"] = all(result.changes);  // from a first design to the answer
   v["comparisons"] = all(result.comparisons);  // with published numbers; empty when the study cites none
   v["statistics"] = or_empty(result.statistics, Value::object());
   v["log"] = or_empty(result.log, Value::array());
@@ -117,6 +129,17 @@ Value result_json(const study::Study& study, const study::Result& result, const 
   record["seconds"] = run.seconds;
   record["host"] = run.host;
   record["threads"] = run.threads;
+  return v;
+}
+
+Value reproduction_json(const study::Reproduction& reproduction, const std::vector<study::Comparison>& rows) {
+  Value v;
+  v["id"] = reproduction.id;
+  v["title"] = reproduction.title;
+  v["source"] = reproduction.source;
+  v["notes"] = Value::array();
+  for (const std::string& note : reproduction.notes) v["notes"].push_back(note);
+  v["comparisons"] = all(rows);
   return v;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "linkwright/core/value.h"
+#include "linkwright/study/reproduction.h"
 #include "linkwright/study/result.h"
 #include "linkwright/study/study.h"
 
@@ -18,5 +20,8 @@ struct RunRecord {
 
 /// The document of result.json. All of it but `run` depends on the study and the program alone.
 Value result_json(const study::Study& study, const study::Result& result, const RunRecord& run);
+
+/// A published table with its numbers computed anew.
+Value reproduction_json(const study::Reproduction& reproduction, const std::vector<study::Comparison>& rows);
 
 }  // namespace linkwright::app

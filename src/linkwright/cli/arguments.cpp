@@ -69,6 +69,13 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   CLI::App* schema = app.add_subcommand("schema", "print the JSON Schema of studies");
   schema->add_option("KIND", arguments.kind, "one kind only, see `linkwright catalogue`");
   CLI::App* catalogue = app.add_subcommand("catalogue", "list the kinds of studies");
+  CLI::App* reproduce =
+      app.add_subcommand("reproduce", "compute published tables anew: published, ours, verdict");
+  reproduce->add_option("ID", arguments.table, "id of a table, its beginning, or all; without it, list them");
+  reproduce->add_flag("--json", arguments.json, "print for machines");
+  reproduce
+      ->add_option("--threads", arguments.threads, "threads to use, 0 = all; results do not depend on it")
+      ->check(CLI::Range(0, 4096));
 
   try {
     app.parse(argc, argv);
@@ -84,11 +91,12 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     return arguments;
   }
   using Command = Arguments::Command;
-  arguments.command = *run      ? Command::run
-                      : *check  ? Command::check
-                      : *make   ? Command::make
-                      : *schema ? Command::schema
-                                : Command::catalogue;
+  arguments.command = *run         ? Command::run
+                      : *check     ? Command::check
+                      : *make      ? Command::make
+                      : *schema    ? Command::schema
+                      : *reproduce ? Command::reproduce
+                                   : Command::catalogue;
   (void)catalogue;
   return arguments;
 }

@@ -9,12 +9,14 @@ namespace linkwright::cli {
 
 /// The command line, taken apart.
 struct Arguments {
-  enum class Command { nothing, run, check, make, schema, catalogue };
+  enum class Command { nothing, run, check, make, schema, catalogue, reproduce };
   Command command = Command::nothing;
 
   std::string study;  ///< run, check: the file
   std::string kind;   ///< make, schema
   std::string file;   ///< make: empty = named after the kind, "-" = standard output
+
+  std::string table;  ///< reproduce: id, beginning of ids or "all"; empty = list them
 
   std::string out;
   std::optional<std::int64_t> seed;

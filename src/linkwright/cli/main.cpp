@@ -1,4 +1,6 @@
 #include "linkwright/app/catalogue.h"
 #include "linkwright/cli/program.h"
 
-int main(int argc, char** argv) { return linkwright::cli::program(argc, argv, linkwright::app::catalogue()); }
+int main(int argc, char** argv) {
+  return linkwright::cli::program(argc, argv, linkwright::app::catalogue(), linkwright::app::reproductions());
+}

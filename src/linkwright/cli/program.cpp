@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -13,6 +15,7 @@
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/app/checkpoint_file.h"
+#include "linkwright/app/result_json.h"
 #include "linkwright/app/run.h"
 #include "linkwright/cli/arguments.h"
 #include "linkwright/cli/progress.h"
@@ -24,6 +27,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int bad_input = 2;
+constexpr int cancelled = 4;
 constexpr int internal_error = 70;
 
 void print(const Diagnostics& diagnostics) {
@@ -225,9 +229,60 @@ int catalogue(std::span<const study::Kind> kinds) {
   return 0;
 }
 
+/// Columns as wide as their longest cell; numbers to the right.
+std::string aligned(const std::vector<study::Comparison>& rows) {
+  std::vector<std::array<std::string, 5>> cells = {{"", "published", "ours", "verdict", "note"}};
+  for (const study::Comparison& c : rows)
+    cells.push_back({c.item, std::isnan(c.published) ? "-" : fmt::format("{:.9g}", c.published),
+                     std::isnan(c.ours) ? "-" : fmt::format("{:.9g}", c.ours), c.verdict, c.note});
+  std::array<std::size_t, 5> width{};
+  for (const auto& row : cells)
+    for (std::size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], row[k].size());
+  std::string text;
+  for (const auto& row : cells) {
+    std::string line = fmt::format("  {:<{}}  {:>{}}  {:>{}}  {:<{}}  {}", row[0], width[0], row[1], width[1],
+                                   row[2], width[2], row[3], width[3], row[4]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+int reproduce(const Arguments& arguments, std::span<const study::Reproduction> all) {
+  if (arguments.table.empty()) {
+    for (const study::Reproduction& r : all) fmt::print("{}\n    {}\n", r.id, r.title);
+    return 0;
+  }
+  Diagnostics diagnostics;
+  const auto chosen = app::find_reproductions(arguments.table, all, diagnostics);
+  if (chosen.empty()) {
+    print(diagnostics);
+    return bad_input;
+  }
+  RunContext context;
+  const Interruptible guard(context);
+  context.set_threads(arguments.threads);
+  Value json = Value::array();
+  for (const study::Reproduction* r : chosen) {
+    const std::vector<study::Comparison> rows = r->run(context);
+    if (arguments.json) {
+      json.push_back(app::reproduction_json(*r, rows));
+    } else {
+      fmt::print("{}: {}\n  {}\n\n{}", r->id, r->title, r->source, aligned(rows));
+      for (const std::string& note : r->notes) fmt::print("\n  {}\n", note);
+      fmt::print("\n");
+      std::fflush(stdout);
+    }
+    if (context.interrupted()) return cancelled;
+  }
+  if (arguments.json) fmt::print("{}", study::to_json_readable(json));
+  return 0;
+}
+
 }  // namespace
 
-int program(int argc, const char* const* argv, std::span<const study::Kind> kinds) try {
+int program(int argc, const char* const* argv, std::span<const study::Kind> kinds,
+            std::span<const study::Reproduction> reproductions) try {
   const Arguments arguments = parse_arguments(argc, argv);
   switch (arguments.command) {
     case Arguments::Command::nothing:
@@ -243,6 +298,8 @@ int program(int argc, const char* const* argv, std::span<const study::Kind> kind
       return schema(arguments, kinds);
     case Arguments::Command::catalogue:
       return catalogue(kinds);
+    case Arguments::Command::reproduce:
+      return reproduce(arguments, reproductions);
   }
   return internal_error;
 } catch (const std::exception& error) {

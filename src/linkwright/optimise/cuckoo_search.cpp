@@ -12,8 +12,9 @@ namespace {
 
 class CuckooSearch final : public SwarmBase {
  public:
-  CuckooSearch(std::span<const Variable> variables, const CuckooSearchOptions& options, const Seed& seed)
-      : SwarmBase(variables, options.population, seed),
+  CuckooSearch(std::span<const Variable> variables, const CuckooSearchOptions& options, const Seed& seed,
+               std::size_t objectives)
+      : SwarmBase(variables, options.population, seed, objectives),
         options_(options),
         scale_(levy_scale(options.flight.exponent)),
         first_(population()),
@@ -77,9 +78,10 @@ class CuckooSearch final : public SwarmBase {
 }  // namespace
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,
-                                          const CuckooSearchOptions& options, const Seed& seed) {
+                                          const CuckooSearchOptions& options, const Seed& seed,
+                                          std::size_t objectives) {
   require_in_range("cuckoo_search", options);
-  return std::make_unique<CuckooSearch>(variables, options, seed);
+  return std::make_unique<CuckooSearch>(variables, options, seed, objectives);
 }
 
 }  // namespace linkwright::optimise

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 
@@ -37,6 +38,7 @@ void fields(Visitor&& visit, CuckooSearchOptions& o) {
 }
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,
-                                          const CuckooSearchOptions& options, const Seed& seed);
+                                          const CuckooSearchOptions& options, const Seed& seed,
+                                          std::size_t objectives = 1);
 
 }  // namespace linkwright::optimise

@@ -39,8 +39,9 @@ class DifferentialEvolution final : public DifferentialEvolutionBase {
 
  private:
   void propose(const GenerationKey& key) override {
-    if (options_.scheme != MutationScheme::rand_1) {
-      for (std::size_t i = 0; i < population(); ++i) make_trial(key, i);
+    if (in_place()) return make_trial(key, target_, 0);
+    if (options_.scheme != MutationScheme::rand_1 || options_.bounds != MutantBounds::midpoint) {
+      for (std::size_t i = 0; i < population(); ++i) make_trial(key, i, i);
       return;
     }
     kernels_.differential_evolution({.shape = shape(),
@@ -54,9 +55,24 @@ class DifferentialEvolution final : public DifferentialEvolutionBase {
                                      .crossover_word = 4});
   }
 
-  /// Trial of member i, from its stream: r1, r2, ..., the variable that is crossed in any case, and one
-  /// uniform number for each variable.
-  void make_trial(const GenerationKey& key, std::size_t i) {
+  bool in_place() const { return options_.replacement == Replacement::in_place; }
+  std::size_t proposed() const override { return in_place() ? 1 : population(); }
+  bool goes_on() const override { return target_ > 0; }
+
+  void accept(const double* cost, const double* violation) override {
+    if (!in_place() || generation() == 0) return DifferentialEvolutionBase::accept(cost, violation);
+    const std::size_t i = target_;
+    if (!better(cost_[i], violation_[i], cost[0], violation[0])) {
+      for (std::size_t j = 0; j < dimension(); ++j) members_(j, i) = candidates_(j, 0);
+      cost_[i] = cost[0];
+      violation_[i] = violation[0];
+    }
+    target_ = (target_ + 1) % population();
+  }
+
+  /// Candidate c = the trial of member i, from its stream: r1, r2, ..., the variable that is crossed in any
+  /// case, and one uniform number for each variable.
+  void make_trial(const GenerationKey& key, std::size_t i, std::size_t c) {
     RandomStream random({key.seed, key.run, key.generation, static_cast<std::uint32_t>(i)});
     std::array<std::size_t, 5> r;
     for (std::size_t k = 0; k < random_members(options_.scheme); ++k) {
@@ -69,7 +85,9 @@ class DifferentialEvolution final : public DifferentialEvolutionBase {
     for (std::size_t j = 0; j < dimension(); ++j) {
       const double* x = members_.row(j);
       const bool crossed = random.uniform() < options_.crossover || j == always;
-      candidates_(j, i) = crossed ? mutant(x, x[i], best()[j], r, lower_[j], upper_[j]) : x[i];
+      candidates_(j, c) =
+          crossed ? mutant(x, x[i], std::clamp(best()[j], lower_[j], upper_[j]), r, lower_[j], upper_[j])
+                  : x[i];
     }
   }
 
@@ -98,11 +116,13 @@ class DifferentialEvolution final : public DifferentialEvolutionBase {
         break;
     }
     const double v = base + step;
+    if (options_.bounds == MutantBounds::clip) return std::clamp(v, lower, upper);
     return v < lower ? 0.5 * (base + lower) : v > upper ? 0.5 * (base + upper) : v;
   }
 
   DifferentialEvolutionOptions options_;
   std::vector<double> scale_, crossover_;
+  std::size_t target_ = 0;  ///< in place: the member whose trial is next
 };
 
 }  // namespace

@@ -26,17 +26,41 @@ constexpr std::array<EnumName<MutationScheme>, 5> names(MutationScheme) {
            {MutationScheme::best_2, "best_2", "the best member and two differences"}}};
 }
 
-/// Differential evolution with binomial crossover (Storn and Price 1997), synchronous: the old population is
-/// used throughout a generation. A component that leaves the box becomes the midpoint of the base vector's
-/// component (the first term of its scheme) and the bound it violates; a trial replaces its target when it is
-/// as good or better. Defaults of the wheel-guide studies: rand/1, F = 0.6, CR = 0.9, five members a
-/// variable.
+/// When a trial that is as good as its target or better takes its place.
+enum class Replacement {
+  generation,  ///< after all trials of the generation, which are made from the old population
+  in_place,    ///< at once: later trials of the generation are made from it
+};
+constexpr std::array<EnumName<Replacement>, 2> names(Replacement) {
+  return {{{Replacement::generation, "generation", "when all trials of a generation are evaluated"},
+           {Replacement::in_place, "in_place", "at once, so that later trials can make use of it"}}};
+}
+
+/// What becomes of a component of a mutant that leaves the box.
+enum class MutantBounds {
+  midpoint,  ///< halfway between the base (the first term of its scheme) and the bound it violates
+  clip,      ///< the bound it violates
+};
+constexpr std::array<EnumName<MutantBounds>, 2> names(MutantBounds) {
+  return {{{MutantBounds::midpoint, "midpoint", "halfway from the base vector to the bound"},
+           {MutantBounds::clip, "clip", "to the bound"}}};
+}
+
+/// Differential evolution with binomial crossover (Storn and Price 1997). A trial replaces its target when it
+/// is as good or better. Defaults of the wheel-guide studies: rand/1, F = 0.6, CR = 0.9, five members a
+/// variable, synchronous.
+///
+/// Boskovic 2018, section 2.2.3, has CR = 0.5, replacement in place and, where the text is silent, clipping,
+/// ten members a variable and 500 generations. In place, every trial waits for the one before: candidates are
+/// asked for one at a time, and only runs with several seeds make use of threads.
 struct DifferentialEvolutionOptions {
   int population = 0;  ///< 0 = five a variable, at least as many as the scheme needs
   int generations = 10000;
   double scale = 0.6;      ///< F
   double crossover = 0.9;  ///< CR
   MutationScheme scheme = MutationScheme::rand_1;
+  Replacement replacement = Replacement::generation;
+  MutantBounds bounds = MutantBounds::midpoint;
 };
 template <class Visitor>
 void fields(Visitor&& visit, DifferentialEvolutionOptions& o) {
@@ -57,6 +81,8 @@ void fields(Visitor&& visit, DifferentialEvolutionOptions& o) {
               .maximum = 1},
         o.crossover);
   visit(Field{.key = "scheme", .summary = "how mutants are made"}, o.scheme);
+  visit(Field{.key = "replacement", .summary = "when a trial takes the place of its target"}, o.replacement);
+  visit(Field{.key = "bounds", .summary = "what becomes of components that leave the box"}, o.bounds);
 }
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,

@@ -21,6 +21,7 @@ class DifferentialEvolutionBase : public Optimiser {
         violation_(shape().stride, std::numeric_limits<double>::infinity()),
         chosen_(shape().stride, 0) {}
 
+  /// All duels of a generation.
   void accept(const double* cost, const double* violation) override {
     kernels_.select(population(), cost, violation, cost_.data(), violation_.data(), chosen_.data());
     kernels_.copy_chosen(shape(), chosen_.data(), candidates_.row(0), members_.row(0));

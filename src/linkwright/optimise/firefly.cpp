@@ -7,8 +7,9 @@ namespace {
 
 class Firefly final : public FireflyBase {
  public:
-  Firefly(std::span<const Variable> variables, const FireflyOptions& options, const Seed& seed)
-      : FireflyBase(variables, options.population, seed, options.move, options.generations) {
+  Firefly(std::span<const Variable> variables, const FireflyOptions& options, const Seed& seed,
+          std::size_t objectives)
+      : FireflyBase(variables, options.population, seed, objectives, options.move, options.generations) {
     rounds_ = rounds();
   }
 
@@ -29,9 +30,9 @@ class Firefly final : public FireflyBase {
 }  // namespace
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables, const FireflyOptions& options,
-                                          const Seed& seed) {
+                                          const Seed& seed, std::size_t objectives) {
   require_in_range("firefly", options);
-  return std::make_unique<Firefly>(variables, options, seed);
+  return std::make_unique<Firefly>(variables, options, seed, objectives);
 }
 
 }  // namespace linkwright::optimise

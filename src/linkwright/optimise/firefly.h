@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 
@@ -67,6 +68,6 @@ void fields(Visitor&& visit, FireflyOptions& o) {
 }
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables, const FireflyOptions& options,
-                                          const Seed& seed);
+                                          const Seed& seed, std::size_t objectives = 1);
 
 }  // namespace linkwright::optimise

@@ -7,8 +7,8 @@
 namespace linkwright::optimise {
 
 FireflyBase::FireflyBase(std::span<const Variable> variables, int population, const Seed& seed,
-                         const FireflyMove& move, int generations)
-    : SwarmBase(variables, population, seed),
+                         std::size_t objectives, const FireflyMove& move, int generations)
+    : SwarmBase(variables, population, seed, objectives),
       everyone_(static_cast<std::size_t>(population)),
       move_(move),
       decay_(std::pow(1e-4 / 0.9, 1.0 / std::max(generations - 1, 1))) {

@@ -12,8 +12,8 @@ namespace linkwright::optimise {
 /// What all forms of the firefly algorithm share: the sweep.
 class FireflyBase : public SwarmBase {
  protected:
-  FireflyBase(std::span<const Variable> variables, int population, const Seed& seed, const FireflyMove& move,
-              int generations);
+  FireflyBase(std::span<const Variable> variables, int population, const Seed& seed, std::size_t objectives,
+              const FireflyMove& move, int generations);
 
   /// One sweep over a list of members: for each i in it, for each j in it, if j is better than i, i moves
   /// towards j. In a loop of rounds:

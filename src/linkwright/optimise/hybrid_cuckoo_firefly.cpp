@@ -13,8 +13,8 @@ namespace {
 class HybridCuckooFirefly final : public FireflyBase {
  public:
   HybridCuckooFirefly(std::span<const Variable> variables, const HybridCuckooFireflyOptions& options,
-                      const Seed& seed)
-      : FireflyBase(variables, options.population, seed, options.move, options.generations),
+                      const Seed& seed, std::size_t objectives)
+      : FireflyBase(variables, options.population, seed, objectives, options.move, options.generations),
         options_(options),
         scale_(levy_scale(options.flight.exponent)),
         swept_count_(static_cast<std::size_t>(std::ceil(options.swept * options.population))),
@@ -48,8 +48,8 @@ class HybridCuckooFirefly final : public FireflyBase {
     if (swept_count_ == population()) return everyone_;
     std::copy(everyone_.begin(), everyone_.end(), swept_.begin());
     std::sort(swept_.begin(), swept_.end(), [&](std::uint32_t a, std::uint32_t b) {
-      if (member_better(b, a)) return true;
-      return !member_better(a, b) && a < b;
+      if (member_ranks_before(b, a)) return true;
+      return !member_ranks_before(a, b) && a < b;
     });
     const std::span<std::uint32_t> worst(swept_.data(), swept_count_);
     std::sort(worst.begin(), worst.end());
@@ -65,9 +65,10 @@ class HybridCuckooFirefly final : public FireflyBase {
 }  // namespace
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,
-                                          const HybridCuckooFireflyOptions& options, const Seed& seed) {
+                                          const HybridCuckooFireflyOptions& options, const Seed& seed,
+                                          std::size_t objectives) {
   require_in_range("hybrid_cuckoo_firefly", options);
-  return std::make_unique<HybridCuckooFirefly>(variables, options, seed);
+  return std::make_unique<HybridCuckooFirefly>(variables, options, seed, objectives);
 }
 
 }  // namespace linkwright::optimise

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 
@@ -10,8 +11,8 @@
 
 namespace linkwright::optimise {
 
-/// Hybrid of cuckoo search and firefly algorithm, H-CS-FA (Boskovic 2018, Algorithm 2.4; with one objective):
-/// the flights of cuckoo_search, and then, in place of discovery, the sweep of firefly over the nests.
+/// Hybrid of cuckoo search and firefly algorithm, H-CS-FA (Boskovic 2018, Algorithms 2.4 and 2.5): the
+/// flights of cuckoo_search, and then, in place of discovery, the sweep of firefly over the nests.
 /// Candidates are clipped to the box. Defaults of Boskovic 2018, Table 2.5.
 ///
 /// Candidates are asked for one at a time, as in firefly.
@@ -42,6 +43,7 @@ void fields(Visitor&& visit, HybridCuckooFireflyOptions& o) {
 }
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,
-                                          const HybridCuckooFireflyOptions& options, const Seed& seed);
+                                          const HybridCuckooFireflyOptions& options, const Seed& seed,
+                                          std::size_t objectives = 1);
 
 }  // namespace linkwright::optimise

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "linkwright/core/field.h"
+#include "linkwright/optimise/cma_es.h"
 #include "linkwright/optimise/cuckoo_search.h"
 #include "linkwright/optimise/differential_evolution.h"
 #include "linkwright/optimise/firefly.h"
@@ -29,10 +30,11 @@ enum class Method {
   cuckoo_search,
   hybrid_cuckoo_firefly,
   subpopulation_firefly,
+  cma_es,
 };
 
 /// The first name of a method is its full one; "jde" is accepted in files as the short name it goes by.
-constexpr std::array<EnumName<Method>, 10> names(Method) {
+constexpr std::array<EnumName<Method>, 11> names(Method) {
   return {{{Method::differential_evolution, "differential_evolution",
             "differential evolution with constant factors"},
            {Method::self_adaptive_differential_evolution, "self_adaptive_differential_evolution",
@@ -46,6 +48,7 @@ constexpr std::array<EnumName<Method>, 10> names(Method) {
             "Levy flights of cuckoos, then moves of fireflies (H-CS-FA)"},
            {Method::subpopulation_firefly, "subpopulation_firefly",
             "fireflies in two parts that are split anew all the time (SP-FA)"},
+           {Method::cma_es, "cma_es", "covariance matrix adaptation evolution strategy, by pagmo"},
            {Method::self_adaptive_differential_evolution, "jde",
             "short for self_adaptive_differential_evolution"}}};
 }
@@ -62,6 +65,7 @@ struct OptimiserOptions {
   CuckooSearchOptions cuckoo_search = {};
   HybridCuckooFireflyOptions hybrid_cuckoo_firefly = {};
   SubpopulationFireflyOptions subpopulation_firefly = {};
+  CmaEsOptions cma_es = {};
 };
 
 /// Calls f with the options of the chosen method.
@@ -84,6 +88,8 @@ decltype(auto) visit_method(Options&& o, F&& f) {
       return f(o.hybrid_cuckoo_firefly);
     case Method::subpopulation_firefly:
       return f(o.subpopulation_firefly);
+    case Method::cma_es:
+      return f(o.cma_es);
     case Method::differential_evolution:
       break;
   }
@@ -97,8 +103,13 @@ void fields(Visitor&& visit, OptimiserOptions& o) {
   visit_method(o, [&](auto& options) { fields(visit, options); });
 }
 
+/// Whether a method minimises several objectives together, see Optimiser::best.
+bool takes_several_objectives(Method method);
+
+/// Throws ContractError for a method that minimises one objective when there are several.
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,
-                                          const OptimiserOptions& options, const Seed& seed);
+                                          const OptimiserOptions& options, const Seed& seed,
+                                          std::size_t objectives = 1);
 
 /// Generations that the chosen method runs when nothing else stops it.
 int generations(const OptimiserOptions& options);

@@ -5,28 +5,24 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "linkwright/core/checkpoint.h"
-#include "linkwright/optimise/parallel.h"
+#include "linkwright/optimise/combine.h"
+#include "linkwright/optimise/evaluate.h"
 
 namespace linkwright::optimise {
 namespace {
 
-constexpr std::size_t evaluation_block = 256;  // a multiple of 8, see PopulationView::slice
 constexpr std::size_t longest_reserved_log = 1 << 16, longest_reserved_generation = 1 << 16;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-void evaluate(const Problem& problem, const PopulationView& candidates, std::span<double> cost,
-              std::span<double> violation, int threads) {
-  if (threads == 1 || candidates.size <= evaluation_block)
-    return problem.evaluate(candidates, cost, violation);
-  const std::size_t blocks = (candidates.size + evaluation_block - 1) / evaluation_block;
-  parallel_for(blocks, threads, [&](std::size_t block) {
-    const std::size_t first = block * evaluation_block,
-                      count = std::min(evaluation_block, candidates.size - first);
-    problem.evaluate(candidates.slice(first, count), cost.subspan(first, count),
-                     violation.subspan(first, count));
-  });
+/// The one number that several objectives are reported by.
+double mean_of(std::span<const double> costs) {
+  if (costs.size() == 1) return costs[0];
+  double sum = 0;
+  for (const double cost : costs) sum += cost;
+  return sum / static_cast<double>(costs.size());
 }
 
 /// Costs of the rounds of one generation.
@@ -41,11 +37,12 @@ struct GenerationCosts {
     sum = 0;
   }
   void add(std::span<const double> cost, std::span<const double> violation) {
-    candidates += cost.size();
-    for (std::size_t i = 0; i < cost.size(); ++i)
+    candidates += violation.size();
+    const std::size_t objectives = violation.empty() ? 1 : cost.size() / violation.size();
+    for (std::size_t i = 0; i < violation.size(); ++i)
       if (violation[i] == 0) {
-        feasible.push_back(cost[i]);
-        sum += cost[i];
+        feasible.push_back(mean_of(cost.subspan(i * objectives, objectives)));
+        sum += feasible.back();
       }
   }
 };
@@ -89,6 +86,25 @@ bool wider_than(double most, const PopulationView& members, std::vector<double>&
   return false;
 }
 
+/// cost: of one objective, if they were combined.
+void set_best(Report& report, std::span<const double> x, double cost, std::span<const double> costs,
+              double violation) {
+  std::copy(x.begin(), x.end(), report.x.begin());
+  std::copy(costs.begin(), costs.end(), report.costs.begin());
+  report.cost = cost;
+  report.violation = violation;
+}
+
+void tell_front(ParetoArchive& front, const PopulationView& candidates, std::span<const double> costs,
+                std::span<const double> violation, std::vector<double>& x) {
+  const std::size_t m = costs.size() / candidates.size;
+  for (std::size_t i = 0; i < candidates.size; ++i) {
+    if (violation[i] > 0) continue;
+    for (std::size_t j = 0; j < x.size(); ++j) x[j] = candidates(j, i);
+    front.tell(x, costs.subspan(i * m, m));
+  }
+}
+
 constexpr std::size_t log_part = 4096;  // generations; finished parts of the log are kept once
 constexpr std::size_t log_numbers = 6;  // of a generation
 constexpr std::int64_t most_evaluations = std::int64_t{1} << 53;  // exact as a double
@@ -103,7 +119,8 @@ class StateKeeper {
   }
 
   /// Takes up what was kept, if anything was.
-  void restore(Optimiser& optimiser, int generations, bool log, Report& report, int& unimproved) {
+  void restore(Optimiser& optimiser, std::span<const Variable> variables, int generations, bool log,
+               Report& report, int& unimproved, std::optional<ParetoArchive>& front) {
     const Value value = checkpoint_ ? checkpoint_->find(name_ + "/state") : Value();
     if (value.is_null()) return;
     const Value& reason = kept_member(value, "stop_reason", name_);
@@ -115,32 +132,34 @@ class StateKeeper {
     state.generation = static_cast<std::uint32_t>(
         kept_integer(value, "optimiser_generation", report.generations, UINT32_MAX, name_));
     state.numbers = unpack_numbers(kept_member(value, "optimiser", name_), name_);
-    if (!reason.is_string() || best.size() != 2 || std::isnan(best[0]) || !(best[1] >= 0) ||
-        !optimiser.restore(state))
+    if (!reason.is_string() || best.size() != 2 + report.costs.size() ||
+        std::any_of(best.begin(), best.end(), [](double v) { return std::isnan(v); }) || !(best[1] >= 0) ||
+        !optimiser.restore(state) || (front && !restore_front(value, variables, *front)))
       throw CheckpointError(fmt::format("{}: is no state of this method and problem", name_));
     report.stop_reason = reason.as_string();
-    report.cost = best[0];
-    report.violation = best[1];
-    std::copy(optimiser.best().begin(), optimiser.best().end(), report.x.begin());
+    set_best(report, optimiser.best(), best[0], std::span(best).subspan(2), best[1]);
     if (log) restore_log(static_cast<std::size_t>(report.generations), report.log);
     kept_once_ = true;
   }
 
   /// Keeps the state if that is due.
-  void generation_done(const Optimiser& optimiser, const Report& report, int unimproved) {
-    if (checkpoint_ && Clock::now() - kept_ >= interval_) keep(optimiser, report, unimproved);
+  void generation_done(const Optimiser& optimiser, const Report& report, int unimproved,
+                       const std::optional<ParetoArchive>& front) {
+    if (checkpoint_ && Clock::now() - kept_ >= interval_) keep(optimiser, report, unimproved, front);
   }
 
   /// At an interruption the state is kept in any case. The end of a minimisation that was quicker than it
   /// could be kept need not be.
-  void ended(const Optimiser& optimiser, const Report& report, int unimproved, bool interrupted) {
-    if (checkpoint_ && (interrupted || kept_once_)) keep(optimiser, report, unimproved);
+  void ended(const Optimiser& optimiser, const Report& report, int unimproved,
+             const std::optional<ParetoArchive>& front, bool interrupted) {
+    if (checkpoint_ && (interrupted || kept_once_)) keep(optimiser, report, unimproved, front);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void keep(const Optimiser& optimiser, const Report& report, int unimproved) {
+  void keep(const Optimiser& optimiser, const Report& report, int unimproved,
+            const std::optional<ParetoArchive>& front) {
     for (; kept_log_ < report.log.size(); kept_log_ = std::min(kept_log_ + log_part, report.log.size())) {
       kept_log_ -= kept_log_ % log_part;
       std::vector<double> numbers;
@@ -156,7 +175,17 @@ class StateKeeper {
     value["generations"] = report.generations;
     value["evaluations"] = report.evaluations;
     value["unimproved"] = unimproved;
-    value["best"] = pack_numbers(std::vector<double>{report.cost, report.violation});
+    std::vector<double> best = {report.cost, report.violation};
+    best.insert(best.end(), report.costs.begin(), report.costs.end());
+    value["best"] = pack_numbers(best);
+    if (front) {
+      std::vector<double> numbers;
+      for (std::size_t i = 0; i < front->size(); ++i) {
+        numbers.insert(numbers.end(), front->x(i).begin(), front->x(i).end());
+        numbers.insert(numbers.end(), front->costs(i).begin(), front->costs(i).end());
+      }
+      value["front"] = pack_numbers(numbers);
+    }
     value["optimiser_generation"] = static_cast<std::int64_t>(state.generation);
     value["optimiser"] = pack_numbers(state.numbers);
     value["stop_reason"] = report.stop_reason;  // empty = not at its end
@@ -164,6 +193,24 @@ class StateKeeper {
     kept_ = Clock::now();
     interval_ = checkpoint_->interval();
     kept_once_ = true;
+  }
+
+  /// False for what no front can be.
+  bool restore_front(const Value& value, std::span<const Variable> variables, ParetoArchive& front) const {
+    const std::size_t dimension = variables.size();
+    const std::vector<double> numbers = unpack_numbers(kept_member(value, "front", name_), name_);
+    const std::size_t one = dimension + front.objectives();
+    if (numbers.size() % one != 0 || numbers.size() / one > front.capacity() ||
+        std::any_of(numbers.begin(), numbers.end(), [](double v) { return std::isnan(v); }))
+      return false;
+    bool good = true;
+    for (std::size_t i = 0; i < numbers.size(); i += one) {
+      const std::span<const double> point = std::span(numbers).subspan(i, one);
+      for (std::size_t j = 0; j < dimension; ++j)
+        good &= point[j] >= variables[j].lower && point[j] <= variables[j].upper;
+      good &= front.tell(point.first(dimension), point.subspan(dimension));
+    }
+    return good && front.size() == numbers.size() / one;
   }
 
   void restore_log(std::size_t generations, std::vector<GenerationLog>& log) {
@@ -208,21 +255,40 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
   LINKWRIGHT_REQUIRE(optimiser.dimension() == problem.variables.size(),
                      "an optimiser of {} variables for a problem of {}", optimiser.dimension(),
                      problem.variables.size());
-  const std::size_t n = optimiser.population();
+  LINKWRIGHT_REQUIRE(optimiser.objectives() == problem.objectives,
+                     "an optimiser of {} objectives for a problem of {}", optimiser.objectives(),
+                     problem.objectives);
+  // What is evaluated are the parts of a combination, `of_parts` costs a candidate; what the optimiser is
+  // told are `m` a candidate.
+  const Combination* combination = problem.combination.get();
+  const Problem& parts = combination ? combination->problem : problem;
+  const std::size_t n = optimiser.population(), m = problem.objectives, of_parts = parts.objectives;
   const bool penalty = options.constraints == Constraints::penalty;
-  std::vector<double> cost(n), violation(n), merit(penalty ? n : 0), none(penalty ? n : 0), squares(n);
+  std::vector<double> cost(n * of_parts), combined(combination ? n : 0), violation(n),
+      merit(penalty ? n * m : 0), none(penalty ? n : 0), squares(n);
+  std::optional<ParetoArchive> front;
+  if (options.front > 0) front.emplace(optimiser.dimension(), of_parts, options.front);
+  std::vector<double> x(optimiser.dimension());
   GenerationCosts of_generation;
   if (options.log)
     of_generation.feasible.reserve(
         std::min(std::max(n, optimiser.largest_generation()), longest_reserved_generation));
   Report report;
   report.x.resize(optimiser.dimension());
+  report.costs.assign(of_parts, std::numeric_limits<double>::infinity());
+  if (const Incumbent& known = options.incumbent; !known.x.empty() || !known.costs.empty()) {
+    LINKWRIGHT_REQUIRE(known.costs.size() == of_parts, "an incumbent of {} costs for {} objectives",
+                       known.costs.size(), of_parts);
+    const double cost_of_known = combination ? combination->cost(known.costs) : mean_of(known.costs);
+    optimiser.start_from(known.x, combination ? std::span(&cost_of_known, 1) : std::span(known.costs));
+    set_best(report, known.x, cost_of_known, known.costs, 0);
+  }
   if (options.log)
     report.log.reserve(std::min<std::size_t>(static_cast<std::size_t>(generations), longest_reserved_log));
 
   int unimproved = 0;
   StateKeeper keeper(context.checkpoint(), options.checkpoint);
-  keeper.restore(optimiser, generations, options.log, report, unimproved);
+  keeper.restore(optimiser, problem.variables, generations, options.log, report, unimproved, front);
   Status interruption = Status::done;
   const bool was_at_its_end = !report.stop_reason.empty();
   while (report.stop_reason.empty()) {
@@ -232,24 +298,32 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     while (optimiser.generation() == generation) {
       const PopulationView candidates = optimiser.ask();
       const std::size_t asked = candidates.size;
-      const std::span<double> costs(cost.data(), asked), violations(violation.data(), asked);
-      if (asked > 0) evaluate(problem, candidates, costs, violations, context.threads());
+      const std::span<double> costs(cost.data(), asked * of_parts), violations(violation.data(), asked);
+      if (asked > 0) evaluate(parts, candidates, costs, violations, context.threads());
+      for (std::size_t i = 0; combination && i < asked; ++i) {
+        const std::span<const double> of_one = costs.subspan(i * of_parts, of_parts);
+        combined[i] = combination->cost(of_one);
+        violation[i] += excess(*combination, of_one);
+      }
+      const std::span<double> told = combination ? std::span(combined.data(), asked) : costs;
+      if (front && asked > 0) tell_front(*front, candidates, costs, violations, x);
       if (penalty) {
         for (std::size_t i = 0; i < asked; ++i)
-          merit[i] = cost[i] + (violation[i] > 0 ? options.penalty_weight : 0);
-        optimiser.tell({merit.data(), asked}, {none.data(), asked});
+          for (std::size_t k = 0; k < m; ++k)
+            merit[i * m + k] = told[i * m + k] + (violation[i] > 0 ? options.penalty_weight : 0);
+        optimiser.tell({merit.data(), asked * m}, {none.data(), asked});
       } else {
-        optimiser.tell(costs, violations);
+        optimiser.tell(told, violations);
       }
       report.evaluations += static_cast<std::int64_t>(asked);
       improved |= optimiser.improved();
       equalled |= optimiser.equalled();
       if (optimiser.improved()) {
-        report.cost = cost[optimiser.best_candidate()];
-        report.violation = violation[optimiser.best_candidate()];
-        std::copy(optimiser.best().begin(), optimiser.best().end(), report.x.begin());
+        const std::size_t best = optimiser.best_candidate();
+        set_best(report, optimiser.best(), mean_of(told.subspan(best * m, m)),
+                 costs.subspan(best * of_parts, of_parts), violation[best]);
       }
-      if (options.log) of_generation.add(costs, violations);
+      if (options.log) of_generation.add(told, violations);
     }
     ++report.generations;
     unimproved = improved ? 0 : unimproved + 1;
@@ -283,11 +357,12 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     else if (interruption = context.interruption(); interruption != Status::done)
       break;
     else
-      keeper.generation_done(optimiser, report, unimproved);
+      keeper.generation_done(optimiser, report, unimproved, front);
   }
-  if (!was_at_its_end) keeper.ended(optimiser, report, unimproved, interruption != Status::done);
+  if (!was_at_its_end) keeper.ended(optimiser, report, unimproved, front, interruption != Status::done);
   if (interruption != Status::done)
     report.stop_reason = interruption == Status::deadline ? "time limit reached" : "cancelled";
+  if (front) report.front = front->points();
   report.status = interruption != Status::done ? interruption
                   : report.violation > 0       ? Status::infeasible
                                                : Status::done;
@@ -296,7 +371,7 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
 
 Report minimise(const Problem& problem, const OptimiserOptions& method, const MinimiseOptions& options,
                 const Seed& seed, RunContext& context) {
-  const auto optimiser = make_optimiser(problem.variables, method, seed);
+  const auto optimiser = make_optimiser(problem.variables, method, seed, problem.objectives);
   const int limit = options.stop.generations > 0 ? options.stop.generations : generations(method);
   return minimise(problem, *optimiser, limit, name_of(method.method), options, context);
 }

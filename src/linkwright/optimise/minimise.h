@@ -11,6 +11,7 @@
 #include "linkwright/core/status.h"
 #include "linkwright/optimise/methods.h"
 #include "linkwright/optimise/optimiser.h"
+#include "linkwright/optimise/pareto.h"
 #include "linkwright/optimise/problem.h"
 
 namespace linkwright::optimise {
@@ -21,7 +22,7 @@ struct StopCriteria {
       0;                ///< no generation begins that could exceed this; 0 = no limit; the first always runs
   int generations = 0;  ///< 0 = as the options of the method say
   double target_cost = -std::numeric_limits<double>::infinity();  ///< a feasible candidate costs at most this
-  int stagnation = 0;  ///< generations in a row without a better candidate; 0 = no limit
+  int stagnation = 0;  ///< generations in a row without a new best candidate; 0 = no limit
   /// The best was improved or equalled in this generation and no member is further than this from it
   /// (Euclidean, in the units of the variables); 0 = never. The criterion of the wheel-guide studies.
   double spread = 0;
@@ -62,10 +63,20 @@ constexpr std::array<EnumName<Constraints>, 2> names(Constraints) {
         "cost plus a constant for every candidate that violates a constraint"}}};
 }
 
+/// A known design that a minimisation is to improve on.
+struct Incumbent {
+  std::vector<double> x;      ///< need not lie in the bounds
+  std::vector<double> costs;  ///< its own, as in Report::costs
+};
+
 struct MinimiseOptions {
   StopCriteria stop = {};
   Constraints constraints = Constraints::feasibility_rules;
   double penalty_weight = 1e3;
+  Incumbent incumbent = {};  ///< see Optimiser::start_from; empty = none
+  /// Keep up to so many feasible designs that no other one dominates in the objectives, see ParetoArchive;
+  /// 0 = none.
+  std::size_t front = 0;
   bool log = true;       ///< keep one GenerationLog a generation
   bool progress = true;  ///< report to the run context
   /// Name under which the state is kept in the checkpoint of the run context, of its own for every
@@ -83,10 +94,11 @@ void fields(Visitor&& visit, MinimiseOptions& o) {
         o.penalty_weight);
 }
 
-/// One generation; NaN where there is no (feasible) candidate.
+/// One generation; NaN where there is no (feasible) candidate. The cost of a candidate is the mean of all
+/// when there are several objectives.
 struct GenerationLog {
   std::int64_t evaluations = 0;  ///< so far, this generation included
-  double best_cost = 0;          ///< of the best candidate so far
+  double best_cost = 0;          ///< of the best candidate so far, see Report::cost
   double best_violation = 0;
   double median = 0;  ///< cost of the feasible candidates of this generation
   double mean = 0;
@@ -99,16 +111,27 @@ struct Report {
   Status status = Status::done;
   std::string stop_reason;  ///< for people: "target cost 1e-08 reached"
   std::vector<double> x;    ///< best candidate, also when the run was interrupted
-  double cost = std::numeric_limits<double>::infinity();  ///< of the problem, without penalty
+  /// Of the problem, without penalty: its objective, or the mean of all when there are several.
+  double cost = std::numeric_limits<double>::infinity();
+  /// All objectives of the best candidate; with a problem that is combined of several (combine.h) those.
+  std::vector<double> costs;
   double violation = std::numeric_limits<double>::infinity();
   std::int64_t evaluations = 0;
   int generations = 0;
   std::vector<GenerationLog> log;
+  /// Feasible designs of the run of which none dominates another, in the order of their costs; as
+  /// MinimiseOptions::front has it. The incumbent to begin with is not among them.
+  std::vector<ParetoPoint> front;
 };
 
 /// Minimises a problem by a population method. Interruption is looked for after every generation; the first
 /// one always runs. Populations of more than 256 candidates are evaluated in parts by RunContext::threads()
 /// threads; the result does not depend on that. Throws ContractError for options out of range.
+///
+/// Several objectives are minimised together by those methods that can, see takes_several_objectives: what
+/// is best, and stays so, is told at Optimiser::best. The target cost and the log are about the mean of the
+/// objectives; a penalty counts for each of them. Methods of one objective minimise them combined, see
+/// combine.h and priorities.h.
 ///
 /// With a checkpoint the state is kept whenever Checkpoint::interval() has passed since the last time, and at
 /// an interruption; a later call goes on from there and ends with the same bits. Throws CheckpointError when

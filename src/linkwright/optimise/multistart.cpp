@@ -28,7 +28,7 @@ MultistartReport multistart_least_squares(math::ResidualFunction function, std::
     report.status = context.interruption();
     if (report.status != Status::done) break;
   }
-  for (const LocalEnd& end : report.ends)
+  for (const MultistartEnd& end : report.ends)
     report.reached_best +=
         end.report.cost <= best * (1 + options.same_cost) && end.report.status != Status::infeasible;
   if (report.status == Status::done && report.reached_best == 0) report.status = Status::infeasible;

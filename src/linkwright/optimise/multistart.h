@@ -30,7 +30,7 @@ struct MultistartOptions {
 };
 
 /// How one start ended.
-struct LocalEnd {
+struct MultistartEnd {
   std::size_t start = 0;
   math::LeastSquaresReport report;
   std::vector<double> x;
@@ -38,7 +38,7 @@ struct LocalEnd {
 
 struct MultistartReport {
   Status status = Status::done;  ///< done, infeasible (no start could be evaluated), deadline or cancelled
-  std::vector<LocalEnd> ends;    ///< of all starts made, in order
+  std::vector<MultistartEnd> ends;    ///< of all starts made, in order
   std::size_t best = 0;          ///< index of the cheapest end; the first of equals
   int reached_best = 0;          ///< ends that cost as much as the best, see same_cost
   std::int64_t evaluations = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -43,7 +44,7 @@ struct OptimiserState {
 ///     auto wolves = make_optimiser(problem.variables, GreyWolfOptions{}, {.seed = 7});
 ///     while (...) {
 ///       const PopulationView candidates = wolves->ask();
-///       problem.evaluate(candidates, cost, violation);  // cost and violation of candidates.size numbers
+///       problem.evaluate(candidates, cost, violation);  // candidates.size numbers, costs times objectives
 ///       wolves->tell(cost, violation);
 ///     }
 ///
@@ -59,11 +60,23 @@ class Optimiser {
   /// member has reason to move.
   PopulationView ask();
 
-  /// Answers to the candidates of the last `ask`, in their order, as Problem::evaluate gives them. Throws
-  /// ContractError for a wrong number of answers, a NaN, or when nothing was asked.
+  /// Answers to the candidates of the last `ask`, in their order, as Problem::evaluate gives them: with
+  /// several objectives cost[i * objectives() + k]. Throws ContractError for a wrong number of answers, a
+  /// NaN, or when nothing was asked.
   void tell(std::span<const double> cost, std::span<const double> violation);
 
+  /// Makes known designs the first candidates instead of random ones, before the first `ask`: as many as the
+  /// population; what is out of bounds is moved to the bound. Throws ContractError for wrong sizes, a NaN, or
+  /// when it comes too late.
+  void begin_with(const PopulationView& members);
+
+  /// Makes a known design the best one from the beginning, before the first `ask`: a reference that only
+  /// what is better replaces. It need not lie in the bounds, and `costs`, one an objective, are its own.
+  /// Throws ContractError for wrong sizes, a value that is not finite, or when it comes too late.
+  void start_from(std::span<const double> x, std::span<const double> costs);
+
   std::size_t dimension() const { return lower_.size(); }
+  std::size_t objectives() const { return objectives_; }
   std::size_t population() const { return candidates_.size(); }
   /// Generations told so far, completely.
   std::uint32_t generation() const { return generation_; }
@@ -71,8 +84,17 @@ class Optimiser {
   virtual std::size_t largest_generation() const { return population(); }
 
   /// Best candidate told so far, by the feasibility rules; empty before the first `tell`.
+  ///
+  /// With several objectives it is the incumbent (Boskovic 2018, Algorithm 2.5): every candidate is compared
+  /// with it, one after the other, and takes its place if it is feasible and dominates it, that is, no cost
+  /// is more and one at least is less. It thus dominates all that were best before, and the reference of
+  /// `start_from` in particular. Without a reference the first one is that feasible member of the first
+  /// population whose costs, each divided by the median of its objective there, have the least sum. As long
+  /// as nothing is feasible it is the least violated.
   std::span<const double> best() const { return best_; }
-  double best_cost() const { return best_cost_; }
+  /// Of the best; with several objectives the first of its costs.
+  double best_cost() const { return best_costs_[0]; }
+  std::span<const double> best_costs() const { return best_costs_; }
   double best_violation() const { return best_violation_; }
   /// Whether the last `tell` brought a new best candidate (then also which one) or one as good as the best.
   bool improved() const { return improved_; }
@@ -98,18 +120,23 @@ class Optimiser {
   /// A whole population, each row in its bounds.
   void visit_population(Population& population, StateVisitor visit);
 
-  Optimiser(std::span<const Variable> variables, std::size_t population, const Seed& seed);
+  Optimiser(std::span<const Variable> variables, std::size_t population, const Seed& seed,
+            std::size_t objectives = 1);
 
   /// Makes the candidates of a round after the first.
   virtual void propose(const GenerationKey& key) = 0;
   /// How many candidates `propose` made.
   virtual std::size_t proposed() const { return population(); }
-  /// Takes in the answers. They are padded to the stride of the population.
+  /// Takes in the answers. They are padded to the stride of the population; costs of several objectives lie
+  /// as in `tell`.
   virtual void accept(const double* cost, const double* violation) = 0;
   /// Whether the generation goes on after the answers taken in.
   virtual bool goes_on() const { return false; }
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  /// What costs are divided by to compare them with a reference one: its size, or 1 if that is 0.
+  static double unit_of(double reference) { return reference == 0 ? 1 : std::abs(reference); }
 
   KernelShape shape() const { return {dimension(), candidates_.size(), candidates_.view().stride}; }
 
@@ -119,16 +146,22 @@ class Optimiser {
 
  private:
   void visit_all(StateVisitor visit);
+  bool takes_over(std::span<const double> costs, double violation) const;
+  void take_over(std::size_t candidate, std::span<const double> costs, double violation);
+  bool choose_first(std::span<const double> cost, std::span<const double> violation);
 
+  std::size_t objectives_;
   std::vector<double> told_cost_, told_violation_;
-  std::vector<double> best_;
-  double best_cost_ = std::numeric_limits<double>::infinity();
+  std::vector<double> best_, best_costs_;
+  std::vector<double> best_lower_, best_upper_;  ///< the bounds, and the design of start_from
+  std::vector<double> column_, sums_;            ///< scratch of choose_first
   double best_violation_ = std::numeric_limits<double>::infinity();
   std::size_t best_candidate_ = 0;
   std::uint32_t generation_ = 0;
   std::size_t round_ = 0;  ///< candidates asked for
   bool improved_ = false, equalled_ = false;
   bool asked_ = false;
+  bool members_given_ = false;
   bool within_generation_ = false;
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,19 +24,30 @@ struct Violation {
   double amount = 0;
 };
 
+struct Combination;
+
 /// What is minimised. An optimiser asks for the costs of a whole population, never of one candidate, and
 /// knows nothing else of the problem.
 struct Problem {
   std::vector<Variable> variables;
 
-  /// For each candidate i: cost[i], and violation[i] = sum of the constraint violations (0 = feasible). A
-  /// cost that does not exist is +infinity with violation > 0, never NaN. Must be pure: same input, same
-  /// bits, for any split of the population; called from several threads at once.
+  /// How many objectives are minimised together. Several are to be given relative to a reference, so that 1
+  /// is as good as the reference: methods and reports compare and average them.
+  std::size_t objectives = 1;
+
+  /// For each candidate i: cost[i * objectives + k] of every objective k, and violation[i] = sum of the
+  /// constraint violations (0 = feasible). A cost that does not exist is +infinity with violation > 0, never
+  /// NaN. Must be pure: same input, same bits, for any split of the population; called from several threads
+  /// at once.
   std::function<void(const PopulationView& candidates, std::span<double> cost, std::span<double> violation)>
       evaluate;
 
   /// Why one candidate is infeasible, for reports; may be empty.
   std::function<std::vector<Violation>(std::span<const double> x)> explain;
+
+  /// What its one objective was combined of, see combine.h; null if of nothing. `minimise` evaluates that
+  /// instead of `evaluate`, for the objectives of what it finds.
+  std::shared_ptr<const Combination> combination;
 };
 
 /// "Better" by the feasibility rules of Deb (2000): feasible before infeasible, then by cost; infeasible ones
@@ -44,6 +57,18 @@ inline bool better(double cost_a, double violation_a, double cost_b, double viol
     if (violation_a != violation_b) return violation_a < violation_b;
   }
   return cost_a < cost_b;
+}
+
+/// "Better" by all objectives of a and b, as many: both feasible and every cost of a less, or else less
+/// violation (Boskovic 2018, Algorithm 2.5, with the conjunction that its text asks for). With one objective
+/// the same as above. With several it is no ranking: of two feasible ones often neither is better.
+inline bool better(std::span<const double> costs_a, double violation_a, std::span<const double> costs_b,
+                   double violation_b) {
+  if (costs_a.size() == 1) return better(costs_a[0], violation_a, costs_b[0], violation_b);
+  if (violation_a > 0 || violation_b > 0) return violation_a < violation_b;
+  for (std::size_t k = 0; k < costs_a.size(); ++k)
+    if (!(costs_a[k] < costs_b[k])) return false;
+  return true;
 }
 
 }  // namespace linkwright::optimise

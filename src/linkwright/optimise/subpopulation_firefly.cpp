@@ -14,8 +14,8 @@ namespace {
 class SubpopulationFirefly final : public FireflyBase {
  public:
   SubpopulationFirefly(std::span<const Variable> variables, const SubpopulationFireflyOptions& options,
-                       const Seed& seed)
-      : FireflyBase(variables, options.population, seed, options.move, options.generations),
+                       const Seed& seed, std::size_t objectives)
+      : FireflyBase(variables, options.population, seed, objectives, options.move, options.generations),
         options_(options),
         scale_(levy_scale(options.flight.exponent)),
         order_(everyone_),
@@ -76,7 +76,7 @@ class SubpopulationFirefly final : public FireflyBase {
   std::uint32_t& brightest(std::span<std::uint32_t> part) const {
     std::uint32_t* best = part.data();
     for (std::uint32_t& i : part)
-      if (member_better(i, *best)) best = &i;
+      if (member_ranks_before(i, *best)) best = &i;
     return *best;
   }
 
@@ -89,9 +89,10 @@ class SubpopulationFirefly final : public FireflyBase {
 }  // namespace
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,
-                                          const SubpopulationFireflyOptions& options, const Seed& seed) {
+                                          const SubpopulationFireflyOptions& options, const Seed& seed,
+                                          std::size_t objectives) {
   require_in_range("subpopulation_firefly", options);
-  return std::make_unique<SubpopulationFirefly>(variables, options, seed);
+  return std::make_unique<SubpopulationFirefly>(variables, options, seed, objectives);
 }
 
 }  // namespace linkwright::optimise

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 
@@ -10,11 +11,12 @@
 
 namespace linkwright::optimise {
 
-/// Firefly algorithm with two sub-populations, SP-FA (Boskovic 2018, Algorithm 2.1; with one objective). In
+/// Firefly algorithm with two sub-populations, SP-FA (Boskovic 2018, Algorithm 2.1). In
 /// every generation the fireflies are split anew at random; each makes Levy flights from where it is until
 /// one meets every constraint, and stays at the last if that is better; the two parts exchange their best
-/// fireflies and are swept as in firefly, each by itself. Candidates are clipped to the box. The publication
-/// gives no settings: defaults of firefly.
+/// fireflies and are swept as in firefly, each by itself. With several objectives the best firefly of a part
+/// is the feasible one with the least mean of its costs relative to those of the best so far. Candidates are
+/// clipped to the box. The publication gives no settings: defaults of firefly.
 ///
 /// The flights of all fireflies are asked for at once, the moves of the sweeps one at a time.
 struct SubpopulationFireflyOptions {
@@ -42,6 +44,7 @@ void fields(Visitor&& visit, SubpopulationFireflyOptions& o) {
 }
 
 std::unique_ptr<Optimiser> make_optimiser(std::span<const Variable> variables,
-                                          const SubpopulationFireflyOptions& options, const Seed& seed);
+                                          const SubpopulationFireflyOptions& options, const Seed& seed,
+                                          std::size_t objectives = 1);
 
 }  // namespace linkwright::optimise

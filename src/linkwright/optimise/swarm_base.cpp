@@ -7,10 +7,11 @@
 
 namespace linkwright::optimise {
 
-SwarmBase::SwarmBase(std::span<const Variable> variables, int population, const Seed& seed)
-    : Optimiser(variables, static_cast<std::size_t>(population), seed),
+SwarmBase::SwarmBase(std::span<const Variable> variables, int population, const Seed& seed,
+                     std::size_t objectives)
+    : Optimiser(variables, static_cast<std::size_t>(population), seed, objectives),
       members_(dimension(), candidates_.size()),
-      cost_(candidates_.size(), infinity),
+      cost_(candidates_.size() * objectives, infinity),
       violation_(candidates_.size(), infinity) {
   for (std::size_t j = 0; j < dimension(); ++j) {
     width_.push_back(upper_[j] - lower_[j]);
@@ -48,9 +49,22 @@ void SwarmBase::shuffle(std::span<std::uint32_t> order, RandomStream& random) {
     std::swap(order[left - 1], order[random.below(static_cast<std::uint32_t>(left))]);
 }
 
+bool SwarmBase::member_ranks_before(std::size_t a, std::size_t b) const {
+  if (objectives() == 1) return member_better(a, b);
+  if (violation_[a] > 0 || violation_[b] > 0) return violation_[a] < violation_[b];
+  // The sums over all objectives instead of the means.
+  double sum_a = 0, sum_b = 0;
+  for (std::size_t k = 0; k < objectives(); ++k) {
+    const double unit = unit_of(best_costs()[k]);
+    sum_a += member_costs(a)[k] / unit;
+    sum_b += member_costs(b)[k] / unit;
+  }
+  return sum_a < sum_b;
+}
+
 void SwarmBase::replace(std::size_t i, std::size_t c) {
   for (std::size_t j = 0; j < dimension(); ++j) members_(j, i) = candidates_(j, c);
-  cost_[i] = answer_cost_[c];
+  std::copy_n(answer_cost_ + c * objectives(), objectives(), &cost_[i * objectives()]);
   violation_[i] = answer_violation_[c];
 }
 

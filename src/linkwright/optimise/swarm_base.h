@@ -22,7 +22,7 @@ class SwarmBase : public Optimiser {
   PopulationView members() const override { return members_.view(); }
 
  protected:
-  SwarmBase(std::span<const Variable> variables, int population, const Seed& seed);
+  SwarmBase(std::span<const Variable> variables, int population, const Seed& seed, std::size_t objectives);
 
   void propose(const GenerationKey&) final;
   std::size_t proposed() const final { return made_; }
@@ -40,11 +40,16 @@ class SwarmBase : public Optimiser {
   static void shuffle(std::span<std::uint32_t> order, RandomStream& random);
 
   bool member_better(std::size_t a, std::size_t b) const {
-    return better(cost_[a], violation_[a], cost_[b], violation_[b]);
+    return better(member_costs(a), violation_[a], member_costs(b), violation_[b]);
   }
+  /// Whether member a comes before member b in the order from the best to the worst. With one objective as
+  /// member_better; with several, where that is no order, feasible ones by the mean of their costs relative
+  /// to those of the best so far, infeasible ones by violation.
+  bool member_ranks_before(std::size_t a, std::size_t b) const;
   /// Whether candidate c, now evaluated, is better than member i.
   bool candidate_better(std::size_t c, std::size_t i) const {
-    return better(answer_cost_[c], answer_violation_[c], cost_[i], violation_[i]);
+    return better({answer_cost_ + c * objectives(), objectives()}, answer_violation_[c], member_costs(i),
+                  violation_[i]);
   }
   bool candidate_feasible(std::size_t c) const { return !(answer_violation_[c] > 0); }
   /// Member i becomes candidate c, now evaluated.
@@ -56,10 +61,14 @@ class SwarmBase : public Optimiser {
   /// The loop of the method; a derived class sets it at the end of its construction.
   Rounds rounds_;
   Population members_;
-  std::vector<double> cost_, violation_;
+  std::vector<double> cost_, violation_;       ///< costs of a member one after the other
   std::vector<double> width_, inverse_width_;  ///< of the box; the inverse of 0 is 0
 
  private:
+  std::span<const double> member_costs(std::size_t i) const {
+    return {cost_.data() + i * objectives(), objectives()};
+  }
+
   std::size_t made_ = 0;
   const double *answer_cost_ = nullptr, *answer_violation_ = nullptr;
 };

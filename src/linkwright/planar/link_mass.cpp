@@ -1,10 +1,13 @@
 #include "linkwright/planar/link_mass.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "linkwright/core/check.h"
 
 namespace linkwright::planar {
+
+double drawn_radius(double mass) { return std::sqrt(mass / (7850 * 0.02 * std::numbers::pi)); }
 
 BaseParameters base_parameters(const LinkMass& link, std::span<const PointMass> attached) {
   const auto good = [](double v) { return std::isfinite(v) && v >= 0; };
@@ -27,6 +30,23 @@ BaseParameters base_parameters(const LinkMass& link, std::span<const PointMass> 
     base.inertia += m.mass * m.distance * m.distance;
   }
   return base;
+}
+
+LinkMass with_attached(const LinkMass& link, std::span<const PointMass> attached) {
+  const BaseParameters base = base_parameters(link, attached);
+  if (base.mass == 0) return link;
+  const std::complex<double> centre = base.moment / base.mass;
+  // Each part about the common centre: no large numbers are subtracted.
+  const auto place = [](double distance, double angle) {
+    return distance * std::complex<double>(std::cos(angle), std::sin(angle));
+  };
+  double inertia =
+      link.inertia + link.mass * std::norm(place(link.centre_distance, link.centre_angle) - centre);
+  for (const PointMass& m : attached) inertia += m.mass * std::norm(place(m.distance, m.angle) - centre);
+  return {.mass = base.mass,
+          .inertia = inertia,
+          .centre_distance = std::abs(centre),
+          .centre_angle = std::arg(centre)};
 }
 
 }  // namespace linkwright::planar

@@ -82,10 +82,18 @@ struct BaseParameters {
   double inertia = 0;              ///< about the own joint (kg m2)
 };
 
+/// Radius (m) of a steel disc of that mass (kg), 20 mm thick and of 7850 kg/m3: how masses without extension
+/// are drawn.
+double drawn_radius(double mass);
+
 /// Base parameters of a link with masses fixed to it.
 ///
 /// Throws ContractError on masses, inertias and centre distances that are negative, and on anything that is
 /// not finite.
 BaseParameters base_parameters(const LinkMass& link, std::span<const PointMass> attached = {});
+
+/// The link and the masses fixed to it as one: mass centre and moment of inertia about it of them all. Throws
+/// ContractError as base_parameters does.
+LinkMass with_attached(const LinkMass& link, std::span<const PointMass> attached);
 
 }  // namespace linkwright::planar

@@ -201,21 +201,10 @@ class Planner {
   }
 
   void masses() {
-    plan().masses.resize(parts());
-    for (int i = 1; i < static_cast<int>(l_.bodies.size()); ++i) {
-      const LinkageBody& body = l_.bodies[at(i)];
-      const BodyOnPart& on = plan().bodies[at(i)];
-      PartMass& m = plan().masses[at(on.part)];
-      const auto add = [&](double mass, double inertia, const Vec<double>& centre) {
-        const Vec<double> c = on.origin + turn(on.turn, centre);
-        m.mass += mass;
-        m.moment = m.moment + mass * c;
-        m.inertia += inertia + mass * dot(c, c);
-      };
-      if (body.mass) add(body.mass->mass, body.mass->inertia, vec(body.mass->centre));
-      for (const AttachedMass& a : body.attached) add(a.mass, 0, vec(a.at));
-      if (!body.mass && on.part != 0) plan().massless.push_back(body.name);
-    }
+    plan().masses = part_masses(l_, plan().bodies, plan().parts.size());
+    for (int i = 1; i < static_cast<int>(l_.bodies.size()); ++i)
+      if (!l_.bodies[at(i)].mass && plan().bodies[at(i)].part != 0)
+        plan().massless.push_back(l_.bodies[at(i)].name);
     plan().has_masses = plan().massless.empty();
   }
 
@@ -627,6 +616,25 @@ class Planner {
 bool LinkagePlan::closed_form() const {
   return std::none_of(groups.begin(), groups.end(),
                       [](const Group& g) { return g.type == GroupType::general; });
+}
+
+std::vector<PartMass> part_masses(const Linkage& linkage, std::span<const BodyOnPart> bodies,
+                                  std::size_t parts) {
+  std::vector<PartMass> masses(parts);
+  for (Index i = 1; i < linkage.bodies.size(); ++i) {
+    const LinkageBody& body = linkage.bodies[i];
+    const BodyOnPart& on = bodies[i];
+    PartMass& m = masses[static_cast<Index>(on.part)];
+    const auto add = [&](double mass, double inertia, const Vec<double>& centre) {
+      const Vec<double> c = on.origin + turn(on.turn, centre);
+      m.mass += mass;
+      m.moment = m.moment + mass * c;
+      m.inertia += inertia + mass * dot(c, c);
+    };
+    if (body.mass) add(body.mass->mass, body.mass->inertia, vec(body.mass->centre));
+    for (const AttachedMass& a : body.attached) add(a.mass, 0, vec(a.at));
+  }
+  return masses;
 }
 
 int mobility(const Linkage& linkage) {

@@ -107,6 +107,11 @@ struct LinkagePlan {
   bool closed_form() const;
 };
 
+/// Mass of each part: that of the bodies on it and of what is attached to them; of other masses than those
+/// the plan was made with, when these are in `linkage`.
+std::vector<PartMass> part_masses(const Linkage& linkage, std::span<const BodyOnPart> bodies,
+                                  std::size_t parts);
+
 /// Degrees of freedom by count (Chebyshev-Gruebler): 3 a moving body, less 3 a weld, 2 a pin or slide, 1 a
 /// pin in a slot or a gear.
 int mobility(const Linkage& linkage);

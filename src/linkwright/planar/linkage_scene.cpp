@@ -7,6 +7,8 @@
 #include <functional>
 #include <limits>
 
+#include "linkwright/planar/link_mass.h"
+
 namespace linkwright::planar {
 namespace {
 
@@ -62,6 +64,7 @@ class Artist {
     bodies();
     joints();
     springs();
+    masses();
     for (const BodyPoint& t : traces) trace(t);
     forces();
     return std::move(scene_);
@@ -175,6 +178,22 @@ class Artist {
     for (const LinearSpring& s : l_.springs)
       scene_.bodies.push_back(
           {s.name, {point(s.first), point(s.second)}, s.stiffness > 0 ? Style::spring : Style::damper});
+  }
+
+  // Counterweights and payloads.
+  void masses() {
+    for (int b = 1; b < static_cast<int>(l_.bodies.size()); ++b) {
+      const LinkageBody& body = l_.bodies[at(b)];
+      for (const AttachedMass& m : body.attached) {
+        if (!(m.mass > 0)) continue;
+        const std::string name =
+            fmt::format("{}, {:.4g} kg", m.name.empty() ? "mass on " + body.name : m.name, m.mass);
+        const int centre = add_point("", b, m.at);
+        scene_.circles.push_back({name, centre, add_point("", b, m.at + drawn_radius(m.mass))});
+        if (!body.points.empty())
+          scene_.bodies.push_back({name, {first_[at(b)], centre}, Style::bar});
+      }
+    }
   }
 
   void trace(const BodyPoint& t) {

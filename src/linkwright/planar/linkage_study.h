@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -59,6 +60,23 @@ struct LinkageStudy {
 study::Kind linkage_kind();
 study::Kind slider_crank_kind();
 
+enum class LinkageType { linkage, slider_crank };
+/// Reads the tables of the study and writes them into the canonical one unless that is null; nothing when
+/// there are problems, which go to the reader.
+std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, const study::Common& common,
+                                               LinkageType type, Value* canonical);
+
+/// What the rows are placed at: combinations of a grid with time 0, or times.
+struct LinkageRows {
+  std::vector<double> time;
+  std::vector<std::vector<InputMotion>> inputs;  ///< of each row, one an input
+};
+LinkageRows rows_of(const LinkageStudy& study);
+
+/// The table of the study alone, with the columns of these keys only (all when empty), for those who evaluate
+/// many designs. A branch is not followed through change points.
+Table linkage_table(const LinkageStudy& study, std::span<const std::string> columns);
+
 /// Evaluates every row and reports. Rows that do not assemble, or stand at a dead point, hold what is known
 /// of them and their status; the status of the result is then the first of these.
 study::Result run_linkage_study(const LinkageStudy& study, RunContext& context);
@@ -80,7 +98,6 @@ struct LinkageDescription {
   std::string sample;               ///< its name when the mechanism is a canned one
   std::vector<double> sample_from;  ///< and the inputs where its motion begins
 };
-enum class LinkageType { linkage, slider_crank };
 /// Reads and plans; nothing when there are problems, which go to the reader.
 std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
                                                bool needs_masses);

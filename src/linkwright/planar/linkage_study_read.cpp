@@ -136,8 +136,10 @@ void read_quality(study::ObjectReader& document, const Linkage& l, LinkageQualit
       table->error("centrodes", fmt::format("there is no moving body '{}'", body), {});
 }
 
-study::Prepared prepare(study::ObjectReader& document, const study::Common& common, LinkageType type) {
-  study::Prepared prepared;
+}  // namespace
+
+std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, const study::Common& common,
+                                               LinkageType type, Value* canonical) {
   LinkageStudy s;
   s.quantities = chosen_quantities(common.output.quantities);
   auto description = read_linkage(document, type, s.quantities.dynamic());
@@ -149,7 +151,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
     if (sweep) sweep->members();
     if (auto quality = document.table("quality")) quality->members();
     for (study::ObjectReader& drive : document.tables("drive")) drive.members();
-    return prepared;
+    return std::nullopt;
   }
   const Linkage& l = description->linkage;
   Value::Array drives;
@@ -200,14 +202,24 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
     read_drives(document, l, true, s, drives);
   }
   read_quality(document, l, s.quality);
-  write_linkage(*description, prepared.canonical);
-  if (document.has("quality")) prepared.canonical["quality"] = study::write_fields(s.quality);
-  prepared.canonical["drive"] = Value(std::move(drives));
-  prepared.canonical["sweep"] = std::move(canonical_sweep);
+  if (canonical) {
+    write_linkage(*description, *canonical);
+    if (document.has("quality")) (*canonical)["quality"] = study::write_fields(s.quality);
+    (*canonical)["drive"] = Value(std::move(drives));
+    (*canonical)["sweep"] = std::move(canonical_sweep);
+  }
   s.linkage = std::move(description->linkage);
   s.plan = std::move(description->plan);
   s.traces = std::move(description->traces);
-  prepared.run = [s = std::move(s)](RunContext& context) { return run_linkage_study(s, context); };
+  return s;
+}
+
+namespace {
+
+study::Prepared prepare(study::ObjectReader& document, const study::Common& common, LinkageType type) {
+  study::Prepared prepared;
+  if (auto s = read_linkage_study(document, common, type, &prepared.canonical))
+    prepared.run = [s = std::move(*s)](RunContext& context) { return run_linkage_study(s, context); };
   return prepared;
 }
 

@@ -37,17 +37,14 @@ std::vector<LinkageColumn> columns_of(const LinkageStudy& s) {
   return out;
 }
 
-// The rows' inputs: combinations of a grid, or times.
-struct Rows {
-  std::vector<double> time;
-  std::vector<std::vector<InputMotion>> inputs;
-};
 double sample_at(double from, double to, int samples, int i) {
   return from + (to - from) * i / (samples - 1);
 }
 
-Rows rows_of(const LinkageStudy& s) {
-  Rows rows;
+}  // namespace
+
+LinkageRows rows_of(const LinkageStudy& s) {
+  LinkageRows rows;
   if (const auto* times = std::get_if<TimeSamples>(&s.sweep)) {
     std::vector<MotionCurve> curves;
     for (const LinkageDrive& d : s.drives) curves.emplace_back(*d.law);
@@ -80,6 +77,8 @@ Rows rows_of(const LinkageStudy& s) {
     if (k == static_cast<std::size_t>(-1)) return rows;
   }
 }
+
+namespace {
 
 std::string shown(double value, bool rotary) {
   return rotary ? fmt::format("{:.6g}°", math::degrees(value)) : fmt::format("{:.6g} mm", value * 1e3);
@@ -456,7 +455,7 @@ class Runner {
   const LinkageStudy& s_;
   RunContext& context_;
   std::vector<LinkageColumn> columns_;
-  Rows rows_;
+  LinkageRows rows_;
   std::vector<std::vector<double>> values_;
   std::vector<Status> statuses_;
   std::vector<LinkageRecord> recorded_;
@@ -472,6 +471,43 @@ class Runner {
 };
 
 }  // namespace
+
+Table linkage_table(const LinkageStudy& s, std::span<const std::string> wanted) {
+  std::vector<LinkageColumn> columns = columns_of(s);
+  if (!wanted.empty())
+    std::erase_if(columns, [&](const LinkageColumn& c) {
+      return std::find(wanted.begin(), wanted.end(), c.key) == wanted.end();
+    });
+  const LinkageRows rows = rows_of(s);
+  const bool closed = s.plan.closed_form();
+  LinkageMotion motion(s.plan);
+  LinkageForces forces;
+  LinkageInstant now{.motion = &motion, .forces = &forces};
+  Table table{.name = "sweep"};
+  for (const LinkageColumn& c : columns)
+    table.add(c.key, c.label, std::vector<double>(rows.inputs.size(), nan));
+  std::vector<double> last, next;
+  for (std::size_t r = 0; r < rows.inputs.size(); ++r) {
+    now.time = rows.time[r];
+    now.inputs = rows.inputs[r];
+    next.clear();
+    for (const InputMotion& i : now.inputs) next.push_back(i.value);
+    // General groups are followed from row to row, so that they keep their branch.
+    const bool there = closed || last.empty() || follow(s.plan, last, next, motion).arrived;
+    if (there) solve_motion(s.plan, now.inputs, motion);
+    if (there && motion.status == Status::done) last = next;
+    if (s.quantities.dynamic())
+      solve_forces(s.linkage, s.plan, motion, now.time, now.inputs[0].value, forces);
+    const Status status =
+        s.quantities.dynamic() && motion.status == Status::done ? forces.status : motion.status;
+    if (motion.status == Status::done)
+      for (std::size_t c = 0; c < columns.size(); ++c) table.columns[c].values[r] = columns[c].value(now);
+    table.status.emplace_back(to_string(status));
+  }
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (columns[c].angle) math::unwrap_angles(table.columns[c].values);
+  return table;
+}
 
 study::Result run_linkage_study(const LinkageStudy& study, RunContext& context) {
   return Runner(study, context).run();

@@ -43,4 +43,29 @@ double max_abs(std::span<const double> samples) {
   return most;
 }
 
+double measure(Measure measure, std::span<const double> samples) {
+  switch (measure) {
+    case Measure::rss_over_n:
+      return rss_over_n(samples);
+    case Measure::rms:
+      return rms(samples);
+    case Measure::mean_abs:
+      return mean_abs(samples);
+    case Measure::max_abs:
+      return max_abs(samples);
+    case Measure::maximum:
+    case Measure::minimum:
+    case Measure::range:
+      break;
+  }
+  LINKWRIGHT_REQUIRE(!samples.empty(), "needs a sample");
+  double least = samples[0], most = samples[0];
+  for (double x : samples) {
+    if (std::isnan(x)) return x;
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
+  return measure == Measure::maximum ? most : measure == Measure::minimum ? least : most - least;
+}
+
 }  // namespace linkwright::planar

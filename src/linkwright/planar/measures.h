@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <span>
+
+#include "linkwright/core/field.h"
 
 // One number for a quantity that was sampled over a motion. All throw ContractError when there are too few
 // samples; a NaN among the samples makes the measure NaN.
@@ -19,5 +22,18 @@ double mean_abs(std::span<const double> samples);
 
 /// Largest absolute value. At least 1 sample.
 double max_abs(std::span<const double> samples);
+
+/// The measures by name.
+enum class Measure { rss_over_n, rms, mean_abs, max_abs, maximum, minimum, range };
+constexpr std::array<EnumName<Measure>, 7> names(Measure) {
+  return {{{Measure::rss_over_n, "rss_over_n", "root of the sum of squares over the number of intervals"},
+           {Measure::rms, "rms", "root mean square"},
+           {Measure::mean_abs, "mean_abs", "mean of the absolute values"},
+           {Measure::max_abs, "max_abs", "largest absolute value"},
+           {Measure::maximum, "maximum", "largest value"},
+           {Measure::minimum, "minimum", "smallest value"},
+           {Measure::range, "range", "from the smallest to the largest value"}}};
+}
+double measure(Measure measure, std::span<const double> samples);
 
 }  // namespace linkwright::planar

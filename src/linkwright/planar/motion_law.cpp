@@ -120,16 +120,7 @@ std::optional<MotionProblem> problem_of(const HarmonicMotion& law) {
 }
 
 math::PiecewisePolynomial polynomial(const Polynomial345& law) {
-  // Each higher term takes its own value, rate and acceleration at x = 1 off those of the first three; the
-  // factors are whole numbers.
-  std::vector<double> c = {0, 0, 0, 10, -15, 6};
-  for (std::size_t i = 0; i < law.higher.size(); ++i) {
-    const auto p = static_cast<double>(i + 6), half = p * (p - 1) / 2;
-    c[3] -= (10 - 4 * p + half) * law.higher[i];
-    c[4] -= (-15 + 7 * p - 2 * half) * law.higher[i];
-    c[5] -= (6 - 3 * p + half) * law.higher[i];
-  }
-  c.insert(c.end(), law.higher.begin(), law.higher.end());
+  std::vector<double> c = coefficients(law);
   for (double& coefficient : c) coefficient *= law.to - law.from;
   c[0] = law.from;
   return {{law.start, law.start + law.duration}, c.size(), c};
@@ -185,6 +176,20 @@ Motion at(const HarmonicMotion& law, double t) {
 }
 
 }  // namespace
+
+std::vector<double> coefficients(const Polynomial345& law) {
+  // Each higher term takes its own value, rate and acceleration at x = 1 off those of the first three; the
+  // factors are whole numbers.
+  std::vector<double> c = {0, 0, 0, 10, -15, 6};
+  for (std::size_t i = 0; i < law.higher.size(); ++i) {
+    const auto p = static_cast<double>(i + 6), half = p * (p - 1) / 2;
+    c[3] -= (10 - 4 * p + half) * law.higher[i];
+    c[4] -= (-15 + 7 * p - 2 * half) * law.higher[i];
+    c[5] -= (6 - 3 * p + half) * law.higher[i];
+  }
+  c.insert(c.end(), law.higher.begin(), law.higher.end());
+  return c;
+}
 
 Motion MotionCurve::at(const Pieces& pieces, double t) {
   const math::PiecewisePolynomial& p = pieces.polynomial;

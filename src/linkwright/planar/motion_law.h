@@ -42,6 +42,10 @@ struct Polynomial345 {
   std::vector<double> higher;      ///< shares of the stroke
 };
 
+/// a_0, a_1, ... of the law, shares of the stroke: zeros, then a_3, a_4, a_5 from the end conditions, then
+/// `higher`.
+std::vector<double> coefficients(const Polynomial345& law);
+
 /// The polynomial of least degree that meets the conditions which are given, any of them at either end.
 /// Outside it goes on at the rate that it has at the end.
 struct EndConditions {
@@ -212,7 +216,8 @@ void list(Visitor&& visit, JointKind kind, Polynomial345& law) {
   visit(value(kind, "to", "position after", true), law.to);
   interval(visit, law);
   visit(Field{.key = "higher_coefficients",
-              .summary = "free coefficients of x^6, x^7, ... as shares of the stroke",
+              .summary = "free coefficients of x^6, x^7, ... as shares of the stroke; n of them make the "
+                         "law of degree 5 + n",
               .minimum = -1e6,
               .maximum = 1e6},
         law.higher);

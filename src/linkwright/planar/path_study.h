@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "linkwright/optimise/minimise.h"
+#include "linkwright/optimise/population_methods.h"
 #include "linkwright/planar/path_synthesis.h"
 #include "linkwright/study/kind.h"
 
@@ -209,60 +209,9 @@ constexpr Word choice_word(const Recommended&) {
   return {"recommended", "separable form, global search, exact-gradient polish"};
 }
 
-/// A population method on the ten-unknown problem. Violated constraints cost a constant, as Boskovic 2018 Eq.
-/// (4.4) has it, unless the study says otherwise.
-template <class Options>
-struct PopulationMethod {
-  Options options;
-  optimise::MinimiseOptions minimise{.constraints = optimise::Constraints::penalty};
-};
-template <class Visitor, class Options>
-void fields(Visitor&& visit, PopulationMethod<Options>& m) {
-  fields(visit, m.options);
-  fields(visit, m.minimise);
-}
-using GreyWolf = PopulationMethod<optimise::GreyWolfOptions>;
-using DifferentialEvolution = PopulationMethod<optimise::DifferentialEvolutionOptions>;
-using SelfAdaptiveDifferentialEvolution =
-    PopulationMethod<optimise::SelfAdaptiveDifferentialEvolutionOptions>;
-using Jade = PopulationMethod<optimise::JadeOptions>;
-using ParticleSwarm = PopulationMethod<optimise::ParticleSwarmOptions>;
-using Firefly = PopulationMethod<optimise::FireflyOptions>;
-using CuckooSearch = PopulationMethod<optimise::CuckooSearchOptions>;
-using HybridCuckooFirefly = PopulationMethod<optimise::HybridCuckooFireflyOptions>;
-using SubpopulationFirefly = PopulationMethod<optimise::SubpopulationFireflyOptions>;
-constexpr Word choice_word(const GreyWolf&) {
-  return {"grey_wolf", "grey wolf optimiser (Mirjalili et al. 2014)"};
-}
-constexpr Word choice_word(const DifferentialEvolution&) {
-  return {"differential_evolution", "differential evolution with constant factors (Storn and Price 1997)"};
-}
-constexpr Word choice_word(const SelfAdaptiveDifferentialEvolution&) {
-  return {"self_adaptive_differential_evolution", "jDE (Brest et al. 2006)"};
-}
-constexpr Word choice_word(const Jade&) {
-  return {"jade", "adaptive differential evolution with an archive (Zhang and Sanderson 2009)"};
-}
-constexpr Word choice_word(const ParticleSwarm&) {
-  return {"particle_swarm", "particle swarm with decreasing inertia (Shi and Eberhart 1998)"};
-}
-
-constexpr Word choice_word(const Firefly&) {
-  return {"firefly", "firefly algorithm (Yang 2009; Boskovic 2018)"};
-}
-constexpr Word choice_word(const CuckooSearch&) {
-  return {"cuckoo_search", "cuckoo search (Yang and Deb 2009; Boskovic 2018)"};
-}
-constexpr Word choice_word(const HybridCuckooFirefly&) {
-  return {"hybrid_cuckoo_firefly", "cuckoos that move as fireflies, H-CS-FA (Boskovic 2018)"};
-}
-constexpr Word choice_word(const SubpopulationFirefly&) {
-  return {"subpopulation_firefly", "fireflies in two parts, SP-FA (Boskovic 2018)"};
-}
-
-using PathMethod =
-    std::variant<Recommended, GreyWolf, DifferentialEvolution, SelfAdaptiveDifferentialEvolution, Jade,
-                 ParticleSwarm, Firefly, CuckooSearch, HybridCuckooFirefly, SubpopulationFirefly>;
+/// The population methods work on the ten-unknown problem. Violated constraints cost a constant, as Boskovic
+/// 2018 Eq. (4.4) has it, unless the study says otherwise.
+using PathMethod = optimise::MethodChoice<optimise::Constraints::penalty, Recommended>;
 struct PathOptimiser {
   PathMethod method;
 };

@@ -49,7 +49,7 @@ PathSeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_
 }
 
 template <class Options>
-PathSeedRun run_seed(const PopulationMethod<Options>& method, const PathStudy& s, std::uint64_t seed,
+PathSeedRun run_seed(const optimise::PopulationMethod<Options, optimise::Constraints::penalty>& method, const PathStudy& s, std::uint64_t seed,
                      bool only_seed, RunContext& context) {
   PathSeedRun out;
   std::uint32_t part = 0;

@@ -168,6 +168,9 @@ study::Kind reactions_kind();
 /// Reads the tables of the study; problems go to the reader.
 ReactionsStudy read_reactions_study(study::ObjectReader& document, const study::Common& common);
 
+/// The table of the study alone.
+Table reactions_table(const ReactionsStudy& study);
+
 /// Evaluates every row and reports. Rows that do not assemble, or stand at a dead point, hold what is known
 /// of them and their status; the status of the result is then the first of these.
 study::Result run_reactions_study(const ReactionsStudy& study, RunContext& context);

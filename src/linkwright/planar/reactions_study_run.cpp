@@ -169,6 +169,7 @@ study::Scene motion_scene(const ReactionsStudy& s, const std::vector<Row>& rows)
     rates.push_back(row.rates);
     forces.push_back(row.forces);
   }
+  if (q.dynamic() && s.mechanism.masses) add_mass_centres(scene, linkage, *s.mechanism.masses);
   if (q.reactions) add_joint_forces(scene, forces);
   if (q.shaking) add_shaking_force(scene, forces);
   if (q.drive_torque) add_drive_torque(scene, forces);
@@ -356,6 +357,13 @@ void warn_of_rows(study::Result& result, const ReactionsStudy& s, const std::vec
 }
 
 }  // namespace
+
+Table reactions_table(const ReactionsStudy& s) {
+  std::vector<Row> rows;
+  for (double angle : crank_angles(std::get<CrankGrid>(s.sweep.type).crank_angle))
+    rows.push_back(evaluate(s, angle));
+  return sweep_table(s, rows);
+}
 
 study::Result run_reactions_study(const ReactionsStudy& s, RunContext& context) {
   study::Result result;

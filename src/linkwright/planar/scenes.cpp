@@ -1,5 +1,7 @@
 #include "linkwright/planar/scenes.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -144,6 +146,39 @@ void add_joint_forces(study::Scene& scene, const std::vector<FourBarReactions>& 
   add("crank on coupler", A, &FourBarReactions::crank_on_coupler);
   add("rocker on coupler", B, &FourBarReactions::rocker_on_coupler);
   add("ground on rocker", B0, &FourBarReactions::ground_on_rocker);
+}
+
+void add_mass_centres(study::Scene& scene, const FourBar& linkage, const FourBarMasses& masses) {
+  const auto disc = [&](std::string_view link, const LinkMass& mass, auto&& joint, auto&& angle) {
+    if (!(mass.mass > 0)) return;
+    study::Scene::Point centre{"", {}, {}}, rim{"", {}, {}};
+    for (double crank : scene.input) {
+      const FourBarPosition pose = position(linkage, crank);
+      const double direction = linkage.frame_angle + angle(crank, pose) + mass.centre_angle;
+      const std::complex<double> at = joint(pose) + std::polar(mass.centre_distance, direction);
+      const std::complex<double> edge = at + std::polar(drawn_radius(mass.mass), direction);
+      const bool there = assembled(pose);
+      centre.x.push_back(there ? at.real() : nan);
+      centre.y.push_back(there ? at.imag() : nan);
+      rim.x.push_back(there ? edge.real() : nan);
+      rim.y.push_back(there ? edge.imag() : nan);
+    }
+    scene.circles.push_back({fmt::format("mass centre of {}, {:.4g} kg", link, mass.mass),
+                             static_cast<int>(scene.points.size()),
+                             static_cast<int>(scene.points.size()) + 1});
+    scene.points.push_back(std::move(centre));
+    scene.points.push_back(std::move(rim));
+  };
+  using Pose = FourBarPosition;
+  disc(
+      "crank", masses.crank, [&](const Pose&) { return crank_pivot(linkage); },
+      [](double crank, const Pose&) { return crank; });
+  disc(
+      "coupler", masses.coupler, [](const Pose& p) { return p.crank_pin; },
+      [](double, const Pose& p) { return p.coupler_angle; });
+  disc(
+      "rocker", masses.rocker, [&](const Pose&) { return rocker_pivot(linkage); },
+      [](double, const Pose& p) { return p.rocker_angle; });
 }
 
 void add_drive_torque(study::Scene& scene, const std::vector<FourBarReactions>& forces) {

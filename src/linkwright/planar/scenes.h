@@ -35,6 +35,10 @@ void add_motion_arrows(study::Scene& scene, const FourBar& linkage, const std::v
 /// on the coupler. `forces`: one a sample.
 void add_joint_forces(study::Scene& scene, const std::vector<FourBarReactions>& forces);
 
+/// Adds discs at the mass centres of crank, coupler and rocker to a four_bar_scene of the same linkage, as
+/// large as steel discs of these masses (see drawn_radius).
+void add_mass_centres(study::Scene& scene, const FourBar& linkage, const FourBarMasses& masses);
+
 /// Adds the couple of the drive on the crank to a four_bar_scene.
 void add_drive_torque(study::Scene& scene, const std::vector<FourBarReactions>& forces);
 

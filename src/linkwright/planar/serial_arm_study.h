@@ -128,6 +128,12 @@ SerialArmStudy read_serial_arm_study(study::ObjectReader& document, const study:
 /// The arm that a study describes.
 SerialArm serial_arm(const ArmMechanism& mechanism);
 
+/// Absolute motion of all links at the first time of the sweep, then at the second.
+std::vector<Motion> arm_motion(const SerialArmStudy& study);
+
+/// The table of the study alone.
+Table serial_arm_table(const SerialArmStudy& study);
+
 /// Motion, joint forces, torques, power and energy at each time. Cancelled or out of time: the rows so far.
 study::Result run_serial_arm_study(const SerialArmStudy& study, RunContext& context);
 

@@ -34,11 +34,25 @@ struct Row {
   }
 };
 
+double time_of(const TimeSamples& s, int i) { return s.from + (s.to - s.from) * i / (s.samples - 1); }
+
 class Evaluation {
  public:
   explicit Evaluation(const SerialArmStudy& s)
       : study_(s), arm_(serial_arm(s.mechanism)), elements_(elements(arm_)), motion_(elements_.size()) {
     for (const ArmDrive& drive : s.drives) curves_.emplace_back(motion_law(drive.law));
+  }
+
+  // Absolute motion of the links.
+  const std::vector<Motion>& move(double time) {
+    for (std::size_t k = 0; k < elements_.size(); ++k) {
+      Motion& m = motion_[k] = curves_[k](time);
+      if (k == 0 || study_.drives[k].angle != ArmAngle::joint) continue;
+      m.value += motion_[k - 1].value;
+      m.rate += motion_[k - 1].rate;
+      m.acceleration += motion_[k - 1].acceleration;
+    }
+    return motion_;
   }
 
   Row operator()(double time) {
@@ -47,15 +61,8 @@ class Evaluation {
             .angles{},
             .rates = std::vector<ArmLinkRates>(n),
             .loads = std::vector<ArmJointLoads>(n)};
-    for (std::size_t k = 0; k < n; ++k) {
-      Motion& m = motion_[k] = curves_[k](time);
-      if (k > 0 && study_.drives[k].angle == ArmAngle::joint) {
-        m.value += motion_[k - 1].value;
-        m.rate += motion_[k - 1].rate;
-        m.acceleration += motion_[k - 1].acceleration;
-      }
-      row.angles.push_back(m.value);
-    }
+    move(time);
+    for (const Motion& m : motion_) row.angles.push_back(m.value);
     const double gravity = study_.environment.gravity;
     rates(elements_, arm_.base, motion_, row.rates);
     reactions(elements_, row.rates, gravity, row.loads);
@@ -189,7 +196,9 @@ study::Scene arm_scene(const SerialArmStudy& s, const std::vector<Row>& rows) {
       const std::string name = fmt::format("{:.4g} kg", mass.mass);
       const int at = add(name, [&](const Row& r) { return point(r.rates[k], place).position; });
       scene.bodies.push_back({name, {static_cast<int>(k), at}, Body::bar});
-      scene.joints.push_back({name, at, Joint::tracer});
+      const int rim =
+          add("", [&](const Row& r) { return point(r.rates[k], place + drawn_radius(mass.mass)).position; });
+      scene.circles.push_back({name, at, rim});
     }
   return scene;
 }
@@ -298,6 +307,23 @@ void add_facts(study::Result& result, const SerialArmStudy& s, const std::vector
 
 }  // namespace
 
+std::vector<Motion> arm_motion(const SerialArmStudy& s) {
+  Evaluation evaluate(s);
+  std::vector<Motion> out;
+  for (int i = 0; i < s.sweep.time.samples; ++i) {
+    const std::vector<Motion>& now = evaluate.move(time_of(s.sweep.time, i));
+    out.insert(out.end(), now.begin(), now.end());
+  }
+  return out;
+}
+
+Table serial_arm_table(const SerialArmStudy& s) {
+  Evaluation evaluate(s);
+  std::vector<Row> rows;
+  for (int i = 0; i < s.sweep.time.samples; ++i) rows.push_back(evaluate(time_of(s.sweep.time, i)));
+  return sweep_table(s, rows);
+}
+
 study::Result run_serial_arm_study(const SerialArmStudy& s, RunContext& context) {
   study::Result result;
   Evaluation evaluate(s);
@@ -305,7 +331,7 @@ study::Result run_serial_arm_study(const SerialArmStudy& s, RunContext& context)
   std::vector<Row> rows;
   rows.reserve(static_cast<std::size_t>(time.samples));
   for (int i = 0; i < time.samples && result.status == Status::done; ++i) {
-    rows.push_back(evaluate(time.from + (time.to - time.from) * i / (time.samples - 1)));
+    rows.push_back(evaluate(time_of(time, i)));
     if (i % 1024 == 1023) result.status = context.interruption();
   }
   result.tables.push_back(sweep_table(s, rows));

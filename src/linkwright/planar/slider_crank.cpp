@@ -1,5 +1,7 @@
 #include "linkwright/planar/slider_crank.h"
 
+#include <fmt/format.h>
+
 #include "linkwright/planar/linkage_build.h"
 
 namespace linkwright::planar {
@@ -25,8 +27,14 @@ Linkage slider_crank(const SliderCrankMechanism& mechanism) {
     const auto link = [](const SliderCrankMass& m) {
       return BodyMass{m.mass, m.inertia, std::polar(m.centre_distance, m.centre_angle)};
     };
-    l.bodies[1].mass = link(masses->crank);
-    l.bodies[2].mass = link(masses->rod);
+    const auto set = [&](LinkageBody& body, const SliderCrankMass& m) {
+      body.mass = link(m);
+      for (const PointMass& a : m.attached)
+        body.attached.push_back({fmt::format("{} mass {}", body.name, body.attached.size() + 1), a.mass,
+                                 std::polar(1.0, a.angle) * a.distance});
+    };
+    set(l.bodies[1], masses->crank);
+    set(l.bodies[2], masses->rod);
     l.bodies[3].mass = BodyMass{masses->slider, 0, 0};
   }
   return l;

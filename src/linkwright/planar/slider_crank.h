@@ -3,7 +3,9 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <vector>
 
+#include "linkwright/planar/link_mass.h"
 #include "linkwright/planar/linkage.h"
 #include "linkwright/planar/linkage_form.h"
 
@@ -21,6 +23,7 @@ struct SliderCrankForm {
 };
 struct SliderCrankMass {
   double mass = 0, inertia = 0, centre_distance = 0, centre_angle = 0;
+  std::vector<PointMass> attached;
 };
 struct SliderCrankMasses {
   SliderCrankMass crank, rod;
@@ -70,6 +73,7 @@ void fields(Visitor&& visit, SliderCrankMass& m) {
                  Dimension::length, true),
         m.centre_distance);
   visit(angle("centre_angle", "angle of the mass centre from the link line"), m.centre_angle);
+  visit(Field{.key = "attached", .summary = "masses fixed to it: counterweights"}, m.attached);
 }
 template <class Visitor>
 void fields(Visitor&& visit, SliderCrankMasses& m) {

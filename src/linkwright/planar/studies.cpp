@@ -1,5 +1,6 @@
 #include "linkwright/planar/studies.h"
 
+#include "linkwright/planar/balancing_study.h"
 #include "linkwright/planar/linkage_regulation_study.h"
 #include "linkwright/planar/linkage_simulation_study.h"
 #include "linkwright/planar/linkage_study.h"
@@ -10,7 +11,7 @@
 namespace linkwright::planar {
 
 std::vector<study::Kind> studies() {
-  return {path_kind(),
+  std::vector<study::Kind> kinds = {path_kind(),
           reactions_kind(),
           linkage_kind(),
           slider_crank_kind(),
@@ -19,6 +20,8 @@ std::vector<study::Kind> studies() {
           linkage_regulation_kind(),
           slider_crank_regulation_kind(),
           serial_arm_kind()};
+  for (study::Kind& kind : balancing_kinds()) kinds.push_back(std::move(kind));
+  return kinds;
 }
 
 }  // namespace linkwright::planar

@@ -140,6 +140,16 @@ void write_solutions(std::string& out, const study::Result& result) {
   }
 }
 
+void write_changes(std::string& out, const study::Result& result) {
+  if (result.changes.empty()) return;
+  heading(out, "Before and after");
+  Sheet sheet(out, {"quantity", "measure", "before", "after", "change", "objective"});
+  for (const auto& c : result.changes)
+    sheet.row({c.label, c.measure, number(c.before, 6), number(c.after, 6),
+               std::isfinite(c.percent()) ? fmt::format("{:+.2f} %", c.percent()) : "",
+               c.wanted ? "yes" : ""});
+}
+
 void write_comparisons(std::string& out, const study::Result& result) {
   if (result.comparisons.empty()) return;
   heading(out, "Published and ours");
@@ -200,6 +210,7 @@ std::string static_page(const ReportInput& input) {
   write_drawings(out, input.result);
   write_plots(out, input.result);
   write_solutions(out, input.result);
+  write_changes(out, input.result);
   write_comparisons(out, input.result);
   write_object(out, "Statistics", input.result.statistics);
   write_log(out, input.result.log);

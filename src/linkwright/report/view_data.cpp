@@ -191,6 +191,15 @@ Value view_data(const ReportInput& input) {
     o["logarithmic_y"] = p.logarithmic_y;
     o["scene"] = p.scene;
   });
+  out["changes"] = list(result.changes, [](Value& o, const study::Change& c) {
+    o["quantity"] = c.quantity;
+    o["label"] = c.label;
+    o["measure"] = c.measure;
+    o["before"] = c.before;
+    o["after"] = c.after;
+    o["percent"] = c.percent();
+    o["wanted"] = c.wanted;
+  });
   out["comparisons"] = list(result.comparisons, [](Value& o, const study::Comparison& c) {
     o["item"] = c.item;
     o["source"] = c.source;

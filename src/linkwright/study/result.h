@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,19 @@ struct Comparison {
   std::string note;
 };
 
+/// One row "before and after" of a change of design.
+struct Change {
+  std::string quantity;  ///< column: "shaking_force_N"
+  std::string label;     ///< for people, with unit
+  std::string measure;   ///< what of the column: "rms"
+  double before = 0, after = 0;
+  bool wanted = false;  ///< whether it was to become small
+  /// Signed change in per cent of before; NaN when that is 0.
+  double percent() const {
+    return before != 0 ? 100 * (after / before - 1) : std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
 /// One of the distinct answers of a synthesis.
 struct Solution {
   std::string label;  ///< "crank-rocker, open"
@@ -85,6 +99,7 @@ struct Result {
   std::vector<Scene> scenes;
   std::vector<Plot> plots;
   std::vector<Comparison> comparisons;
+  std::vector<Change> changes;
   std::vector<Check> checks;
   Diagnostics diagnostics;  ///< remarks and warnings about the answer
 };

@@ -1,0 +1,170 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/field.h"
+#include "linkwright/core/run_context.h"
+#include "linkwright/core/status.h"
+#include "linkwright/optimise/optimiser.h"
+#include "linkwright/optimise/pareto.h"
+#include "linkwright/optimise/problem.h"
+
+namespace linkwright::optimise {
+
+/// Methods of pagmo for several objectives. (Its CMA-ES, for one objective, is a Method like our own.)
+enum class PagmoMethod { nsga2, moead };
+constexpr std::array<EnumName<PagmoMethod>, 2> names(PagmoMethod) {
+  return {{{PagmoMethod::nsga2, "nsga2", "sorting by non-domination and crowding (NSGA-II)"},
+           {PagmoMethod::moead, "moead", "decomposition into weighted largest objectives (MOEA/D-DE)"}}};
+}
+
+/// NSGA-II (Deb, Pratap, Agarwal, Meyarivan 2002) with the settings of that paper. Evaluates whole
+/// populations.
+struct Nsga2Options {
+  int population = 100;  ///< a multiple of 4, at least 8
+  int generations = 250;
+  double crossover = 0.9;       ///< probability
+  double crossover_index = 20;  ///< of simulated binary crossover; large = children near their parents
+  double mutation = 0;          ///< probability of a variable; 0 = one variable in the mean
+  double mutation_index = 20;   ///< of polynomial mutation; large = small steps
+};
+template <class Visitor>
+void fields(Visitor&& visit, Nsga2Options& o) {
+  visit(Field{.key = "population", .summary = "members, a multiple of 4", .minimum = 8, .maximum = 1e6},
+        o.population);
+  visit(
+      Field{.key = "generations", .summary = "generations, the first included", .minimum = 1, .maximum = 1e9},
+      o.generations);
+  visit(Field{.key = "crossover", .summary = "probability of crossover", .minimum = 0, .maximum = 1},
+        o.crossover);
+  visit(Field{.key = "crossover_index",
+              .summary = "distribution index of crossover; large = children near their parents",
+              .minimum = 1,
+              .maximum = 100},
+        o.crossover_index);
+  visit(Field{.key = "mutation",
+              .summary = "probability that a variable mutates; 0 = one over their number",
+              .minimum = 0,
+              .maximum = 1},
+        o.mutation);
+  visit(Field{.key = "mutation_index",
+              .summary = "distribution index of mutation; large = small steps",
+              .minimum = 1,
+              .maximum = 100},
+        o.mutation_index);
+}
+
+/// MOEA/D with moves of differential evolution (Li and Zhang 2009, with the settings of that paper) and
+/// Chebyshev decomposition: every member minimises max_k w_k (f_k - least f_k) for weights w of its own,
+/// which are a grid for two objectives and a sequence of low discrepancy for more. Objectives should be of
+/// one magnitude. Moves follow from one another, so that candidates are evaluated one at a time.
+struct MoeadOptions {
+  int population = 100;
+  int generations = 250;
+  int neighbours =
+      20;  ///< members with the most similar weights, with whom one mates; less than `population`
+};
+template <class Visitor>
+void fields(Visitor&& visit, MoeadOptions& o) {
+  visit(Field{.key = "population", .summary = "members, more than neighbours", .minimum = 4, .maximum = 1e6},
+        o.population);
+  visit(
+      Field{.key = "generations", .summary = "generations, the first included", .minimum = 1, .maximum = 1e9},
+      o.generations);
+  visit(Field{.key = "neighbours",
+              .summary = "members with the most similar weights, with whom one mates",
+              .minimum = 2,
+              .maximum = 1e6},
+        o.neighbours);
+}
+
+/// A method and the options of each; only those of the chosen method count.
+struct PagmoOptions {
+  PagmoMethod method = PagmoMethod::nsga2;
+  Nsga2Options nsga2 = {};
+  MoeadOptions moead = {};
+};
+/// `method` comes first; the keys after it are those of the method that was read.
+template <class Visitor>
+void fields(Visitor&& visit, PagmoOptions& o) {
+  visit(Field{.key = "method", .summary = "method for several objectives"}, o.method);
+  if (o.method == PagmoMethod::moead)
+    fields(visit, o.moead);
+  else
+    fields(visit, o.nsga2);
+}
+
+/// What all methods of several objectives are told.
+struct FrontOptions {
+  std::int64_t evaluations = 0;  ///< no generation begins that exceeds this; 0 = no limit; the first runs
+  bool log = true;               ///< keep one FrontLog a generation
+  bool progress = true;          ///< report to the run context
+  /// Name under which the state is kept in the checkpoint of the run context, of its own for every
+  /// minimisation of a run; empty = not kept.
+  std::string checkpoint = {};
+};
+template <class Visitor>
+void fields(Visitor&& visit, FrontOptions& o) {
+  visit(
+      Field{.key = "max_evaluations", .summary = "evaluations; 0 = no limit", .minimum = 0, .maximum = 1e15},
+      o.evaluations);
+}
+
+/// One generation.
+struct FrontLog {
+  std::int64_t evaluations = 0;  ///< so far, this generation included
+  double violated = 0;           ///< share of the candidates of this generation that violate a constraint
+  int front = 0;  ///< members that are feasible and dominated by none; of those of equal costs one
+  std::vector<double> least;  ///< of each objective among them; infinite when there are none
+};
+
+struct FrontReport {
+  /// done; infeasible: likewise, but no candidate met every constraint; deadline, cancelled.
+  Status status = Status::done;
+  std::string stop_reason;  ///< for people: "250 generations"
+  /// Members of the last population that are feasible and dominated by none, by rising costs, the first
+  /// objective first; of those of equal costs one. When nothing was feasible, the one candidate least
+  /// violated.
+  std::vector<ParetoPoint> front;
+  double violation = 0;  ///< of all designs of the front
+  std::int64_t evaluations = 0;
+  int generations = 0;
+  std::vector<FrontLog> log;
+};
+
+/// Minimises several objectives together. All candidates lie in the bounds; variables without a range stay
+/// what they are. The methods know no constraints: a candidate that violates some is told to have, in every
+/// objective, the cost of `cost_by_feasibility_rules`, so that each feasible one dominates it and of two
+/// infeasible ones the less violated dominates (the constrained domination of Deb et al. 2002).
+///
+/// Interruption is looked for after every generation; the first one always runs. The first population is
+/// uniform in the box and the same for all methods of one seed. The random numbers after that are those of
+/// pagmo and of the standard library it was built with, sown anew in every generation from the seed: results
+/// are the same bits on one system for any number of threads. With a checkpoint the state is kept as in
+/// `minimise`; throws CheckpointError when what was kept is not of such a minimisation.
+///
+/// Throws ContractError for a problem of one objective or options out of range.
+FrontReport minimise_with_pagmo(const Problem& problem, const PagmoOptions& method,
+                                const FrontOptions& options, const Seed& seed, RunContext& context);
+
+/// A number that ranks candidates as `better` does, for methods that know costs only: the cost of a feasible
+/// candidate, limited to +-1e75, and more than 1e79 for an infeasible one, the more the larger its violation
+/// (1e100 times its 16th root: violations that differ by rounding only may tie).
+double cost_by_feasibility_rules(double cost, double violation);
+
+/// Volume that is dominated by some of the points and dominates the reference point: the larger, the better
+/// the front. costs[i m + k] is objective k of point i, m = reference.size() >= 2, as Problem::evaluate gives
+/// them. Points that are not better than the reference in every objective count nothing. The time rises fast
+/// with m.
+/// Throws ContractError for spans of wrong length or values that are not finite.
+double hypervolume(std::span<const double> costs, std::span<const double> reference);
+
+/// The same for a front.
+double hypervolume(std::span<const ParetoPoint> front, std::span<const double> reference);
+
+}  // namespace linkwright::optimise

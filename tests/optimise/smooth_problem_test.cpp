@@ -1,0 +1,52 @@
+#include "linkwright/optimise/smooth_problem.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "optimise/smooth_cases.h"
+#include "support/message.h"
+
+namespace linkwright::optimise {
+namespace {
+
+using ::testing::HasSubstr;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Population candidates() {
+  Population out(2, 3);
+  const double inside[] = {0, 0}, violating[] = {1, 2}, nowhere[] = {2.5, 1};
+  out.set(0, inside);
+  out.set(1, violating);
+  out.set(2, nowhere);
+  return out;
+}
+
+TEST(SmoothProblem, KeepsItsObjectivesForPopulationMethods) {
+  const Problem p = to_problem(testing::two_points());
+  EXPECT_EQ(p.objectives, 2u);
+  EXPECT_EQ(p.variables.size(), 2u);
+  const Population population = candidates();
+  std::vector<double> cost(6), violation(3);
+  p.evaluate(population.view(), cost, violation);
+  EXPECT_EQ(cost, (std::vector<double>{1, 4, 4, 1, infinity, infinity}));
+  // The third does not exist: 1, and its constraint by 2.5 on top.
+  EXPECT_EQ(violation, (std::vector<double>{0, 2, 3.5}));
+}
+
+TEST(SmoothProblem, ViolationCountsWhatIsPositive) {
+  const std::vector<double> met = {5, -1, 0}, two = {5, 0.25, 0.5};
+  const std::vector<double> none = {infinity, -1, 0.5}, unknown = {5, std::nan(""), 0.5};
+  EXPECT_EQ(violation_of(met, 1), 0);
+  EXPECT_EQ(violation_of(two, 1), 0.75);
+  EXPECT_EQ(violation_of(none, 1), 1.5);
+  EXPECT_EQ(violation_of(unknown, 1), 1.5);
+}
+
+TEST(SmoothProblem, NeedsObjectives) {
+  SmoothProblem none = testing::two_points();
+  none.objectives = 0;
+  EXPECT_THAT(test::message([&] { to_problem(none); }), HasSubstr("a problem needs objectives"));
+}
+
+}  // namespace
+}  // namespace linkwright::optimise
