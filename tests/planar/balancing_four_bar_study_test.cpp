@@ -48,6 +48,12 @@ TEST(BalancingFourBar, BothWaysGiveTheSameObjectives) {
   EXPECT_LT(there, 2 * static_cast<int>(n));
 }
 
+TEST(BalancingFourBar, TheReportTellsTheCompleteForceBalance) {
+  const study::Result r = testing::run_text(testing::four_bar_masses);
+  const std::string told = testing::fact(r, "complete force balance would take");
+  EXPECT_THAT(told, ::testing::MatchesRegex("crank .* kg at 100 mm, .*, rocker .* kg at 320 mm, .*"));
+}
+
 TEST(BalancingFourBar, WhatItDoesNotKnowIsLeftToTheGeneralWay) {
   const auto known = [](const std::string& text) {
     const BalancingStudy s = balancing_study(text);

@@ -88,9 +88,10 @@ TEST(BalancingMasses, WhatIsNotConvexIsSaid) {
   EXPECT_EQ(why_not_convex(testing::engine),
             "the angle of 'crank mass 1' is limited; only a fixed one or a full "
             "turn is convex");
-  EXPECT_EQ(why_not_convex(replaced(testing::linkage_weights, "at_mm   = [-80, 0]",
-                                    "at_mm = [{ min = -80, max = 0, initial = -80 }, 0]")),
-            "the place of 'crank counterweight' is free in a rectangle, not on a ray or in a disc");
+  const std::string rectangle = replaced(testing::linkage_weights, "at_mm   = [-80, 0]",
+                                         "at_mm = [{ min = -80, max = 0, initial = -80 }, "
+                                         "{ min = -20, max = 20, initial = 0 }]");
+  EXPECT_EQ(why_not_convex(rectangle), "convex");
   EXPECT_EQ(why_not_convex(replaced(testing::four_bar_masses, "measure  = \"rms\"", "measure = \"range\"")),
             "range is not convex");
   EXPECT_EQ(why_not_convex(
@@ -100,7 +101,12 @@ TEST(BalancingMasses, WhatIsNotConvexIsSaid) {
 }
 
 TEST(BalancingMasses, TheProgrammeAndTheGradientComeToTheSame) {
-  for (const std::string& text : {testing::four_bar_masses, testing::arm_weights, testing::linkage_weights}) {
+  using testing::replaced;
+  const std::string rectangle = replaced(testing::linkage_weights, "at_mm   = [-80, 0]",
+                                         "at_mm = [{ min = -80, max = 20, initial = -80 }, "
+                                         "{ min = -20, max = 20, initial = 0 }]");
+  for (const std::string& text :
+       {testing::four_bar_masses, testing::arm_weights, testing::linkage_weights, rectangle}) {
     BalancingStudy s = balancing_study(text);
     std::string why;
     const auto masses = mass_study(s, why);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <complex>
 #include <numbers>
 #include <string>
@@ -56,6 +57,7 @@ struct Published {
   const char *problem, *mode;
   double value;  // of the table of best-known values
 };
+void PrintTo(const Published& p, std::ostream* out) { *out << p.problem << " " << p.mode; }
 
 MassBalancing task(const std::string& problem, const std::string& mode) {
   MassBalancing b{.forces = turn_of(original()), .links = published_bounds()};

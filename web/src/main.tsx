@@ -1,7 +1,7 @@
 import { render } from "preact";
 import { Banner, Changes, Checks, Comparisons, Data, Errors, Parameters, Remarks, Reproduce, Runs, SolutionPicker, Solutions } from "./panels";
 import { Machine } from "./player";
-import { Plots } from "./plots";
+import { Fronts, Plots } from "./plots";
 import { scene, start } from "./state";
 import "./viewer.css";
 
@@ -17,11 +17,12 @@ function Report() {
       ) : (
         <Checks />
       )}
+      <Fronts />
+      <Changes />
       <Plots />
       <Solutions />
       <Parameters />
       <Runs />
-      <Changes />
       <Comparisons />
       <Remarks />
       <Data />

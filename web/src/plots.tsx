@@ -262,7 +262,23 @@ export function Plots() {
   );
 }
 
-const loose = state.view.plots.filter((p) => p.scene === "");
+const unlinked = state.view.plots.filter((p) => p.scene === "");
+// A plot of solutions is a front to pick from.
+const isFront = (plot: Plot) => state.result.tables.some((t) => t.name === plot.table && t.columns.some((c) => c.key === "solution"));
+const loose = unlinked.filter((p) => !isFront(p));
+const fronts = unlinked.filter(isFront);
+
+/** What one objective costs in another. */
+export function Fronts() {
+  if (withTable(fronts).length === 0) return null;
+  return (
+    <section aria-labelledby="h-front">
+      <h2 id="h-front">The front</h2>
+      <div class="grid-2"><Cards plots={fronts} /></div>
+    </section>
+  );
+}
+
 export const hasLoosePlots = withTable(loose).length > 0;
 export const hasHistogram = withTable(loose).some(({ plot }) => plot.style === "histogram");
 /** Plots that belong to no scene. */

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "linkwright/planar/four_bar_balancing.h"
-#include "linkwright/planar/reactions_study.h"
 
 namespace linkwright::planar {
 namespace {
@@ -40,6 +39,15 @@ std::optional<FourBarComponent> component_of(const std::string& quantity) {
 }
 
 }  // namespace
+
+ReactionsMechanism four_bar_of(const BalancingStudy& s, std::span<const double> x) {
+  Value tables = s.designed.tables;
+  study::put(tables, s.designed.numbers, x);
+  Diagnostics problems;
+  study::DocumentReader reader(tables, {}, problems);
+  study::ObjectReader root = reader.root();
+  return read_reactions_study(root, {}).mechanism;
+}
 
 std::optional<optimise::SmoothProblem> four_bar_problem(const BalancingStudy& s, const BalancingProblem& p) {
   if (s.mechanism->type != "planar.four_bar" || !s.constraints.empty()) return std::nullopt;

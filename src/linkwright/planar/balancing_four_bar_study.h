@@ -1,11 +1,16 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "linkwright/optimise/smooth_problem.h"
 #include "linkwright/planar/balancing_study.h"
+#include "linkwright/planar/reactions_study.h"
 
 namespace linkwright::planar {
+
+/// The machine of one design.
+ReactionsMechanism four_bar_of(const BalancingStudy& study, std::span<const double> x);
 
 /// The problem of a study of a four-bar with designed lengths and masses, evaluated many machines at a time
 /// (balancing_values) in the place of the general way. Nothing when the study asks for more than that knows:

@@ -322,8 +322,8 @@ std::optional<MassBalancing> programme(const MassStudy& s, const BalancingProble
       // A link with counterweights keeps its own mass: as an open link without freedom its base is constant.
       continue;
     }
-    if (!h.polar && (h.designed[4] || h.designed[5])) {
-      why = fmt::format("the place of '{}' is free in a rectangle, not on a ray or in a disc", h.name);
+    if (range(h, Part::mass).upper <= 0) {
+      why = fmt::format("'{}' has no mass", h.name);
       return std::nullopt;
     }
     const Range angle = h.polar ? range(h, Part::angle) : Range{0, 0};
@@ -345,11 +345,15 @@ std::optional<MassBalancing> programme(const MassStudy& s, const BalancingProble
           return std::nullopt;
         }
       } else {
-        w.radius = {std::abs(h.place()), std::abs(h.place())};
-        w.angle = std::arg(h.place());
+        w.rectangle = {range(h, Part::x), range(h, Part::y)};
       }
       out.counterweights.push_back(std::move(w));
       continue;
+    }
+    if (!h.polar && (h.designed[4] || h.designed[5])) {
+      why = fmt::format("the mass centre of '{}' is free in a rectangle, not in a disc about the joint",
+                        h.name);
+      return std::nullopt;
     }
     const Range distance =
         h.polar ? range(h, Part::distance) : Range{std::abs(h.place()), std::abs(h.place())};
@@ -439,6 +443,8 @@ ExactBalancing exact_balancing(std::shared_ptr<const MassStudy> masses, const Ba
         const bool behind = d && masses->numbers[*d].upper <= 0 && masses->numbers[*d].lower < 0;
         put(h, Part::distance, behind ? -m.distance : m.distance);
         put(h, Part::angle, m.angle);
+        put(h, Part::x, m.distance * std::cos(m.angle));
+        put(h, Part::y, m.distance * std::sin(m.angle));
       } else {
         const LinkMass& m = answer.links[h.link];
         put(h, Part::mass, m.mass);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 
 #include "linkwright/core/check.h"
 #include "linkwright/planar/balancing_study.h"
@@ -19,17 +20,48 @@ namespace {
 constexpr std::array<std::string_view, 5> table_keys = {"mechanism", "drive", "environment", "sweep",
                                                         "trace"};
 
+// Every candidate is evaluated at all rows.
+constexpr std::size_t most_rows = 20000;
+
+// What keeps inertias physical: the radius of gyration of a link about its own joint, without what is
+// attached to it, is at most the distance of its material that is furthest away. Constant over the rows.
+void add_gyration(Table& table, const std::string& link, double mass, double inertia,
+                  std::complex<double> centre) {
+  const double radius = mass > 0 ? std::sqrt(inertia / mass + std::norm(centre)) : 0;
+  table.add(identifier(link) + "_gyration_radius_m", link + " radius of gyration about its own joint (m)",
+            std::vector<double>(table.rows(), radius));
+}
+void add_gyration(Table& table, const std::string& link, const LinkMass& m) {
+  add_gyration(table, link, m.mass, m.inertia, m.centre_distance);
+}
+
 Table linkage_columns_of(study::ObjectReader& document, const study::Common& common, LinkageType type,
                          std::span<const std::string> columns) {
   const auto s = read_linkage_study(document, common, type, nullptr);
-  return s && !document.document().has_errors() ? linkage_table(*s, columns) : Table();
+  if (!s || document.document().has_errors()) return {};
+  if (const std::size_t rows = rows_of(*s).time.size(); rows > most_rows) {
+    document.error(
+        "sweep", fmt::format("has {} rows, a balancing evaluates at most {} of each design", rows, most_rows),
+        "take fewer samples; some hundred are enough");
+    return {};
+  }
+  Table table = linkage_table(*s, columns);
+  for (std::size_t b = 1; b < s->linkage.bodies.size(); ++b)
+    if (const LinkageBody& body = s->linkage.bodies[b]; body.mass)
+      add_gyration(table, body.name, body.mass->mass, body.mass->inertia, body.mass->centre);
+  return table;
 }
 
 constexpr std::array<BalancedMechanism, 4> mechanisms = {{
     {"planar.four_bar", reactions_kind,
      [](study::ObjectReader& document, const study::Common& common, std::span<const std::string>) {
        const ReactionsStudy s = read_reactions_study(document, common);
-       return document.document().has_errors() ? Table() : reactions_table(s);
+       if (document.document().has_errors()) return Table();
+       Table table = reactions_table(s);
+       add_gyration(table, "crank", s.mechanism.masses->crank);
+       add_gyration(table, "coupler", s.mechanism.masses->coupler);
+       add_gyration(table, "rocker", s.mechanism.masses->rocker);
+       return table;
      }},
     {"planar.linkage", linkage_kind,
      [](study::ObjectReader& document, const study::Common& common, std::span<const std::string> columns) {
@@ -42,7 +74,12 @@ constexpr std::array<BalancedMechanism, 4> mechanisms = {{
     {"planar.serial_arm", serial_arm_kind,
      [](study::ObjectReader& document, const study::Common& common, std::span<const std::string>) {
        const SerialArmStudy s = read_serial_arm_study(document, common);
-       return document.document().has_errors() ? Table() : serial_arm_table(s);
+       if (document.document().has_errors()) return Table();
+       Table table = serial_arm_table(s);
+       const SerialArm arm = serial_arm(s.mechanism);
+       for (std::size_t k = 0; k < arm.links.size(); ++k)
+         add_gyration(table, s.mechanism.links[k].name, arm.links[k].body);
+       return table;
      }},
 }};
 
@@ -100,19 +137,40 @@ void read_goals(study::ObjectReader& document, BalancingStudy& s) {
   s.constraints = std::move(limits);
 }
 
-// The initial design: its columns for the checks of names, and its problems.
-void check_initial(study::ObjectReader& document, const study::Common& common, BalancingStudy& s) {
+// Reads the tables as an analysis does, with all its checks; false when there are errors.
+bool read_design(study::ObjectReader& document, const study::Common& common, const BalancingStudy& s,
+                 const Value& tables, std::string_view remark) {
   Diagnostics problems;
-  Table table;
-  {
-    study::DocumentReader reader(s.designed.tables, document.document().file(), problems);
-    study::ObjectReader root = reader.root();
-    know_type(root);
-    table = s.mechanism->table(root, plain(common), {});
-    reader.finish();
-  }
+  study::DocumentReader reader(tables, document.document().file(), problems);
+  study::ObjectReader root = reader.root();
+  know_type(root);
+  s.mechanism->analysis().prepare(root, plain(common));
+  reader.finish();
   for (const Diagnostic& d : problems)
-    document.document().report(d.severity, d.position, d.key, d.message, d.hint);
+    document.document().report(d.severity, d.position, d.key, d.message + std::string(remark), d.hint);
+  return !has_errors(problems);
+}
+
+// The initial design: its columns for the checks of names, and its problems; and whether numbers may take the
+// values that they are given room for.
+void check_initial(study::ObjectReader& document, const study::Common& common, BalancingStudy& s) {
+  if (!read_design(document, common, s, s.designed.tables, "")) return;
+  bool good = true;
+  for (const study::DesignedNumber& n : s.designed.numbers)
+    for (const auto& [value, remark] : {std::pair{n.lower, " (at the min of a designed number)"},
+                                        {n.upper, " (at the max of a designed number)"}}) {
+      Value tables = s.designed.tables;
+      study::put(tables, {&n, 1}, {&value, 1});
+      good = read_design(document, common, s, tables, remark) && good;
+    }
+  if (!good) return;
+  Diagnostics problems;
+  study::DocumentReader reader(s.designed.tables, document.document().file(), problems);
+  study::ObjectReader root = reader.root();
+  const Table table = s.mechanism->table(root, plain(common), {});
+  for (const Diagnostic& d : problems)
+    if (d.severity == Diagnostic::Severity::error)
+      document.document().report(d.severity, d.position, d.key, d.message, d.hint);
   if (table.columns.empty()) return;
   std::vector<std::string> quantities;
   for (const BalancingGoal& o : s.objectives) quantities.push_back(o.quantity);
@@ -154,10 +212,15 @@ BalancingStudy read_balancing_study(study::ObjectReader& document, const study::
     if (const auto bad = problem(s.optimiser, s.objectives.size()))
       optimiser->error("method", bad->message, bad->hint);
   }
+  constexpr std::size_t most_numbers = 200;
+  if (s.designed.numbers.size() > most_numbers)
+    document.error("mechanism", fmt::format("{} numbers are designed, at most {} can be",
+                                            s.designed.numbers.size(), most_numbers));
+  else
+    check_initial(document, common, s);
   if (s.designed.numbers.empty() && !document.document().has_errors())
     document.error("mechanism", "nothing is designed: every number is fixed",
                    "write { min = ..., max = ..., initial = ... } in the place of a number");
-  check_initial(document, common, s);
   return s;
 }
 

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "linkwright/math/angles.h"
 #include "linkwright/optimise/statistics.h"
 #include "linkwright/planar/balancing_four_bar_study.h"
 #include "linkwright/planar/balancing_masses_study.h"
 #include "linkwright/planar/balancing_study.h"
+#include "linkwright/planar/force_balance.h"
 
 namespace linkwright::planar {
 namespace {
@@ -80,7 +82,13 @@ Runs run_seeds(const BalancingStudy& s, const BalancingProblem& problem, const s
 std::vector<BalancedDesign> answers(const BalancingStudy& s, const Runs& runs) {
   std::vector<BalancedDesign> all;
   for (const BalancingRun& run : runs.runs) all.insert(all.end(), run.designs.begin(), run.designs.end());
-  if (s.optimiser.combine == Combine::front) return front_of(std::move(all));
+  if (s.optimiser.combine == Combine::front) {
+    std::vector<BalancedDesign> front = front_of(std::move(all));
+    // Best first, by the mean of all objectives.
+    std::stable_sort(front.begin(), front.end(),
+                     [](const BalancedDesign& a, const BalancedDesign& b) { return a.cost < b.cost; });
+    return front;
+  }
   const auto best = std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return optimise::better(a.cost, a.violation, b.cost, b.violation);
   });
@@ -106,6 +114,22 @@ bool is_load(const std::string& key) {
                   unit->unit->suffix == "J");
 }
 
+// "crank mass" of "mass.crank.mass_kg".
+std::string words_of(const std::string& key) {
+  std::string text;
+  std::size_t begin = 0;
+  for (std::size_t k = 0; begin <= key.size(); ++k) {
+    const std::size_t dot = std::min(key.find('.', begin), key.size());
+    std::string part = key.substr(begin, dot - begin);
+    begin = dot + 1;
+    if ((k == 0 && dot != key.size()) || part == "attached") continue;  // the table, which says nothing new
+    if (dot == key.size()) part = study::base_of(part);
+    text += (text.empty() ? "" : " ") + part;
+  }
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
 class Report {
  public:
   Report(const BalancingStudy& s, const study::Common& common, const BalancingProblem& problem,
@@ -114,6 +138,10 @@ class Report {
     if (designs_.empty()) return;
     before_ = design_analysis(s, common, p_.task.initial, context);
     after_ = design_analysis(s, common, designs_.front().x, context);
+    if (before_.tables.empty() || after_.tables.empty()) {  // numbers that are good one by one, not together
+      designs_.clear();
+      return;
+    }
     for (std::size_t i = 1; i < std::min(designs_.size(), most_drawn); ++i)
       others_.push_back(design_analysis(s, common, designs_[i].x, context));
   }
@@ -153,7 +181,8 @@ class Report {
     out.label = label;
     for (std::size_t j = 0; j < d.x.size(); ++j) {
       const optimise::Variable& v = p_.task.variables[j];
-      out.parameters.push_back({v.name, fmt::format("{} (initially {:.6g})", v.name, p_.task.initial[j]),
+      out.parameters.push_back({v.name,
+                                fmt::format("{} (initially {:.6g})", words_of(v.name), p_.task.initial[j]),
                                 d.x[j], v.lower, v.upper});
     }
     out.objectives["cost"] = d.cost;
@@ -301,7 +330,7 @@ class Report {
       std::string other = key;
       other.replace(other.size() - 3, 1, "y");
       if (overlay(key) && overlay(other))
-        plot("polar-" + key.substr(0, key.size() - 4), key.substr(0, key.size() - 4) + ", polar",
+        plot("polar-" + key.substr(0, key.size() - 4), words_of(key.substr(0, key.size() - 4)) + ", polar",
              {key, other, "initial_" + key, "initial_" + other}, study::Plot::Style::polar);
     }
   }
@@ -338,7 +367,9 @@ class Report {
     out["seeds"] = st.seeds;
     out["feasible_seeds"] = st.feasible;
     out["best"] = st.best;
+    out["quantile10"] = st.quantile10;
     out["median"] = st.median;
+    out["quantile90"] = st.quantile90;
     out["worst"] = st.worst;
     out["success_threshold"] = st.threshold;
     out["success_rate"] = st.success_rate;
@@ -366,8 +397,8 @@ class Report {
       if (k < 3) told += fmt::format("{}{} {}", k ? ", " : "", o.quantity, change);
     }
     if (designs_.size() > 1)
-      result_.headline = fmt::format("A front of {} designs; the one least in {} has {}.", designs_.size(),
-                                     p_.task.objectives[0].quantity, told);
+      result_.headline =
+          fmt::format("A front of {} designs; the one with the least mean has {}.", designs_.size(), told);
     else if (d.violation > 0)
       result_.headline = fmt::format("No design meets every constraint; the nearest one has {}.", told);
     else
@@ -397,11 +428,14 @@ class Report {
            fmt::format("{:.5g} kg, was {:.5g} kg ({:+.4g} kg)", mass, old_mass, mass - old_mass));
     const std::vector<std::string>& limits = d.active;
     if (!d.proof.empty()) fact("proof", d.proof, Verdict::good);
-    constexpr std::size_t told_limits = 4;  // all are with the solution
+    if (const std::string balance = complete_balance(); !balance.empty())
+      fact("complete force balance would take", balance);
+    // All, with their prices, are with the solution.
+    constexpr std::size_t told_limits = 4;
     std::string text;
     for (std::size_t i = 0; i < std::min(limits.size(), told_limits); ++i)
-      text += (i ? "; " : "") + limits[i];
-    if (limits.size() > told_limits) text += fmt::format("; and {} more", limits.size() - told_limits);
+      text += (i ? ", " : "") + limits[i].substr(0, limits[i].find(" ("));
+    if (limits.size() > told_limits) text += fmt::format(" and {} more", limits.size() - told_limits);
     fact("active bounds", text.empty() ? "none" : text);
     fact("method",
          fmt::format("{}, combine {}", method_name(s_.optimiser.method), name_of(s_.optimiser.combine)));
@@ -410,6 +444,19 @@ class Report {
          fmt::format("{:.0f} of {}", success->as_number() * static_cast<double>(runs_.runs.size()),
                      runs_.runs.size()));
     fact("evaluations", fmt::format("{}", result_.statistics.find("evaluations")->as_integer()));
+  }
+
+  // Of a four-bar, in closed form: what would have to be added to the answer for a shaking force of its
+  // weight alone.
+  std::string complete_balance() const {
+    if (s_.mechanism->type != std::string_view("planar.four_bar")) return {};
+    const ReactionsMechanism m = four_bar_of(s_, designs_.front().x);
+    const Counterweights w =
+        balancing_counterweights(m.linkage, *m.masses, m.linkage.crank, m.linkage.rocker);
+    const auto text = [](const PointMass& p) {
+      return fmt::format("{:.3g} kg at {:.4g} mm, {:.1f}°", p.mass, p.distance * 1e3, math::degrees(p.angle));
+    };
+    return fmt::format("crank {}, rocker {}", text(w.crank), text(w.rocker));
   }
 
   const BalancingStudy& s_;

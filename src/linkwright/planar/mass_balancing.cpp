@@ -59,6 +59,12 @@ struct NamedCone {
   double last_by_limit = 0;
 };
 
+// Whether a counterweight stands where it stands.
+bool fixed_place(const Counterweight& w) {
+  if (w.rectangle) return (*w.rectangle)[0].fixed() && (*w.rectangle)[1].fixed();
+  return w.radius.fixed();
+}
+
 class Balancer {
  public:
   explicit Balancer(const MassBalancing& b) : b_(b) {}
@@ -123,6 +129,10 @@ void Balancer::require_good() const {
                          link.envelope->radius);
   }
   for (const Counterweight& w : b_.counterweights) {
+    if (w.rectangle)
+      for (const Range& r : *w.rectangle)
+        LINKWRIGHT_REQUIRE(std::isfinite(r.lower) && std::isfinite(r.upper) && r.lower <= r.upper,
+                           "place of counterweight '{}': {} to {}", w.name, r.lower, r.upper);
     LINKWRIGHT_REQUIRE(w.link < n, "counterweight '{}' on link {} of {}", w.name, w.link, n);
     ordered(w.mass, "mass", w.name);
     ordered(w.radius, "radius", w.name);
@@ -209,7 +219,29 @@ void Balancer::open(const Counterweight& w) {
   add_range(form[0], w.mass, "mass of " + w.name);
   const double near = w.radius.lower, far = w.radius.upper;
   const bool feels = felt(w.link);
-  if (w.angle) {
+  if (w.rectangle) {
+    // On an interval x^2 <= (lower + upper) x - lower upper, with equality at its ends.
+    Affine most = constant(0);
+    for (const std::size_t axis : {0, 1}) {
+      const Range& r = (*w.rectangle)[axis];
+      Affine& s = form[axis + 1];
+      s = r.fixed() ? scaled(r.lower, form[0]) : variable(add_unknown());
+      if (!r.fixed()) {
+        const std::string of = fmt::format("{} of {}", axis == 0 ? "x" : "y", w.name);
+        const double size = std::max({std::abs(r.lower), std::abs(r.upper)});
+        add({.bound = sum(s, -r.lower, form[0]), .parts = {}}, of, r.lower, size, scaled(-1, form[0]));
+        add({.bound = sum(scaled(r.upper, form[0]), -1, s), .parts = {}}, of, r.upper, size, form[0]);
+      }
+      most = sum(sum(most, r.lower + r.upper, s), -r.lower * r.upper, form[0]);
+    }
+    if (fixed_place(w)) {
+      form[3] = most;
+    } else if (feels) {
+      form[3] = variable(add_unknown());
+      add(optimise::rotated_cone({form[1], form[2]}, form[0], form[3]));
+      add({.bound = sum(most, -1, form[3]), .parts = {}});
+    }
+  } else if (w.angle) {
     // First moment u along the ray; points between the two radii have u^2 / m <= I <= (near + far) u - near
     // far m.
     const Affine u = w.radius.fixed() ? scaled(far, form[0]) : variable(add_unknown());
@@ -361,10 +393,13 @@ void Balancer::check_weight(const Counterweight& w, const PlacedCounterweight& a
                             BalancedMasses& out) const {
   const double distance = std::abs(at.mass.distance);
   if (at.mass.mass <= 1e-9 * std::max(w.mass.upper, 1e-300)) return;
-  if (distance < w.radius.lower * (1 - 1e-6))
+  double reach = w.radius.upper;
+  if (w.rectangle)
+    for (const Range& r : *w.rectangle) reach = std::max({reach, std::abs(r.lower), std::abs(r.upper)});
+  if (!w.rectangle && distance < w.radius.lower * (1 - 1e-6))
     out.broken.push_back(fmt::format("{} is at {:.6g} m, nearer than its lower bound {:.6g} m", w.name,
                                      distance, w.radius.lower));
-  else if (at.spread > 1e-6 * at.mass.mass * w.radius.upper * w.radius.upper)
+  else if (at.spread > 1e-6 * at.mass.mass * reach * reach)
     out.broken.push_back(
         fmt::format("{} is no point: its inertia about its centre is {:.6g} kg m2", w.name, at.spread));
 }
@@ -393,7 +428,7 @@ BalancedMasses Balancer::answer(const optimise::ConeReport& report) {
     BaseParameters& base = weights[w];
     const double distance = base.mass > 0 ? std::abs(base.moment) / base.mass : 0;
     const double point = base.mass * distance * distance;
-    if (!given.radius.fixed() && !felt(given.link)) {
+    if (!fixed_place(given) && !felt(given.link)) {
       out.bases[given.link].inertia += point;
       base.inertia = point;
     }

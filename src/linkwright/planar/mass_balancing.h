@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <limits>
@@ -43,13 +44,16 @@ struct OpenLink {
 
 /// A point mass added to a link. With an angle it lies on that ray from the own joint; radius lower = upper:
 /// at that distance, else within. Without an angle the programme lets it spread out over the disc (or circle)
-/// of the radius; whether the answer is a point is told.
+/// of the radius, or over the rectangle that is given instead of radius and angle; whether the answer is a
+/// point is told.
 struct Counterweight {
   std::string name;
   std::size_t link = 0;              ///< of LinearForces::links
   Range mass{0, 0};                  ///< kg
   Range radius{0, 0};                ///< m from the own joint
   std::optional<double> angle = {};  ///< rad from the link line; without: any
+  /// x and y in the frame of the link (m); radius and angle do not count then.
+  std::optional<std::array<Range, 2>> rectangle = {};
 };
 
 /// One quantity to be made small, over its reference.
