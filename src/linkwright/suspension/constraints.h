@@ -1,0 +1,113 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "linkwright/suspension/suspension.h"
+
+/// The equations of a wheel guide: residuals of its joints and of a driver, with exact derivatives.
+namespace linkwright::suspension {
+
+/// Which coordinate is prescribed beside the rack, as a change from the reference (m).
+enum class Driver { wheel_centre_z, contact_z, spring };
+constexpr std::array<EnumName<Driver>, 3> names(Driver) {
+  return {{{Driver::wheel_centre_z, "wheel_centre_z", "height of the wheel centre"},
+           {Driver::contact_z, "contact_z", "height of the lowest point of the tyre"},
+           {Driver::spring, "spring", "length of the spring, longer positive"}}};
+}
+
+/// Where a guide stands: the carrier, and the angle (rad, from the reference, right-handed from the first to
+/// the second body point) of its RR arm if it has one.
+struct GuidePlace {
+  CarrierPose carrier;
+  double arm = 0;
+};
+
+/// Rates of a guide: velocity of the wheel centre (m/s), angular velocity of the carrier (rad/s), rate of the
+/// arm.
+struct Twist {
+  Vec3 velocity;
+  Vec3 turning;
+  double arm = 0;
+};
+
+/// Constants of a link in the equations. Offsets are those of carrier points from the wheel centre.
+struct LinkConstants {
+  LinkType type = LinkType::KS;
+  bool moved_by_rack = false;
+  std::array<Vec3, 2> body, offset;
+  std::array<double, 2> length{};  ///< of the distances that it keeps
+  Vec3 axis;                       ///< unit: strut line, hinge axis in the body (R, RR)
+  Vec3 carrier_axis;               ///< unit: hinge axis in the carrier (R, RR)
+  std::array<Vec3, 2> across;      ///< unit, normal to the strut line or to the carrier's axis
+};
+
+/// A point fixed to a link, by three points of the link P, Q, S: P + a (Q - P) + b (S - P) + k (Q - P) x (S -
+/// P).
+struct AffinePoint {
+  double a = 0, b = 0, k = 0;
+};
+
+struct CouplerConstants {
+  int first = 0, second = 0;
+  double fraction = 0, length = 0;
+  AffinePoint point;
+};
+
+struct SpringConstants {
+  Vec3 body;
+  Vec3 offset;  ///< carrier: from the wheel centre; RR arm: from its first body point
+  int link = -1;
+  double length = 0, fraction = 0;
+  AffinePoint point;
+};
+
+/// A guide made ready for solving. Make it with `prepare`.
+struct GuidePlan {
+  Side side = Side::left;
+  GuideWheel wheel;
+  Vec3 wheel_axis;  ///< unit, outboard, at the reference
+  Vec3 contact;     ///< point of the tyre, at the reference
+  Vec3 rack_direction;
+  std::vector<LinkConstants> links;
+  std::vector<CouplerConstants> couplers;
+  std::optional<SpringConstants> spring;
+  std::vector<std::string> labels;  ///< of the links
+  int unknowns = 6;                 ///< 7 with an RR arm
+};
+
+/// Throws ContractError for a guide that `check` finds errors in, or whose constraints do not add up to five.
+GuidePlan prepare(const WheelGuide& guide);
+
+inline constexpr int most_unknowns = 7;
+
+/// Residuals and their derivatives with respect to the unknowns - shift of the wheel centre, small turn of
+/// the carrier, angle of the arm - and to the rack. First the constraints, in the order of links and couplers
+/// (m; rad for directions of hinges), the driver last. A distance d that should be l has the residual (d^2 -
+/// l^2) / (2 l); a strut has two distances across its line (equation 43, two rows); an RR arm is placed by
+/// its angle, since its four distances (equation 44) lose rank where its axes meet or are parallel.
+struct GuideEquations {
+  std::array<double, most_unknowns> residual{};
+  std::array<std::array<double, most_unknowns>, most_unknowns> jacobian{};  ///< [equation][unknown]
+  std::array<double, most_unknowns> by_rack{};
+};
+
+/// `value` is what the driver should have (m). The driver `spring` needs a plan with a spring.
+void evaluate(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver, double value,
+              GuideEquations& out);
+
+/// What the driver's coordinate is at a place (m, change from the reference), and its rate for a motion.
+double driver_value(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver);
+double driver_rate(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver,
+                   const Twist& twist, double rack_rate);
+
+/// How much a KS link, or a distance of another link, is too long (+) or too short (-) at a place: the
+/// largest, and the link that has it. Hinges and struts are measured as they miss each other.
+struct Misfit {
+  int link = -1;   ///< links first, then couplers
+  double gap = 0;  ///< m
+};
+Misfit worst_misfit(const GuidePlan& plan, const GuidePlace& place, double rack);
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/diagnostic.h"
+#include "linkwright/core/field.h"
+#include "linkwright/math/vector3.h"
+
+/// Wheel guides: the mechanisms between a vehicle body and a wheel carrier (Poznanovic 2016). The body is
+/// fixed. Frame of the vehicle: x forward, y to the left, z up, y = 0 in the middle; m, rad. All points are
+/// given in it, at the reference position.
+namespace linkwright::suspension {
+
+using math::Mat3;
+using math::Vec3;
+
+/// How a link is joined: the first letter to the body, the second to the carrier; one letter is a joint
+/// between body and carrier without a link. R revolute, S spherical, K universal, P prismatic (slides and
+/// turns).
+enum class LinkType { R, RR, S, RS, SR, SP, KS, SS };
+constexpr std::array<EnumName<LinkType>, 8> names(LinkType) {
+  return {{{LinkType::R, "R", "carrier hinged to the body: two body points on the axis"},
+           {LinkType::RR, "RR", "arm hinged to the body (two points) and to the carrier (two points)"},
+           {LinkType::S, "S", "ball joint between body and carrier: one body point"},
+           {LinkType::RS, "RS", "wishbone: hinged to the body (two points), ball joint at the carrier"},
+           {LinkType::SR, "SR", "ball joint at the body, hinged to the carrier (two points)"},
+           {LinkType::SP, "SP", "strut: ball joint at the body, slides along its line in the carrier"},
+           {LinkType::KS, "KS", "rod: one point at the body, one at the carrier"},
+           {LinkType::SS, "SS", "the same as KS, free to turn about its line"}}};
+}
+
+/// A link. Number of points, body and carrier: R 2 and 0, RR 2 and 2, S 1 and 0, RS 2 and 1, SR 1 and 2, SP,
+/// KS and SS 1 and 1. Two points stand for the axis of a revolute joint.
+struct GuideLink {
+  std::string name;
+  LinkType type = LinkType::KS;
+  std::vector<Vec3> body;
+  std::vector<Vec3> carrier;
+  /// Length of a KS or SS link (m) in the place of the distance of its points: they then are no position, and
+  /// what is reported at zero travel has to be solved for, too.
+  std::optional<double> length;
+  bool moved_by_rack = false;  ///< its body points move with the rack
+};
+
+/// A rod between two links (interconnected mechanisms): from a point on the line of a KS link to a point
+/// fixed to an SR link. Its length is the distance at the reference position.
+struct Coupler {
+  std::string name;
+  int first = 0;          ///< KS link
+  double fraction = 0.5;  ///< of the KS link's length, from its body point
+  int second = 0;         ///< SR link
+  Vec3 point;             ///< on the SR link
+};
+
+/// Spring (or damper) between the body and the carrier or a link.
+struct GuideSpring {
+  Vec3 body;
+  Vec3 moving;    ///< its other end
+  int link = -1;  ///< KS, RS, SR or RR link that it is fixed to; -1 = the carrier. On a KS link: on its line
+};
+
+enum class Side { left, right };
+constexpr std::array<EnumName<Side>, 2> names(Side) {
+  return {{{Side::left, "left", "y > 0"}, {Side::right, "right", "y < 0"}}};
+}
+
+struct GuideWheel {
+  Vec3 centre;               ///< m
+  double toe = 0;            ///< rad, > 0: front of the wheel towards the vehicle
+  double camber = 0;         ///< rad, > 0: top of the wheel away from the vehicle
+  double tyre_diameter = 0;  ///< m, > 0
+};
+
+/// A wheel guide: plain data.
+struct WheelGuide {
+  Side side = Side::left;
+  GuideWheel wheel;
+  std::vector<GuideLink> links;
+  std::vector<Coupler> couplers;
+  Vec3 rack_direction{0, 1, 0};  ///< unit; a rack displacement is positive to the left, for both wheels
+  std::optional<GuideSpring> spring;
+};
+
+/// Where the carrier is: its wheel centre (m) and its rotation from the reference position.
+struct CarrierPose {
+  Vec3 centre;
+  Mat3 rotation;
+
+  friend bool operator==(const CarrierPose&, const CarrierPose&) = default;
+};
+
+/// Place of a point of the carrier that is at `reference` when the wheel centre is at `reference_centre`
+/// (equation 54).
+constexpr Vec3 place(const CarrierPose& pose, const Vec3& reference, const Vec3& reference_centre) {
+  return pose.centre + pose.rotation * (reference - reference_centre);
+}
+
+/// Unit vector along the wheel's axis, away from the vehicle (equations 23, 24): for the left wheel
+/// (sin toe cos camber, cos toe cos camber, -sin camber).
+Vec3 wheel_axis(Side side, double toe, double camber);
+
+/// The other wheel of a symmetric axle. A rack displacement moves it as the opposite displacement moves this
+/// one.
+WheelGuide mirrored(const WheelGuide& guide);
+
+/// Points that a link of this type has at the body and at the carrier.
+int body_points(LinkType type);
+int carrier_points(LinkType type);
+
+/// What messages call the link: its name, or "link 3 (KS)".
+std::string link_label(const WheelGuide& guide, int link);
+
+/// What is wrong with the description by itself: numbers of points, numbers that are not finite, links and
+/// axes of no length, lengths of links that have none, couplers and springs on links that cannot hold them.
+/// Keys are "link.<name>", "coupler.<name>", "wheel", "spring", "rack". Whether it moves as it should is
+/// asked of `check_structure`.
+Diagnostics check(const WheelGuide& guide);
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,101 @@
+#include "linkwright/suspension/suspension.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "linkwright/suspension/samples.h"
+
+namespace linkwright::suspension {
+namespace {
+
+std::string only(const WheelGuide& guide) {
+  const Diagnostics found = check(guide);
+  if (found.size() != 1) return std::to_string(found.size()) + " findings";
+  return found[0].key + ": " + found[0].message;
+}
+
+TEST(WheelGuide, NumbersOfPoints) {
+  WheelGuide guide = guide_sample("2RS-KS").guide;
+  guide.links[0].body.pop_back();
+  EXPECT_EQ(only(guide), "link.link 1 (RS): link 1 (RS) has 1 body points, RS takes 2");
+  guide = guide_sample("S-2KS").guide;
+  guide.links[0].name = "ball";
+  guide.links[0].carrier = guide.links[0].body;
+  EXPECT_EQ(only(guide), "link.ball: ball has 1 carrier points, S takes none");
+}
+
+TEST(WheelGuide, LinksAndAxesOfNoLength) {
+  WheelGuide guide = guide_sample("5KS").guide;
+  guide.links[1].carrier = guide.links[1].body;
+  EXPECT_EQ(only(guide), "link.link 2 (KS): body and carrier point are the same: a link needs a length");
+  guide = guide_sample("2RS-KS").guide;
+  guide.links[0].body[1] = guide.links[0].body[0];
+  EXPECT_EQ(only(guide), "link.link 1 (RS): the two body points of its axis are the same");
+  guide = guide_sample("2RS-KS").guide;
+  guide.links[0].carrier[0] = 0.5 * (guide.links[0].body[0] + guide.links[0].body[1]);
+  EXPECT_EQ(only(guide),
+            "link.link 1 (RS): the ball joint lies on the axis of the hinge: the arm moves nothing");
+  guide = guide_sample("RR-KS").guide;
+  guide.links[0].carrier = {guide.links[0].body[1], guide.links[0].body[0]};
+  EXPECT_EQ(only(guide), "link.link 1 (RR): both hinges have the same axis: the arm moves nothing");
+}
+
+TEST(WheelGuide, LengthsNamesAndRack) {
+  WheelGuide guide = guide_sample("SP-3KS").guide;
+  guide.links[3].length = 0.5;
+  EXPECT_EQ(only(guide), "link.link 4 (SP): a length can be given to KS and SS links only, this is SP");
+  guide.links[3].length.reset();
+  guide.links[0].length = -0.1;
+  EXPECT_EQ(only(guide), "link.link 1 (KS): length -0.1 m, needs a positive number");
+  guide = guide_sample("SP-3KS").guide;
+  guide.links[0].name = guide.links[1].name = "rod";
+  EXPECT_EQ(only(guide), "link.rod: two links are called 'rod'");
+  guide = guide_sample("SP-3KS").guide;
+  guide.rack_direction = {0, 2, 0};
+  EXPECT_EQ(only(guide), "rack: direction of length 2, needs a unit vector");
+}
+
+TEST(WheelGuide, Wheel) {
+  WheelGuide guide = guide_sample("R").guide;
+  guide.side = Side::right;
+  EXPECT_EQ(only(guide), "wheel: y of the wheel centre is 0.74 m on the right side");
+  guide = guide_sample("R").guide;
+  guide.wheel.tyre_diameter = 0;
+  EXPECT_EQ(only(guide), "wheel: tyre diameter 0 m, needs a positive number");
+}
+
+TEST(WheelGuide, CouplersAndSprings) {
+  WheelGuide guide = guide_sample("interconnected").guide;
+  guide.couplers[0].second = 1;
+  EXPECT_EQ(only(guide), "coupler.1: its second link has to be an SR link");
+  guide = guide_sample("5KS").guide;
+  guide.spring->link = 0;
+  EXPECT_EQ(only(guide),
+            "spring: its moving end lies 66.6 mm off the line of link 1 (KS), which may turn about it");
+  guide.spring->link = 7;
+  EXPECT_EQ(only(guide), "spring: there is no link 7");
+  guide = guide_sample("SP-3KS").guide;
+  guide.spring->link = 3;
+  EXPECT_EQ(only(guide), "spring: link 4 (SP) cannot hold it");
+}
+
+TEST(WheelGuide, MirroredTwiceIsTheSame) {
+  const WheelGuide left = guide_sample("RS-3KS").guide, right = mirrored(left), again = mirrored(right);
+  EXPECT_EQ(right.side, Side::right);
+  EXPECT_EQ(right.wheel.centre.y, -left.wheel.centre.y);
+  EXPECT_EQ(right.rack_direction, (Vec3{0, 1, 0}));  // one rack for both wheels
+  EXPECT_EQ(again.links[0].body, left.links[0].body);
+  EXPECT_EQ(again.spring->moving, left.spring->moving);
+  EXPECT_TRUE(check(right).empty());
+}
+
+TEST(WheelGuide, WheelAxisPointsOutboard) {
+  const Vec3 left = wheel_axis(Side::left, 0.1, 0.05), right = wheel_axis(Side::right, 0.1, 0.05);
+  EXPECT_GT(left.y, 0);
+  EXPECT_GT(left.x, 0);  // toe-in
+  EXPECT_LT(left.z, 0);  // top leans outboard
+  EXPECT_EQ(right, (Vec3{left.x, -left.y, left.z}));
+}
+
+}  // namespace
+}  // namespace linkwright::suspension
