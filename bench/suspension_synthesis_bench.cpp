@@ -1,0 +1,122 @@
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <limits>
+
+#include "linkwright/suspension/indirect_synthesis.h"
+#include "linkwright/suspension/indirect_synthesis_spin.h"
+#include "linkwright/suspension/link_synthesis.h"
+#include "linkwright/suspension/position.h"
+#include "linkwright/suspension/samples.h"
+#include "linkwright/suspension/seven_poses.h"
+
+namespace linkwright::suspension {
+namespace {
+
+/// A published example and the positions that its carrier takes, solved for.
+struct Example {
+  CarrierTargets targets;
+  WheelGuide guide;
+};
+
+Example example(const char* name, double travel, double step, double rack) {
+  Example e{.guide = guide_sample(name).guide};
+  e.targets.wheel = e.guide.wheel;
+  const GuidePlan plan = prepare(e.guide);
+  const GuidePosition start = reference_position(plan);
+  const auto add = [&](double z, double q) {
+    const GuidePosition at = solve_position(plan, Driver::wheel_centre_z, {z, q}, start);
+    e.targets.poses.push_back(
+        {q, at.place.carrier.centre, wheel_angles(Side::left, e.guide.wheel, at.place.carrier.rotation)});
+  };
+  for (double z = -travel; z < travel + step / 2; z += step) add(z, 0);
+  for (double q = -rack; rack > 0 && q < rack + 0.01; q += 0.025) add(0, q);
+  return e;
+}
+Example example_1() { return example("front_5KS", 0.2, 0.05, 0.075); }
+Example example_3() { return example("interconnected", 0.1, 0.02, 0); }
+Example example_4() { return example("rear_5KS", 0.15, 0.025, 0); }
+
+/// A cube of 150 mm at random around a point.
+PointBox box(const Vec3& p, RandomStream& random) {
+  const auto shift = [&] { return random.uniform(-0.075, 0.075); };
+  const double x = shift(), y = shift(), z = shift();
+  return box_around(p + Vec3{x, y, z}, 0.15);
+}
+
+IndirectTask whole(const Example& e, std::uint64_t seed) {
+  IndirectTask task{.targets = e.targets};
+  RandomStream random({seed, 31});
+  for (const GuideLink& link : e.guide.links) {
+    LinkTask to{.name = link.name, .type = link.type, .moved_by_rack = link.moved_by_rack};
+    for (const Vec3& p : link.body) to.body.push_back(box(p, random));
+    for (const Vec3& p : link.carrier) to.carrier.push_back(box(p, random));
+    if (link.type == LinkType::SR)  // the hinge of example 3 lies along y
+      for (int k = 0; k < 2; ++k) to.carrier[k].lower.y = to.carrier[k].upper.y = link.carrier[k].y;
+    task.links.push_back(to);
+  }
+  for (const Coupler& c : e.guide.couplers)
+    task.couplers.push_back(
+        {.first = c.first, .second = c.second, .least_offset = 0.1, .point = box_around(c.point, 0.15)});
+  return task;
+}
+
+// A whole mechanism from random boxes of 150 mm, another box each time.
+void synthesis(benchmark::State& state, Example (*make)()) {
+  const Example e = make();
+  std::vector<IndirectTask> tasks;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) tasks.push_back(whole(e, seed));
+  std::size_t i = 0;
+  double solved = 0;
+  for (auto _ : state) {
+    const IndirectSynthesis found = synthesise(tasks[i % tasks.size()], {}, i + 1);
+    solved += found.status == Status::done;
+    ++i;
+  }
+  state.counters["solved"] = solved / static_cast<double>(i);
+}
+BENCHMARK_CAPTURE(synthesis, front, example_1)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(synthesis, interconnected, example_3)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(synthesis, rear, example_4)->Unit(benchmark::kMicrosecond);
+
+// The same by differential evolution with the source's settings, links only.
+void evolution(benchmark::State& state, Example (*make)()) {
+  const Example e = make();
+  RunContext context;
+  std::uint64_t seed = 0;
+  double generations = 0;
+  for (auto _ : state) {
+    for (const LinkTask& link : whole(e, ++seed).links)
+      generations += evolve_link(e.targets, link, seed, context).generations;
+  }
+  state.counters["generations"] = generations / static_cast<double>(seed);
+}
+BENCHMARK_CAPTURE(evolution, front, example_1)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(evolution, rear, example_4)->Unit(benchmark::kMicrosecond);
+
+// Example 4 without the spin of the carrier; rms of the structural errors in nanometres.
+void unknown_spin(benchmark::State& state) {
+  const Example e = example_4();
+  CarrierTargets open = e.targets;
+  for (CarrierTarget& pose : open.poses) pose.angles.spin = std::numeric_limits<double>::quiet_NaN();
+  RunContext context;
+  std::uint64_t seed = 0;
+  double rms = 0;
+  for (auto _ : state) {
+    const IndirectTask task = whole(e, ++seed);
+    rms += fit_with_unknown_spin(open, task.links, {}, seed, context).rms * 1e9;
+  }
+  state.counters["rms_nm"] = rms / static_cast<double>(seed);
+}
+BENCHMARK(unknown_spin)->Unit(benchmark::kMillisecond);
+
+// All rods through seven positions.
+void seven_poses(benchmark::State& state) {
+  const Example e = example_1();
+  std::uint64_t seed = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(seven_pose_rods(e.targets, false, ++seed));
+}
+BENCHMARK(seven_poses)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace linkwright::suspension
