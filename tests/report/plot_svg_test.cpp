@@ -127,5 +127,21 @@ TEST(PlotSvg, SingleValuesAndHostileTextAreHarmless) {
   }
 }
 
+// Answers of two searches that differ by rounding: the range is no multiple of anything, however fine.
+TEST(PlotSvg, ValuesThatDifferByRoundingEndInAPicture) {
+  for (const double size : {1.0, 1e-9, 1e12}) {
+    Table table{.name = "front"};
+    const double next = std::nextafter(size, 2 * size);
+    table.add("a", "a", {size, next});
+    table.add("b", "b", {next, size});
+    Plot p = plot(Plot::Style::points, {"b"});
+    p.table = "front";
+    p.x = "a";
+    const std::string svg = plot_svg(p, table);
+    EXPECT_LT(svg.size(), 20000u);
+    EXPECT_THAT(svg, HasSubstr("text-anchor=\"end\""));
+  }
+}
+
 }  // namespace
 }  // namespace linkwright::report

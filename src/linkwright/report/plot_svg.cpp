@@ -21,6 +21,7 @@ using Style = study::Plot::Style;
 
 constexpr double width = 640, left = 74, right = 16, top = 14, foot = 46;  // px
 constexpr double line_height = 20;                                         // px, of the legend
+constexpr int most_ticks = 40;                                             // of an axis
 constexpr std::size_t most_points = 3000;                                  // a curve; more cannot be seen
 constexpr std::size_t most_named = 7;                                      // more curves are one bundle
 // Okabe and Ito's colours; dashes tell the curves apart without them.
@@ -135,9 +136,10 @@ Axes axes_of(const std::vector<Curve>& curves, Style style) {
     widen(box.y_min, box.y_max, (per_pixel * axes.inner_height() - box.height()) / 2);
     return axes;
   }
-  // A line that is level still needs some room.
+  // A line that is level, up to rounding, still needs some room.
   const auto level = [](double low, double high) {
-    return low == high ? std::max(std::abs(low), 1.0) / 10 : 0;
+    const double size = std::max(std::abs(low), std::abs(high));
+    return high - low <= 1e-12 * size ? std::max(size, 1.0) / 10 : 0;
   };
   widen(box.x_min, box.x_max, level(box.x_min, box.x_max));
   widen(box.y_min, box.y_max, level(box.y_min, box.y_max) + 0.06 * box.height());
@@ -149,8 +151,14 @@ void draw_axes(std::string& out, const Axes& axes, const std::string& x_label, c
                bool logarithmic, bool origin) {
   const double bottom = axes.height - foot;
   std::string lines, texts;
+  // As few as there are, and never more than fit: far from zero neighbouring ticks can be the same number.
   const auto ticks = [](double low, double high, double step, auto&& use) {
-    for (double i = std::ceil(low / step); i * step <= high; ++i) use(i == 0 ? 0 : i * step);
+    const double first = std::ceil(low / step);
+    for (int k = 0; k < most_ticks; ++k) {
+      const double i = first + k;
+      if (!(i * step <= high)) break;
+      use(i == 0 ? 0 : i * step);
+    }
   };
   ticks(axes.box.x_min, axes.box.x_max, nice_step(axes.box.width(), 6), [&](double v) {
     put(lines, "M{:.1f} {:.0f}V{:.0f}", axes.x(v), top, bottom);
