@@ -62,6 +62,8 @@ std::string_view style_name(Scene::BodyStyle style) {
       return "damper";
     case Scene::BodyStyle::guide:
       return "guide";
+    case Scene::BodyStyle::axis:
+      return "axis";
   }
   return "bar";
 }

@@ -50,6 +50,17 @@ struct Plot {
   Style style = Style::line;
   bool logarithmic_y = false;
   std::string scene;  ///< x is the input of this scene: the cursor follows the animation; empty = not linked
+  /// Column whose values, few and repeated, split the rows into one curve each: the rack of a travel-rack
+  /// grid; empty = one curve of all rows.
+  std::string group = {};
+  /// A region to stay in: two columns of the table, its lower and its upper edge (NaN = none there).
+  struct Band {
+    std::string lower, upper;
+    std::string label;  ///< "target toe"
+  };
+  std::vector<Band> bands = {};
+  /// Table with the same columns whose curves are drawn pale behind: the design before; empty = none.
+  std::string baseline = {};
 };
 
 /// One row "published / ours / verdict".

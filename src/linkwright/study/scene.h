@@ -1,22 +1,26 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 namespace linkwright::study {
 
 /// A mechanism in motion as it is to be drawn: points over samples of the input, bodies and joints that refer
-/// to them. Lengths in metres, plane x right, y up. Reports, SVG and DXF draw this and know no mechanism.
+/// to them. Lengths in metres; plane x right, y up, or, when points have a z, space with z up. Reports, SVG
+/// and DXF draw this and know no mechanism.
 struct Scene {
   /// A point of the drawing: one entry a sample, or a single entry for a point that does not move. NaN = not
   /// assembled.
   struct Point {
     std::string name;
     std::vector<double> x, y;
+    std::vector<double> z = {};  ///< like x and y; empty = 0
   };
   /// spring, damper and guide run from each of their points to the next: a zigzag, a cylinder with its
-  /// piston, a thin line hatched on its right. They are symbols of constant width.
-  enum class BodyStyle { ground, bar, plate, spring, damper, guide };
+  /// piston, a thin line hatched on its right. They are symbols of constant width. An axis is a thin
+  /// dash-dotted line that runs beyond both of its points: no body, but a line about which something turns.
+  enum class BodyStyle { ground, bar, plate, spring, damper, guide, axis };
   struct Body {
     std::string name;         ///< "crank"
     std::vector<int> points;  ///< indices of points; a plate is the polygon of them
@@ -48,6 +52,14 @@ struct Scene {
     int centre = 0;    ///< index of a point
     int rim = 0;       ///< index of a point that turns with the body
   };
+  /// A wheel of a spatial scene, about the line from its centre to another point.
+  struct Disc {
+    std::string name;   ///< "left wheel"
+    int centre = 0;     ///< index of a point
+    int axis = 0;       ///< index of a point on its axis
+    double radius = 0;  ///< m
+    double width = 0;   ///< m, along the axis
+  };
   /// What arrows stand for; those of one quantity are shown together and have one scale.
   enum class Quantity { force, velocity, acceleration };
   /// An arrow that starts at a point. Components along x and y: one entry a sample, or a single entry when
@@ -58,7 +70,8 @@ struct Scene {
     std::string unit;  ///< "N", "m/s", "m/s2"
     int point = 0;     ///< index of the point
     std::vector<double> x, y;
-    std::string symbol = {};  ///< written at the tip: "F1"; empty = nothing
+    std::string symbol = {};     ///< written at the tip: "F1"; empty = nothing
+    std::vector<double> z = {};  ///< like x and y; empty = 0
   };
   /// A couple, drawn as an arc about a point: counter-clockwise positive, longer for a larger value. It is
   /// shown with the forces.
@@ -70,11 +83,16 @@ struct Scene {
     std::string symbol = {};
   };
 
-  std::string name;                 ///< identifies it: "solution-1"
-  std::string title;                ///< for people
-  std::string input_key;            ///< "crank_angle_rad"; one in seconds ("time_s") is played in real time
-  std::string input_label;          ///< "crank angle"
-  std::vector<double> input;        ///< one value a sample, monotonous, in radians, metres or seconds
+  std::string name;           ///< identifies it: "solution-1"
+  std::string title;          ///< for people
+  std::string input_key;      ///< "crank_angle_rad"; one in seconds ("time_s") is played in real time
+  std::string input_label;    ///< "crank angle"
+  std::vector<double> input;  ///< one value a sample, monotonous, in radians, metres or seconds
+  /// A second input, such as the rack beside the travel; empty = none. Samples are then a grid: all of
+  /// `input` with the first value of `second`, then with the next one.
+  std::string second_key;
+  std::string second_label;
+  std::vector<double> second;
   std::vector<std::string> status;  ///< one a sample; empty = all done
   std::vector<Point> points;
   std::vector<Body> bodies;
@@ -82,10 +100,14 @@ struct Scene {
   std::vector<Trace> traces;
   std::vector<Target> targets;
   std::vector<Circle> circles;
+  std::vector<Disc> discs;
   std::vector<Vector> vectors;
   std::vector<Moment> moments;
 
-  std::size_t samples() const { return input.size(); }
+  std::size_t samples() const { return input.size() * (second.empty() ? 1 : second.size()); }
+  bool spatial() const {
+    return std::any_of(points.begin(), points.end(), [](const Point& p) { return !p.z.empty(); });
+  }
 };
 
 }  // namespace linkwright::study
