@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
-#include "linkwright/suspension/link_poses.h"
+#include "linkwright/suspension/elastic_assembly.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -20,53 +20,19 @@ using Row12 = Eigen::Matrix<double, 12, 1>;  ///< a relative displacement: by th
 
 /// Reciprocal condition below which an answer would be rounding.
 constexpr double no_rank = 1e-14;
-constexpr int ground = -1;
 
 Eigen::Vector3d eigen(const Vec3& a) { return {a.x, a.y, a.z}; }
 Matrix3d skew(const Vec3& a) { return (Matrix3d() << 0, -a.z, a.y, a.z, 0, -a.x, -a.y, a.x, 0).finished(); }
 
-/// Joint between two bodies: relative displacement of the second against the first, in its axes.
-struct Joint {
-  int first = ground, second = 0;
-  bool at_carrier = false;
-  int link = 0;
-  Vec3 point;
-  Mat3 axes;  ///< its rows
-  JointStiffness stiffness;
-  std::array<int, 6> multiplier{-1, -1, -1, -1, -1, -1};  ///< of rigid components
-};
-
-/// Something that acts along a line: a spring, a coupler. Elongation = motion of the second end against the
-/// first one along `line`.
-struct Bar {
-  int first = ground, second = 0;
-  Vec3 from, to;
-  double stiffness = 0;
-  int multiplier = -1;
-};
-
-struct Assembly {
-  const WheelGuide& guide;
-  std::vector<Vec3> origin;         ///< of the bodies: 0 is the carrier
-  std::vector<std::string> labels;  ///< of the bodies
-  std::vector<Joint> joints;
-  std::vector<Bar> couplers;
-  std::optional<Bar> spring;
-  std::vector<std::pair<int, Vec3>> idle;  ///< bodies free to turn about a direction that nothing resists
-  Vec3 height_arm;                         ///< from the wheel centre to the point whose height can be held
-
-  int displacements() const { return 6 * static_cast<int>(origin.size()); }
-  Vec3 arm(int body, const Vec3& point) const { return point - origin[body]; }
-};
-
 /// weight . (displacement of `point` as one of the body)
-Eigen::Matrix<double, 6, 1> point_row(const Assembly& of, int body, const Vec3& point, const Vec3& weight) {
+Eigen::Matrix<double, 6, 1> point_row(const ElasticAssembly& of, int body, const Vec3& point,
+                                      const Vec3& weight) {
   Eigen::Matrix<double, 6, 1> out;
   out << eigen(weight), eigen(cross(of.arm(body, point), weight));
   return out;
 }
 
-Row12 bar_row(const Assembly& of, const Bar& bar) {
+Row12 bar_row(const ElasticAssembly& of, const ElasticBar& bar) {
   const Vec3 line = unit(bar.to - bar.from);
   Row12 out = Row12::Zero();
   if (bar.first != ground) out.head<6>() = -point_row(of, bar.first, bar.from, line);
@@ -74,7 +40,7 @@ Row12 bar_row(const Assembly& of, const Bar& bar) {
   return out;
 }
 
-Row12 joint_row(const Assembly& of, const Joint& joint, int component) {
+Row12 joint_row(const ElasticAssembly& of, const ElasticJoint& joint, int component) {
   const Vec3 axis = joint.axes.row[component % 3];
   Row12 out = Row12::Zero();
   if (component < 3) {
@@ -87,134 +53,28 @@ Row12 joint_row(const Assembly& of, const Joint& joint, int component) {
   return out;
 }
 
-Mat3 axes_of(const JointStiffness& stiffness, const Vec3& standard, const Mat3& rotation) {
-  const Vec3 first = stiffness.axis == Vec3{} ? standard : rotation * unit(stiffness.axis);
-  const Vec3 wanted = rotation * stiffness.across, beside = wanted - dot(wanted, first) * first;
-  const Vec3 second =
-      norm(beside) > 1e-9 * norm(wanted) ? unit(beside) : math::across(first)[0];  // none given: 0 > 0
-  return {{first, second, cross(first, second)}};
-}
-
-/// Whether a joint resists turning about a direction by more than rounding.
-bool resists_turning(const Joint& joint, const Vec3& about) {
-  double across = 0, all = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double share = dot(about, joint.axes.row[i]);
-    if (joint.stiffness.matrix) {
-      all += (*joint.stiffness.matrix)[3 + i][3 + i];
-      for (int j = 0; j < 3; ++j)
-        across += share * dot(about, joint.axes.row[j]) * (*joint.stiffness.matrix)[3 + i][3 + j];
-    } else if (joint.stiffness.rotation[i] > 0 && std::abs(share) > 1e-9) {
-      return true;
-    }
-  }
-  return across > 1e-12 * all;
-}
-
-class Builder {
- public:
-  Builder(const WheelGuide& guide, const GuidePlace& place, double rack, const GuideElasticity& elasticity)
-      : of_{.guide = guide}, place_(place), rack_(rack) {
-    of_.origin.push_back(place.carrier.centre);
-    of_.labels.push_back("the carrier");
-    poses_ = link_poses(guide, place, rack);
-    for (int i = 0; i < static_cast<int>(guide.links.size()); ++i)
-      add_link(i, elasticity.links.empty() ? LinkElasticity{} : elasticity.links[i]);
-    for (std::size_t i = 0; i < guide.couplers.size(); ++i) {
-      const Coupler& coupler = guide.couplers[i];
-      const Vec3 from = body_point(guide, coupler.first, 0, rack);
-      const Vec3 to = carrier_point(guide, coupler.first, 0, place.carrier);
-      of_.couplers.push_back({body_[coupler.first], body_[coupler.second],
-                              from + coupler.fraction * (to - from),
-                              placed(poses_[coupler.second], coupler.point),
-                              elasticity.couplers.empty() ? rigid : elasticity.couplers[i]});
-    }
-    if (guide.spring)
-      of_.spring = {ground, guide.spring->link < 0 ? 0 : body_[guide.spring->link], guide.spring->body,
-                    spring_end(guide, place, rack), elasticity.spring};
-  }
-
-  Assembly take() { return std::move(of_); }
-
- private:
-  void add_link(int index, const LinkElasticity& elasticity) {
-    const GuideLink& link = of_.guide.links[index];
-    const bool direct = carrier_points(link.type) == 0;
-    const std::size_t first_joint = of_.joints.size();
-    std::vector<Vec3> at_body, at_carrier;
-    for (int k = 0; k < body_points(link.type); ++k)
-      at_body.push_back(body_point(of_.guide, index, k, rack_));
-    for (int k = 0; k < carrier_points(link.type); ++k)
-      at_carrier.push_back(carrier_point(of_.guide, index, k, place_.carrier));
-    int body = 0;
-    if (!direct) {
-      body = static_cast<int>(of_.origin.size());
-      of_.origin.push_back(at_body[0]);
-      of_.labels.push_back(link_label(of_.guide, index));
-    }
-    body_.push_back(body);
-    const Vec3 line = direct ? Vec3{0, 0, 1} : unit(at_carrier[0] - at_body[0]);
-    const auto name = name_of(link.type);
-    const auto add = [&](const std::vector<JointStiffness>& given, const std::vector<Vec3>& points,
-                         bool carrier, char letter) {
-      const Vec3 standard = points.size() == 2 ? unit(points[1] - points[0]) : line;
-      const Mat3 rotation = carrier ? place_.carrier.rotation : Mat3{};
-      const auto put = [&](const Vec3& point, const JointStiffness& stiffness) {
-        Joint joint{.first = carrier ? body : ground,
-                    .second = carrier ? 0 : body,
-                    .at_carrier = carrier || direct,
-                    .link = index,
-                    .point = point,
-                    .axes = axes_of(stiffness, standard, rotation),
-                    .stiffness = stiffness};
-        of_.joints.push_back(joint);
-      };
-      if (given.size() == 2) {
-        for (int k : {0, 1}) put(points[k], given[k]);
-      } else {
-        const Vec3 point = points.size() == 2 ? 0.5 * (points[0] + points[1]) : points[0];
-        put(point, given.empty() ? ideal_joint(letter == 'K' ? 'S' : letter) : given[0]);
-      }
-    };
-    add(elasticity.body, at_body, false, name.front());
-    if (direct) return;
-    add(elasticity.carrier, at_carrier, true, name.back());
-    if (link.type != LinkType::KS && link.type != LinkType::SS && link.type != LinkType::SP) return;
-    bool held = false;
-    for (std::size_t i = first_joint; i < of_.joints.size(); ++i)
-      held = held || resists_turning(of_.joints[i], line);
-    if (!held) of_.idle.emplace_back(body, line);
-  }
-
-  Assembly of_;
-  const GuidePlace& place_;
-  double rack_;
-  std::vector<LinkPose> poses_;
-  std::vector<int> body_;  ///< of each link; R and S are joints of the carrier
-};
-
 /// Stiffness and rigid rows with one unknown each: [K G^T; G 0], divided by the largest stiffness so that
 /// both have the same size. Unknowns: displacements of the bodies, then multipliers.
 class Saddle {
  public:
-  Saddle(Assembly& of, Support support) : of_(of) {
+  Saddle(ElasticAssembly& of, Support support) : of_(of) {
     size_ = of.displacements();
-    for (Joint& joint : of.joints)
+    for (ElasticJoint& joint : of.joints)
       for (int i = 0; i < 6; ++i) {
         const double stiffness = joint.stiffness.matrix ? 0
                                                         : (i < 3 ? joint.stiffness.translation[i]
                                                                  : joint.stiffness.rotation[i - 3]);
         joint.multiplier[i] = stiffness == rigid ? size_++ : -1;
       }
-    for (Bar& bar : of.couplers) bar.multiplier = bar.stiffness == rigid ? size_++ : -1;
+    for (ElasticBar& bar : of.couplers) bar.multiplier = bar.stiffness == rigid ? size_++ : -1;
     if (of.spring) of.spring->multiplier = support == Support::spring_held ? size_++ : -1;
     height_ = support == Support::wheel_centre_held || support == Support::contact_held ? size_++ : -1;
     const int idle = size_;
     size_ += static_cast<int>(of.idle.size());
 
     matrix_ = MatrixXd::Zero(size_, size_);
-    for (const Joint& joint : of.joints) add_joint(joint);
-    for (const Bar& bar : of.couplers) add_bar(bar);
+    for (const ElasticJoint& joint : of.joints) add_joint(joint);
+    for (const ElasticBar& bar : of.couplers) add_bar(bar);
     if (of.spring && (support == Support::spring || support == Support::spring_held)) add_bar(*of.spring);
     if (height_ >= 0) {
       const Vec3 up{0, 0, 1};
@@ -276,7 +136,7 @@ class Saddle {
     add(first, second, k.topRightCorner<6, 6>());
   }
 
-  void add_joint(const Joint& joint) {
+  void add_joint(const ElasticJoint& joint) {
     Eigen::Matrix<double, 12, 6> rows;
     for (int i = 0; i < 6; ++i) rows.col(i) = joint_row(of_, joint, i);
     Block k = Block::Zero();
@@ -291,7 +151,7 @@ class Saddle {
     add_pair(joint.first, joint.second, rows * k * rows.transpose());
   }
 
-  void add_bar(const Bar& bar) {
+  void add_bar(const ElasticBar& bar) {
     const Row12 row = bar_row(of_, bar);
     if (bar.multiplier >= 0)
       hold(bar.multiplier, bar.first, bar.second, row);
@@ -321,7 +181,7 @@ class Saddle {
                        of_.labels[body]);
   }
 
-  Assembly& of_;
+  ElasticAssembly& of_;
   int size_ = 0, height_ = -1;
   double scale_ = 1;
   MatrixXd matrix_;
@@ -329,13 +189,15 @@ class Saddle {
 };
 
 /// Right-hand sides: unit loads on the carrier, and the rack that takes body joints along by a metre.
-MatrixXd right_sides(const Assembly& of, const Saddle& saddle) {
+MatrixXd right_sides(const ElasticAssembly& of, const Saddle& saddle) {
   MatrixXd out = MatrixXd::Zero(saddle.size(), 7);
   out.topLeftCorner<6, 6>().setIdentity();
-  for (const Joint& joint : of.joints) {
-    if (joint.first != ground || !of.guide.links[joint.link].moved_by_rack) continue;
+  for (const ElasticJoint& joint : of.joints) {
+    if (joint.first != ground || !of.guide->links[joint.link].moved_by_rack) continue;
     for (int i = 0; i < 6; ++i) {
-      const auto along = [&](int k) { return k < 3 ? dot(joint.axes.row[k], of.guide.rack_direction) : 0.0; };
+      const auto along = [&](int k) {
+        return k < 3 ? dot(joint.axes.row[k], of.guide->rack_direction) : 0.0;
+      };
       if (joint.multiplier[i] >= 0) {
         out(joint.multiplier[i], 6) = along(i);
         continue;
@@ -358,18 +220,19 @@ double elongation(const Row12& row, int first, int second, const VectorXd& x) {
   return out;
 }
 
-double tension(const Assembly& of, const Bar& bar, const VectorXd& x) {
+double tension(const ElasticAssembly& of, const ElasticBar& bar, const VectorXd& x) {
   return bar.multiplier >= 0 ? x(bar.multiplier)
                              : bar.stiffness * elongation(bar_row(of, bar), bar.first, bar.second, x);
 }
 
 /// Force and moment on the second body.
-std::array<Vec3, 2> joint_force(const Assembly& of, const Joint& joint, const VectorXd& x, double rack) {
+std::array<Vec3, 2> joint_force(const ElasticAssembly& of, const ElasticJoint& joint, const VectorXd& x,
+                                double rack) {
   std::array<double, 6> relative{};
-  const bool moved = joint.first == ground && of.guide.links[joint.link].moved_by_rack;
+  const bool moved = joint.first == ground && of.guide->links[joint.link].moved_by_rack;
   for (int i = 0; i < 6; ++i) {
     relative[i] = elongation(joint_row(of, joint, i), joint.first, joint.second, x);
-    if (moved && i < 3) relative[i] -= rack * dot(joint.axes.row[i], of.guide.rack_direction);
+    if (moved && i < 3) relative[i] -= rack * dot(joint.axes.row[i], of.guide->rack_direction);
   }
   std::array<Vec3, 2> out{};
   for (int i = 0; i < 6; ++i) {
@@ -400,9 +263,9 @@ Block turn_block(const Matrix3d& m) {
 
 /// Geometric stiffness: second derivatives of the work of the forces that the position holds in balance.
 /// Forces of a joint act in its axes, which turn with the carrier (joints there) or stand still.
-void add_geometric(const Assembly& of, const VectorXd& x, const PointLoad& load, Saddle& to) {
+void add_geometric(const ElasticAssembly& of, const VectorXd& x, const PointLoad& load, Saddle& to) {
   to.add(0, 0, -turn_block(turning_arm(load.force, of.arm(0, load.point))));
-  for (const Joint& joint : of.joints) {
+  for (const ElasticJoint& joint : of.joints) {
     const auto [on_second, turning] = joint_force(of, joint, x, 0);
     const Vec3 force = -on_second;  // derivative of the energy by the relative displacement
     const int a = joint.first, b = joint.second;
@@ -422,7 +285,7 @@ void add_geometric(const Assembly& of, const VectorXd& x, const PointLoad& load,
     to.add(b, a, other);
     to.add(a, b, turn_block(-0.5 * skew(turning)));
   }
-  const auto add_bar = [&](const Bar& bar) {
+  const auto add_bar = [&](const ElasticBar& bar) {
     const double pull = tension(of, bar, x), length = norm(bar.to - bar.from);
     const Vec3 line = unit(bar.to - bar.from);
     const auto motion = [&](int body, const Vec3& point) {
@@ -443,7 +306,7 @@ void add_geometric(const Assembly& of, const VectorXd& x, const PointLoad& load,
       to.add(bar.first, bar.second,
              -motion(bar.first, bar.from).transpose() * across * motion(bar.second, bar.to));
   };
-  for (const Bar& bar : of.couplers) add_bar(bar);
+  for (const ElasticBar& bar : of.couplers) add_bar(bar);
   if (of.spring) add_bar(*of.spring);
 }
 
@@ -471,7 +334,7 @@ Compliance solve_compliance(const WheelGuide& guide, const GuidePlace& place, do
   out.angles = wheel_angles(guide.side, guide.wheel, place.carrier.rotation);
   const Vec3 to_contact = contact_offset(guide.side, guide.wheel.tyre_diameter, out.angles);
   out.contact = out.centre + to_contact;
-  Assembly assembly = Builder(guide, place, rack, elasticity).take();
+  ElasticAssembly assembly = assemble(guide, place, rack, elasticity);
   if (support == Support::contact_held) assembly.height_arm = to_contact;
   const auto fail = [&](std::string reason) {
     out.status = Status::singular;
@@ -490,14 +353,14 @@ Compliance solve_compliance(const WheelGuide& guide, const GuidePlace& place, do
     right.topRows(3) = eigen(load.force);
     right.block<3, 1>(3, 0) = eigen(load.moment);
     loaded = still.solve(right);
-    for (const Joint& joint : assembly.joints) {
+    for (const ElasticJoint& joint : assembly.joints) {
       const auto [force, moment] = joint_force(assembly, joint, loaded, 0);
       held.push_back({joint.link, joint.at_carrier, joint.point, force, moment});
     }
   }
   // The geometric stiffness is that of the first solution, whose multipliers are numbered with the spring
   // held.
-  Assembly preloaded = assembly;
+  ElasticAssembly preloaded = assembly;
   Saddle saddle(assembly, support);
   if (preload) add_geometric(preloaded, loaded, *preload, saddle);
   if (!saddle.factor(reason)) return fail(std::move(reason));
@@ -512,7 +375,7 @@ Compliance solve_compliance(const WheelGuide& guide, const GuidePlace& place, do
   for (int i = 0; i < 6; ++i) out.by_rack[i] = x(i, 6);
 
   for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
-    const Joint& joint = assembly.joints[i];
+    const ElasticJoint& joint = assembly.joints[i];
     JointTransfer& transfer = out.joints.emplace_back();
     transfer.joint = preload ? held[i] : JointForce{joint.link, joint.at_carrier, joint.point, {}, {}};
     for (int load = 0; load < 7; ++load) {
