@@ -16,7 +16,8 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Block = Eigen::Matrix<double, 6, 6>;
-using Row12 = Eigen::Matrix<double, 12, 1>;  ///< a relative displacement: by the first body, by the second
+using Solution = Eigen::Ref<const VectorXd>;  ///< displacements of the bodies, then multipliers
+using Row12 = Eigen::Matrix<double, 12, 1>;   ///< a relative displacement: by the first body, by the second
 
 /// Reciprocal condition below which an answer would be rounding.
 constexpr double no_rank = 1e-14;
@@ -213,20 +214,20 @@ MatrixXd right_sides(const ElasticAssembly& of, const Saddle& saddle) {
   return out;
 }
 
-double elongation(const Row12& row, int first, int second, const VectorXd& x) {
+double elongation(const Row12& row, int first, int second, const Solution& x) {
   double out = 0;
   if (first != ground) out += row.head<6>().dot(x.segment<6>(6 * first));
   if (second != ground) out += row.tail<6>().dot(x.segment<6>(6 * second));
   return out;
 }
 
-double tension(const ElasticAssembly& of, const ElasticBar& bar, const VectorXd& x) {
+double tension(const ElasticAssembly& of, const ElasticBar& bar, const Solution& x) {
   return bar.multiplier >= 0 ? x(bar.multiplier)
                              : bar.stiffness * elongation(bar_row(of, bar), bar.first, bar.second, x);
 }
 
 /// Force and moment on the second body.
-std::array<Vec3, 2> joint_force(const ElasticAssembly& of, const ElasticJoint& joint, const VectorXd& x,
+std::array<Vec3, 2> joint_force(const ElasticAssembly& of, const ElasticJoint& joint, const Solution& x,
                                 double rack) {
   std::array<double, 6> relative{};
   const bool moved = joint.first == ground && of.guide->links[joint.link].moved_by_rack;
@@ -263,7 +264,7 @@ Block turn_block(const Matrix3d& m) {
 
 /// Geometric stiffness: second derivatives of the work of the forces that the position holds in balance.
 /// Forces of a joint act in its axes, which turn with the carrier (joints there) or stand still.
-void add_geometric(const ElasticAssembly& of, const VectorXd& x, const PointLoad& load, Saddle& to) {
+void add_geometric(const ElasticAssembly& of, const Solution& x, const PointLoad& load, Saddle& to) {
   to.add(0, 0, -turn_block(turning_arm(load.force, of.arm(0, load.point))));
   for (const ElasticJoint& joint : of.joints) {
     const auto [on_second, turning] = joint_force(of, joint, x, 0);
