@@ -159,13 +159,20 @@ function Circles({ scene, at }: { scene: Scene; at: number }) {
 
 const symbolWidth = 18; // px
 
+/** An axis runs on at both of its ends. */
+function beyond(places: Place[]): Place[] {
+  const on = (a: Place, b: Place) => ({ x: a.x + 0.15 * (a.x - b.x), y: a.y + 0.15 * (a.y - b.y) });
+  const n = places.length;
+  return [on(places[0], places[1]), ...places.slice(1, -1), on(places[n - 1], places[n - 2])];
+}
+
 /** Bodies of one kind: plates lie under the traces, bars above them. */
 function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boolean }) {
   let colour = -1;
   return (
     <>
       {scene.bodies.map((body) => {
-        if (body.style !== "ground") colour = (colour + 1) % 6;
+        if (body.style !== "ground" && body.style !== "axis") colour = (colour + 1) % 6;
         const fill = `var(--c${Math.max(0, colour)})`;
         const places = body.points.map((p) => screen(placeNear(scene, p, at)));
         if (isSymbol(body.style)) {
@@ -176,6 +183,7 @@ function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boole
         if (plate !== plates || places.length < 2 || places.some((p) => p === null)) return null;
         const d = pathOf(places, plate);
         if (body.style === "ground") return <path class="ground" d={d}><title>{body.name}</title></path>;
+        if (body.style === "axis") return <path class="ground axis" d={pathOf(beyond(places as Place[]), false)}><title>{body.name}</title></path>;
         return (
           <g class="link" data-body={body.name}>
             <title>{body.name}</title>
