@@ -7,6 +7,7 @@ import { camera, extent, fitView, moved, screen, size, thickness, zoomBy } from 
 import type { Scene } from "./data";
 import { Arrows, Card, Key } from "./forces";
 import { isAssembled, isFixed, nearestSample, placeAt, placeNear, speeds, type Place } from "./motion";
+import { beyond } from "./space_view";
 import * as state from "./state";
 import { format, lengthUnit } from "./units";
 import { bounds, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, type Camera } from "./view";
@@ -158,13 +159,6 @@ function Circles({ scene, at }: { scene: Scene; at: number }) {
 }
 
 const symbolWidth = 18; // px
-
-/** An axis runs on at both of its ends. */
-function beyond(places: Place[]): Place[] {
-  const on = (a: Place, b: Place) => ({ x: a.x + 0.15 * (a.x - b.x), y: a.y + 0.15 * (a.y - b.y) });
-  const n = places.length;
-  return [on(places[0], places[1]), ...places.slice(1, -1), on(places[n - 1], places[n - 2])];
-}
 
 /** Bodies of one kind: plates lie under the traces, bars above them. */
 function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boolean }) {

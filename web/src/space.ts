@@ -43,13 +43,10 @@ const vector = (p: { x: number; y: number; z?: number } | null) => p && new Vect
 export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView | null {
   const box = bounds3(whole);
   if (!box) return null;
-  let renderer: WebGLRenderer;
-  try {
-    renderer = new WebGLRenderer({ antialias: true });
-  } catch {
-    return null;
-  }
-  const canvas = renderer.domElement;
+  const canvas = document.createElement("canvas");
+  const context = canvas.getContext("webgl2", { antialias: true });
+  if (!context) return null;
+  const renderer = new WebGLRenderer({ canvas, context, antialias: true });
   host.append(canvas);
   const labels = host.appendChild(document.createElement("div"));
   labels.className = "space-labels";

@@ -1,7 +1,7 @@
 // From where a spatial scene is seen, and what of it there is to see. z points up; "rear" looks along +x, with y to the left.
-import type { Scene } from "./data";
+import type { Disc, Scene } from "./data";
 import { samplesOf } from "./grid";
-import { placeAt } from "./motion";
+import { placeAt, type Place } from "./motion";
 
 export type V3 = [number, number, number];
 export type ViewName = "oblique" | "rear" | "front" | "side" | "top";
@@ -90,18 +90,48 @@ export function cloudOf(scene: Scene): V3[] {
       const p = placeAt(scene, point, i);
       if (p) out.push(at(p));
     });
-    for (const disc of scene.discs ?? []) {
-      const centre = placeAt(scene, disc.centre, i);
-      const end = placeAt(scene, disc.axis, i);
-      if (!centre || !end) continue;
-      const { right, up, back } = basisOf(at(end).map((v, k) => v - at(centre)[k]) as V3);
-      for (let k = 0; k < 24; ++k) {
-        const [c, s] = [disc.radius * Math.cos((k * Math.PI) / 12), disc.radius * Math.sin((k * Math.PI) / 12)];
-        for (const side of [-0.5, 0.5]) out.push(at(centre).map((v, j) => v + c * right[j] + s * up[j] + side * disc.width * back[j]) as V3);
-      }
-    }
+    for (const disc of scene.discs ?? [])
+      for (const side of [-0.5, 0.5]) out.push(...wheelCircle(scene, disc, i, side * disc.width, 24).map(at));
   }
   return out;
+}
+
+const placeOf = ([x, y, z]: V3): Place => ({ x, y, z });
+/** p + a u + b v + c w. */
+const sum = (p: V3, ...terms: [number, V3][]): V3 => p.map((v, k) => terms.reduce((s, [by, u]) => s + by * u[k], v)) as V3;
+
+/** A circle of a wheel about its axis, `aside` from its centre along it; empty when the wheel does not exist. */
+export function wheelCircle(scene: Scene, disc: Disc, sample: number, aside: number, count: number): Place[] {
+  const [centre, end] = [placeAt(scene, disc.centre, sample), placeAt(scene, disc.axis, sample)];
+  if (!centre || !end) return [];
+  const axis = sum(at(end), [-1, at(centre)]);
+  if (!(Math.hypot(...axis) > 0)) return [];
+  const { right, up, back } = basisOf(axis);
+  return Array.from({ length: count }, (_, k) => {
+    const angle = (2 * Math.PI * k) / count;
+    return placeOf(sum(at(centre), [disc.radius * Math.cos(angle), right], [disc.radius * Math.sin(angle), up], [aside, back]));
+  });
+}
+
+/** The wire of a spring between two places, `width` across. */
+export function helix(a: Place, b: Place, width: number): Place[] {
+  const way = sum(at(b), [-1, at(a)]);
+  if (!(Math.hypot(...way) > 0)) return [];
+  const { right, up } = basisOf(way);
+  const [turns, pieces] = [7, 24];
+  const wire = Array.from({ length: turns * pieces + 1 }, (_, i) => {
+    const angle = (2 * Math.PI * i) / pieces;
+    return placeOf(sum(at(a), [i / (turns * pieces), way], [(width / 2) * Math.cos(angle), right], [(width / 2) * Math.sin(angle), up]));
+  });
+  return [a, ...wire, b];
+}
+
+/** The line of an axis: from its first to its last place and on at both ends. */
+export function beyond(places: Place[]): Place[] {
+  const n = places.length;
+  if (n < 2) return places;
+  const on = (a: Place, b: Place) => ({ x: a.x + 0.15 * (a.x - b.x), y: a.y + 0.15 * (a.y - b.y), ...(a.z === undefined || b.z === undefined ? {} : { z: a.z + 0.15 * (a.z - b.z) }) });
+  return [on(places[0], places[1]), ...places.slice(1, -1), on(places[n - 1], places[n - 2])];
 }
 
 export interface Fit {
