@@ -338,6 +338,7 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
       stage.traverse((o) => (o as { geometry?: { dispose(): void } }).geometry?.dispose());
       palette.dispose();
       renderer.dispose();
+      renderer.forceContextLoss(); // browsers allow few of them at a time
       for (const element of [canvas, labels, triad]) element.remove();
     },
   };
