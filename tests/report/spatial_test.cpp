@@ -109,5 +109,16 @@ TEST(Spatial, TheReferenceOfAGridIsItsMiddle) {
   EXPECT_NEAR(scene.second[sample / scene.input.size()], 0, 1e-15);
 }
 
+TEST(Spatial, MarksWithoutAPlaceDoNotTakeTheMechanismApart) {
+  auto scene = test::sample_spatial().scenes[0];
+  scene.points.push_back({"roll centre", {NAN}, {0}, {0}});
+  EXPECT_TRUE(assembled(scene, 0));
+  EXPECT_GT(reference_sample(scene), 0u);
+  scene.status[0] = "no_assembly";
+  EXPECT_FALSE(assembled(scene, 0));
+  scene.status.clear();
+  EXPECT_FALSE(assembled(scene, 0));
+}
+
 }  // namespace
 }  // namespace linkwright::report

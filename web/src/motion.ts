@@ -1,5 +1,6 @@
 // How a scene moves: positions are fractional sample numbers, 0 to samples - 1.
 import type { Num, Scene } from "./data";
+import { isSpatial } from "./grid";
 import { unitOf } from "./units";
 
 export interface Motion {
@@ -31,10 +32,12 @@ export function placeAt(scene: Scene, point: number, sample: number): Place | nu
 
 export function analyse(scene: Scene): Motion {
   const samples = scene.input.length;
+  // In space a mark such as a roll centre may be without a place while the mechanism stands.
+  const byStatus = isSpatial(scene) && scene.status.length > 0;
   const ok = scene.input.map(
     (_, i) =>
       (scene.status[i] === undefined || scene.status[i] === "done") &&
-      scene.points.every((_, point) => placeAt(scene, point, i) !== null),
+      (byStatus || scene.points.every((_, point) => placeAt(scene, point, i) !== null)),
   );
   const runs: [number, number][] = [];
   ok.forEach((good, i) => {

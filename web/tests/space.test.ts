@@ -31,6 +31,9 @@ describe("grids of samples", () => {
     expect(row.points[1]).toEqual({ name: "B", x: [0.5], y: [2, 2, 2], z: [-0.1, 0, 0.1] });
     expect(row.vectors[0].z).toEqual([0, 0, 4]);
     expect(analyse(row).ok).toEqual([true, true, false]);
+    const marked = { ...row, points: [...row.points, { name: "mark", x: [null], y: [0], z: [0] }] };
+    expect(analyse(marked).ok).toEqual([true, true, false]);
+    expect(analyse({ ...marked, status: [] }).ok).toEqual([false, false, false]);
     expect(analyse(rowOf(scene, 0)).ok).toEqual([true, true, true]);
     expect(placeNear(row, 1, 0.5)).toEqual({ x: 0.5, y: 2, z: expect.closeTo(-0.05, 12) });
     expect(rowOf(scene, 9).points[1].y).toEqual([2, 2, 2]);

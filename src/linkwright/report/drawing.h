@@ -49,7 +49,7 @@ std::vector<std::vector<Place>> symbol_lines(study::Scene::BodyStyle style, cons
 /// Whether a body is drawn by symbol_lines.
 bool is_symbol(study::Scene::BodyStyle style);
 
-/// True when every point of the scene exists at the sample.
+/// True when every point of the scene exists at the sample; in space its status alone decides, if it has one.
 bool assembled(const study::Scene& scene, std::size_t sample);
 
 /// The sample to draw when one must do: in the plane the first that is assembled; in space, and with a second
