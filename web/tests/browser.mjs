@@ -442,7 +442,7 @@ test("joints in space tell their coordinates to pointers and keys", async () => 
   await page.mouse.move(2, 2);
   assert.match(await page.locator("#picked").innerText(), /^LF\nx 210, y 380, z −100 mm/);
   await page.locator("#picked .copy").click();
-  assert.equal(await page.evaluate(() => navigator.clipboard.readText()), "LF at wheel travel 0\u202fmm, rack 0\u202fm: x 210, y 380, z −100 mm");
+  assert.equal(await page.evaluate(() => navigator.clipboard.readText()), "LF at wheel travel 0\u202fmm, rack 0\u202fmm: x 210, y 380, z −100 mm");
   await page.locator("body").press("Escape");
   await page.locator(".positions summary").click();
   assert.match(await page.locator(".positions tbody tr").nth(4).innerText(), /L\s+10\s+720\s+−125/);
