@@ -14,6 +14,7 @@ export interface Motion {
 export interface Place {
   x: number;
   y: number;
+  z?: number; // only of points in space
 }
 
 const known = (value: Num | undefined): value is number => typeof value === "number" && Number.isFinite(value);
@@ -23,7 +24,9 @@ export function placeAt(scene: Scene, point: number, sample: number): Place | nu
   if (!p) return null;
   const x = p.x.length === 1 ? p.x[0] : p.x[sample];
   const y = p.y.length === 1 ? p.y[0] : p.y[sample];
-  return known(x) && known(y) ? { x, y } : null;
+  if (!p.z) return known(x) && known(y) ? { x, y } : null;
+  const z = p.z.length === 1 ? p.z[0] : p.z[sample];
+  return known(x) && known(y) && known(z) ? { x, y, z } : null;
 }
 
 export function analyse(scene: Scene): Motion {
@@ -55,7 +58,10 @@ export function placeNear(scene: Scene, point: number, position: number): Place 
   const a = placeAt(scene, point, i);
   if (share === 0) return a;
   const b = placeAt(scene, point, i + 1);
-  if (a && b) return { x: a.x + share * (b.x - a.x), y: a.y + share * (b.y - a.y) };
+  if (a && b) {
+    const flat = { x: a.x + share * (b.x - a.x), y: a.y + share * (b.y - a.y) };
+    return a.z === undefined || b.z === undefined ? flat : { ...flat, z: a.z + share * (b.z - a.z) };
+  }
   return share < 0.5 ? a : b;
 }
 
@@ -190,4 +196,4 @@ export function nearestSample(scene: Scene, motion: Motion, point: number, posit
 }
 
 export const isFixed = (scene: Scene, point: number) =>
-  scene.points[point] !== undefined && scene.points[point].x.length === 1 && scene.points[point].y.length === 1;
+  scene.points[point] !== undefined && scene.points[point].x.length === 1 && scene.points[point].y.length === 1 && (scene.points[point].z?.length ?? 1) === 1;
