@@ -39,9 +39,24 @@ GuideElasticity elasticity_of(const WheelGuide& guide, const ComplianceForm& for
   return out;
 }
 
-std::string joint_name(const WheelGuide& guide, const JointForce& joint) {
-  const GuideLink& link = guide.links[static_cast<std::size_t>(joint.link)];
-  return fmt::format("{}, {}", link.name, joint.at_carrier ? "carrier" : "body");
+/// "lower wishbone, body 2": several joints at one end are counted.
+template <class Joint, class Force>
+std::vector<std::string> joint_names(const WheelGuide& guide, const std::vector<Joint>& joints,
+                                     Force&& force) {
+  std::vector<std::string> out;
+  const auto same = [&](const JointForce& a, const JointForce& b) {
+    return a.link == b.link && a.at_carrier == b.at_carrier;
+  };
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const JointForce joint = force(joints[i]);
+    int number = 1, count = 0;
+    for (std::size_t k = 0; k < joints.size(); ++k)
+      if (same(force(joints[k]), joint)) ++count, number += k < i ? 1 : 0;
+    const std::string name = guide.links[static_cast<std::size_t>(joint.link)].name;
+    out.push_back(fmt::format("{}, {}{}", name, joint.at_carrier ? "carrier" : "body",
+                              count > 1 ? fmt::format(" {}", number) : std::string()));
+  }
+  return out;
 }
 
 /// A coefficient for people.
@@ -113,7 +128,7 @@ constexpr std::array told_cases{LoadCase::lateral, LoadCase::brake_outboard, Loa
 /// Sizes of the joint forces by a kilonewton or 100 N m of each standard case.
 Table forces_table(const WheelGuide& guide, const Compliance& compliance) {
   Table table{.name = "joint_forces"};
-  for (const JointTransfer& t : compliance.joints) table.names.push_back(joint_name(guide, t.joint));
+  table.names = joint_names(guide, compliance.joints, [](const JointTransfer& t) { return t.joint; });
   for (const LoadCase load : told_cases) {
     const bool torque = load == LoadCase::aligning_torque;
     const double size = torque ? per_100_newton_metres : per_kilonewton;
@@ -163,9 +178,9 @@ Table load_forces_table(const WheelGuide& guide, const Compliance& compliance, c
                         std::size_t number) {
   Table table{.name = fmt::format("load_forces-{}", number)};
   const ElasticResponse r = respond(compliance, load_of(compliance, l));
+  table.names = joint_names(guide, r.joints, [](const JointForce& j) { return j; });
   std::array<std::vector<double>, 4> c;
   for (const JointForce& j : r.joints) {
-    table.names.push_back(joint_name(guide, j));
     c[0].push_back(j.force.x);
     c[1].push_back(j.force.y);
     c[2].push_back(j.force.z);
