@@ -59,7 +59,7 @@ TEST(Elasticity, Rods) {
   EXPECT_THAT(test::message([] {
                 elastic_rods(guide_sample("2RS-KS").guide, {1, 2, 3}, 7);
               }),
-              ::testing::StartsWith("elastic_rods: link 1 (RS) is no rod"));
+              ::testing::StartsWith("elastic_rods: lower wishbone is no rod"));
   EXPECT_THAT(test::message([] { ideal_joint('K'); }),
               ::testing::StartsWith("ideal_joint: joint 'K'; there are R, S and P"));
 }

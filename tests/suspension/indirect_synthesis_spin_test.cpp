@@ -87,13 +87,5 @@ TEST(IndirectSynthesisSpin, CanBeStopped) {
   EXPECT_EQ(fit.starts, 1);
 }
 
-TEST(IndirectSynthesisSpin, RefusesLinksItCannotFind) {
-  const Case c = make_case("ex2-forward", 1, 0.15);
-  RunContext context;
-  EXPECT_THAT(
-      message([&] { fit_with_unknown_spin(c.open, c.tasks, {}, 1, context); }),
-      HasSubstr("link 'link 4' of type SP: with unknown spin only KS, SS, RS, SR and RR links are found"));
-}
-
 }  // namespace
 }  // namespace linkwright::suspension

@@ -128,6 +128,7 @@ export interface View {
 
 export interface Table {
   name: string;
+  names?: string[]; // of the rows, if they have any
   columns: { key: string; label: string }[];
   data: Num[][];
   status: string[];
@@ -162,15 +163,16 @@ const text = (id: string) => document.getElementById(id)?.textContent ?? "null";
 export const resultText = () => text("result-data");
 export const readView = (): View => JSON.parse(text("view-data"));
 
-type RawTable = { name: string; columns: { key: string; label: string }[]; data: (Num | string)[][] };
+type RawTable = { name: string; names?: string[]; columns: { key: string; label: string }[]; data: (Num | string)[][] };
 
 /** A table of result.json has the status as its last column, which holds text. */
-export function readTable({ name, columns, data }: RawTable): Table {
+export function readTable({ name, names, columns, data }: RawTable): Table {
   const at = columns.findIndex((c) => c.key === "status");
   const numbers = (_: unknown, i: number) => i !== at;
   const status = at < 0 ? [] : (data[at] as string[]);
   return {
     name,
+    names,
     columns: columns.filter(numbers),
     data: data.filter(numbers) as Num[][],
     status: status.some((s) => s !== "done") ? status : [],

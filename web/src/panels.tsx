@@ -292,8 +292,8 @@ function DataTable({ table }: { table: Table }) {
       <summary>{table.name} <span class="note">{rows} rows, {table.columns.length} columns</span></summary>
       {open && (
         <div class="scroll tall"><table>
-          <thead><tr>{table.columns.map((c) => <th scope="col" class="num">{c.label || c.key}</th>)}{table.status.length > 0 && <th scope="col">status</th>}</tr></thead>
-          <tbody>{Array.from({ length: shown }, (_, r) => <tr>{table.data.map((c) => <td class="num">{format(c[r], 7)}</td>)}{table.status.length > 0 && <td>{table.status[r]}</td>}</tr>)}</tbody>
+          <thead><tr>{table.names && <th scope="col">name</th>}{table.columns.map((c) => <th scope="col" class="num">{c.label || c.key}</th>)}{table.status.length > 0 && <th scope="col">status</th>}</tr></thead>
+          <tbody>{Array.from({ length: shown }, (_, r) => <tr>{table.names && <th scope="row">{table.names[r]}</th>}{table.data.map((c) => <td class="num">{format(c[r], 7)}</td>)}{table.status.length > 0 && <td>{table.status[r]}</td>}</tr>)}</tbody>
         </table></div>
       )}
       {open && shown < rows && <p class="note">The first {shown} rows; the CSV file has them all.</p>}

@@ -207,11 +207,13 @@ void write_tables(std::string& out, const study::Result& result) {
     const std::size_t step = std::max<std::size_t>(1, (table.rows() + longest_table - 1) / longest_table);
     if (step > 1) put(out, "<p class=\"note\">Every {}th of {} rows.</p>\n", step, table.rows());
     std::vector<std::string> head;
+    if (!table.names.empty()) head.emplace_back("name");
     for (const auto& column : table.columns) head.push_back(column.label.empty() ? column.key : column.label);
     if (!table.status.empty()) head.push_back("status");
     Sheet sheet(out, head);
     for (std::size_t row = 0; row < table.rows(); row += step) {
       std::vector<std::string> cells;
+      if (!table.names.empty()) cells.push_back(table.names[row]);
       for (const auto& column : table.columns)
         cells.push_back(row < column.values.size() ? number(column.values[row]) : "");
       if (!table.status.empty()) cells.push_back(row < table.status.size() ? table.status[row] : "");
