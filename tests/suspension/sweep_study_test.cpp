@@ -88,24 +88,9 @@ TEST(SweepStudy, SteersAboutTheAxisThatIsAskedFor) {
 }
 
 TEST(SweepStudyRead, NamesWhatIsWrongWithTheSweep) {
-  const auto told = [](const std::string& text) { return problems_of(sample("5KS", text)); };
-  EXPECT_THAT(told("[sweep.travel]\nfrom_mm = -80\nto_mm = 80\n"),
-              HasSubstr("sweep.travel.step: is missing; give step_mm or samples"));
-  EXPECT_THAT(told("[sweep.travel]\nfrom_mm = 80\nto_mm = -80\nstep_mm = 1\n"), HasSubstr("exchange them"));
-  EXPECT_THAT(told("[sweep.travel]\nvalues_mm = []\n"), HasSubstr("are none"));
-  EXPECT_THAT(told("[sweep.travel]\nvalues_mm = [1]\nfrom_mm = 2\n"), HasSubstr("and given by a range, too"));
-  EXPECT_THAT(told("[sweep.travel]\nfrom_mm = 0\nto_mm = 80\nstep_mm = 1e-5\n"),
-              HasSubstr("makes 8e+06 values"));
   EXPECT_THAT(problems_of(sample("front_5KS", "[sweep.travel]\ncoordinate = \"spring\"\nvalues_mm = [0]\n")),
               HasSubstr("sweep.travel.coordinate: there is no spring"));
   EXPECT_THAT(problems_of(sample("R", sweep + racks)), HasSubstr("sweep.rack: no link is moved by the rack"));
-}
-
-TEST(SweepStudyRead, StepsEndAtTheLastValueAndPassZeroExactly) {
-  const study::Result result =
-      run_text(sample("5KS", "[sweep.travel]\nfrom_mm = -9\nto_mm = 10\nstep_mm = 3\n"));
-  EXPECT_EQ(column(result, "travel_m"),
-            (std::vector{-0.009, -0.006, -0.003, 0.0, 0.003, 0.006, 0.009, 0.01}));
 }
 
 TEST(SolveGrid, GoesOutwardsAndStopsWhenCancelled) {

@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "linkwright/suspension/axle_study.h"
+#include "linkwright/suspension/compliance_study.h"
 #include "linkwright/suspension/guide_study.h"
 #include "linkwright/suspension/wheel_parameters.h"
 
@@ -13,32 +15,9 @@
 // reported.
 namespace linkwright::suspension {
 
-/// Values of one input: from, to and step or samples; or listed.
-struct InputValues {
-  std::optional<double> from, to, step;
-  std::optional<int> samples;
-  std::optional<std::vector<double>> values;
-};
-template <class Visitor>
-void fields(Visitor&& visit, InputValues& v) {
-  const auto length = [](std::string_view key, std::string_view summary, double least = -10) {
-    return Field{
-        .key = key, .summary = summary, .dimension = Dimension::length, .minimum = least, .maximum = 10};
-  };
-  visit(length("from", "first value"), v.from);
-  visit(length("to", "last value"), v.to);
-  visit(length("step", "between values", 1e-9), v.step);
-  visit(Field{.key = "samples",
-              .summary = "number of values, in the place of step",
-              .minimum = 1,
-              .maximum = 1e6},
-        v.samples);
-  visit(length("values", "in the place of from, to and step"), v.values);
-}
-
 struct TravelValues {
   Driver coordinate = Driver::wheel_centre_z;
-  InputValues values;
+  LengthValues values;
 };
 template <class Visitor>
 void fields(Visitor&& visit, TravelValues& t) {
@@ -48,7 +27,7 @@ void fields(Visitor&& visit, TravelValues& t) {
 
 struct GridSweep {
   TravelValues travel;
-  std::optional<InputValues> rack;
+  std::optional<LengthValues> rack;
 };
 template <class Visitor>
 void fields(Visitor&& visit, GridSweep& s) {
@@ -77,6 +56,9 @@ struct SweepStudy {
   std::vector<double> travels, racks;    ///< m, ascending
   Driver lock = Driver::wheel_centre_z;  ///< of the steering axis: wheel_centre_z or spring
   std::vector<std::string> quantities;   ///< empty = all that the guide has
+  std::optional<VehicleForm> vehicle;
+  std::optional<AxleForm> axle;
+  std::optional<ComplianceForm> compliance;
 };
 
 /// "analysis" of "suspension.wheel_guide".

@@ -10,61 +10,7 @@
 namespace linkwright::suspension {
 namespace {
 
-constexpr std::size_t most_values = 100000, most_rows = 1000000;
-
-/// The values, ascending; nothing, and the problem told, if they make no sense.
-std::optional<std::vector<double>> values_of(study::ObjectReader& table, const InputValues& v) {
-  std::vector<double> out;
-  if (v.values) {
-    if (v.from || v.to || v.step || v.samples) {
-      table.error("values", "are listed, and given by a range, too", "keep values, or from, to and step");
-      return std::nullopt;
-    }
-    out = *v.values;
-    if (out.empty()) {
-      table.error("values", "are none", "for example [-0.03, 0.0, 0.03]");
-      return std::nullopt;
-    }
-  } else {
-    if (!v.from || !v.to) {
-      table.error(v.from ? "to" : "from", "is missing",
-                  "write from_mm, to_mm and step_mm; or values_mm = [...]");
-      return std::nullopt;
-    }
-    if (v.step.has_value() == v.samples.has_value()) {
-      table.error("step", v.step ? "and samples are both given" : "is missing",
-                  "give step_mm or samples, one of them");
-      return std::nullopt;
-    }
-    if (*v.to < *v.from) {
-      table.error("to", fmt::format("is {} m, below from, {} m", *v.to, *v.from), "exchange them");
-      return std::nullopt;
-    }
-    const double length = *v.to - *v.from;
-    const double steps = v.step ? length / *v.step : *v.samples - 1;
-    if (!(steps < static_cast<double>(most_values))) {
-      table.error("step", fmt::format("makes {:.3g} values, at most {} are allowed", steps + 1, most_values));
-      return std::nullopt;
-    }
-    // The last step may be the shorter one: both ends belong to the values.
-    const double whole = std::round(steps);
-    const bool even = std::abs(steps - whole) < 1e-6;
-    const int count = static_cast<int>(even ? whole : std::floor(steps));
-    for (int i = 0; i <= count; ++i)
-      out.push_back(even && count > 0 ? *v.from + length * i / count : *v.from + (v.step ? *v.step : 0) * i);
-    if (!even) out.push_back(*v.to);
-    // 0 and -0.09 are meant, not roundings of them.
-    for (double& x : out)
-      x = std::round(x * 1e12) / 1e12 + 0.0;
-  }
-  if (out.size() > most_values) {
-    table.error("values", fmt::format("{} of them, at most {} are allowed", out.size(), most_values));
-    return std::nullopt;
-  }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
+constexpr std::size_t most_rows = 1000000;
 
 std::vector<Word> quantity_words() {
   return {{"carrier", "place of the wheel centre"},
@@ -99,8 +45,8 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
     if (description)
       s.lock =
           sweep.steering_lock.value_or(description->guide.spring ? Driver::spring : Driver::wheel_centre_z);
-    if (auto travel = table->table("travel")) travels = values_of(*travel, grid.travel.values);
-    if (auto rack = table->table("rack"); rack && grid.rack) racks = values_of(*rack, *grid.rack);
+    if (auto travel = table->table("travel")) travels = values_of(*travel, grid.travel.values, "mm");
+    if (auto rack = table->table("rack"); rack && grid.rack) racks = values_of(*rack, *grid.rack, "mm");
     if (description) {
       const WheelGuide& guide = description->guide;
       if (s.travel == Driver::spring && !guide.spring)
@@ -121,16 +67,21 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
                    fmt::format("{} travels with {} racks make {} rows, at most {} are allowed",
                                travels->size(), racks->size(), travels->size() * racks->size(), most_rows));
   }
+  document(Field{.key = "vehicle", .summary = {}}, s.vehicle);
+  document(Field{.key = "axle", .summary = {}}, s.axle);
+  document(Field{.key = "compliance", .summary = {}}, s.compliance);
+  if (description && s.axle) complete_axle(document, *s.axle, description->guide);
+  if (description && s.compliance) check_compliance(document, *s.compliance, description->guide);
   if (!description || !travels || !racks || document.document().has_errors()) return std::nullopt;
   s.description = *description;
   s.travels = *travels;
   s.racks = *racks;
   canonical["mechanism"] = write_guide(s.description);
-  const auto listed = [](const std::vector<double>& v) {
-    return InputValues{.from = {}, .to = {}, .step = {}, .samples = {}, .values = v};
-  };
-  canonical["sweep"] =
-      study::write_fields(GuideSweep{GridSweep{{s.travel, listed(s.travels)}, listed(s.racks)}, s.lock});
+  canonical["sweep"] = study::write_fields(GuideSweep{
+      GridSweep{{s.travel, listed<LengthValues>(s.travels)}, listed<LengthValues>(s.racks)}, s.lock});
+  if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);
+  if (s.axle) canonical["axle"] = study::write_fields(*s.axle);
+  if (s.compliance) canonical["compliance"] = study::write_fields(*s.compliance);
   return s;
 }
 
@@ -205,6 +156,12 @@ values_mm = [-60.0, -30.0, 0.0, 30.0, 60.0]
     describe_guide(document);
     document.property(Field{.key = "sweep", .summary = "positions that are taken", .required = true},
                       study::schema_fields<GuideSweep>());
+    document.property(Field{.key = "vehicle", .summary = "what the axle is part of: anti-dive, Ackermann"},
+                      study::schema_fields<VehicleForm>());
+    document.property(Field{.key = "axle", .summary = "both wheels: roll and steering"},
+                      study::schema_fields<AxleForm>());
+    document.property(Field{.key = "compliance", .summary = "elastic joints and loads"},
+                      study::schema_fields<ComplianceForm>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;

@@ -250,6 +250,9 @@ study::Result run_sweep_study(const SweepStudy& s, RunContext& context) {
   }
   add_plots(result, s);
   add_facts(result, s, grid, centred);
+  if (s.vehicle) add_anti_features(result, *s.vehicle, grid.solved.wheels);
+  if (s.axle) add_axle(result, s.description.guide, *s.axle, s.vehicle);
+  if (s.compliance) add_compliance(result, s.description.guide, *s.compliance);
   result.scenes.push_back(scene_of(s, grid));
 
   std::size_t lost = 0;
