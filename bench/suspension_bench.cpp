@@ -2,6 +2,7 @@
 
 #include "linkwright/suspension/axle_sweep.h"
 #include "linkwright/suspension/compliance.h"
+#include "linkwright/suspension/derivatives.h"
 #include "linkwright/suspension/samples.h"
 #include "linkwright/suspension/statics.h"
 #include "linkwright/suspension/wheel_parameters.h"
@@ -107,6 +108,28 @@ void axle_roll_double_wishbone(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(values.size()));
 }
 BENCHMARK(axle_roll_double_wishbone)->Unit(benchmark::kMicrosecond);
+
+// Derivatives of all parameters at a position, for all thirty coordinates of the rods or for the first nine.
+void derivatives(benchmark::State& state, std::size_t count, Extent extent) {
+  const WheelGuide& guide = guide_sample("5KS").guide;
+  std::vector<DesignNumber> numbers = hard_points(guide);
+  numbers.resize(count);
+  const DerivativePlan plan = prepare_derivatives(guide, numbers);
+  const GuidePosition at =
+      solve_position(plan.plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan.plan));
+  for (auto _ : state) benchmark::DoNotOptimize(wheel_derivatives(plan, at, extent));
+}
+BENCHMARK_CAPTURE(derivatives, rods, 30, Extent::all)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(derivatives, nine_coordinates, 9, Extent::all)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(derivatives, nine_coordinates_at_rest, 9, Extent::at_rest)->Unit(benchmark::kMicrosecond);
+
+void derivatives_along_travel(benchmark::State& state) {
+  const DerivativePlan plan = prepare_derivatives(guide_sample("5KS").guide, {});
+  const GuidePosition at =
+      solve_position(plan.plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan.plan));
+  for (auto _ : state) benchmark::DoNotOptimize(input_derivatives(plan, at));
+}
+BENCHMARK(derivatives_along_travel)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace linkwright::suspension

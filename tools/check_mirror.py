@@ -15,6 +15,9 @@ import repository
 NO_TEST = {
     "core/field.h": "declarations; read, written and described by study/bind_test.cpp",
     "core/tolerance.h": "named constants",
+    "suspension/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",
+    "suspension/wheel_kernel.h": "part of wheel, likewise",
+    "suspension/wheel_parameters_kernel.h": "part of wheel_parameters, likewise",
     "math/ode_pairs.h": "coefficients; their orders are measured in ode_test.cpp",
     "math/ode_stepper.h": "part of ode, tested in ode_test.cpp",
     "math/ode_vectors.h": "part of ode, used by every step of ode_test.cpp",

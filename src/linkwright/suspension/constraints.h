@@ -19,63 +19,77 @@ constexpr std::array<EnumName<Driver>, 3> names(Driver) {
 
 /// Where a guide stands: the carrier, and the angle (rad, from the reference, right-handed from the first to
 /// the second body point) of its RR arm if it has one.
-struct GuidePlace {
-  CarrierPose carrier;
-  double arm = 0;
+template <class T>
+struct BasicGuidePlace {
+  BasicCarrierPose<T> carrier;
+  T arm{0};
 };
+using GuidePlace = BasicGuidePlace<double>;
 
 /// Rates of a guide: velocity of the wheel centre (m/s), angular velocity of the carrier (rad/s), rate of the
 /// arm.
-struct Twist {
-  Vec3 velocity;
-  Vec3 turning;
-  double arm = 0;
+template <class T>
+struct BasicTwist {
+  Vector3<T> velocity;
+  Vector3<T> turning;
+  T arm{0};
 };
+using Twist = BasicTwist<double>;
 
 /// Constants of a link in the equations. Offsets are those of carrier points from the wheel centre.
-struct LinkConstants {
+template <class T>
+struct BasicLinkConstants {
   LinkType type = LinkType::KS;
   bool moved_by_rack = false;
-  std::array<Vec3, 2> body, offset;
-  std::array<double, 2> length{};  ///< of the distances that it keeps
-  Vec3 axis;                       ///< unit: strut line, hinge axis in the body (R, RR)
-  Vec3 carrier_axis;               ///< unit: hinge axis in the carrier (R, RR)
-  std::array<Vec3, 2> across;      ///< unit, normal to the strut line or to the carrier's axis
+  std::array<Vector3<T>, 2> body, offset;
+  std::array<T, 2> length{};         ///< of the distances that it keeps
+  Vector3<T> axis;                   ///< unit: strut line, hinge axis in the body (R, RR)
+  Vector3<T> carrier_axis;           ///< unit: hinge axis in the carrier (R, RR)
+  std::array<Vector3<T>, 2> across;  ///< unit, normal to the strut line or to the carrier's axis
 };
+using LinkConstants = BasicLinkConstants<double>;
 
 /// A point fixed to a link, by three points of the link P, Q, S: P + a (Q - P) + b (S - P) + k (Q - P) x (S -
 /// P).
-struct AffinePoint {
-  double a = 0, b = 0, k = 0;
+template <class T>
+struct BasicAffinePoint {
+  T a{0}, b{0}, k{0};
 };
+using AffinePoint = BasicAffinePoint<double>;
 
-struct CouplerConstants {
+template <class T>
+struct BasicCouplerConstants {
   int first = 0, second = 0;
-  double fraction = 0, length = 0;
-  AffinePoint point;
+  T fraction{0}, length{0};
+  BasicAffinePoint<T> point;
 };
+using CouplerConstants = BasicCouplerConstants<double>;
 
-struct SpringConstants {
-  Vec3 body;
-  Vec3 offset;  ///< carrier: from the wheel centre; RR arm: from its first body point
+template <class T>
+struct BasicSpringConstants {
+  Vector3<T> body;
+  Vector3<T> offset;  ///< carrier: from the wheel centre; RR arm: from its first body point
   int link = -1;
-  double length = 0, fraction = 0;
-  AffinePoint point;
+  T length{0}, fraction{0};
+  BasicAffinePoint<T> point;
 };
+using SpringConstants = BasicSpringConstants<double>;
 
 /// A guide made ready for solving. Make it with `prepare`.
-struct GuidePlan {
+template <class T>
+struct BasicGuidePlan {
   Side side = Side::left;
-  GuideWheel wheel;
-  Vec3 wheel_axis;  ///< unit, outboard, at the reference
-  Vec3 contact;     ///< point of the tyre, at the reference
+  BasicGuideWheel<T> wheel;
+  Vector3<T> wheel_axis;  ///< unit, outboard, at the reference
+  Vector3<T> contact;     ///< point of the tyre, at the reference
   Vec3 rack_direction;
-  std::vector<LinkConstants> links;
-  std::vector<CouplerConstants> couplers;
-  std::optional<SpringConstants> spring;
-  std::vector<std::string> labels;  ///< of the links
+  std::vector<BasicLinkConstants<T>> links;
+  std::vector<BasicCouplerConstants<T>> couplers;
+  std::optional<BasicSpringConstants<T>> spring;
+  std::vector<std::string> labels;  ///< of the links and couplers
   int unknowns = 6;                 ///< 7 with an RR arm
 };
+using GuidePlan = BasicGuidePlan<double>;
 
 /// Throws ContractError for a guide that `check` finds errors in, or whose constraints do not add up to five.
 GuidePlan prepare(const WheelGuide& guide);
@@ -87,11 +101,13 @@ inline constexpr int most_unknowns = 7;
 /// (m; rad for directions of hinges), the driver last. A distance d that should be l has the residual (d^2 -
 /// l^2) / (2 l); a strut has two distances across its line (equation 43, two rows); an RR arm is placed by
 /// its angle, since its four distances (equation 44) lose rank where its axes meet or are parallel.
-struct GuideEquations {
-  std::array<double, most_unknowns> residual{};
-  std::array<std::array<double, most_unknowns>, most_unknowns> jacobian{};  ///< [equation][unknown]
-  std::array<double, most_unknowns> by_rack{};
+template <class T>
+struct BasicGuideEquations {
+  std::array<T, most_unknowns> residual{};
+  std::array<std::array<T, most_unknowns>, most_unknowns> jacobian{};  ///< [equation][unknown]
+  std::array<T, most_unknowns> by_rack{};
 };
+using GuideEquations = BasicGuideEquations<double>;
 
 /// `value` is what the driver should have (m). The driver `spring` needs a plan with a spring.
 void evaluate(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver, double value,

@@ -6,6 +6,8 @@
 #include <set>
 #include <string_view>
 
+#include "linkwright/suspension/wheel_kernel.h"
+
 namespace linkwright::suspension {
 namespace {
 
@@ -75,10 +77,7 @@ void check_link(const WheelGuide& guide, int index, Findings& found) {
 
 }  // namespace
 
-Vec3 wheel_axis(Side side, double toe, double camber) {
-  const Vec3 left{std::sin(toe) * std::cos(camber), std::cos(toe) * std::cos(camber), -std::sin(camber)};
-  return side == Side::left ? left : math::mirrored(left);
-}
+Vec3 wheel_axis(Side side, double toe, double camber) { return kernel::wheel_axis(side, toe, camber); }
 
 WheelGuide mirrored(const WheelGuide& guide) {
   WheelGuide out = guide;

@@ -11,11 +11,14 @@
 
 /// Wheel guides: the mechanisms between a vehicle body and a wheel carrier (Poznanovic 2016). The body is
 /// fixed. Frame of the vehicle: x forward, y to the left, z up, y = 0 in the middle; m, rad. All points are
-/// given in it, at the reference position.
+/// given in it, at the reference position. Templates take the scalar: plain numbers, or dual numbers that
+/// carry derivatives along.
 namespace linkwright::suspension {
 
 using math::Mat3;
+using math::Matrix3;
 using math::Vec3;
+using math::Vector3;
 
 /// How a link is joined: the first letter to the body, the second to the carrier; one letter is a joint
 /// between body and carrier without a link. R revolute, S spherical, K universal, P prismatic (slides and
@@ -34,63 +37,75 @@ constexpr std::array<EnumName<LinkType>, 8> names(LinkType) {
 
 /// A link. Number of points, body and carrier: R 2 and 0, RR 2 and 2, S 1 and 0, RS 2 and 1, SR 1 and 2, SP,
 /// KS and SS 1 and 1. Two points stand for the axis of a revolute joint.
-struct GuideLink {
+template <class T>
+struct BasicGuideLink {
   std::string name;
   LinkType type = LinkType::KS;
-  std::vector<Vec3> body;
-  std::vector<Vec3> carrier;
+  std::vector<Vector3<T>> body;
+  std::vector<Vector3<T>> carrier;
   /// Length of a KS or SS link (m) in the place of the distance of its points: they then are no position, and
   /// what is reported at zero travel has to be solved for, too.
-  std::optional<double> length;
+  std::optional<T> length;
   bool moved_by_rack = false;  ///< its body points move with the rack
 };
+using GuideLink = BasicGuideLink<double>;
 
 /// A rod between two links (interconnected mechanisms): from a point on the line of a KS link to a point
 /// fixed to an SR link. Its length is the distance at the reference position.
-struct Coupler {
+template <class T>
+struct BasicCoupler {
   std::string name;
-  int first = 0;          ///< KS link
-  double fraction = 0.5;  ///< of the KS link's length, from its body point
-  int second = 0;         ///< SR link
-  Vec3 point;             ///< on the SR link
+  int first = 0;     ///< KS link
+  T fraction{0.5};   ///< of the KS link's length, from its body point
+  int second = 0;    ///< SR link
+  Vector3<T> point;  ///< on the SR link
 };
+using Coupler = BasicCoupler<double>;
 
 /// Spring (or damper) between the body and the carrier or a link.
-struct GuideSpring {
-  Vec3 body;
-  Vec3 moving;    ///< its other end
+template <class T>
+struct BasicGuideSpring {
+  Vector3<T> body;
+  Vector3<T> moving;  ///< its other end
   int link = -1;  ///< KS, RS, SR or RR link that it is fixed to; -1 = the carrier. On a KS link: on its line
 };
+using GuideSpring = BasicGuideSpring<double>;
 
 enum class Side { left, right };
 constexpr std::array<EnumName<Side>, 2> names(Side) {
   return {{{Side::left, "left", "y > 0"}, {Side::right, "right", "y < 0"}}};
 }
 
-struct GuideWheel {
-  Vec3 centre;               ///< m
-  double toe = 0;            ///< rad, > 0: front of the wheel towards the vehicle
-  double camber = 0;         ///< rad, > 0: top of the wheel away from the vehicle
+template <class T>
+struct BasicGuideWheel {
+  Vector3<T> centre;         ///< m
+  T toe{0};                  ///< rad, > 0: front of the wheel towards the vehicle
+  T camber{0};               ///< rad, > 0: top of the wheel away from the vehicle
   double tyre_diameter = 0;  ///< m, > 0
 };
+using GuideWheel = BasicGuideWheel<double>;
 
 /// A wheel guide: plain data.
-struct WheelGuide {
+template <class T>
+struct BasicWheelGuide {
   Side side = Side::left;
-  GuideWheel wheel;
-  std::vector<GuideLink> links;
-  std::vector<Coupler> couplers;
+  BasicGuideWheel<T> wheel;
+  std::vector<BasicGuideLink<T>> links;
+  std::vector<BasicCoupler<T>> couplers;
   Vec3 rack_direction{0, 1, 0};  ///< unit; a rack displacement is positive to the left, for both wheels
-  std::optional<GuideSpring> spring;
+  std::optional<BasicGuideSpring<T>> spring;
 };
+using WheelGuide = BasicWheelGuide<double>;
 
 /// Where the carrier is: its wheel centre (m) and its rotation from the reference position.
-struct CarrierPose {
-  Vec3 centre;
-  Mat3 rotation;
+template <class T>
+struct BasicCarrierPose {
+  Vector3<T> centre;
+  Matrix3<T> rotation;
 
-  friend bool operator==(const CarrierPose&, const CarrierPose&) = default;
+  friend bool operator==(const BasicCarrierPose&, const BasicCarrierPose&) = default;
 };
+using CarrierPose = BasicCarrierPose<double>;
 
 /// Place of a point of the carrier that is at `reference` when the wheel centre is at `reference_centre`
 /// (equation 54).

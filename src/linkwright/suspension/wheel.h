@@ -8,9 +8,11 @@ namespace linkwright::suspension {
 
 /// rad; as rates rad/s (or per m). Spin is the turn of the carrier about the wheel's axis, zero at the
 /// reference and positive about +y (for both wheels: forward at the top).
-struct WheelAngles {
-  double toe = 0, camber = 0, spin = 0;
+template <class T>
+struct BasicWheelAngles {
+  T toe{0}, camber{0}, spin{0};
 };
+using WheelAngles = BasicWheelAngles<double>;
 
 /// Rotation of the carrier from the reference (equation 50, and 51 with its signs put right).
 Mat3 carrier_rotation(Side side, const GuideWheel& reference, const WheelAngles& angles);
@@ -29,10 +31,12 @@ Vec3 contact_offset(Side side, double tyre_diameter, const WheelAngles& angles);
 /// Two velocities at the contact: of the point of the carrier there (equation 28 with its sign put right; the
 /// wheel is held by the carrier, as by an outboard brake), and of the contact point itself (the wheel turns
 /// freely). They differ along the tyre by the spin.
-struct ContactVelocity {
-  Vec3 on_carrier;
-  Vec3 geometric;
+template <class T>
+struct BasicContactVelocity {
+  Vector3<T> on_carrier;
+  Vector3<T> geometric;
 };
+using ContactVelocity = BasicContactVelocity<double>;
 ContactVelocity contact_velocity(Side side, double tyre_diameter, const WheelAngles& at, const Vec3& velocity,
                                  const Vec3& turning);
 
