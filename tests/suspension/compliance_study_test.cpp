@@ -16,10 +16,25 @@ using testing::problems_of;
 using testing::replaced;
 using testing::run_text;
 
-std::string study(const std::string& rest) {
-  return "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\nsample = \"5KS\"\n"
-         "[sweep.travel]\nvalues_mm = [0]\n[compliance]\n" +
-         rest;
+// The sample 5KS with the stiffness of its spring.
+std::string study(const std::string& rest, const std::string& stiffness = "") {
+  std::string text =
+      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\n"
+      "[mechanism.wheel]\ncentre_m = [0, 0.75, 0]\ntoe_deg = 0.12\ncamber_deg = -0.6\ntyre_diameter_m = "
+      "0.65\n"
+      "[mechanism.spring]\nbody_m = [0.02, 0.5, 0.42]\nmoving_m = [0, 0.6, -0.11]\n" +
+      stiffness;
+  const auto link = [&](const char* name, const char* body, const char* carrier, const char* more = "") {
+    text +=
+        fmt::format("[[mechanism.link]]\nname = \"{}\"\ntype = \"KS\"\nbody_m = [{}]\ncarrier_m = [{}]\n{}",
+                    name, body, carrier, more);
+  };
+  link("lower front rod", "0.2, 0.36, -0.1", "0.022, 0.7, -0.125");
+  link("lower rear rod", "-0.21, 0.37, -0.105", "-0.018, 0.695, -0.128");
+  link("tie rod", "-0.125, 0.406, -0.018", "-0.15, 0.69, -0.02", "moved_by = \"rack\"\n");
+  link("upper front rod", "0.14, 0.44, 0.28", "-0.005, 0.655, 0.31");
+  link("upper rear rod", "-0.17, 0.45, 0.27", "-0.035, 0.648, 0.308");
+  return text + "[sweep.travel]\nvalues_mm = [0]\n[compliance]\n" + rest;
 }
 std::string rod(const std::string& name, int stiffness) {
   return fmt::format("[[compliance.joint]]\nlink = \"{}\"\nstiffness_N_per_mm = {}\n", name, stiffness);
@@ -45,9 +60,9 @@ TEST(ComplianceStudy, TellsWhatElasticRodsDo) {
   // Reference figures of five elastic rods and a spring of 30 N/mm, body fixed: a kilonewton to the left at
   // the contact, and the spring force of 4 kN there.
   const study::Result result =
-      run_text(study("spring_stiffness_N_per_mm = 30\n" + rods() +
-                     "[[compliance.load]]\nname = \"lateral\"\nforce_N = [0, 1000, 0]\n"
-                     "[[compliance.load]]\nname = \"weight\"\nforce_N = [0, 0, 4000]\n"));
+      run_text(study(rods() + "[[compliance.load]]\nname = \"lateral\"\nforce_N = [0, 1000, 0]\n"
+                              "[[compliance.load]]\nname = \"weight\"\nforce_N = [0, 0, 4000]\n",
+                     "stiffness_N_per_mm = 30\n"));
   ASSERT_EQ(result.status, Status::done);
   EXPECT_TRUE(result.diagnostics.empty());
   const Table& loads = table(result, "loads");
@@ -70,19 +85,21 @@ TEST(ComplianceStudyRead, NamesWhatIsWrong) {
   const std::string good = study(rods());
   EXPECT_THAT(problems_of(replaced(good, "link = \"tie rod\"", "link = \"tie rot\"")),
               HasSubstr("compliance.joint[2].link: no link is called 'tie rot'; did you mean 'tie rod'?"));
-  EXPECT_THAT(problems_of(study("support = \"spring\"\n" + rods())),
-              HasSubstr("compliance.spring_stiffness: is missing: the spring carries the wheel"));
+  EXPECT_THAT(
+      problems_of(study("support = \"spring\"\n" + rods())),
+      HasSubstr("compliance.support: the stiffness of the spring is not known; write stiffness_N_per_mm in"));
   EXPECT_THAT(problems_of(study("preload_N = 4000\n" + rods())),
               HasSubstr("compliance.preload_N: needs the spring that carries it"));
   EXPECT_THAT(
       problems_of(study("[[compliance.joint]]\nlink = \"tie rod\"\nend = \"body\"\naxial_N_per_mm = 1\n")),
       HasSubstr("compliance.joint[0].radial: is missing; a bushing has both"));
-  EXPECT_THAT(problems_of(replaced(good, "sample = \"5KS\"", "sample = \"2RS-KS\"")),
+  const std::string wishbone =
+      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\nsample = \"2RS-KS\"\n"
+      "[sweep.travel]\nvalues_mm = [0]\n[compliance]\n";
+  EXPECT_THAT(problems_of(wishbone + rods()),
               HasSubstr("no link is called 'lower front rod'; there are: lower wishbone"));
-  EXPECT_THAT(
-      problems_of(replaced(study("[[compliance.joint]]\nlink = \"lower wishbone\"\nstiffness_N_per_mm = 1\n"),
-                           "sample = \"5KS\"", "sample = \"2RS-KS\"")),
-      HasSubstr("compliance.joint[0].end: is missing: 'lower wishbone' is no rod"));
+  EXPECT_THAT(problems_of(wishbone + rod("lower wishbone", 1)),
+              HasSubstr("compliance.joint[0].end: is missing: 'lower wishbone' is no rod"));
 }
 
 TEST(ComplianceStudy, SaysWhatIsLeftFree) {

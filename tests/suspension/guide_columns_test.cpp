@@ -16,23 +16,23 @@ TEST(GuideColumns, HaveKeysOfTheirOwnAndNumbersOfASteeredGuideWithSpring) {
   const GuidePosition at =
       solve_position(plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan));
   const WheelParameters wheel = wheel_parameters(plan, at);
-  const GuideRow row{at, wheel, steering_axis_of(wheel, Driver::spring)};
+  const GuideRow row{at, wheel, Driver::spring};
   std::set<std::string_view> keys;
   for (const GuideColumn& c : guide_columns()) {
     EXPECT_TRUE(keys.insert(c.key).second) << c.key;
-    EXPECT_TRUE(std::isfinite(c.value(row))) << c.key;
+    EXPECT_TRUE(std::isfinite(value_of(c, row))) << c.key;
   }
-  EXPECT_EQ(guide_column("toe_rad")->value(row), wheel.angles.toe);
-  EXPECT_EQ(guide_column("roll_centre_height_m")->value(row), wheel.roll_centre_height);
-  EXPECT_EQ(guide_column("caster_rad")->value(row), wheel.axis_at_spring->caster);
-  EXPECT_EQ(guide_column("toe_deg"), nullptr);
+  EXPECT_EQ(value_of(*guide_column("toe"), row), wheel.angles.toe);
+  EXPECT_EQ(value_of(*guide_column("roll_centre_height"), row), wheel.roll_centre_height);
+  EXPECT_EQ(value_of(*guide_column("caster"), row), wheel.axis_at_spring->caster);
+  EXPECT_EQ(guide_column("toe_rad"), nullptr);
 }
 
 TEST(GuideColumns, AreMissingWhereThereIsNoPosition) {
   const GuidePosition nowhere{.status = Status::no_assembly};
   const WheelParameters wheel{.status = Status::no_assembly};
   for (const GuideColumn& c : guide_columns())
-    EXPECT_TRUE(std::isnan(c.value({nowhere, wheel, nullptr}))) << c.key;
+    EXPECT_TRUE(std::isnan(value_of(c, {nowhere, wheel, Driver::spring}))) << c.key;
 }
 
 TEST(SteeringAxisOf, TakesWhatIsHeld) {

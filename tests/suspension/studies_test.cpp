@@ -17,8 +17,10 @@ TEST(Studies, AreThoseOfWheelGuides) {
     if (kind.seeded) seeded.push_back(names.back());
   }
   EXPECT_THAT(names, ::testing::ElementsAre("analysis/suspension.wheel_guide",
-                                            "synthesis/suspension.wheel_guide/carrier_poses"));
-  EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/suspension.wheel_guide/carrier_poses"));
+                                            "synthesis/suspension.wheel_guide/carrier_poses",
+                                            "synthesis/suspension.wheel_guide/wheel_parameters"));
+  EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/suspension.wheel_guide/carrier_poses",
+                                             "synthesis/suspension.wheel_guide/wheel_parameters"));
 }
 
 }  // namespace

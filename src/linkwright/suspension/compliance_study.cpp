@@ -28,10 +28,11 @@ JointStiffness stiffness_of(const JointForm& j) {
                  {axis[0], axis[1], axis[2]});
 }
 
-GuideElasticity elasticity_of(const WheelGuide& guide, const ComplianceForm& form) {
+GuideElasticity elasticity_of(const GuideDescription& description, const ComplianceForm& form) {
+  const WheelGuide& guide = description.guide;
   GuideElasticity out{.links = std::vector<LinkElasticity>(guide.links.size()),
                       .couplers = {},
-                      .spring = form.spring_stiffness.value_or(0)};
+                      .spring = description.spring ? description.spring->stiffness : 0};
   for (const JointForm& j : form.joints) {
     LinkElasticity& link = out.links[static_cast<std::size_t>(link_index(guide, j.link))];
     (j.end.value_or(LinkEnd::body) == LinkEnd::body ? link.body : link.carrier).push_back(stiffness_of(j));
@@ -195,7 +196,9 @@ Table load_forces_table(const WheelGuide& guide, const Compliance& compliance, c
 
 }  // namespace
 
-void check_compliance(study::ObjectReader& document, ComplianceForm& form, const WheelGuide& guide) {
+void check_compliance(study::ObjectReader& document, ComplianceForm& form,
+                      const GuideDescription& description) {
+  const WheelGuide& guide = description.guide;
   auto table = document.table("compliance");
   std::vector<study::ObjectReader> joints = table->tables("joint");
   std::vector<std::string_view> known;
@@ -227,31 +230,29 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form, const
     if (j.end && !j.stiffness && j.axial.has_value() != j.radial.has_value())
       wrong(j.axial ? "radial" : "axial", "is missing", "a bushing has both");
   }
-  if (form.spring_stiffness && !guide.spring) {
-    table->error("spring_stiffness", "there is no spring", "add [mechanism.spring]");
-    good = false;
-  }
-  if (!form.support) form.support = form.spring_stiffness ? Support::spring : Support::contact_held;
+  if (!form.support) form.support = description.spring ? Support::spring : Support::contact_held;
   const bool by_spring = *form.support == Support::spring;
-  if (by_spring && !form.spring_stiffness) {
-    table->error("spring_stiffness", "is missing: the spring carries the wheel",
-                 "write spring_stiffness_N_per_mm");
+  if (by_spring && !description.spring) {
+    table->error("support", "the stiffness of the spring is not known",
+                 "write stiffness_N_per_mm in [mechanism.spring]");
     good = false;
   }
   if (*form.support == Support::spring_held && !guide.spring) {
     table->error("support", "there is no spring to hold", "add [mechanism.spring], or take contact_held");
     good = false;
   }
-  if (form.preload && !form.spring_stiffness) {
-    table->error("preload", "needs the spring that carries it", "give spring_stiffness_N_per_mm");
+  if (form.preload && !description.spring) {
+    table->error("preload", "needs the spring that carries it",
+                 "write stiffness_N_per_mm in [mechanism.spring]");
     good = false;
   }
   if (!good) return;
-  for (const Diagnostic& d : check(guide, elasticity_of(guide, form)))
+  for (const Diagnostic& d : check(guide, elasticity_of(description, form)))
     table->error("joint", d.message, d.hint);
 }
 
-void add_compliance(study::Result& result, const WheelGuide& guide, const ComplianceForm& form) {
+void add_compliance(study::Result& result, const GuideDescription& description, const ComplianceForm& form) {
+  const WheelGuide& guide = description.guide;
   const GuidePlan plan = prepare(guide);
   const GuidePosition reference = reference_position(plan);
   const auto remark = [&](std::string message, std::string hint) {
@@ -263,7 +264,7 @@ void add_compliance(study::Result& result, const WheelGuide& guide, const Compli
   std::optional<PointLoad> preload;
   if (form.preload) preload = PointLoad{plan.contact, {0, 0, *form.preload}};
   const Compliance c =
-      solve_compliance(guide, reference.place, 0, elasticity_of(guide, form), *form.support, preload);
+      solve_compliance(guide, reference.place, 0, elasticity_of(description, form), *form.support, preload);
   if (c.status != Status::done)
     return remark("no compliance: " + c.reason, "are all freedoms of the links held once?");
   result.tables.push_back(coefficients_table(c));

@@ -8,6 +8,7 @@
 #include "linkwright/study/kind.h"
 #include "linkwright/suspension/compliance.h"
 #include "linkwright/suspension/compliance_coefficients.h"
+#include "linkwright/suspension/guide_study.h"
 
 // What an analysis of a wheel guide may ask about loads and elastic joints: `[compliance]`.
 namespace linkwright::suspension {
@@ -79,7 +80,6 @@ void fields(Visitor&& visit, LoadForm& l) {
 
 struct ComplianceForm {
   std::optional<Support> support;
-  std::optional<double> spring_stiffness;
   std::optional<double> preload;
   std::vector<JointForm> joints;
   std::vector<LoadForm> loads;
@@ -88,15 +88,9 @@ template <class Visitor>
 void fields(Visitor&& visit, ComplianceForm& c) {
   visit(Field{.key = "support",
               .summary =
-                  "what carries the wheel; default: the spring if its stiffness is given, else the height "
+                  "what carries the wheel; default: the spring if its stiffness is known, else the height "
                   "of the contact"},
         c.support);
-  visit(Field{.key = "spring_stiffness",
-              .summary = "of the spring",
-              .dimension = Dimension::stiffness,
-              .minimum = 0,
-              .maximum = 1e12},
-        c.spring_stiffness);
   visit(Field{.key = "preload",
               .summary =
                   "load of the wheel at rest, upward at the contact, whose turning with the links counts; "
@@ -110,10 +104,12 @@ void fields(Visitor&& visit, ComplianceForm& c) {
 }
 
 /// Checks what was read against the guide; problems go to the reader.
-void check_compliance(study::ObjectReader& document, ComplianceForm& compliance, const WheelGuide& guide);
+void check_compliance(study::ObjectReader& document, ComplianceForm& compliance,
+                      const GuideDescription& description);
 
 /// The tables `compliance` (coefficients), `compliance_matrix`, `joint_forces` (by load case) and `loads`, at
 /// the reference position.
-void add_compliance(study::Result& result, const WheelGuide& guide, const ComplianceForm& compliance);
+void add_compliance(study::Result& result, const GuideDescription& description,
+                    const ComplianceForm& compliance);
 
 }  // namespace linkwright::suspension

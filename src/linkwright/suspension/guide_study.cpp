@@ -45,28 +45,6 @@ void fields(Visitor&& visit, OpenCoordinate& c) {
   visit(limit("initial", "where it begins; default: the middle", false), c.initial);
 }
 
-enum class Axis { x, y, z };
-constexpr std::array<EnumName<Axis>, 3> names(Axis) {
-  return {{{Axis::x, "x"}, {Axis::y, "y"}, {Axis::z, "z"}}};
-}
-
-/// One number for all axes, or one each.
-struct Edges {
-  std::array<double, 3> of{};
-};
-bool read_value(study::ObjectReader& reader, const study::ObjectReader::Found& found, const Field& field,
-                Edges& member) {
-  if (found.value->is_array()) return reader.convert(found, field, member.of);
-  double edge = 0;
-  if (!reader.convert(found, field, edge)) return false;
-  member.of.fill(edge);
-  return true;
-}
-Value write_value(const Edges& member) { return study::ObjectWriter::to_value(member.of); }
-Value schema_value(const Field&, const Edges&) {
-  return study::schema_any_of({study::schema_number(), study::schema_array(study::schema_number())});
-}
-
 /// A point that is to be found: a box around a place.
 struct OpenPoint {
   std::array<double, 3> near{};
@@ -92,15 +70,10 @@ void fields(Visitor&& visit, OpenPoint& p) {
 }
 
 PointForm form_of(const OpenPoint& p) {
-  PointForm out;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double middle = p.near[i] + p.offset[i], half = p.box.of[i] / 2;
-    const bool fixed = std::any_of(p.given.begin(), p.given.end(),
-                                   [&](Axis axis) { return static_cast<std::size_t>(axis) == i; });
-    coordinate(out.at, i) = fixed ? p.near[i] : std::clamp(p.near[i], middle - half, middle + half);
-    coordinate(out.box.lower, i) = fixed ? p.near[i] : middle - half;
-    coordinate(out.box.upper, i) = fixed ? p.near[i] : middle + half;
-  }
+  const Vec3 near{p.near[0], p.near[1], p.near[2]}, offset{p.offset[0], p.offset[1], p.offset[2]};
+  PointForm out{near, box_of(near, p.box, offset, p.given)};
+  for (std::size_t i = 0; i < 3; ++i)
+    coordinate(out.at, i) = std::clamp(p.near[i], coordinate(out.box.lower, i), coordinate(out.box.upper, i));
   return out;
 }
 
@@ -148,6 +121,31 @@ bool read_point(study::ObjectReader& reader, const study::ObjectReader::Found& f
 }
 
 }  // namespace
+
+bool read_value(study::ObjectReader& reader, const study::ObjectReader::Found& found, const Field& field,
+                Edges& member) {
+  if (found.value->is_array()) return reader.convert(found, field, member.of);
+  double edge = 0;
+  if (!reader.convert(found, field, edge)) return false;
+  member.of.fill(edge);
+  return true;
+}
+Value write_value(const Edges& member) { return study::ObjectWriter::to_value(member.of); }
+Value schema_value(const Field&, const Edges&) {
+  return study::schema_any_of({study::schema_number(), study::schema_array(study::schema_number())});
+}
+
+PointBox box_of(const Vec3& near, const Edges& edges, const Vec3& offset, std::span<const Axis> given) {
+  PointBox out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double middle = coordinate(near, i) + coordinate(offset, i), half = edges.of[i] / 2;
+    const bool fixed = std::any_of(given.begin(), given.end(),
+                                   [&](Axis axis) { return static_cast<std::size_t>(axis) == i; });
+    coordinate(out.lower, i) = fixed ? coordinate(near, i) : middle - half;
+    coordinate(out.upper, i) = fixed ? coordinate(near, i) : middle + half;
+  }
+  return out;
+}
 
 bool read_value(study::ObjectReader& reader, const study::ObjectReader::Found& found, const Field& field,
                 PointsForm& member) {
@@ -479,6 +477,9 @@ class GuideReader {
     }
     out.link = s.attached_to == "carrier" ? -1 : link_named(*table, "attached_to", s.attached_to);
     out_.guide.spring = out;
+    if (s.stiffness) out_.spring = SpringLaw{*s.stiffness, s.preload};
+    if (!s.stiffness && table->has(Field{.key = "preload", .summary = {}, .dimension = Dimension::force}))
+      table->error("preload", "needs the stiffness beside it", "write stiffness_N_per_mm");
   }
 
   void rack() {
@@ -587,7 +588,13 @@ Value write_guide(const GuideDescription& d) {
                                  .points = {},
                                  .attached_to = g.spring->link < 0
                                                     ? "carrier"
-                                                    : g.links[static_cast<std::size_t>(g.spring->link)].name};
+                                                    : g.links[static_cast<std::size_t>(g.spring->link)].name,
+                                 .stiffness = {},
+                                 .preload = 0};
+  if (g.spring && d.spring) {
+    out.spring->stiffness = d.spring->stiffness;
+    out.spring->preload = d.spring->preload;
+  }
   out.rack.direction = {g.rack_direction.x, g.rack_direction.y, g.rack_direction.z};
   Value value = study::write_fields(out);
   // Keys that name nothing.
@@ -598,6 +605,7 @@ Value write_guide(const GuideDescription& d) {
   drop(value["wheel"], "point");
   for (Value& link : value["link"].as_array()) drop(link, "points");
   if (g.spring) drop(value["spring"], "points");
+  if (g.spring && !d.spring) drop(value["spring"], "preload_N");
   return value;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "linkwright/study/kind.h"
 #include "linkwright/suspension/hard_points.h"
 #include "linkwright/suspension/indirect_synthesis.h"
+#include "linkwright/suspension/springs.h"
 
 // What all studies of wheel guides read alike: the mechanism, with its points as coordinates, as names out of
 // a list of hard points, or as boxes in which they are to be found.
@@ -28,6 +30,22 @@ bool read_value(study::ObjectReader& reader, const study::ObjectReader::Found& f
                 PointsForm& member);
 Value write_value(const PointsForm& member);
 Value schema_value(const Field& field, const PointsForm& member);
+
+enum class Axis { x, y, z };
+constexpr std::array<EnumName<Axis>, 3> names(Axis) {
+  return {{{Axis::x, "x"}, {Axis::y, "y"}, {Axis::z, "z"}}};
+}
+/// Edges of a box along the axes (m): one number for all, or one each.
+struct Edges {
+  std::array<double, 3> of{};
+};
+bool read_value(study::ObjectReader& reader, const study::ObjectReader::Found& found, const Field& field,
+                Edges& member);
+Value write_value(const Edges& member);
+Value schema_value(const Field& field, const Edges& member);
+/// The box around a place, its middle shifted by `offset`; coordinates that are given stay as the place has
+/// them.
+PointBox box_of(const Vec3& near, const Edges& edges, const Vec3& offset, std::span<const Axis> given);
 
 enum class MovedBy { rack };
 constexpr std::array<EnumName<MovedBy>, 1> names(MovedBy) {
@@ -128,6 +146,8 @@ struct GuideSpringForm {
   std::optional<PointsForm> body, moving;
   std::vector<std::string> points;
   std::string attached_to = "carrier";
+  std::optional<double> stiffness;
+  double preload = 0;
 };
 template <class Visitor>
 void fields(Visitor&& visit, GuideSpringForm& s) {
@@ -135,6 +155,18 @@ void fields(Visitor&& visit, GuideSpringForm& s) {
   visit(guide_fields::place("moving", "its other end"), s.moving);
   visit(Field{.key = "points", .summary = "names of two hard points in the place of both"}, s.points);
   visit(Field{.key = "attached_to", .summary = "\"carrier\" or the name of a link"}, s.attached_to);
+  visit(Field{.key = "stiffness",
+              .summary = "of the spring, for wheel rates and compliance",
+              .dimension = Dimension::stiffness,
+              .minimum = 0,
+              .maximum = 1e12},
+        s.stiffness);
+  visit(Field{.key = "preload",
+              .summary = "force with which it pushes its ends apart at the reference",
+              .dimension = Dimension::force,
+              .minimum = -1e9,
+              .maximum = 1e9},
+        s.preload);
 }
 
 /// Named points beside the mechanism, in their own frame.
@@ -207,6 +239,7 @@ struct GuideDescription {
   WheelGuide guide;                   ///< open coordinates at their start
   std::vector<LinkTask> links;        ///< the guide's, with boxes; all coordinates given where none are open
   std::vector<CouplerTask> couplers;  ///< likewise
+  std::optional<SpringLaw> spring;    ///< of the spring, if its stiffness is known
 };
 
 /// Reads it; nothing when there are problems, which go to the reader. A guide without open points that cannot

@@ -9,6 +9,7 @@
 #include "linkwright/suspension/axle_study.h"
 #include "linkwright/suspension/compliance_study.h"
 #include "linkwright/suspension/guide_study.h"
+#include "linkwright/suspension/sensitivity_study.h"
 #include "linkwright/suspension/wheel_parameters.h"
 
 // The analysis of a wheel guide over wheel travel and rack: what its file holds, how it is read, run and
@@ -59,6 +60,8 @@ struct SweepStudy {
   std::optional<VehicleForm> vehicle;
   std::optional<AxleForm> axle;
   std::optional<ComplianceForm> compliance;
+  std::optional<SensitivityForm> sensitivity;
+  std::optional<TolerancesForm> tolerances;
 };
 
 /// "analysis" of "suspension.wheel_guide".

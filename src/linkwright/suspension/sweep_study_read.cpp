@@ -70,8 +70,12 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   document(Field{.key = "vehicle", .summary = {}}, s.vehicle);
   document(Field{.key = "axle", .summary = {}}, s.axle);
   document(Field{.key = "compliance", .summary = {}}, s.compliance);
+  document(Field{.key = "sensitivity", .summary = {}}, s.sensitivity);
+  document(Field{.key = "tolerances", .summary = {}}, s.tolerances);
+  if (description && s.sensitivity) complete_sensitivity(document, *s.sensitivity, description->guide);
+  if (description && s.tolerances) complete_tolerances(document, *s.tolerances, description->guide);
   if (description && s.axle) complete_axle(document, *s.axle, description->guide);
-  if (description && s.compliance) check_compliance(document, *s.compliance, description->guide);
+  if (description && s.compliance) check_compliance(document, *s.compliance, *description);
   if (!description || !travels || !racks || document.document().has_errors()) return std::nullopt;
   s.description = *description;
   s.travels = *travels;
@@ -81,6 +85,8 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
       GridSweep{{s.travel, listed<LengthValues>(s.travels)}, listed<LengthValues>(s.racks)}, s.lock});
   if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);
   if (s.axle) canonical["axle"] = study::write_fields(*s.axle);
+  if (s.sensitivity) canonical["sensitivity"] = study::write_fields(*s.sensitivity);
+  if (s.tolerances) canonical["tolerances"] = study::write_fields(*s.tolerances);
   if (s.compliance) canonical["compliance"] = study::write_fields(*s.compliance);
   return s;
 }
@@ -162,6 +168,10 @@ values_mm = [-60.0, -30.0, 0.0, 30.0, 60.0]
                       study::schema_fields<AxleForm>());
     document.property(Field{.key = "compliance", .summary = "elastic joints and loads"},
                       study::schema_fields<ComplianceForm>());
+    document.property(Field{.key = "sensitivity", .summary = "derivatives of curves by the hard points"},
+                      study::schema_fields<SensitivityForm>());
+    document.property(Field{.key = "tolerances", .summary = "bands of curves when points have tolerances"},
+                      study::schema_fields<TolerancesForm>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;

@@ -30,9 +30,9 @@ std::vector<const GuideColumn*> columns_of(const SweepStudy& s) {
       std::any_of(guide.links.begin(), guide.links.end(), [](const GuideLink& l) { return l.moved_by_rack; });
   std::vector<const GuideColumn*> out;
   for (const GuideColumn& c : guide_columns()) {
-    const bool listed = std::find(s.quantities.begin(), s.quantities.end(), c.quantity) != s.quantities.end();
-    const bool has = (c.quantity != "spring" || guide.spring) &&
-                     ((c.quantity != "steering_axis" && c.quantity != "steering") || steered);
+    const bool listed = std::find(s.quantities.begin(), s.quantities.end(), c.group) != s.quantities.end();
+    const bool has = (c.group != "spring" || guide.spring) &&
+                     ((c.group != "steering_axis" && c.group != "steering") || steered);
     if (listed || (s.quantities.empty() && has)) out.push_back(&c);
   }
   return out;
@@ -48,7 +48,7 @@ struct Grid {
   double rack(std::size_t row) const { return study.racks[row / study.travels.size()]; }
   GuideRow row(std::size_t i) const {
     const WheelParameters& w = solved.wheels[i];
-    return {solved.positions[i], w, steering_axis_of(w, study.lock)};
+    return {solved.positions[i], w, study.lock};
   }
 };
 
@@ -63,7 +63,7 @@ Table sweep_table(const Grid& grid) {
   add("travel_m", "travel (m)", [&](std::size_t i) { return grid.travel(i); });
   add("rack_m", "rack (m)", [&](std::size_t i) { return grid.rack(i); });
   for (const GuideColumn* c : columns_of(grid.study))
-    add(c->key, c->label, [&](std::size_t i) { return c->value(grid.row(i)); });
+    add(c->key, c->label, [&](std::size_t i) { return value_of(*c, grid.row(i)); });
   add("closure_residual_m", "closure residual (m)",
       [&](std::size_t i) { return grid.solved.positions[i].residual; });
   const bool complete = std::all_of(grid.solved.positions.begin(), grid.solved.positions.end(),
@@ -86,6 +86,23 @@ Table limits_table(const std::vector<double>& racks, const std::vector<TravelLim
   table.add("lowest_travel_m", "lowest travel that the links reach (m)", low);
   table.add("highest_travel_m", "highest travel that the links reach (m)", high);
   return table;
+}
+
+/// What the spring does at the wheel, in further columns.
+void add_wheel_rates(Table& table, const SweepStudy& s, const GuidePlan& plan, const Grid& grid) {
+  std::vector<double> force, rate, by_ratio;
+  for (std::size_t i = 0; i < grid.rows(); ++i) {
+    WheelRate w{.status = Status::no_assembly};
+    if (grid.solved.positions[i].status == Status::done)
+      w = wheel_rate(s.description.guide, plan, grid.solved.positions[i], *s.description.spring);
+    const bool there = w.status == Status::done;
+    force.push_back(there ? w.wheel_force : WheelParameters::missing);
+    rate.push_back(there ? w.rate : WheelParameters::missing);
+    by_ratio.push_back(there ? w.motion_ratio_by_travel : WheelParameters::missing);
+  }
+  table.add("wheel_force_N", "force of the spring at the wheel centre (N)", std::move(force));
+  table.add("wheel_rate_N_per_m", "wheel rate (N/m)", std::move(rate));
+  table.add("motion_ratio_by_travel", "motion ratio by travel (1/m)", std::move(by_ratio));
 }
 
 void add_plots(study::Result& result, const SweepStudy& s) {
@@ -111,6 +128,7 @@ void add_plots(study::Result& result, const SweepStudy& s) {
   over_travel("trail", "Trail over travel", {"trail_m"});
   over_travel("scrub-radius", "Scrub radius over travel", {"scrub_radius_m"});
   over_travel("motion-ratio", "Motion ratio of the spring over travel", {"motion_ratio"});
+  over_travel("wheel-rate", "Wheel rate over travel", {"wheel_rate_N_per_m"});
   over_travel("spin", "Spin of the carrier over travel", {"spin_rad"});
 }
 
@@ -239,6 +257,7 @@ study::Result run_sweep_study(const SweepStudy& s, RunContext& context) {
     return result;
   }
   result.tables.push_back(sweep_table(grid));
+  if (s.description.spring) add_wheel_rates(result.tables.front(), s, plan, grid);
   std::vector<TravelLimits> limits;
   const GuidePosition reference = reference_position(plan, s.travel);
   TravelLimits centred;
@@ -252,7 +271,10 @@ study::Result run_sweep_study(const SweepStudy& s, RunContext& context) {
   add_facts(result, s, grid, centred);
   if (s.vehicle) add_anti_features(result, *s.vehicle, grid.solved.wheels);
   if (s.axle) add_axle(result, s.description.guide, *s.axle, s.vehicle);
-  if (s.compliance) add_compliance(result, s.description.guide, *s.compliance);
+  const SensitivityInputs inputs{s.travel, s.travels, s.racks[next_to_zero(s.racks)], s.lock};
+  if (s.sensitivity) add_sensitivity(result, s.description.guide, *s.sensitivity, inputs);
+  if (s.tolerances) add_tolerances(result, s.description.guide, *s.tolerances, inputs, context);
+  if (s.compliance) add_compliance(result, s.description, *s.compliance);
   result.scenes.push_back(scene_of(s, grid));
 
   std::size_t lost = 0;

@@ -5,9 +5,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linkwright/study/bind_write.h"
+
 namespace linkwright::suspension {
 
 constexpr std::size_t most_values = 100000;
+
+bool read_value(study::ObjectReader& reader, const study::ObjectReader::Found& found, const Field& field,
+                Numbers& member) {
+  if (found.value->is_array()) return reader.convert(found, field, member.of);
+  double one = 0;
+  if (!reader.convert(found, field, one)) return false;
+  member.of = {one};
+  return true;
+}
+Value write_value(const Numbers& member) { return study::ObjectWriter::to_value(member.of); }
+Value schema_value(const Field&, const Numbers&) {
+  return study::schema_any_of({study::schema_number(), study::schema_array(study::schema_number())});
+}
 
 std::optional<std::vector<double>> values_of(study::ObjectReader& table, const InputValues& v,
                                              std::string_view unit) {

@@ -42,6 +42,15 @@ void fields(Visitor&& visit, AngleValues& v) {
   visit_values(visit, v, Dimension::angle, 1);
 }
 
+/// One number, or several.
+struct Numbers {
+  std::vector<double> of;
+};
+bool read_value(study::ObjectReader& reader, const study::ObjectReader::Found& found, const Field& field,
+                Numbers& member);
+Value write_value(const Numbers& member);
+Value schema_value(const Field& field, const Numbers& member);
+
 /// The values, ascending, each once; nothing, and the problem told, if they make no sense. `unit` is for
 /// hints: "mm".
 std::optional<std::vector<double>> values_of(study::ObjectReader& table, const InputValues& values,
