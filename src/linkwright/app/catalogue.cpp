@@ -10,6 +10,7 @@
 #include "linkwright/planar/studies.h"
 #include "linkwright/study/study.h"
 #include "linkwright/suspension/reproductions.h"
+#include "linkwright/suspension/studies.h"
 
 namespace linkwright::app {
 namespace {
@@ -26,7 +27,7 @@ Kinds join(std::initializer_list<Kinds> domains) {
 
 std::span<const study::Kind> catalogue() {
   // One line for each domain.
-  static const Kinds kinds = join({planar::studies()});
+  static const Kinds kinds = join({planar::studies(), suspension::studies()});
   return kinds;
 }
 
