@@ -55,6 +55,14 @@ TEST(HardPoints, ReadsBackWhatItsTableWrites) {
   EXPECT_EQ(read(to_csv(hard_point_table(points))), points);
 }
 
+TEST(HardPoints, OfAGuideGoByItsLinks) {
+  const std::vector<HardPoint> points = points_of(guide_sample("2RS-KS").guide);
+  ASSERT_EQ(points.size(), 11U);
+  EXPECT_EQ(points[1], (HardPoint{"lower_wishbone_body_2", {-0.17, 0.37, -0.1}}));
+  EXPECT_EQ(points[7], (HardPoint{"tie_rod_carrier", {-0.14, 0.7, -0.042}}));
+  EXPECT_EQ(points[10].name, "wheel_centre");
+}
+
 TEST(HardPoints, SaysWhatIsWrongWithAList) {
   EXPECT_THAT(problems_of(""), HasSubstr("points.txt: error: holds no point; one point a line: name x y z"));
   EXPECT_THAT(

@@ -34,7 +34,7 @@ export const parallel = signal(false);
 export const showSpeed = signal(false);
 export const showTargets = signal(true);
 export const showGhosts = signal(false);
-const crowded = 24; // more joints than this have no room for their names
+const crowded = view.scenes.some((s) => isSpatial(s)) ? 12 : 24; // more joints than this have no room for their names
 export const showLabels = signal((view.scenes[0]?.joints.length ?? 0) <= crowded);
 const forces = view.scenes.some((s) => s.moments.length > 0 || s.vectors.some((v) => v.quantity === "force"));
 const velocities = view.scenes.some((s) => s.vectors.some((v) => v.quantity === "velocity"));

@@ -1,7 +1,9 @@
 #include "linkwright/core/table.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <iterator>
+#include <string_view>
 
 #include "linkwright/core/check.h"
 
@@ -40,19 +42,23 @@ std::string to_csv(const Table& table) {
                      table.status.size(), rows);
   LINKWRIGHT_REQUIRE(table.names.empty() || table.names.size() == rows, "{} names for {} rows",
                      table.names.size(), rows);
-  std::string text = table.names.empty() ? "" : "name,";
-  for (const Column& column : table.columns) text += csv_cell(column.key) + ',';
-  text += "status\r\n";
+  fmt::memory_buffer text;
+  text.reserve(rows * table.columns.size() * 20);
+  const auto put = [&](std::string_view part) { text.append(part.data(), part.data() + part.size()); };
+  if (!table.names.empty()) put("name,");
+  for (const Column& column : table.columns) put(csv_cell(column.key) + ',');
+  put("status\r\n");
   for (std::size_t row = 0; row < rows; ++row) {
-    if (!table.names.empty()) text += csv_cell(table.names[row]) + ',';
+    if (!table.names.empty()) put(csv_cell(table.names[row]) + ',');
     for (const Column& column : table.columns) {
       if (const double value = column.values[row]; std::isfinite(value))
-        fmt::format_to(std::back_inserter(text), "{}", value);
-      text += ',';
+        fmt::format_to(fmt::appender(text), "{}", value);
+      text.push_back(',');
     }
-    text += (table.status.empty() ? "done" : csv_cell(table.status[row])) + "\r\n";
+    put(table.status.empty() ? "done" : csv_cell(table.status[row]));
+    put("\r\n");
   }
-  return text;
+  return fmt::to_string(text);
 }
 
 }  // namespace linkwright

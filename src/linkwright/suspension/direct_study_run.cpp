@@ -8,6 +8,7 @@
 #include "linkwright/optimise/statistics.h"
 #include "linkwright/suspension/direct_study.h"
 #include "linkwright/suspension/guide_scene.h"
+#include "linkwright/suspension/hard_points.h"
 #include "linkwright/suspension/structure.h"
 #include "linkwright/suspension/sweep_study.h"
 
@@ -154,6 +155,7 @@ void add_curves(study::Result& result, const DirectStudy& s, const DirectSynthes
          .x = by_rack ? "rack_m" : "travel_m",
          .y = {name + unit, "target_" + name + unit, "initial_" + name + unit},
          .style = one_curve ? study::Plot::Style::line : study::Plot::Style::points,
+         .scene = "solution-1",
          .bands = {}});
     if (one_curve)
       result.plots.back().bands.push_back({"lower_" + name + unit, "upper_" + name + unit, "tolerance"});
@@ -340,6 +342,7 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
   result.solutions.push_back(solution_of(s, best));
   add_curves(result, s, best, before);
   add_designs(result, s, best, before);
+  result.tables.push_back(hard_point_table(points_of(best.guide)));
   result.tables.push_back(directions_table(s, best));
   add_statistics(result, s, runs, cost_of(best, options));
   for (std::size_t i = 0; i < best.objectives.size(); ++i)

@@ -217,6 +217,31 @@ Vec3 from_vehicle(const PointFrame& frame, const Vec3& at) {
   return {take(frame.x), take(frame.y), take(frame.z)};
 }
 
+std::vector<HardPoint> points_of(const WheelGuide& guide) {
+  std::vector<HardPoint> out;
+  const auto add = [&](const std::string& link, std::string_view end, const std::vector<Vec3>& points) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      out.push_back({plain_name(fmt::format("{} {}{}", link, end,
+                                            points.size() > 1 ? fmt::format(" {}", i + 1) : std::string())),
+                     points[i]});
+  };
+  for (std::size_t i = 0; i < guide.links.size(); ++i) {
+    const std::string name = link_label(guide, static_cast<int>(i));
+    add(name, "body", guide.links[i].body);
+    add(name, "carrier", guide.links[i].carrier);
+  }
+  for (std::size_t i = 0; i < guide.couplers.size(); ++i) {
+    const std::string& name = guide.couplers[i].name;
+    add(name.empty() ? fmt::format("coupler {}", i + 1) : name, "point", {guide.couplers[i].point});
+  }
+  if (guide.spring) {
+    add("spring", "body", {guide.spring->body});
+    add("spring", "moving", {guide.spring->moving});
+  }
+  add("wheel", "centre", {guide.wheel.centre});
+  return out;
+}
+
 std::string plain_name(std::string_view name) {
   std::string out;
   for (const char c : name) {

@@ -125,14 +125,6 @@ study::Solution solution_of(const IndirectStudy& s, const SeedRun& run, std::str
   return out;
 }
 
-Table points_table(const IndirectStudy& s, const WheelGuide& guide) {
-  std::vector<HardPoint> points;
-  each_point(s, guide, [&](const std::string& name, const Vec3& at, const PointBox&) {
-    points.push_back({plain_name(name), at});
-  });
-  return hard_point_table(points);
-}
-
 /// Prescribed positions and what the wheel does there at the height and rack of each.
 Table poses_table(const CarrierTargets& targets, const WheelGuide& left) {
   Table table{.name = "poses"};
@@ -310,7 +302,7 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
     deviations("angle-deviations", "Deviations of the angles from the prescribed positions",
                {"deviation_toe_rad", "deviation_camber_rad", "deviation_spin_rad"});
   }
-  result.tables.push_back(points_table(s, guide));
+  result.tables.push_back(hard_point_table(points_of(guide)));
   result.tables.push_back(conditioning_table(s, best));
   result.tables.push_back(seeds_table(runs));
 

@@ -157,7 +157,8 @@ void add_sensitivity(study::Result& result, const WheelGuide& guide, const Sensi
          .title = fmt::format("{} by hard points over travel: the {} largest", words_of(column), y.size()),
          .table = table.name,
          .x = "travel_m",
-         .y = std::move(y)});
+         .y = std::move(y),
+         .scene = "travel"});
     over_travel.push_back(std::move(table));
     const std::size_t first = order.front();
     result.facts.push_back({fmt::format("{} is most sensitive to", words_of(column)), names[first]});
@@ -219,6 +220,7 @@ void add_tolerances(study::Result& result, const WheelGuide& guide, const Tolera
                             .table = table.name,
                             .x = "travel_m",
                             .y = {key},
+                            .scene = "travel",
                             .bands = {{"worst_lower_" + key, "worst_upper_" + key, "worst case"},
                                       {"rss_lower_" + key, "rss_upper_" + key, "root sum square"}}});
     if (form.monte_carlo.samples > 0) {

@@ -7,6 +7,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/suspension/guide_columns.h"
 #include "linkwright/suspension/guide_scene.h"
+#include "linkwright/suspension/hard_points.h"
 #include "linkwright/suspension/structure.h"
 #include "linkwright/suspension/sweep_study.h"
 
@@ -216,6 +217,7 @@ GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const d
                          std::span<const double> racks, RunContext& context) {
   GridPositions out;
   out.positions.reserve(travels.size() * racks.size());
+  out.wheels.reserve(travels.size() * racks.size());
   const GuidePosition reference = reference_position(plan, travel);
   const std::size_t middle = next_to_zero(travels);
   std::vector<GuidePosition> row(travels.size());
@@ -267,6 +269,7 @@ study::Result run_sweep_study(const SweepStudy& s, RunContext& context) {
     centred = travel_limits(plan, s.travel, 0, reference);
     result.tables.push_back(limits_table(s.racks, limits));
   }
+  result.tables.push_back(hard_point_table(points_of(s.description.guide)));
   add_plots(result, s);
   add_facts(result, s, grid, centred);
   if (s.vehicle) add_anti_features(result, *s.vehicle, grid.solved.wheels);
