@@ -1,7 +1,10 @@
 #include <benchmark/benchmark.h>
 
+#include "linkwright/suspension/axle_sweep.h"
+#include "linkwright/suspension/compliance.h"
 #include "linkwright/suspension/derivatives.h"
 #include "linkwright/suspension/samples.h"
+#include "linkwright/suspension/statics.h"
 #include "linkwright/suspension/wheel_parameters.h"
 
 namespace linkwright::suspension {
@@ -51,6 +54,60 @@ void guide_5KS_limits(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(travel_limits(plan, Driver::wheel_centre_z, 0, reference));
 }
 BENCHMARK(guide_5KS_limits)->Unit(benchmark::kMicrosecond);
+
+// A guide with rubber in every joint, elastic in all six directions but for balls, or with rods that give way
+// along their line only: the whole compliance with all joint forces at one position.
+enum Elastic { rubber, rods };
+void compliance(benchmark::State& state, const char* name, Elastic elastic, bool preloaded) {
+  const WheelGuide& guide = guide_sample(name).guide;
+  const GuidePlan plan = prepare(guide);
+  const GuidePosition at =
+      solve_position(plan, Driver::wheel_centre_z, {0.03, 0.01}, reference_position(plan));
+  GuideElasticity elasticity{.spring = 3e4};
+  for (const GuideLink& link : guide.links) {
+    LinkElasticity& joints = elasticity.links.emplace_back();
+    if (elastic == rods) {
+      joints.body = {{.translation = {1.5e7, rigid, rigid}}};
+      continue;
+    }
+    joints.body.assign(body_points(link.type), bushing(2e6, 8e6, 40, 1500));
+    joints.carrier.assign(carrier_points(link.type), ball_joint(1e8));
+  }
+  const std::optional<PointLoad> load =
+      preloaded ? std::optional(PointLoad{plan.contact, {0, 0, 4000}}) : std::nullopt;
+  for (auto _ : state) {
+    const Compliance found = solve_compliance(guide, at.place, 0.01, elasticity, Support::spring, load);
+    if (found.status != Status::done) state.SkipWithError("singular");
+    benchmark::DoNotOptimize(found.at_centre);
+  }
+}
+void compliance_5KS_rubber(benchmark::State& s) { compliance(s, "5KS", rubber, false); }
+void compliance_5KS_rods(benchmark::State& s) { compliance(s, "5KS", rods, false); }
+void compliance_5KS_rubber_preloaded(benchmark::State& s) { compliance(s, "5KS", rubber, true); }
+void compliance_double_wishbone_rubber(benchmark::State& s) { compliance(s, "2RS-KS", rubber, false); }
+BENCHMARK(compliance_5KS_rubber)->Unit(benchmark::kMicrosecond);
+BENCHMARK(compliance_5KS_rods)->Unit(benchmark::kMicrosecond);
+BENCHMARK(compliance_5KS_rubber_preloaded)->Unit(benchmark::kMicrosecond);
+BENCHMARK(compliance_double_wishbone_rubber)->Unit(benchmark::kMicrosecond);
+
+void forces_5KS(benchmark::State& state) {
+  const WheelGuide& guide = guide_sample("5KS").guide;
+  const GuidePlan plan = prepare(guide);
+  const GuidePosition at = reference_position(plan);
+  const WheelLoad load = load_at(plan.wheel.centre, plan.contact, {-1000, 2000, 4000});
+  for (auto _ : state) benchmark::DoNotOptimize(solve_forces(guide, plan, at, load, Support::spring));
+}
+BENCHMARK(forces_5KS)->Unit(benchmark::kMicrosecond);
+
+// Both wheels over roll from -5 to +5 degrees in steps of half a degree, with everything that is reported.
+void axle_roll_double_wishbone(benchmark::State& state) {
+  const AxlePlan plan = prepare_axle(guide_sample("2RS-KS").guide);
+  std::vector<double> values;
+  for (int i = -10; i <= 10; ++i) values.push_back(i * 0.5 / 57.3);
+  for (auto _ : state) benchmark::DoNotOptimize(sweep_axle(plan, AxleMotion::roll, values));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(values.size()));
+}
+BENCHMARK(axle_roll_double_wishbone)->Unit(benchmark::kMicrosecond);
 
 // Derivatives of all parameters at a position, for all thirty coordinates of the rods or for the first nine.
 void derivatives(benchmark::State& state, std::size_t count, Extent extent) {

@@ -68,10 +68,11 @@ void synthesis(benchmark::State& state, Example (*make)()) {
   const Example e = make();
   std::vector<IndirectTask> tasks;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) tasks.push_back(whole(e, seed));
+  RunContext context;
   std::size_t i = 0;
   double solved = 0;
   for (auto _ : state) {
-    const IndirectSynthesis found = synthesise(tasks[i % tasks.size()], {}, i + 1);
+    const IndirectSynthesis found = synthesise(tasks[i % tasks.size()], {}, i + 1, context);
     solved += found.status == Status::done;
     ++i;
   }
@@ -89,7 +90,7 @@ void evolution(benchmark::State& state, Example (*make)()) {
   double generations = 0;
   for (auto _ : state) {
     for (const LinkTask& link : whole(e, ++seed).links)
-      generations += evolve_link(e.targets, link, seed, context).generations;
+      generations += evolve_links(e.targets, {&link, 1}, {}, {}, {.seed = seed}, context).generations;
   }
   state.counters["generations"] = generations / static_cast<double>(seed);
 }

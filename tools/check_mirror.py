@@ -22,6 +22,8 @@ NO_TEST = {
     "math/ode_pairs.h": "coefficients; their orders are measured in ode_test.cpp",
     "math/ode_stepper.h": "part of ode, tested in ode_test.cpp",
     "math/ode_vectors.h": "part of ode, used by every step of ode_test.cpp",
+    "report/canvas.h": "part of svg, tested in svg_test.cpp",
+    "report/svg_arrows.h": "part of svg, tested in svg_test.cpp",
     "study/kind.h": "plain data; every kind's own test fills and runs it",
     "study/reproduction.h": "plain data; every table is computed in planar/reproductions_test.cpp",
     "study/result.h": "plain data; written by the tests of results and reports",

@@ -1,8 +1,8 @@
-import { defineConfig } from "vite";
+import { defineConfig, type UserConfig } from "vite";
 
-// The bundle carries the notices that the licences of its parts ask for.
-const notices = `/*! Linkwright report viewer. Contains:
-Preact, (c) 2015-present Jason Miller; @preact/signals, (c) 2022-present Preact Team; uPlot, (c) 2022 Leon Sorokin.
+// Each bundle carries the notices that the licences of its parts ask for.
+const notices = (parts: string) => `/*! Linkwright report viewer. Contains:
+${parts}
 The MIT License: Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated
 documentation files (the "Software"), to deal in the Software without restriction, including without limitation the rights to
 use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the Software, and to permit persons to whom the
@@ -13,15 +13,27 @@ NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FO
 IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER
 DEALINGS IN THE SOFTWARE. */`;
 
+const viewer = {
+  entry: "src/main.tsx",
+  name: "linkwrightReport",
+  file: "viewer",
+  parts: "Preact, (c) 2015-present Jason Miller; @preact/signals, (c) 2022-present Preact Team; uPlot, (c) 2022 Leon Sorokin.",
+};
+// What draws scenes in space is large, and only reports that have one carry it.
+const space = { entry: "src/space.ts", name: "linkwrightSpace", file: "space", parts: "three.js, (c) 2010-2026 three.js authors." };
+
 // One script and one style sheet that run from disk in any current browser.
-export default defineConfig({
-  define: { "process.env.NODE_ENV": '"production"' },
-  esbuild: { jsx: "automatic", jsxImportSource: "preact", legalComments: "none" },
-  build: {
-    target: "es2020",
-    reportCompressedSize: false,
-    lib: { entry: "src/main.tsx", name: "linkwrightReport", formats: ["iife"], fileName: () => "viewer.js", cssFileName: "viewer" },
-    rollupOptions: { output: { banner: notices } },
-  },
-  test: { include: ["tests/*.test.ts"] },
-} as Parameters<typeof defineConfig>[0]);
+export default defineConfig(({ mode }) => {
+  const bundle = mode === "space" ? space : viewer;
+  return {
+    define: { "process.env.NODE_ENV": '"production"' },
+    esbuild: { jsx: "automatic", jsxImportSource: "preact", legalComments: "none" },
+    build: {
+      target: "es2020",
+      reportCompressedSize: false,
+      lib: { entry: bundle.entry, name: bundle.name, formats: ["iife"], fileName: () => `${bundle.file}.js`, cssFileName: bundle.file },
+      rollupOptions: { output: { banner: notices(bundle.parts) } },
+    },
+    test: { include: ["tests/*.test.ts"] },
+  } as UserConfig;
+});

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <set>
 
 #include "linkwright/study/read.h"
@@ -29,6 +30,31 @@ TEST(Catalogue, FindsKindsByNameAndUnambiguousBeginning) {
       find("analysis/sample.weel"),
       HasSubstr("there is no kind of study 'analysis/sample.weel'; did you mean 'analysis/sample.wheel'?"));
   EXPECT_THAT(find("x"), HasSubstr("there is: synthesis/sample.lever/angle, analysis/sample.wheel"));
+}
+
+TEST(Catalogue, EveryExampleReadsAndThoseOfSuspensionsPassTheirChecks) {
+  int read = 0, ran = 0;
+  for (const char* name : {"studies", "suspension"}) {
+    const std::filesystem::path folder = std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples" / name;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() != ".toml") continue;
+      Diagnostics diagnostics;
+      const Value document = study::read_file(entry.path(), diagnostics);
+      const auto study = study::prepare(document, entry.path().string(), folder, catalogue(), diagnostics);
+      EXPECT_TRUE(diagnostics.empty()) << to_string(diagnostics[0]);
+      ASSERT_TRUE(study) << entry.path();
+      ++read;
+      if (!study->kind->mechanism.starts_with("suspension")) continue;  // they run in milliseconds
+      RunContext context;
+      const study::Result result = study::run_study(*study, context);
+      EXPECT_EQ(result.status, Status::done) << entry.path() << result.headline;
+      for (const study::Check& check : result.checks)
+        EXPECT_TRUE(check.passed) << entry.path() << check.quantity;
+      ++ran;
+    }
+  }
+  EXPECT_GE(read, 40);
+  EXPECT_GE(ran, 6);
 }
 
 TEST(Catalogue, TablesAreFoundByIdByBeginningOrAllTogether) {

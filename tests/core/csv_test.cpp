@@ -15,6 +15,16 @@ std::string problems(std::string_view text) {
   return out;
 }
 
+TEST(ReadCsv, ReadsNamesOfRows) {
+  Diagnostics diagnostics;
+  const auto table = read_csv("name,x_mm\n\"tie rod, inner\",-12.5\nupper front ,3\n", "p.csv", diagnostics);
+  ASSERT_TRUE(table) << to_string(diagnostics.at(0));
+  EXPECT_EQ(table->names, (std::vector<std::string>{"tie rod, inner", "upper front"}));
+  ASSERT_EQ(table->columns.size(), 1U);
+  EXPECT_EQ(table->columns[0].values, (std::vector{-12.5, 3.0}));
+  EXPECT_EQ(to_csv(*table), "name,x_mm,status\r\n\"tie rod, inner\",-12.5,done\r\nupper front,3,done\r\n");
+}
+
 TEST(ReadCsv, ReadsWhatTablesWrite) {
   Table table{.name = "points"};
   table.add("x_m", "x (m)", {0.1, std::nan(""), 1e-300});

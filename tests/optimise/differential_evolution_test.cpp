@@ -11,12 +11,13 @@
 #include "optimise/functions.h"
 #include "optimise/swarms.h"
 #include "support/message.h"
+#include "support/published.h"
 
 namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 SeedsReport run(const Problem& problem, const OptimiserOptions& method, int generations, int seeds,
                 double threshold) {
@@ -56,6 +57,30 @@ TEST(DifferentialEvolution, DemoFunctionOfTheWheelGuideStudies) {
   EXPECT_NEAR(best.cost, -0.0500016, 1e-5);
   EXPECT_NEAR(best.x[0], 3.000066, 1e-2);
   EXPECT_NEAR(best.x[1], 2.000255, 1e-2);
+}
+
+// The source's function (8) with the printed sign of its linear term and with the one that its text needs:
+// the global minima are not the same.
+TEST(DifferentialEvolution, DemoFunctionWithBothSigns) {
+  for (const char* id : {"de-demo-as-printed", "de-demo-sign-corrected"}) {
+    const linkwright::Value& given = linkwright::testing::published_case("suspension.json", id);
+    const double linear = linkwright::testing::number_at(given, "inputs.linear_coefficient");
+    const Problem problem = test::make_problem(2, -5, 5, [linear](std::span<const double> x) {
+      return test::Value{std::pow(x[0] * x[0] + x[1] - 11, 2) + std::pow(x[0] + x[1] * x[1] - 7, 2) +
+                         linear * (x[0] + x[1])};
+    });
+    OptimiserOptions method = {.method = Method::differential_evolution};
+    method.differential_evolution.population = 40;
+    const auto report = run(problem, method, 300, 5, -1e9);
+    const Report& best = report.reports[report.best];
+    const auto& minima = linkwright::testing::at(given, "computed.minima").as_array();
+    const auto global =
+        static_cast<std::size_t>(linkwright::testing::number_at(given, "computed.global_index"));
+    const auto x = linkwright::testing::numbers(linkwright::testing::at(minima[global], "x"));
+    EXPECT_NEAR(best.x[0], x[0], 1e-6) << id;
+    EXPECT_NEAR(best.x[1], x[1], 1e-6) << id;
+    EXPECT_NEAR(best.cost, linkwright::testing::number_at(minima[global], "f"), 1e-12) << id;
+  }
 }
 
 TEST(DifferentialEvolution, HasFiveMembersAVariableUnlessTold) {

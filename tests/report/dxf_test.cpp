@@ -55,6 +55,36 @@ TEST(Dxf, SpringsGuidesAndCirclesAreDrawnAndArrowsAreNot) {
   EXPECT_THAT(dxf(scene), HasSubstr(" 40\n250\n"));
 }
 
+TEST(Dxf, SpatialScenesAreDrawnInSpace) {
+  study::Scene scene;
+  scene.input = {0};
+  scene.second = {0, 1};
+  scene.points = {{"A", {0.1}, {0.2}, {0.3}}, {"B", {0.1}, {0.7, 0.8}, {0.3}}};
+  scene.bodies = {{"bar", {0, 1}, study::Scene::BodyStyle::bar},
+                  {"hinge", {0, 1}, study::Scene::BodyStyle::axis},
+                  {"spring", {0, 1}, study::Scene::BodyStyle::spring}};
+  scene.joints = {{"A", 0, study::Scene::JointStyle::ground_pivot}};
+  scene.discs = {{"wheel", 1, 0, 0.3, 0.2}};
+  DxfOptions options;
+  options.sample = 1;
+  const std::string text = dxf(scene, options);
+  EXPECT_THAT(text,
+              HasSubstr("LINE\n  8\nLINKS\n 10\n100\n 20\n200\n 30\n300\n 11\n100\n 21\n800\n 31\n300\n"));
+  // 15 % of 600 mm beyond A.
+  EXPECT_THAT(text, HasSubstr("LINE\n  8\nAXES\n 10\n100\n 20\n110\n 30\n300\n"));
+  EXPECT_THAT(text, HasSubstr("POLYLINE\n  8\nWHEELS\n 66\n     1\n 10\n0\n 20\n0\n 30\n0\n 70\n     9\n"));
+  EXPECT_THAT(text, HasSubstr("POINT\n  8\nJOINTS\n"));
+  EXPECT_THAT(text, Not(HasSubstr("CIRCLE")));
+  // The lowest and highest place of the wheel.
+  EXPECT_THAT(text, HasSubstr(" 30\n0\n  9\n$EXTMAX"));
+}
+
+TEST(Dxf, PlanarScenesHaveNoSpatialLayers) {
+  const std::string text = dxf(test::sample_result().scenes[0]);
+  EXPECT_THAT(text, Not(HasSubstr("AXES")));
+  EXPECT_THAT(text, Not(HasSubstr("WHEELS")));
+}
+
 TEST(Dxf, EmptySceneIsAnEmptyDrawing) {
   const std::string text = dxf(study::Scene());
   EXPECT_THAT(text, HasSubstr("ENTITIES\n  0\nENDSEC\n  0\nEOF\n"));

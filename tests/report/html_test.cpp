@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "linkwright/report/viewer.h"
 #include "tests/report/sample_result.h"
+#include "tests/report/sample_spatial.h"
 
 namespace linkwright::report {
 namespace {
@@ -44,6 +46,17 @@ TEST(Html, ScriptsEndOnlyWhereTheyShould) {
     ++ends;
   EXPECT_EQ(ends, LINKWRIGHT_HAS_VIEWER ? 3u : 0u);
   EXPECT_THAT(text, Not(HasSubstr("<!--")));
+}
+
+TEST(Html, OnlySpatialReportsDrawInSpace) {
+  const std::string flat = page(test::sample_result(), "a"), spatial = page(test::sample_spatial(), "a");
+  EXPECT_THAT(flat, Not(HasSubstr("linkwrightSpace=")));
+  EXPECT_EQ(spatial.find(space_js()) != std::string::npos, true);
+  EXPECT_THAT(spatial, HasSubstr("<figure class=\"drawing\" data-scene=\"0\">"));
+  EXPECT_THAT(flat, Not(HasSubstr("data-scene=")));
+  EXPECT_THAT(spatial, Not(HasSubstr("<!--")));
+  for (const char* loading : {"<link", " src=\"", "@import", "url(http"})
+    EXPECT_THAT(spatial, Not(HasSubstr(loading))) << loading;
 }
 
 TEST(Html, SameInputSameBytes) {

@@ -20,6 +20,12 @@ using testing::Not;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
 // A force that goes round a circle of 300 N about (100 N, 0), once.
 Table turning() {
   Table table{.name = "sweep"};
@@ -141,6 +147,83 @@ TEST(PlotSvg, ValuesThatDifferByRoundingEndInAPicture) {
     EXPECT_LT(svg.size(), 20000u);
     EXPECT_THAT(svg, HasSubstr("text-anchor=\"end\""));
   }
+}
+
+Table grid() {
+  Table table;
+  table.name = "grid";
+  table.add("travel_mm", "travel (mm)", {0, 1, 2, 0, 1, 2});
+  table.add("rack_mm", "rack (mm)", {30, 30, 30, -30, -30, -30});
+  table.add("toe_deg", "toe (deg)", {1, 2, 3, -1, nan, -3});
+  table.add("low_deg", "", {nan, nan, nan, -2, -2, -2});
+  table.add("high_deg", "", {nan, nan, nan, -1, -1, nan});
+  return table;
+}
+
+study::Plot grouped() {
+  study::Plot plot;
+  plot.title = "Toe";
+  plot.table = "grid";
+  plot.x = "travel_mm";
+  plot.y = {"toe_deg"};
+  plot.group = "rack_mm";
+  return plot;
+}
+
+TEST(PlotSvg, GroupsAreOneCurveEach) {
+  const std::string picture = plot_svg(grouped(), grid());
+  EXPECT_EQ(test::fault_of_xml(picture), "");
+  EXPECT_EQ(count(picture, "class=\"curve\""), 2u);
+  // In rising order, in the unit of the table.
+  const std::size_t first = picture.find(">rack -30 mm</text>"), second = picture.find(">rack 30 mm</text>");
+  ASSERT_NE(first, std::string::npos);
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_LT(first, second);
+  EXPECT_THAT(picture, HasSubstr(">toe (deg)</text>"));
+  study::Plot two = grouped();
+  two.y.push_back("low_deg");
+  EXPECT_THAT(plot_svg(two, grid()), HasSubstr(">toe (deg), rack -30 mm</text>"));
+  two.group = "missing";
+  EXPECT_EQ(count(plot_svg(two, grid()), "class=\"curve\""), 2u);
+}
+
+TEST(PlotSvg, ManyGroupsHaveOneLineOfLegend) {
+  Table table;
+  std::vector<double> x, g, y;
+  for (int k = 0; k < 9; ++k)
+    for (int i = 0; i < 2; ++i) {
+      x.push_back(i);
+      g.push_back(k);
+      y.push_back(k + i);
+    }
+  table.add("travel_mm", "travel (mm)", x);
+  table.add("rack_mm", "rack (mm)", g);
+  table.add("toe_deg", "toe (deg)", y);
+  EXPECT_THAT(plot_svg(grouped(), table), HasSubstr(">9 curves, rack 0 mm to rack 8 mm</text>"));
+}
+
+TEST(PlotSvg, BandsAndBaselinesLieBehind) {
+  study::Plot plot = grouped();
+  plot.bands = {{"low_deg", "high_deg", "target <toe>"}, {"gone", "high_deg", "gone"}};
+  Table before = grid();
+  before.name = "as built";
+  for (double& v : before.columns[2].values) v += 20;
+  const std::string picture = plot_svg(plot, grid(), &before);
+  EXPECT_EQ(test::fault_of_xml(picture), "");
+  EXPECT_EQ(count(picture, "class=\"band\""), 1u);
+  EXPECT_THAT(picture, HasSubstr(">target &lt;toe&gt;</text>"));
+  EXPECT_EQ(count(picture, "class=\"baseline\""), 2u);
+  EXPECT_THAT(picture, HasSubstr("<title>as built: rack -30 mm</title>"));
+  EXPECT_THAT(picture, HasSubstr(">as built</text>"));
+  EXPECT_LT(picture.find("class=\"band\""), picture.find("class=\"baseline\""));
+  EXPECT_LT(picture.find("class=\"baseline\""), picture.find("class=\"curve\""));
+  // The axis reaches to the baseline; the last row of the band has no upper edge, so that it has two corners
+  // on each side.
+  EXPECT_THAT(picture, HasSubstr(">20</text>"));
+  const std::size_t at = picture.find("class=\"band\" d=\"");
+  const std::string path = picture.substr(at, picture.find('Z', at) - at);
+  EXPECT_EQ(count(path, "L"), 3u);
+  EXPECT_THAT(picture, Not(HasSubstr("nan")));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "linkwright/core/check.h"
 #include "tests/report/sample_result.h"
+#include "tests/report/sample_spatial.h"
 #include "tests/report/well_formed.h"
 
 namespace linkwright::report {
@@ -121,6 +122,61 @@ TEST(Svg, DrawsSpringsDampersGuidesAndCircles) {
   for (const char* name : {"return spring", "damper", "slide", "wheel"})
     EXPECT_THAT(picture, HasSubstr(std::string("<title>") + name + "</title>"));
   EXPECT_EQ(count(picture, "class=\"circle\""), 1u);
+}
+
+TEST(Svg, SpatialScenesAreSeenFromThreeSides) {
+  const auto result = test::sample_spatial();
+  const std::string picture = svg(result.scenes[0]);
+  EXPECT_EQ(test::fault_of_xml(picture), "");
+  EXPECT_EQ(count(picture, "class=\"view\""), 3u);
+  for (const char* name : {">rear view</text>", ">side view from the left</text>", ">top view</text>"})
+    EXPECT_THAT(picture, HasSubstr(name));
+  EXPECT_EQ(count(picture, "class=\"wheel\""), 3u);
+  EXPECT_EQ(count(picture, "class=\"joint\""), 30u);
+  EXPECT_EQ(count(picture, "<title>steering axis</title>"), 3u);
+  // The arrow of the force is seen from behind and from the side, and stands in the one key; from above it is
+  // a point.
+  EXPECT_EQ(count(picture, "class=\"arrow force\""), 3u);
+  EXPECT_THAT(picture, HasSubstr("<title>tyre force: 4000 N</title>"));
+  EXPECT_THAT(picture, Not(HasSubstr("nan")));
+}
+
+TEST(Svg, SpatialNumbersGrowToTheLeft) {
+  study::Scene scene;
+  scene.input = {0};
+  scene.points = {{"A", {0}, {0}, {0}}, {"B", {0.5}, {0.4}, {0.3}}};
+  scene.bodies = {{"bar", {0, 1}, study::Scene::BodyStyle::bar}};
+  const std::string picture = svg(scene);
+  const std::size_t near = picture.find(">0</text>"), far = picture.find(">200</text>");
+  ASSERT_NE(near, std::string::npos);
+  ASSERT_NE(far, std::string::npos);
+  EXPECT_LT(far, near);  // written from left to right
+  EXPECT_THAT(picture, HasSubstr(">y (mm)</text>"));
+}
+
+TEST(Svg, SecondInputsAreDrawnWithTheirSample) {
+  study::Scene scene;
+  scene.input = {0, 1};
+  scene.second = {0, 1};
+  scene.points = {{"O", {0}, {0}}, {"A", {1, 2, 3, 4}, {1, 1, 1, 1}}};
+  scene.bodies = {{"bar", {0, 1}, study::Scene::BodyStyle::bar}};
+  scene.traces = {{1, "path"}};
+  SvgOptions options;
+  options.sample = 3;
+  study::Scene row = scene;
+  row.second.clear();
+  row.points[1].x = {3, 4};
+  row.points[1].y = {1, 1};
+  const std::string picture = svg(scene, options);
+  options.sample = 1;
+  EXPECT_EQ(picture, svg(row, options));
+}
+
+TEST(Svg, EmptySpatialSceneSaysSo) {
+  study::Scene scene;
+  scene.input = {0};
+  scene.points = {{"A", {nan}, {nan}, {nan}}};
+  EXPECT_THAT(svg(scene), HasSubstr("Nothing to draw: the mechanism assembles at no input."));
 }
 
 TEST(Svg, UnassembledSamplesAreLeftOut) {

@@ -67,6 +67,42 @@ TEST(ViewData, ArrowsCouplesCirclesAndPolarPlots) {
   EXPECT_EQ(out.find("plots")->as_array()[0].find("style")->as_string(), "polar");
 }
 
+TEST(ViewData, SpatialScenesAndTheirPlots) {
+  study::Result result;
+  study::Scene scene;
+  scene.input = {0};
+  scene.second_key = "rack_m";
+  scene.second_label = "rack";
+  scene.second = {-0.01, 0.01};
+  scene.points = {{"A", {1}, {2}, {3, 4}}, {"B", {1}, {2}}};
+  scene.bodies = {{"hinge", {0, 1}, study::Scene::BodyStyle::axis}};
+  scene.discs = {{"wheel", 0, 1, 0.3, 0.2}};
+  scene.vectors = {{"f", study::Scene::Quantity::force, "N", 0, {1}, {2}, "F", {3}}};
+  result.scenes = {scene};
+  study::Plot plot;
+  plot.group = "rack_m";
+  plot.bands = {{"low", "high", "target"}};
+  plot.baseline = "before";
+  result.plots = {plot, study::Plot()};
+  const Value out = data(result);
+  const Value& drawn = out.find("scenes")->as_array()[0];
+  EXPECT_EQ(drawn.find("second_key")->as_string(), "rack_m");
+  EXPECT_EQ(drawn.find("second_label")->as_string(), "rack");
+  EXPECT_EQ(study::to_json(*drawn.find("second")), "[-0.01,0.01]");
+  EXPECT_EQ(study::to_json(*drawn.find("points")),
+            R"([{"name":"A","x":[1.0],"y":[2.0],"z":[3.0,4.0]},{"name":"B","x":[1.0],"y":[2.0]}])");
+  EXPECT_EQ(drawn.find("bodies")->as_array()[0].find("style")->as_string(), "axis");
+  EXPECT_EQ(study::to_json(*drawn.find("discs")),
+            R"([{"name":"wheel","centre":0,"axis":1,"radius":0.3,"width":0.2}])");
+  EXPECT_EQ(study::to_json(*drawn.find("vectors")->as_array()[0].find("z")), "[3.0]");
+  const auto& plots = out.find("plots")->as_array();
+  EXPECT_EQ(plots[0].find("group")->as_string(), "rack_m");
+  EXPECT_EQ(study::to_json(*plots[0].find("bands")), R"([{"lower":"low","upper":"high","label":"target"}])");
+  EXPECT_EQ(plots[0].find("baseline")->as_string(), "before");
+  // What a planar report does not have it does not carry either.
+  for (const char* key : {"group", "bands", "baseline"}) EXPECT_EQ(plots[1].find(key), nullptr) << key;
+}
+
 TEST(ViewData, NamesOfStylesAndStatus) {
   const Value out = data(test::sample_result());
   const Value& scene = out.find("scenes")->as_array()[0];

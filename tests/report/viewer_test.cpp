@@ -22,6 +22,8 @@ TEST(Viewer, ScriptIsThereWhenItWasBuiltAndStaysSmall) {
   EXPECT_EQ(viewer_css().empty(), !LINKWRIGHT_HAS_VIEWER);
   // Under 150 kB compressed, which is about a third of this.
   EXPECT_LT(viewer_js().size(), 400'000u);
+  EXPECT_EQ(space_js().empty(), !LINKWRIGHT_HAS_VIEWER);
+  EXPECT_LT(space_js().size(), 800'000u);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Writes what the report tests outside C++ look at: write_samples DIR makes DIR/report.html,
-// DIR/simulation.html, DIR/hostile.html, DIR/empty.html, DIR/scene.dxf and DIR/scene.svg.
+// DIR/simulation.html, DIR/spatial.html, DIR/hostile.html, DIR/empty.html, DIR/scene.dxf and DIR/scene.svg.
 
 #include <filesystem>
 #include <fstream>
@@ -9,6 +9,7 @@
 #include "linkwright/report/html.h"
 #include "linkwright/report/svg.h"
 #include "tests/report/sample_result.h"
+#include "tests/report/sample_spatial.h"
 
 namespace {
 
@@ -45,6 +46,17 @@ int main(int count, char** arguments) {
                                           .tool = "linkwright 0.1.0",
                                           .command = {},
                                           .result_json = test::sample_json(simulation)}));
+
+  const study::Result spatial = test::sample_spatial();
+  write(folder / "spatial.html", html({.result = spatial,
+                                       .study_toml = {},
+                                       .title = "Double wishbone over travel and rack",
+                                       .source = {},
+                                       .tool = "linkwright 0.1.0",
+                                       .command = {},
+                                       .result_json = test::sample_json(spatial)}));
+  write(folder / "spatial.svg", svg(spatial.scenes.front()));
+  write(folder / "spatial.dxf", dxf(spatial.scenes.front()));
 
   study::Result broken = test::sample_result();
   broken.headline = broken.facts[0].label = broken.facts[0].text = test::hostile;

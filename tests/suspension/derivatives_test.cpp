@@ -160,6 +160,7 @@ TEST(Derivatives, AtRestAreTheSameWithoutRates) {
 TEST(Derivatives, WhereLinksLoseRankThereAreNone) {
   WheelGuide guide = guide_sample("5KS").guide;
   guide.links[4] = guide.links[3];
+  guide.links[4].name = "double";
   const DerivativePlan plan = prepare_derivatives(guide, hard_points(guide));
   const GuidePosition at{.place = {{plan.plan.wheel.centre, {}}, 0}};
   const WheelDerivatives found = wheel_derivatives(plan, at);

@@ -34,7 +34,7 @@ TEST(DesignNumbers, AreCalledByLinkPointAndAxis) {
   guide.links[0].name = "lower arm";
   EXPECT_EQ(label(guide, {DesignKind::body, 0, 1, 2}), "lower arm.body_2_z");
   EXPECT_EQ(label(guide, {DesignKind::carrier, 0, 0, 0}), "lower arm.carrier_x");
-  EXPECT_EQ(label(guide, {DesignKind::body, 2, 0, 1}), "link 3 (KS).body_y");
+  EXPECT_EQ(label(guide, {DesignKind::body, 2, 0, 1}), "tie rod.body_y");
   EXPECT_EQ(label(guide, {DesignKind::spring_moving, 0, 0, 2}), "spring.moving_z");
   EXPECT_EQ(label(guide, {DesignKind::wheel_toe}), "wheel.toe");
   at(guide, {DesignKind::body, 2, 0, 1}) = 0.5;

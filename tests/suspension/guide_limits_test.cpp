@@ -129,7 +129,7 @@ TEST(GuideLimits, OfLinksThatAreNotThereAreRefused) {
   limits.keep_out = {{0, true, 1, {}}};
   EXPECT_THAT(
       [&] { limit_answers(guide, limits, {}, {}, {}); },
-      ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("point 1 of link 1 (KS), which has 1")));
+      ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("point 1 of lower front rod, which has 1")));
 }
 
 }  // namespace

@@ -1,19 +1,17 @@
 #include "linkwright/suspension/indirect_synthesis_spin.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "support/message.h"
+#include "linkwright/suspension/guide_deviations.h"
+#include "linkwright/suspension/link_synthesis.h"
+#include "linkwright/suspension/published_guides.h"
 #include "tests/suspension/synthesis_cases.h"
 
 namespace linkwright::suspension {
 namespace {
-
-using linkwright::test::message;
-using ::testing::HasSubstr;
 
 struct Case {
   test::Example example;
@@ -87,12 +85,75 @@ TEST(IndirectSynthesisSpin, CanBeStopped) {
   EXPECT_EQ(fit.starts, 1);
 }
 
-TEST(IndirectSynthesisSpin, RefusesLinksItCannotFind) {
-  const Case c = make_case("ex2-forward", 1, 0.15);
+TEST(IndirectSynthesisSpin, TechniquesOfTheSourceKeepTheirPublishedDeviations) {
+  // Tab. 6-14, means over 40 repeats of differential evolution from boxes of 150 mm; a mechanism found here
+  // must not be worse in the mean of a few, where it is some twenty times better.
+  const Case c = make_case("ex4-forward", 1, 0.15);
+  for (const SpinTechnique technique : {SpinTechnique::quadratic, SpinTechnique::dyad}) {
+    const PublishedEvolution& published =
+        technique == SpinTechnique::dyad ? published_dyad() : published_quadratic();
+    constexpr int repeats = 4;
+    Deviation x, y, toe, camber;
+    const auto add = [](Deviation& to, const Deviation& d) {
+      to.largest += d.largest / repeats, to.mean += d.mean / repeats;
+    };
+    for (std::uint64_t seed = 1; seed <= repeats; ++seed) {
+      const Case boxes = make_case("ex4-forward", seed, 0.15);
+      RunContext context;
+      const SpinFit fit =
+          fit_with_unknown_spin(boxes.open, boxes.tasks, {.technique = technique}, seed, context);
+      ASSERT_EQ(fit.links.size(), 5u);
+      ASSERT_TRUE(spin_is_given(fit.targets));
+      WheelGuide guide = c.example.guide;
+      guide.links = fit.links;
+      EXPECT_NEAR(constraint_error(guide, fit.targets).gap, fit.largest, 1e-12);
+      const PoseDeviations d = pose_deviations(guide, boxes.open);
+      EXPECT_EQ(d.missed, 0);
+      add(x, d.x), add(y, d.y), add(toe, d.toe), add(camber, d.camber);
+    }
+    const auto expect = [](const Deviation& found, const std::array<double, 2>& printed, double unit) {
+      EXPECT_LT(found.largest, printed[0] * unit);
+      EXPECT_LT(found.mean, printed[1] * unit);
+    };
+    const double degree = M_PI / 180;
+    expect(x, published.deviations.x, 1);
+    expect(y, published.deviations.y, 1);
+    expect(toe, published.deviations.toe, degree);
+    expect(camber, published.deviations.camber, degree);
+  }
+}
+
+TEST(IndirectSynthesisSpin, TheQuadraticIsWhatTheSpinsFollow) {
+  const Case c = make_case("ex4-forward", 2, 0.15);
   RunContext context;
-  EXPECT_THAT(
-      message([&] { fit_with_unknown_spin(c.open, c.tasks, {}, 1, context); }),
-      HasSubstr("link 'link 4' of type SP: with unknown spin only KS, SS, RS, SR and RR links are found"));
+  const SpinFit fit =
+      fit_with_unknown_spin(c.open, c.tasks, {.technique = SpinTechnique::quadratic}, 2, context);
+  // Three coefficients: the spins of four more positions follow from those of three.
+  const auto spin = [&](std::size_t i) { return fit.targets.poses[i].angles.spin; };
+  const auto z = [&](std::size_t i) { return c.open.poses[i].centre.z; };
+  const double above = (spin(12) / z(12) - spin(8) / z(8)) / (z(12) - z(8)),
+               slope = spin(8) / z(8) - above * z(8);
+  EXPECT_NEAR(spin(10), slope * z(10) + above * z(10) * z(10), 1e-13);
+  const double below = (spin(0) - slope * z(0)) / (z(0) * z(0));
+  EXPECT_NEAR(spin(3), slope * z(3) + below * z(3) * z(3), 1e-13);
+}
+
+TEST(IndirectSynthesisSpin, DifferentialEvolutionWithBothTechniques) {
+  // As the source has it, over 33 and 30 unknowns; the first of its 50000 generations.
+  const Case c = make_case("ex4-forward", 1, 0.15);
+  for (const SpinTechnique technique : {SpinTechnique::quadratic, SpinTechnique::dyad}) {
+    EvolutionOptions options;
+    options.technique = technique;
+    options.method.generations = 40;
+    RunContext context;
+    const Evolution early = evolve_links(c.open, c.tasks, {}, options, {.seed = 1}, context);
+    options.method.generations = 400;
+    const Evolution later = evolve_links(c.open, c.tasks, {}, options, {.seed = 1}, context);
+    EXPECT_EQ(early.evaluations, 40 * 5 * (technique == SpinTechnique::dyad ? 30 : 33));
+    EXPECT_LT(early.objective, 0.05);
+    EXPECT_LT(later.objective, 0.5 * early.objective);
+    ASSERT_TRUE(spin_is_given(later.targets));
+  }
 }
 
 }  // namespace

@@ -22,11 +22,12 @@ struct Tally {
 /// Random boxes of 150 mm around the points of a link, as the source has them.
 Tally solve_boxes(const test::Example& e, const GuideLink& link, int boxes, double near) {
   Tally tally;
+  RunContext context;
   for (int i = 0; i < boxes; ++i) {
     const auto seed = static_cast<std::uint64_t>(i) + 1;
     RandomStream random({seed, 77});
     const LinkTask task = test::random_task(link, 0.15, random);
-    const LinkFit fit = fit_link(e.targets, task, {}, {}, seed);
+    const LinkFit fit = fit_link(e.targets, task, {}, {}, seed, context);
     if (fit.status != Status::done) continue;
     EXPECT_LE(fit.rms, 1e-8);
     EXPECT_LE(fit.rms, fit.largest);
@@ -67,38 +68,42 @@ TEST(LinkFit, OtherTypesOfLinks) {
 }
 
 TEST(LinkFit, TheSameSeedGivesTheSameBits) {
+  RunContext context;
   const test::Example e = test::example("ex4-forward");
   RandomStream random({5});
   const LinkTask task = test::random_task(e.links[0], 0.15, random);
-  const LinkFit a = fit_link(e.targets, task, {}, {}, 9), b = fit_link(e.targets, task, {}, {}, 9);
+  const LinkFit a = fit_link(e.targets, task, {}, {}, 9, context),
+                b = fit_link(e.targets, task, {}, {}, 9, context);
   EXPECT_EQ(a.link.body, b.link.body);
   EXPECT_EQ(a.link.carrier, b.link.carrier);
   EXPECT_EQ(a.evaluations, b.evaluations);
 }
 
 TEST(LinkFit, AKnownLinkIsNotFoundAgain) {
+  RunContext context;
   const test::Example e = test::example("ex1-forward");
   // Boxes that hold links 1 and 2: with the first known, the second is found.
   LinkTask task{.name = "either",
                 .body = {{{-0.3, 0.35, -0.15}, {0.3, 0.42, -0.05}}},
                 .carrier = {{{-0.02, 0.72, -0.15}, {0.02, 0.75, -0.12}}}};
   for (const int known : {0, 1}) {
-    const LinkFit fit = fit_link(e.targets, task, {}, {&e.links[known], 1}, 3);
+    const LinkFit fit = fit_link(e.targets, task, {}, {&e.links[known], 1}, 3, context);
     ASSERT_EQ(fit.status, Status::done);
     EXPECT_LT(largest_distance(fit.link, e.links[1 - known]), 1e-6);
   }
-  const LinkFit none = fit_link(e.targets, task, {.starts = 50}, {e.links.data(), 2}, 3);
+  const LinkFit none = fit_link(e.targets, task, {.starts = 50}, {e.links.data(), 2}, 3, context);
   EXPECT_EQ(none.status, Status::infeasible);
   EXPECT_GT(none.duplicates, 0);
   EXPECT_EQ(none.rms, std::numeric_limits<double>::infinity());
 }
 
 TEST(LinkFit, TheBestPlaceOfInexactPositionsStaysInTheBox) {
+  RunContext context;
   test::Example e = test::example("ex1-forward");
   for (CarrierTarget& pose : e.targets.poses) pose.centre.x += 1e-3 * std::sin(50 * pose.centre.z);
   RandomStream random({6});
   const LinkTask task = test::random_task(e.links[2], 0.05, random);
-  const LinkFit fit = fit_link(e.targets, task, {.starts = 20}, {}, 1);
+  const LinkFit fit = fit_link(e.targets, task, {.starts = 20}, {}, 1, context);
   EXPECT_EQ(fit.status, Status::not_converged);
   EXPECT_EQ(fit.starts, 20);
   EXPECT_GT(fit.rms, 1e-6);
@@ -108,6 +113,7 @@ TEST(LinkFit, TheBestPlaceOfInexactPositionsStaysInTheBox) {
 }
 
 TEST(LinkFit, RoundedTableGivesTheLeastSquaresOptimum) {
+  RunContext context;
   // The positions of the printed tables, five decimals, and the optima that an independent program found.
   for (const auto& [forward, table] :
        {std::pair{"ex1-forward", "lsq-table-ex1"}, {"ex2-forward", "lsq-table-ex2"}}) {
@@ -125,7 +131,7 @@ TEST(LinkFit, RoundedTableGivesTheLeastSquaresOptimum) {
                           .body = {box_around(link.body[0], 0.1)},
                           .carrier = {box_around(link.carrier[0], 0.1)},
                           .moved_by_rack = link.moved_by_rack};
-      const LinkFit fit = fit_link(e.targets, task, {.starts = 30}, {}, 1);
+      const LinkFit fit = fit_link(e.targets, task, {.starts = 30}, {}, 1, context);
       const double squares = testing::number_at(wanted, "sum_of_squares_m2");
       EXPECT_NEAR(fit.rms * fit.rms * 14, squares, 1e-6 * squares);
       EXPECT_LT(norm(fit.link.body[0] - point(testing::at(wanted, "body_m"))), 1e-6) << table << j;
@@ -138,7 +144,35 @@ TEST(LinkFit, RoundedTableGivesTheLeastSquaresOptimum) {
   }
 }
 
+TEST(LinkFit, CanBeStopped) {
+  const test::Example e = test::example("ex4-forward");
+  RandomStream random({1});
+  const LinkTask task = test::random_task(e.links[0], 0.15, random);
+  RunContext context;
+  context.cancel();
+  // Nothing is as exact as that: without the interruption all starts would be made.
+  const LinkFit fit = fit_link(e.targets, task, {.tolerance = 1e-30}, {}, 1, context);
+  EXPECT_EQ(fit.status, Status::cancelled);
+  EXPECT_EQ(fit.starts, 1);
+}
+
+TEST(LinkFit, StartsAreTakenFromGivenLinks) {
+  const test::Example e = test::example("ex4-forward");
+  RandomStream random({1});
+  const LinkTask task = test::random_task(e.links[0], 0.15, random);
+  GuideLink near = e.links[0];
+  near.body[0].x += 1e-4;
+  RunContext context;
+  const std::vector<GuideLink> starts{e.links[1], near};  // the first lies out of the boxes
+  const LinkFit fit = fit_link_from(starts, e.targets, task, {}, {}, context);
+  EXPECT_EQ(fit.starts, 1);
+  EXPECT_EQ(fit.status, Status::done);
+  EXPECT_LT(largest_distance(fit.link, e.links[0]), 1e-5);
+  EXPECT_EQ(fit_link_from({starts.data(), 1}, e.targets, task, {}, {}, context).status, Status::infeasible);
+}
+
 TEST(LinkFit, ConditioningTellsTheWeakDirection) {
+  RunContext context;
   const test::Example e = test::example("ex4-forward");
   const GuideLink& link = e.links[0];
   const LinkTask task{.body = {box_around(link.body[0], 0.1)}, .carrier = {box_around(link.carrier[0], 0.1)}};
@@ -149,7 +183,7 @@ TEST(LinkFit, ConditioningTellsTheWeakDirection) {
   moved.carrier[0] += 1e-3 * c.weakest.carrier[0];
   const LinkTask fixed{.body = {{moved.body[0], moved.body[0]}},
                        .carrier = {{moved.carrier[0], moved.carrier[0]}}};
-  const LinkFit fit = fit_link(e.targets, fixed, {}, {}, 1);
+  const LinkFit fit = fit_link(e.targets, fixed, {}, {}, 1, context);
   EXPECT_EQ(fit.starts, 0);
   EXPECT_LT(fit.rms, 1e-8);
   EXPECT_LT(c.singular_values.back(), 1e-6);
@@ -175,11 +209,12 @@ TEST(LinkFit, FewestPositionsArePublishedOnes) {
 }
 
 TEST(LinkFit, RefusesWhatItCannotDo) {
+  RunContext context;
   const test::Example e = test::example("ex1-forward");
   RandomStream random({1});
   LinkTask task = test::random_task(e.links[0], 0.15, random);
   const auto told = [&](const CarrierTargets& targets) {
-    return message([&] { fit_link(targets, task, {}, {}, 1); });
+    return message([&] { fit_link(targets, task, {}, {}, 1, context); });
   };
   task.type = LinkType::RS;
   EXPECT_THAT(

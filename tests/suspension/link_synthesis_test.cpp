@@ -56,9 +56,9 @@ Course evolve(const std::string& id, int repeats) {
       const auto seed = static_cast<std::uint64_t>(i) + 1;
       RandomStream random({seed, 5});
       const LinkTask task = test::random_task(link, 0.15, random);
-      const LinkEvolution run = evolve_link(e.targets, task, seed, context);
+      const Evolution run = evolve_links(e.targets, {&task, 1}, {}, {}, {.seed = seed}, context);
       course.generations += run.generations / static_cast<double>(repeats);
-      course.found += largest_distance(run.fit.link, link) < 1e-4;
+      course.found += largest_distance(run.links[0], link) < 1e-4;
     }
   course.found /= static_cast<double>(repeats) * static_cast<double>(e.links.size());
   return course;

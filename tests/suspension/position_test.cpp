@@ -128,6 +128,7 @@ TEST(GuidePosition, ReasonsInWords) {
 TEST(GuidePosition, FromALossOfRankThereIsNoWay) {
   WheelGuide guide = guide_sample("5KS").guide;
   guide.links[4] = guide.links[3];
+  guide.links[4].name = "double";
   const GuidePosition found = reference_position(prepare(guide));
   EXPECT_EQ(found.status, Status::singular);
   EXPECT_THAT(found.reason,

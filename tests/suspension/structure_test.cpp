@@ -65,6 +65,7 @@ TEST(Structure, WrongCountsAreToldWithTheirSum) {
 
   guide = guide_sample("5KS").guide;
   guide.links.push_back(guide.links[0]);
+  guide.links.back().name = "sixth rod";
   found = check_structure(guide);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].message,
@@ -75,6 +76,7 @@ TEST(Structure, WrongCountsAreToldWithTheirSum) {
 TEST(Structure, EqualLinksLoseRank) {
   WheelGuide guide = guide_sample("5KS").guide;
   guide.links[4] = guide.links[3];
+  guide.links[4].name = "double";
   const Diagnostics found = check_structure(guide);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].severity, Diagnostic::Severity::error);

@@ -17,7 +17,7 @@ std::string only(const WheelGuide& guide) {
 TEST(WheelGuide, NumbersOfPoints) {
   WheelGuide guide = guide_sample("2RS-KS").guide;
   guide.links[0].body.pop_back();
-  EXPECT_EQ(only(guide), "link.link 1 (RS): link 1 (RS) has 1 body points, RS takes 2");
+  EXPECT_EQ(only(guide), "link.lower wishbone: lower wishbone has 1 body points, RS takes 2");
   guide = guide_sample("S-2KS").guide;
   guide.links[0].name = "ball";
   guide.links[0].carrier = guide.links[0].body;
@@ -27,26 +27,26 @@ TEST(WheelGuide, NumbersOfPoints) {
 TEST(WheelGuide, LinksAndAxesOfNoLength) {
   WheelGuide guide = guide_sample("5KS").guide;
   guide.links[1].carrier = guide.links[1].body;
-  EXPECT_EQ(only(guide), "link.link 2 (KS): body and carrier point are the same: a link needs a length");
+  EXPECT_EQ(only(guide), "link.lower rear rod: body and carrier point are the same: a link needs a length");
   guide = guide_sample("2RS-KS").guide;
   guide.links[0].body[1] = guide.links[0].body[0];
-  EXPECT_EQ(only(guide), "link.link 1 (RS): the two body points of its axis are the same");
+  EXPECT_EQ(only(guide), "link.lower wishbone: the two body points of its axis are the same");
   guide = guide_sample("2RS-KS").guide;
   guide.links[0].carrier[0] = 0.5 * (guide.links[0].body[0] + guide.links[0].body[1]);
   EXPECT_EQ(only(guide),
-            "link.link 1 (RS): the ball joint lies on the axis of the hinge: the arm moves nothing");
+            "link.lower wishbone: the ball joint lies on the axis of the hinge: the arm moves nothing");
   guide = guide_sample("RR-KS").guide;
   guide.links[0].carrier = {guide.links[0].body[1], guide.links[0].body[0]};
-  EXPECT_EQ(only(guide), "link.link 1 (RR): both hinges have the same axis: the arm moves nothing");
+  EXPECT_EQ(only(guide), "link.trapezoidal arm: both hinges have the same axis: the arm moves nothing");
 }
 
 TEST(WheelGuide, LengthsNamesAndRack) {
   WheelGuide guide = guide_sample("SP-3KS").guide;
   guide.links[3].length = 0.5;
-  EXPECT_EQ(only(guide), "link.link 4 (SP): a length can be given to KS and SS links only, this is SP");
+  EXPECT_EQ(only(guide), "link.strut: a length can be given to KS and SS links only, this is SP");
   guide.links[3].length.reset();
   guide.links[0].length = -0.1;
-  EXPECT_EQ(only(guide), "link.link 1 (KS): length -0.1 m, needs a positive number");
+  EXPECT_EQ(only(guide), "link.lower front rod: length -0.1 m, needs a positive number");
   guide = guide_sample("SP-3KS").guide;
   guide.links[0].name = guide.links[1].name = "rod";
   EXPECT_EQ(only(guide), "link.rod: two links are called 'rod'");
@@ -67,16 +67,16 @@ TEST(WheelGuide, Wheel) {
 TEST(WheelGuide, CouplersAndSprings) {
   WheelGuide guide = guide_sample("interconnected").guide;
   guide.couplers[0].second = 1;
-  EXPECT_EQ(only(guide), "coupler.1: its second link has to be an SR link");
+  EXPECT_EQ(only(guide), "coupler.coupler: its second link has to be an SR link");
   guide = guide_sample("5KS").guide;
   guide.spring->link = 0;
   EXPECT_EQ(only(guide),
-            "spring: its moving end lies 66.6 mm off the line of link 1 (KS), which may turn about it");
+            "spring: its moving end lies 66.6 mm off the line of lower front rod, which may turn about it");
   guide.spring->link = 7;
   EXPECT_EQ(only(guide), "spring: there is no link 7");
   guide = guide_sample("SP-3KS").guide;
   guide.spring->link = 3;
-  EXPECT_EQ(only(guide), "spring: link 4 (SP) cannot hold it");
+  EXPECT_EQ(only(guide), "spring: strut cannot hold it");
 }
 
 TEST(WheelGuide, MirroredTwiceIsTheSame) {

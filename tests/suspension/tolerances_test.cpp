@@ -125,7 +125,7 @@ TEST(Tolerances, ContractsAreChecked) {
   ToleranceTask task = task_of("5KS", -1e-4);
   EXPECT_THAT([&] { tolerance_bands(task, {}, context); },
               ::testing::ThrowsMessage<ContractError>(
-                  ::testing::HasSubstr("tolerance -0.0001 of link 1 (KS).body_x")));
+                  ::testing::HasSubstr("tolerance -0.0001 of lower front rod.body_x")));
   task = task_of("5KS", 1e-4);
   task.curves.clear();
   EXPECT_THAT([&] { tolerance_bands(task, {}, context); },

@@ -33,6 +33,7 @@ TEST(WheelQuantities, EachIsAnotherNumberOfTheParameters) {
 TEST(WheelQuantities, WhatAPositionShowsByItselfIsKnownWithoutMotions) {
   WheelGuide guide = guide_sample("2RS-KS").guide;
   guide.links[1] = guide.links[0];
+  guide.links[1].name = "double";
   const GuidePlan plan = prepare(guide);
   const WheelParameters parameters = wheel_parameters(plan, {.place = {{plan.wheel.centre, {}}, 0}});
   ASSERT_EQ(parameters.status, Status::singular);

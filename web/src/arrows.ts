@@ -1,7 +1,9 @@
 // Arrows of forces and motion: their scale, their values between samples, their shapes.
 import type { BodyStyle, Moment, Num, Quantity, Scene, Vector } from "./data";
+import { isSpatial, samplesOf } from "./grid";
 import { placeNear, type Place } from "./motion";
 import { format } from "./units";
+import { bounds3, sizeOf } from "./space_view";
 import { bounds, niceStep, type Box } from "./view";
 
 export const quantities: Quantity[] = ["force", "velocity", "acceleration"];
@@ -25,26 +27,38 @@ export function valueNear(values: Num[], position: number): Num {
 export function componentsNear(vector: Vector, position: number): Place | null {
   const x = valueNear(vector.x, position);
   const y = valueNear(vector.y, position);
-  return x === null || y === null ? null : { x, y };
+  if (x === null || y === null) return null;
+  if (!vector.z) return { x, y };
+  const z = valueNear(vector.z, position);
+  return z === null ? null : { x, y, z };
 }
 
 const sized = ({ left, right, bottom, top }: Box) => Math.max(right - left, top - bottom);
+
+/** Largest side of the scene over all samples (m); null when nothing of it exists. */
+export function extentOf(scene: Scene): number | null {
+  if (isSpatial(scene)) {
+    const box = bounds3(scene);
+    return box && sizeOf(box);
+  }
+  const box = bounds(scene);
+  return box && sized(box);
+}
 
 /** Metres of an arrow in the drawing for a value of 1, the same at every sample: the largest arrow is a quarter of the scene, and
  *  samples that stand out, as near a dead point, count as three times the median. 0 = no arrow to draw. */
 export function arrowScale(scene: Scene, quantity: Quantity): number {
   const vectors = scene.vectors.filter((v) => v.quantity === quantity);
-  const box = bounds(scene);
-  if (!vectors.length || !box) return 0;
-  const sizes = scene.input
-    .map((_, i) => vectors.reduce((most, v) => {
-      const c = componentsNear(v, i);
-      return c ? Math.max(most, Math.hypot(c.x, c.y)) : most;
-    }, 0))
+  const extent = vectors.length ? extentOf(scene) : null;
+  if (extent === null) return 0;
+  const sizes = Array.from({ length: samplesOf(scene) }, (_, i) => vectors.reduce((most, v) => {
+    const c = componentsNear(v, i);
+    return c ? Math.max(most, Math.hypot(c.x, c.y, c.z ?? 0)) : most;
+  }, 0))
     .filter((size) => size > 0)
     .sort((a, b) => a - b);
   if (!sizes.length) return 0;
-  return (shareOfScene * sized(box)) / Math.min(sizes[sizes.length - 1], outstanding * sizes[sizes.length >> 1]);
+  return (shareOfScene * extent) / Math.min(sizes[sizes.length - 1], outstanding * sizes[sizes.length >> 1]);
 }
 
 /** The scene's box with the arrows of the quantities at all samples; one that stands out counts up to a third of the scene. */
@@ -157,20 +171,22 @@ export interface Reading {
   size: string;
   x: string;
   y: string;
+  z?: string; // in space, instead of the direction
   direction: string;
 }
 
 /** What a vector is at a position, as text with its unit. */
 export function readVector(vector: Vector, position: number): Reading {
   const c = componentsNear(vector, position);
-  const degrees = c && (Math.atan2(c.y, c.x) * 180) / Math.PI;
+  const degrees = c && c.z === undefined && (Math.atan2(c.y, c.x) * 180) / Math.PI;
   return {
     name: vector.name,
     quantity: vector.quantity,
-    size: withUnit(c && Math.hypot(c.x, c.y), vector.unit),
+    size: withUnit(c && Math.hypot(c.x, c.y, c.z ?? 0), vector.unit),
     x: withUnit(c && c.x, vector.unit),
     y: withUnit(c && c.y, vector.unit),
-    direction: degrees === null ? "–" : `${format(degrees, 4)}°`,
+    ...(vector.z ? { z: withUnit(c && c.z!, vector.unit) } : {}),
+    direction: typeof degrees === "number" ? `${format(degrees, 4)}°` : vector.z ? "" : "–",
   };
 }
 
@@ -185,4 +201,5 @@ export const readMoment = (moment: Moment, position: number): Reading => ({
 
 /** One line to be pasted elsewhere. */
 export const lineOf = (r: Reading) =>
-  r.quantity === "moment" ? `${r.name}: ${r.size}` : `${r.name}: ${r.size} (x ${r.x}, y ${r.y}, direction ${r.direction})`;
+  r.quantity === "moment" ? `${r.name}: ${r.size}`
+  : r.z !== undefined ? `${r.name}: ${r.size} (x ${r.x}, y ${r.y}, z ${r.z})` : `${r.name}: ${r.size} (x ${r.x}, y ${r.y}, direction ${r.direction})`;

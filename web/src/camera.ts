@@ -1,15 +1,15 @@
 // What part of the plane is on the screen, and how large things are drawn there.
 import { computed, signal } from "@preact/signals";
-import { arrowScale, boundsWith, quantities } from "./arrows";
+import { arrowScale, boundsWith, extentOf, quantities } from "./arrows";
 import { placeAt, type Place } from "./motion";
 import * as state from "./state";
-import { bounds, fit, toScreen, zoom, type Camera } from "./view";
+import { fit, toScreen, zoom, type Camera } from "./view";
 
 export const size = signal({ width: 760, height: 520 });
 export const moved = signal<Camera | null>(null); // null = everything in view
 /** Metres in the drawing for a value of 1, a quantity. */
 export const scales = computed(() => {
-  const scene = state.scene.value;
+  const scene = state.whole.value;
   return quantities.map((quantity) => ({ quantity, scale: scene ? arrowScale(scene, quantity) : 0 }));
 });
 const box = computed(() => state.scene.value && boundsWith(state.scene.value, scales.value.filter((s) => state.showArrows[s.quantity].value)));
@@ -27,11 +27,8 @@ export function zoomBy(factor: number, about?: Place): void {
 
 export const screen = (p: Place | null) => p && toScreen(camera.value, size.value, p);
 
-/** Larger side of the scene (m). */
-export const extent = computed(() => {
-  const box = state.scene.value && bounds(state.scene.value);
-  return box ? Math.max(box.right - box.left, box.top - box.bottom) : 1;
-});
+/** Largest side of the scene (m). */
+export const extent = computed(() => (state.whole.value && extentOf(state.whole.value)) ?? 1);
 
 /** Bars and pins are thinner where the bars are short, so that chains of many can be told apart. */
 export const thickness = computed(() => {

@@ -7,18 +7,33 @@ export interface Scene {
   input_key: string;
   input_label: string;
   input: number[];
+  /** A second input: samples are then all of `input` with its first value, then with the next one. */
+  second_key?: string;
+  second_label?: string;
+  second?: number[];
   status: string[];
-  points: { name: string; x: Num[]; y: Num[] }[];
+  points: { name: string; x: Num[]; y: Num[]; z?: Num[] }[]; // a scene with any z is spatial
   bodies: { name: string; points: number[]; style: BodyStyle }[];
   joints: { name: string; point: number; style: "ground_pivot" | "pivot" | "tracer" }[];
   traces: { point: number; name: string; closed: boolean }[];
   targets: Target[];
   circles: { name: string; centre: number; rim: number }[];
+  discs?: Disc[];
   vectors: Vector[];
   moments: Moment[];
 }
 
-export type BodyStyle = "ground" | "bar" | "plate" | "spring" | "damper" | "guide";
+export type BodyStyle = "ground" | "bar" | "plate" | "spring" | "damper" | "guide" | "axis";
+
+/** A wheel about the line from its centre to another point. */
+export interface Disc {
+  name: string;
+  centre: number;
+  axis: number;
+  radius: number;
+  width: number;
+}
+
 export type Quantity = "force" | "velocity" | "acceleration";
 
 export interface Vector {
@@ -28,6 +43,7 @@ export interface Vector {
   point: number;
   x: Num[];
   y: Num[];
+  z?: Num[];
   symbol: string;
 }
 
@@ -66,6 +82,9 @@ export interface Plot {
   style: "line" | "points" | "histogram" | "polar";
   logarithmic_y: boolean;
   scene: string;
+  group?: string; // column whose values split the rows into curves
+  bands?: { lower: string; upper: string; label: string }[];
+  baseline?: string; // table drawn pale behind
 }
 
 export interface Change {
@@ -109,6 +128,7 @@ export interface View {
 
 export interface Table {
   name: string;
+  names?: string[]; // of the rows, if they have any
   columns: { key: string; label: string }[];
   data: Num[][];
   status: string[];
@@ -143,15 +163,16 @@ const text = (id: string) => document.getElementById(id)?.textContent ?? "null";
 export const resultText = () => text("result-data");
 export const readView = (): View => JSON.parse(text("view-data"));
 
-type RawTable = { name: string; columns: { key: string; label: string }[]; data: (Num | string)[][] };
+type RawTable = { name: string; names?: string[]; columns: { key: string; label: string }[]; data: (Num | string)[][] };
 
 /** A table of result.json has the status as its last column, which holds text. */
-export function readTable({ name, columns, data }: RawTable): Table {
+export function readTable({ name, names, columns, data }: RawTable): Table {
   const at = columns.findIndex((c) => c.key === "status");
   const numbers = (_: unknown, i: number) => i !== at;
   const status = at < 0 ? [] : (data[at] as string[]);
   return {
     name,
+    names,
     columns: columns.filter(numbers),
     data: data.filter(numbers) as Num[][],
     status: status.some((s) => s !== "done") ? status : [],

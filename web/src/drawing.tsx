@@ -7,6 +7,7 @@ import { camera, extent, fitView, moved, screen, size, thickness, zoomBy } from 
 import type { Scene } from "./data";
 import { Arrows, Card, Key } from "./forces";
 import { isAssembled, isFixed, nearestSample, placeAt, placeNear, speeds, type Place } from "./motion";
+import { beyond } from "./space_view";
 import * as state from "./state";
 import { format, lengthUnit } from "./units";
 import { bounds, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, type Camera } from "./view";
@@ -165,7 +166,7 @@ function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boole
   return (
     <>
       {scene.bodies.map((body) => {
-        if (body.style !== "ground") colour = (colour + 1) % 6;
+        if (body.style !== "ground" && body.style !== "axis") colour = (colour + 1) % 6;
         const fill = `var(--c${Math.max(0, colour)})`;
         const places = body.points.map((p) => screen(placeNear(scene, p, at)));
         if (isSymbol(body.style)) {
@@ -176,6 +177,7 @@ function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boole
         if (plate !== plates || places.length < 2 || places.some((p) => p === null)) return null;
         const d = pathOf(places, plate);
         if (body.style === "ground") return <path class="ground" d={d}><title>{body.name}</title></path>;
+        if (body.style === "axis") return <path class="ground axis" d={pathOf(beyond(places as Place[]), false)}><title>{body.name}</title></path>;
         return (
           <g class="link" data-body={body.name}>
             <title>{body.name}</title>

@@ -6,9 +6,10 @@ import {
 import { arrowPixels, extent, scales, screen, size } from "./camera";
 import { Copy, Switch } from "./controls";
 import type { Quantity, Scene } from "./data";
-import { inputAt, placeNear } from "./motion";
+import { inputAt, placeNear, type Place } from "./motion";
 import * as state from "./state";
 import { format, lengthUnit, quantity as withUnit } from "./units";
+import { niceStep } from "./view";
 
 /** Pixels of an arrow for a value of 1. */
 const pixelsPerUnit = (quantity: Quantity) =>
@@ -17,6 +18,12 @@ const pixelsPerUnit = (quantity: Quantity) =>
 const keyRoom = () => Math.min(110, Math.max(40, 0.2 * size.value.width));
 /** Quantities of which there is something to draw. */
 const known = () => quantities.filter((q) => pixelsPerUnit(q) > 0 || (q === "force" && largestMoment(state.scene.value?.moments ?? []) > 0));
+/** In space an arrow is a length of the drawing: a round value and how long its arrow is. */
+const spatialKey = (quantity: Quantity) => {
+  const scale = (scales.value.find((s) => s.quantity === quantity)?.scale ?? 0) * state.magnify[quantity].value;
+  const value = niceStep((0.25 * extent.value) / scale);
+  return { value, length: value * scale };
+};
 const unitOfAll = (scene: Scene, quantity: Quantity) => (scene.vectors.find((v) => v.quantity === quantity)?.unit ?? "").replace(/2\b/, "²");
 
 const narrow = 480; // px: below it the names of arrows hide what they name
@@ -148,7 +155,8 @@ export function ArrowBar() {
       {shown.map((q) => {
         const factor = state.magnify[q].value;
         const text = `×${format(factor, 3)}`;
-        const key = pixelsPerUnit(q) > 0 ? `${format(keyValue(pixelsPerUnit(q), keyRoom()))} ${unitOfAll(scene, q)}` : "";
+        const value = state.spatial.value ? spatialKey(q).value : keyValue(pixelsPerUnit(q), keyRoom());
+        const key = pixelsPerUnit(q) > 0 ? `${format(value)} ${unitOfAll(scene, q)}` : "";
         return (
           <div class="scale">
             <Switch flag={state.showArrows[q]} text={plurals[q]} hint={`Arrows of ${plurals[q].toLowerCase()} (${{ force: "F", velocity: "W", acceleration: "A" }[q]})`} />
@@ -164,7 +172,34 @@ export function ArrowBar() {
   );
 }
 
-const instant = (scene: Scene, at: number) => `${scene.input_label || "input"} ${withUnit(scene.input_key, inputAt(state.motion.value, at), 5)}`;
+/** What an arrow is worth in space. */
+export function SpaceKey({ scene }: { scene: Scene }) {
+  const rows = quantities.filter((q) => state.showArrows[q].value && (scales.value.find((s) => s.quantity === q)?.scale ?? 0) > 0);
+  if (!rows.length) return null;
+  const unit = lengthUnit(extent.value);
+  return (
+    <ul class="space-key">
+      {rows.map((q) => {
+        const { value, length } = spatialKey(q);
+        return <li class={q} data-key={q}>{`${q} ${format(value)} ${unitOfAll(scene, q)} is ${format(length * unit.factor, 3)} ${unit.symbol} long`}</li>;
+      })}
+    </ul>
+  );
+}
+
+/** The inputs as text. */
+export function instant(scene: Scene, at: number): string {
+  const first = `${scene.input_label || "input"} ${withUnit(scene.input_key, inputAt(state.motion.value, at), 5)}`;
+  const second = scene.second?.[state.row.value];
+  return second === undefined ? first : `${first}, ${scene.second_label || "second input"} ${withUnit(scene.second_key ?? "", second, 5)}`;
+}
+
+/** Coordinates as text: "x 1, y 2 mm". */
+export function coordinates(p: Place | null): string {
+  const unit = lengthUnit(extent.value);
+  const each = (v: number) => format(Math.abs(v) < 1e-12 * extent.value ? 0 : v * unit.factor, 5);
+  return p ? `x ${each(p.x)}, y ${each(p.y)}${p.z === undefined ? "" : `, z ${each(p.z)}`} ${unit.symbol}` : "does not exist here";
+}
 
 /** Everything known of what is picked: an arrow, a couple, or a joint with what acts there. */
 function readPick(scene: Scene, pick: string, at: number): { title: string; place: string; readings: Reading[] } | null {
@@ -172,13 +207,19 @@ function readPick(scene: Scene, pick: string, at: number): { title: string; plac
   const i = Number(number);
   if (kind === "vector" && scene.vectors[i]) return { title: scene.vectors[i].name, place: "", readings: [readVector(scene.vectors[i], at)] };
   if (kind === "moment" && scene.moments[i]) return { title: scene.moments[i].name, place: "", readings: [readMoment(scene.moments[i], at)] };
+  const body = kind === "body" ? scene.bodies[i] : undefined;
+  if (body) return { title: body.name, place: body.points.map((p) => `${scene.points[p]?.name ?? ""}: ${coordinates(placeNear(scene, p, at))}`).join("; "), readings: [] };
+  const disc = kind === "disc" ? scene.discs?.[i] : undefined;
+  if (disc) {
+    const unit = lengthUnit(extent.value);
+    const size = (v: number) => `${format(v * unit.factor, 4)}\u202f${unit.symbol}`;
+    return { title: disc.name, place: `centre ${coordinates(placeNear(scene, disc.centre, at))}; radius ${size(disc.radius)}, width ${size(disc.width)}`, readings: [] };
+  }
   const joint = kind === "joint" ? scene.joints[i] : undefined;
   if (!joint) return null;
-  const p = placeNear(scene, joint.point, at);
-  const unit = lengthUnit(extent.value);
   return {
     title: joint.name,
-    place: p ? `x ${format(p.x * unit.factor, 5)}, y ${format(p.y * unit.factor, 5)} ${unit.symbol}` : "does not exist here",
+    place: coordinates(placeNear(scene, joint.point, at)),
     readings: [
       ...scene.vectors.filter((v) => v.point === joint.point).map((v) => readVector(v, at)),
       ...scene.moments.filter((m) => m.point === joint.point).map((m) => readMoment(m, at)),
@@ -199,7 +240,7 @@ export function Card() {
   return (
     <div class={`values-card${fixed ? " fixed" : ""}`} id="picked" role="group" aria-label={`Values of ${read.title}`}>
       <b>{read.title}</b>
-      {read.place && <span>{read.place}</span>}
+      {read.place && read.place.split("; ").map((line) => <span>{line}</span>)}
       {read.readings.map((r) => (
         <dl class={r.quantity}>
           {read.readings.length > 1 || read.place ? <div class="name"><dt>{r.name}</dt></div> : null}
@@ -207,7 +248,7 @@ export function Card() {
           {r.quantity !== "moment" && <>
             <div><dt>x</dt><dd>{r.x}</dd></div>
             <div><dt>y</dt><dd>{r.y}</dd></div>
-            <div><dt>direction</dt><dd>{r.direction}</dd></div>
+            {r.z === undefined ? <div><dt>direction</dt><dd>{r.direction}</dd></div> : <div><dt>z</dt><dd>{r.z}</dd></div>}
           </>}
         </dl>
       ))}
@@ -221,22 +262,23 @@ export function Values() {
   const [open, setOpen] = useState(false);
   const scene = state.scene.value;
   if (!scene || scene.vectors.length + scene.moments.length === 0) return null;
+  const last = state.spatial.value ? "z" : "direction";
   const rows = () => [
     ...scene.vectors.map((v, i) => ({ pick: `vector ${i}`, r: readVector(v, state.position.value) })),
     ...scene.moments.map((m, i) => ({ pick: `moment ${i}`, r: readMoment(m, state.position.value) })),
   ];
-  const text = () => [`at ${instant(scene, state.position.value)}`, "name\tsize\tx\ty\tdirection", ...rows().map(({ r }) => [r.name, r.size, r.x, r.y, r.direction].join("\t"))].join("\n");
+  const text = () => [`at ${instant(scene, state.position.value)}`, `name\tsize\tx\ty\t${last}`, ...rows().map(({ r }) => [r.name, r.size, r.x, r.y, r.z ?? r.direction].join("\t"))].join("\n");
   return (
     <details class="values" onToggle={(e) => setOpen(e.currentTarget.open)}>
       <summary>Forces and motion at this instant</summary>
       {open && <>
         <div class="scroll"><table>
-          <thead><tr><th scope="col">arrow</th><th scope="col" class="num">size</th><th scope="col" class="num">x</th><th scope="col" class="num">y</th><th scope="col" class="num">direction</th></tr></thead>
+          <thead><tr><th scope="col">arrow</th><th scope="col" class="num">size</th><th scope="col" class="num">x</th><th scope="col" class="num">y</th><th scope="col" class="num">{last}</th></tr></thead>
           <tbody>
             {rows().map(({ pick, r }) => (
               <tr class={state.picked.value === pick ? "current" : ""}>
                 <th scope="row"><button type="button" class="link" aria-pressed={state.picked.value === pick} onClick={() => (state.picked.value = state.picked.value === pick ? "" : pick)}>{r.name}</button></th>
-                <td class="num">{r.size}</td><td class="num">{r.x}</td><td class="num">{r.y}</td><td class="num">{r.direction}</td>
+                <td class="num">{r.size}</td><td class="num">{r.x}</td><td class="num">{r.y}</td><td class="num">{r.z ?? r.direction}</td>
               </tr>
             ))}
           </tbody>

@@ -1,5 +1,6 @@
 // How a scene moves: positions are fractional sample numbers, 0 to samples - 1.
 import type { Num, Scene } from "./data";
+import { isSpatial } from "./grid";
 import { unitOf } from "./units";
 
 export interface Motion {
@@ -14,6 +15,7 @@ export interface Motion {
 export interface Place {
   x: number;
   y: number;
+  z?: number; // only of points in space
 }
 
 const known = (value: Num | undefined): value is number => typeof value === "number" && Number.isFinite(value);
@@ -23,15 +25,19 @@ export function placeAt(scene: Scene, point: number, sample: number): Place | nu
   if (!p) return null;
   const x = p.x.length === 1 ? p.x[0] : p.x[sample];
   const y = p.y.length === 1 ? p.y[0] : p.y[sample];
-  return known(x) && known(y) ? { x, y } : null;
+  if (!p.z) return known(x) && known(y) ? { x, y } : null;
+  const z = p.z.length === 1 ? p.z[0] : p.z[sample];
+  return known(x) && known(y) && known(z) ? { x, y, z } : null;
 }
 
 export function analyse(scene: Scene): Motion {
   const samples = scene.input.length;
+  // In space a mark such as a roll centre may be without a place while the mechanism stands.
+  const byStatus = isSpatial(scene) && scene.status.length > 0;
   const ok = scene.input.map(
     (_, i) =>
       (scene.status[i] === undefined || scene.status[i] === "done") &&
-      scene.points.every((_, point) => placeAt(scene, point, i) !== null),
+      (byStatus || scene.points.every((_, point) => placeAt(scene, point, i) !== null)),
   );
   const runs: [number, number][] = [];
   ok.forEach((good, i) => {
@@ -55,7 +61,10 @@ export function placeNear(scene: Scene, point: number, position: number): Place 
   const a = placeAt(scene, point, i);
   if (share === 0) return a;
   const b = placeAt(scene, point, i + 1);
-  if (a && b) return { x: a.x + share * (b.x - a.x), y: a.y + share * (b.y - a.y) };
+  if (a && b) {
+    const flat = { x: a.x + share * (b.x - a.x), y: a.y + share * (b.y - a.y) };
+    return a.z === undefined || b.z === undefined ? flat : { ...flat, z: a.z + share * (b.z - a.z) };
+  }
   return share < 0.5 ? a : b;
 }
 
@@ -190,4 +199,4 @@ export function nearestSample(scene: Scene, motion: Motion, point: number, posit
 }
 
 export const isFixed = (scene: Scene, point: number) =>
-  scene.points[point] !== undefined && scene.points[point].x.length === 1 && scene.points[point].y.length === 1;
+  scene.points[point] !== undefined && scene.points[point].x.length === 1 && scene.points[point].y.length === 1 && (scene.points[point].z?.length ?? 1) === 1;

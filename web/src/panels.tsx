@@ -6,8 +6,9 @@ import { Copy } from "./controls";
 import { csv, drawingSvg, dxf, png, save, slug, targetTable } from "./exports";
 import { isAssembled, positionOfTurn } from "./motion";
 import { Convergence, Dots, hasHistogram, hasLoosePlots, LoosePlots } from "./plots";
-import { motion, position, result, runs, scene, sceneIndex, sceneOf, scrub, showScene, view } from "./state";
+import { motion, position, result, runs, scene, sceneIndex, sceneOf, scrub, showScene, spatial, view } from "./state";
 import { format, nameOf, quantity, unitOf } from "./units";
+import { space, still } from "./space_stage";
 import { targetErrors } from "./view";
 
 const failed = result.checks.filter((c) => !c.passed).length;
@@ -291,8 +292,8 @@ function DataTable({ table }: { table: Table }) {
       <summary>{table.name} <span class="note">{rows} rows, {table.columns.length} columns</span></summary>
       {open && (
         <div class="scroll tall"><table>
-          <thead><tr>{table.columns.map((c) => <th scope="col" class="num">{c.label || c.key}</th>)}{table.status.length > 0 && <th scope="col">status</th>}</tr></thead>
-          <tbody>{Array.from({ length: shown }, (_, r) => <tr>{table.data.map((c) => <td class="num">{format(c[r], 7)}</td>)}{table.status.length > 0 && <td>{table.status[r]}</td>}</tr>)}</tbody>
+          <thead><tr>{table.names && <th scope="col">name</th>}{table.columns.map((c) => <th scope="col" class="num">{c.label || c.key}</th>)}{table.status.length > 0 && <th scope="col">status</th>}</tr></thead>
+          <tbody>{Array.from({ length: shown }, (_, r) => <tr>{table.names && <th scope="row">{table.names[r]}</th>}{table.data.map((c) => <td class="num">{format(c[r], 7)}</td>)}{table.status.length > 0 && <td>{table.status[r]}</td>}</tr>)}</tbody>
         </table></div>
       )}
       {open && shown < rows && <p class="note">The first {shown} rows; the CSV file has them all.</p>}
@@ -306,7 +307,9 @@ export function Data() {
   const shown = scene.value;
   const missed = shown && targetTable(shown);
   const tables = missed ? [...result.tables, missed] : result.tables;
-  const svg = () => drawingSvg(document.querySelector<SVGSVGElement>("#drawing")!);
+  // In space the drawing is the three views of the printed page, and the picture what is on the screen.
+  const svg = () => (spatial.value ? new XMLSerializer().serializeToString(still()!) : drawingSvg(document.querySelector<SVGSVGElement>("#drawing")!));
+  const picture = () => (spatial.value && space.value ? space.value.picture() : png(svg()));
   const sample = () => {
     const at = Math.round(position.value);
     return isAssembled(motion.value, at) ? at : (motion.value.runs[0]?.[0] ?? 0);
@@ -318,7 +321,7 @@ export function Data() {
         {view.study_toml && <button type="button" class="get" data-download="study.toml" onClick={() => save("study.toml", view.study_toml)}>Study (TOML)</button>}
         {shown && <>
           <button type="button" class="get" data-download="svg" onClick={() => save(`${name}.svg`, svg(), "image/svg+xml")}>Drawing (SVG)</button>
-          <button type="button" class="get" data-download="png" onClick={async () => save(`${name}.png`, await png(svg()))}>Drawing (PNG)</button>
+          <button type="button" class="get" data-download="png" onClick={async () => save(`${name}.png`, await picture())}>Drawing (PNG)</button>
           <button type="button" class="get" data-download="dxf" onClick={() => save(`${name}.dxf`, dxf(shown, sample()), "application/dxf")}>Drawing (DXF, 1:1 mm)</button>
         </>}
       </div>
@@ -327,12 +330,15 @@ export function Data() {
   );
 }
 
+const planarKeys = "space plays, ← → step (shift: 10), T trace, V speed, E targets, G ghosts, N names, F forces, W velocities, A accelerations, B bounce, + − 0 zoom; drag a moving joint to move the mechanism";
+const spatialKeys = "space plays, ← → step (shift: 10), comma and full stop step the second input, 1 to 5 fixed views, P parallel projection, + − 0 zoom, T traces, N names, R ground, F forces, W velocities, A accelerations, B bounce; in the drawing drag to turn, drag with the right button or shift to move, Ctrl + wheel to zoom, arrow keys turn (shift: move); click a joint, a body or a wheel for its coordinates";
+
 export function Reproduce() {
   return (
     <Section title="How to reproduce" id="reproduce">
       {view.command && <div class="copyable"><pre>{view.command}</pre><Copy text={view.command} /></div>}
       {view.study_toml && <details><summary>The study</summary><div class="copyable"><pre>{view.study_toml}</pre><Copy text={view.study_toml} /></div></details>}
-      <footer>{view.tool}<span class="screen-only"> · keys: space plays, ← → step (shift: 10), T trace, V speed, E targets, G ghosts, N names, F forces, W velocities, A accelerations, B bounce, + − 0 zoom; drag a moving joint to move the mechanism</span></footer>
+      <footer>{view.tool}<span class="screen-only"> · keys: {spatial.value ? spatialKeys : planarKeys}</span></footer>
     </Section>
   );
 }

@@ -4,13 +4,22 @@ import { extent, fitView, zoomBy } from "./camera";
 import { Switch, toggle } from "./controls";
 import { Drawing, SpeedLegend, whiskerFactor } from "./drawing";
 import { ArrowBar, Values } from "./forces";
+import { rowsOf } from "./grid";
 import { gaps, inputAt, isAssembled, placeNear, positionOfTurn, spanOf, step } from "./motion";
+import { look, Positions, space, SpaceDrawing, ViewBar, viewName } from "./space_stage";
+import { viewpoints } from "./space_view";
 import * as state from "./state";
 import { format, lengthUnit, quantity, unitOf } from "./units";
 
 const walk = (count: number) => state.scrub(step(state.motion.value, state.position.value, count));
 const end = (last: boolean) => state.scrub(last ? state.motion.value.samples - 1 : 0);
 const play = () => state.motion.value.runs.length > 0 && toggle(state.playing);
+
+const zoom = (factor: number) => (state.spatial.value ? space.value?.zoom(factor) : zoomBy(factor));
+const fit = () => (state.spatial.value ? look(viewName.value) : fitView());
+function project(): void {
+  if (state.spatial.value) space.value?.parallel(toggle(state.parallel));
+}
 
 const keys: Record<string, (event: KeyboardEvent) => void> = {
   " ": play,
@@ -19,10 +28,15 @@ const keys: Record<string, (event: KeyboardEvent) => void> = {
   ArrowLeft: (e) => walk(e.shiftKey ? -10 : -1),
   Home: () => end(false),
   End: () => end(true),
-  "+": () => zoomBy(1.25),
-  "=": () => zoomBy(1.25),
-  "-": () => zoomBy(0.8),
-  "0": fitView,
+  "+": () => zoom(1.25),
+  "=": () => zoom(1.25),
+  "-": () => zoom(0.8),
+  "0": fit,
+  ",": () => state.showRow(state.row.value - 1),
+  ".": () => state.showRow(state.row.value + 1),
+  p: project,
+  r: () => toggle(state.showRoad),
+  ...Object.fromEntries(viewpoints.map((v) => [v.key, () => state.spatial.value && look(v.name)])),
   t: () => toggle(state.showTrace),
   v: () => toggle(state.showSpeed),
   e: () => toggle(state.showTargets),
@@ -67,12 +81,30 @@ function TimeLine() {
   );
 }
 
+/** Slider of the second input; its values are samples, and it stops at each of them. */
+function SecondInput() {
+  const whole = state.whole.value!;
+  const values = whole.second ?? [];
+  if (values.length < 2) return null;
+  const shown = quantity(whole.second_key ?? "", values[state.row.value], 4);
+  const name = whole.second_label || "second input";
+  return (
+    <div class="controls second">
+      <label for="second">{name}</label>
+      <input id="second" type="range" min={0} max={values.length - 1} step={1} value={state.row.value} aria-valuetext={shown} title={`${name} (, and .)`}
+        onKeyDown={(e) => e.key.startsWith("Arrow") || ["Home", "End", "PageUp", "PageDown"].includes(e.key) ? e.stopPropagation() : undefined}
+        onInput={(e) => state.showRow(Number(e.currentTarget.value))} />
+      <output>{shown}</output>
+    </div>
+  );
+}
+
 function Readout() {
   const scene = state.scene.value!;
   const motion = state.motion.value;
   const at = state.position.value;
   const good = isAssembled(motion, at);
-  const unit = unitOf(scene.input_key);
+  const unit = unitOf(scene.input_key, Math.max(...scene.input.map(Math.abs)));
   const tracer = scene.joints.find((j) => j.style === "tracer");
   const p = tracer && placeNear(scene, tracer.point, at);
   const length = lengthUnit(extent.value);
@@ -83,7 +115,8 @@ function Readout() {
     <dl class="title-block">
       <div class="wide"><dt>mechanism</dt><dd>{scene.title}</dd></div>
       <div><dt>{scene.input_label || "input"}</dt><dd id="input-value">{even ? value.toFixed(decimals).replace("-", "−") : format(value, 5)}{unit.symbol === "°" ? "°" : ` ${unit.symbol}`}</dd></div>
-      {tracer && <div class="mid"><dt>{`point ${tracer.name}`}</dt><dd>{p ? `${format(p.x * length.factor, 5)}, ${format(p.y * length.factor, 5)} ${length.symbol}` : "–"}</dd></div>}
+      {rowsOf(state.whole.value!) > 1 && <div><dt>{scene.second_label || "second input"}</dt><dd id="second-value">{quantity(scene.second_key ?? "", scene.second![state.row.value], 5)}</dd></div>}
+      {tracer && <div class="mid"><dt>{`point ${tracer.name}`}</dt><dd>{p ? `${[p.x, p.y, ...(p.z === undefined ? [] : [p.z])].map((v) => format(v * length.factor, 5)).join(", ")} ${length.symbol}` : "–"}</dd></div>}
       <div><dt>state</dt><dd class={good ? "ok" : "fail"}>{good ? "assembled" : (scene.status[Math.round(at)] ?? "no assembly").replace(/_/g, " ")}</dd></div>
     </dl>
   );
@@ -97,15 +130,17 @@ export function Machine() {
   const scene = state.scene.value;
   if (!scene) return null;
   const still = state.motion.value.samples < 2;
+  const spatial = state.spatial.value;
   return (
     <section class="machine card" aria-label="Mechanism">
       <div class="toolbar">
         {scene.traces.length > 0 && <Switch flag={state.showTrace} text="Trace" hint="Path of the traced point (T)" />}
-        {scene.traces.length > 0 && <Switch flag={state.showSpeed} text="Speed" hint="Trace coloured by the speed of the point (V)" />}
-        {scene.targets.length > 0 && <Switch flag={state.showTargets} text="Targets" hint="Target points and errors (E)" />}
-        <Switch flag={state.showGhosts} text="Ghosts" hint="Poses at equal steps (G)" />
+        {scene.traces.length > 0 && !spatial && <Switch flag={state.showSpeed} text="Speed" hint="Trace coloured by the speed of the point (V)" />}
+        {scene.targets.length > 0 && !spatial && <Switch flag={state.showTargets} text="Targets" hint="Target points and errors (E)" />}
+        {!spatial && <Switch flag={state.showGhosts} text="Ghosts" hint="Poses at equal steps (G)" />}
+        {spatial && <Switch flag={state.showRoad} text="Ground" hint="Grid at the lowest point of the wheels (R)" />}
         <Switch flag={state.showLabels} text="Names" hint="Names of the joints (N)" />
-        {scene.targets.length > 0 && (
+        {scene.targets.length > 0 && !spatial && (
           <label class="pick">errors
             <select id="whisker" value={String(state.whisker.value)} onChange={(e) => (state.whisker.value = e.currentTarget.value === "auto" ? "auto" : Number(e.currentTarget.value))}>
               <option value="auto">{`auto ×${format(whiskerFactor.value)}`}</option>
@@ -114,13 +149,14 @@ export function Machine() {
           </label>
         )}
         <span class="spring" />
-        <button type="button" title="Zoom out (−)" aria-label="Zoom out" onClick={() => zoomBy(0.8)}>−</button>
-        <button type="button" title="Zoom in (+, or Ctrl + wheel)" aria-label="Zoom in" onClick={() => zoomBy(1.25)}>+</button>
-        <button type="button" title="Everything in view (0 or double click)" onClick={fitView}>Fit</button>
+        {spatial && <ViewBar />}
+        {spatial && <button type="button" class="switch" id="parallel" aria-pressed={state.parallel.value} title="Parallel projection instead of perspective (P)" onClick={project}>Parallel</button>}
+        <button type="button" title="Zoom out (−)" aria-label="Zoom out" onClick={() => zoom(0.8)}>−</button>
+        <button type="button" title="Zoom in (+, or Ctrl + wheel)" aria-label="Zoom in" onClick={() => zoom(1.25)}>+</button>
+        <button type="button" title="Everything in view (0 or double click)" onClick={fit}>Fit</button>
       </div>
       <ArrowBar />
-      <Drawing />
-      <SpeedLegend />
+      {spatial ? <SpaceDrawing /> : <><Drawing /><SpeedLegend /></>}
       {!still && (
         <div class="controls">
           <button type="button" id="play" class="play" aria-label={state.playing.value ? "Pause" : "Play"} title="Play or pause (space)" onClick={play}>
@@ -135,7 +171,9 @@ export function Machine() {
           <Switch flag={state.bounce} text="⇄" hint="Bounce: back and forth instead of round (B)" />
         </div>
       )}
+      <SecondInput />
       <Readout />
+      <Positions />
       <Values />
     </section>
   );

@@ -5,6 +5,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Num, Plot, Table } from "./data";
 import { histogram, stackDots, type Run } from "./log";
+import { aligned, groupsOf, inputOf, linesOf, presentGroup } from "./groups";
 import { inputAt, positionOf, positionOfTurn } from "./motion";
 import { Polar } from "./polar";
 import { nearestRow, sortedRows } from "./rows";
@@ -28,17 +29,44 @@ const axis = (label: string, log = false): uPlot.Axis => ({
   size: (_, values, index) => (index === 0 ? 30 : Math.max(40, 14 + 6.4 * (values ?? []).reduce((n, v) => Math.max(n, v.length), 0))),
 });
 
+/** How the x of a diagram and an input of the scene follow each other. */
+interface Link {
+  now: () => number;
+  go: (x: number) => void;
+}
+
+const firstInput = (factor: number): Link => ({
+  now: () => inputAt(state.motion.peek(), state.position.peek()) * factor,
+  go: (x) => (state.position.value = positionOf(state.motion.peek(), x / factor)),
+});
+const secondInput = (factor: number): Link => ({
+  now: () => (state.whole.peek()?.second?.[state.row.peek()] ?? 0) * factor,
+  go: (x) => {
+    const values = state.whole.peek()?.second ?? [];
+    state.showRow(values.reduce((best, v, i) => (Math.abs(v * factor - x) < Math.abs(values[best] * factor - x) ? i : best), 0));
+  },
+});
+
+interface Unit {
+  label: string;
+  symbol: string;
+  series?: number; // of the data; as it is listed when not given, 0 = none
+  stroke?: string; // variable of its colour
+  dash?: number[];
+  swatch?: boolean; // of an area
+}
+
 interface Props {
   label: string;
   options: () => Omit<uPlot.Options, "width" | "height">;
   data: uPlot.AlignedData;
-  linked?: boolean; // x is the input of the scene shown, times `factor`
-  factor?: number;
-  units?: { label: string; symbol: string }[];
+  link?: Link; // x is an input of the scene shown
+  units?: Unit[];
+  emphasise?: (plot: uPlot) => void; // as the scene moves: changes the look of the series, and tells whether anything changed
   pick?: (row: number) => void; // a click at a row of the data
 }
 
-export function Chart({ label, options, data, linked = false, factor = 1, units = [], pick }: Props) {
+export function Chart({ label, options, data, link, units = [], emphasise, pick }: Props) {
   const box = useRef<HTMLDivElement>(null);
   const values = useRef<HTMLSpanElement[]>([]);
   useEffect(() => {
@@ -57,7 +85,7 @@ export function Chart({ label, options, data, linked = false, factor = 1, units 
             ready: [
               (u) => {
                 if (pick) u.over.addEventListener("click", () => typeof u.cursor.idx === "number" && pick(u.cursor.idx));
-                if (!linked) return;
+                if (!link) return;
                 now = u.over.appendChild(document.createElement("div"));
                 now.className = "now";
                 queueMicrotask(follow); // after the scales are set
@@ -68,7 +96,7 @@ export function Chart({ label, options, data, linked = false, factor = 1, units 
             setCursor: [
               (u) => {
                 const left = u.cursor.left ?? -1;
-                if (linked && inside && left >= 0) state.position.value = positionOf(state.motion.peek(), u.posToVal(left, "x") / factor);
+                if (link && inside && left >= 0) link.go(u.posToVal(left, "x"));
               },
             ],
           },
@@ -84,16 +112,19 @@ export function Chart({ label, options, data, linked = false, factor = 1, units 
       plot = build();
     });
     const follow = () => {
-      if (!now || !plot) return;
-      const input = inputAt(state.motion.peek(), state.position.peek()) * factor;
+      if (!now || !plot || !link) return;
+      emphasise?.(plot);
+      const input = link.now();
       now.style.transform = `translateX(${plot.valToPos(input, "x").toFixed(1)}px)`;
       const row = nearestRow(data[0] as number[], input);
       values.current.forEach((span, i) => {
-        span.textContent = `${format(data[i + 1]?.[row] ?? null, 5)}${units[i]?.symbol ? ` ${units[i].symbol}` : ""}`;
+        if (units[i].swatch || units[i].series === 0) return;
+        span.textContent = `${format(data[units[i].series ?? i + 1]?.[row] ?? null, 5)}${units[i]?.symbol ? ` ${units[i].symbol}` : ""}`;
       });
     };
     const stop = effect(() => {
       state.position.value;
+      state.row.value;
       follow();
     });
     const observer = new ResizeObserver(() => {
@@ -116,7 +147,7 @@ export function Chart({ label, options, data, linked = false, factor = 1, units 
       {units.length > 0 && (
         <div class="legend">
           {units.map((u, i) => (
-            <span><svg viewBox="0 0 24 6" aria-hidden="true"><path d="M0 3H24" style={{ stroke: `var(${seriesColours[i % 6]})`, strokeDasharray: dashes[i % 6].join(" ") }} /></svg>
+            <span>{u.swatch ? <i class="swatch" aria-hidden="true" /> : <svg viewBox="0 0 24 6" aria-hidden="true"><path d="M0 3H24" style={{ stroke: `var(${u.stroke ?? seriesColours[i % 6]})`, strokeDasharray: (u.dash ?? dashes[i % 6]).join(" ") }} /></svg>}
               {u.label} <b ref={(e) => { if (e) values.current[i] = e; }} /></span>
           ))}
         </div>
@@ -174,8 +205,84 @@ function TablePlot({ plot, table }: { plot: Plot; table: Table }) {
   }, [plot, table, linked]);
   return (
     <>
-      <Chart label={plot.title} data={made.data} options={made.options} linked={linked} factor={made.factor} units={made.units} pick={made.pick} />
+      <Chart label={plot.title} data={made.data} options={made.options} link={linked ? firstInput(made.factor) : undefined} units={made.units} pick={made.pick} />
       {made.pick && <p class="note screen-only">Click a point to see its design.</p>}
+    </>
+  );
+}
+
+/** A diagram with a curve for each value of its group, bands or a baseline. */
+function GroupPlot({ plot, table }: { plot: Plot; table: Table }) {
+  const linked = plot.scene !== "" && plot.scene === state.whole.value?.name;
+  const baseline = plot.baseline ? state.result.tables.find((t) => t.name === plot.baseline) : undefined;
+  const groups = useMemo(() => groupsOf(plot, table), [plot, table]);
+  const groupInput = inputOf(linked ? state.whole.value : undefined, plot.group ?? "");
+  /** The group of the inputs that are shown; -1 = none. */
+  const present = () => {
+    if (groupInput.input === 2) return presentGroup(groups, groupInput.factor, state.whole.peek()?.second?.[state.row.value] ?? 0);
+    return groupInput.input === 1 ? presentGroup(groups, groupInput.factor, inputAt(state.motion.value, state.position.value)) : -1;
+  };
+  // Only bands have to be looked up again for another group.
+  const banded = plot.bands?.length ? present() : -1;
+  const made = useMemo(() => {
+    const motion = state.motion.peek();
+    const x = table.columns.findIndex((c) => c.key === plot.x);
+    const onX = inputOf(linked ? state.whole.peek() : undefined, plot.x);
+    const lines = linesOf(plot, table, baseline, banded, linked && motion.fullTurn && onX.input === 1 ? (v) => inputAt(motion, positionOfTurn(motion, v * onX.factor)) / onX.factor : undefined);
+    const unit = unitOf(plot.y[0] ?? "", largest(lines.filter((l) => l.kind !== "baseline").map((l) => l.ys)));
+    const xUnit = unitOf(plot.x, largest(lines.map((l) => l.xs)));
+    const curves = lines.flatMap((l, i) => (l.kind === "curve" ? [i] : []));
+    const bundle = curves.length > many;
+    const stroke = (i: number) => (lines[i].kind === "baseline" ? "--soft" : bundle ? "--accent" : seriesColours[curves.indexOf(i) % 6]);
+    const dash = (i: number) => (lines[i].kind === "baseline" ? [5, 4] : bundle ? [] : dashes[curves.indexOf(i) % 6]);
+    /** Width and opacity of a line when the group `now` is present. */
+    const look = (i: number, now: number) => {
+      const here = now < 0 || lines[i].group === now;
+      if (lines[i].kind === "baseline") return { width: 1.4, alpha: here ? 0.85 : bundle ? 0.12 : 0.35 };
+      return { width: now < 0 ? 2 : here ? 3 : 1.4, alpha: here ? (bundle && now < 0 ? 0.5 : 1) : bundle ? 0.3 : 0.7 };
+    };
+    let emphasised: number | undefined;
+    const legend: Unit[] = [
+      ...(bundle ? [] : curves.map((i) => ({ label: lines[i].label, symbol: unit.symbol, series: i + 1, stroke: stroke(i), dash: dash(i) }))),
+      ...[...new Set(lines.filter((l) => l.kind === "lower").map((l) => l.label))].map((label) => ({ label, symbol: "", swatch: true })),
+      ...(lines.some((l) => l.kind === "baseline") ? [{ label: baseline!.name, symbol: "", series: 0, stroke: "--soft", dash: [5, 4] }] : []),
+    ];
+    const yColumn = table.columns.find((c) => c.key === plot.y[0]);
+    const points = plot.style === "points";
+    return {
+      bundle, curves, lines, unit,
+      data: aligned(lines, xUnit.factor, unit.factor, plot.logarithmic_y) as uPlot.AlignedData,
+      link: !linked || onX.input === 0 ? undefined : onX.input === 2 ? secondInput(xUnit.factor / onX.factor) : firstInput(xUnit.factor / onX.factor),
+      legend,
+      emphasise: (u: uPlot) => {
+        const now = present();
+        if (now === emphasised) return;
+        emphasised = now;
+        u.root.parentElement!.dataset.present = groups[now]?.label ?? "";
+        lines.forEach((l, i) => (l.kind === "curve" || l.kind === "baseline") && Object.assign(u.series[i + 1], look(i, now)));
+        u.redraw(false);
+      },
+      options: () => {
+        emphasised = undefined;
+        const now = present();
+        return {
+          scales: { x: { time: false }, y: { distr: plot.logarithmic_y ? (3 as const) : (1 as const) } },
+          axes: [axis(labelWith(table.columns[x]?.label ?? "", plot.x, xUnit)), axis(plot.y.length === 1 ? labelWith(yColumn?.label ?? "", plot.y[0], unit) : unit.symbol, plot.logarithmic_y)],
+          series: [{}, ...lines.map((l, i) => (l.kind === "lower" || l.kind === "upper"
+            ? { label: l.label, stroke: "transparent", width: 0, points: { show: false } }
+            : { label: l.label, stroke: css(stroke(i)), dash: dash(i), paths: points && l.kind === "curve" ? () => null : undefined, points: { show: points && l.kind === "curve", size: 6, fill: css(stroke(i)) }, ...look(i, now) }))],
+          bands: lines.flatMap((l, i) => (l.kind === "upper" ? [{ series: [i + 1, i] as [number, number], fill: `${css("--good")}30` }] : [])),
+          cursor: { drag: { setScale: false }, y: false, points: { show: false } },
+        };
+      },
+    };
+  }, [plot, table, baseline, linked, banded]);
+  const now = present();
+  const shown = made.curves.filter((i) => made.lines[i].group === now);
+  return (
+    <>
+      <Chart label={plot.title} data={made.data} options={made.options} link={made.link} units={made.legend} emphasise={made.emphasise} />
+      {made.bundle && <p class="note">{`${made.curves.length} curves, ${groups[0].label} to ${groups[groups.length - 1].label}`}{shown.length > 0 && <>; strong: <b>{groups[now].label}</b></>}</p>}
     </>
   );
 }
@@ -243,7 +350,7 @@ const Cards = ({ plots }: { plots: Plot[] }) => (
     {withTable(plots).map(({ plot, table }) => (
       <div class="card plot" key={`${plot.name}/${plot.scene}`} data-plot={plot.name}>
         <h3>{plot.title}</h3>
-        {plot.style === "histogram" ? <Histogram plot={plot} table={table} /> : plot.style === "polar" ? <Polar plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />}
+        {plot.style === "histogram" ? <Histogram plot={plot} table={table} /> : plot.style === "polar" ? <Polar plot={plot} table={table} /> : plot.group || plot.bands?.length || plot.baseline ? <GroupPlot plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />}
       </div>
     ))}
   </>

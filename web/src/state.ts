@@ -1,6 +1,7 @@
 // What the reader has chosen; the data of the report never change.
-import { computed, effect, signal, type Signal } from "@preact/signals";
+import { batch, computed, effect, signal, type Signal } from "@preact/signals";
 import { readResult, readView, type Quantity, type Scene } from "./data";
+import { isSpatial, middleRow, rowOf, rowsOf } from "./grid";
 import { advance, analyse, isAssembled, spanOf, type Motion } from "./motion";
 import { readLog } from "./log";
 
@@ -8,10 +9,16 @@ export const view = readView();
 export const result = readResult();
 export const runs = readLog(result.log);
 
-const motions = view.scenes.map(analyse);
 export const sceneIndex = signal(0);
-export const scene = computed<Scene | undefined>(() => view.scenes[sceneIndex.value]);
-export const motion = computed<Motion>(() => motions[sceneIndex.value] ?? { samples: 0, input: [], ok: [], runs: [], fullTurn: false, timed: false });
+/** Which value of the second input is shown. */
+export const row = signal(0);
+/** All samples of the scene that is shown. */
+export const whole = computed<Scene | undefined>(() => view.scenes[sceneIndex.value]);
+/** Those at the second input that is shown. */
+export const scene = computed<Scene | undefined>(() => whole.value && rowOf(whole.value, row.value));
+const none: Motion = { samples: 0, input: [], ok: [], runs: [], fullTurn: false, timed: false };
+export const motion = computed<Motion>(() => (scene.value ? analyse(scene.value) : none));
+export const spatial = computed(() => whole.value !== undefined && isSpatial(whole.value));
 
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
 export const position = signal(0);
@@ -22,6 +29,8 @@ export const speed = signal(1);
 export const bounce = signal(false);
 
 export const showTrace = signal(true);
+export const showRoad = signal(true);
+export const parallel = signal(false);
 export const showSpeed = signal(false);
 export const showTargets = signal(true);
 export const showGhosts = signal(false);
@@ -58,10 +67,16 @@ export const sceneOf = (solution: number) => view.scenes.findIndex((s) => s.name
 
 export function showScene(index: number): void {
   if (index < 0 || index >= view.scenes.length) return;
-  const m = motions[index];
-  sceneIndex.value = index;
+  const next = view.scenes[index];
+  // The same place of the same grid where there is one.
+  const kept = whole.value?.second?.length === next.second?.length && sceneIndex.value !== index;
+  batch(() => {
+    sceneIndex.value = index;
+    if (!kept) row.value = middleRow(next);
+  });
+  const m = motion.value;
   picked.value = hovered.value = "";
-  if (view.scenes[index].joints.length > crowded) showLabels.value = false;
+  if (next.joints.length > crowded) showLabels.value = false;
   bounce.value = !m.fullTurn && !m.timed;
   if (!isAssembled(m, position.value)) position.value = m.runs[0]?.[0] ?? 0;
 }
@@ -70,6 +85,11 @@ export function showScene(index: number): void {
 export function scrub(to: number): void {
   playing.value = false;
   position.value = to;
+}
+
+/** Shows another value of the second input. */
+export function showRow(to: number): void {
+  if (whole.value) row.value = Math.min(rowsOf(whole.value) - 1, Math.max(0, to));
 }
 
 export function start(): void {

@@ -23,6 +23,7 @@ export interface Unit {
 
 const suffixes: [string, Unit][] = [
   ["_rad_per_s2", { factor: 1, symbol: "rad/s²" }],
+  ["_rad_per_m", { factor: 180 / Math.PI, symbol: "°/m" }],
   ["_rad_per_s", { factor: 1, symbol: "rad/s" }],
   ["_m_per_s2", { factor: 1, symbol: "m/s²" }],
   ["_m_per_s", { factor: 1, symbol: "m/s" }],
@@ -32,6 +33,7 @@ const suffixes: [string, Unit][] = [
   ["_deg", { factor: 1, symbol: "°" }],
   ["_rpm", { factor: 1, symbol: "rpm" }],
   ["_rad", { factor: 180 / Math.PI, symbol: "°" }],
+  ["_N_per_m", { factor: 1, symbol: "N/m" }],
   ["_N_m", { factor: 1, symbol: "N m" }],
   ["_N", { factor: 1, symbol: "N" }],
   ["_Hz", { factor: 1, symbol: "Hz" }],

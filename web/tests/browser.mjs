@@ -13,12 +13,13 @@ const url = (name) => pathToFileURL(resolve(samples, name)).href;
 const browser = await chromium.launch({
   executablePath,
   args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync"],
+    "--disable-component-update", "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
 });
 
-async function open(name, options = {}) {
+async function open(name, options = {}, before) {
   const context = await browser.newContext({ viewport: { width: 1360, height: 900 }, offline: true, acceptDownloads: true, ...options });
   const page = await context.newPage();
+  if (before) await page.addInitScript(before);
   const errors = [];
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   page.on("pageerror", (error) => errors.push(String(error)));
@@ -348,20 +349,163 @@ test("many bars stay clear", async () => {
   await close();
 });
 
+const label = (page, name) => page.locator(`.space-labels [data-name="${name}"]`).evaluate((e) => {
+  const { e: x, f: y } = new DOMMatrix(getComputedStyle(e).transform);
+  return { x, y };
+});
+const frames = (page) => page.locator("#space canvas").getAttribute("data-frames").then(Number);
+/** Waits until the drawing in space stands still. */
+const settled = async (page) => {
+  for (let before = -1, now = await frames(page); before !== now; before = now, now = await frames(page)) await page.waitForTimeout(150);
+};
+
+test("a spatial scene moves with both inputs, and so do its diagrams", async () => {
+  const { page, errors, close } = await open("spatial.html", { reducedMotion: "reduce" });
+  await page.waitForSelector("#space canvas");
+  assert.equal(await page.locator("#second-value").innerText(), "0\u202fmm");
+  await page.locator("body").press("2"); // from behind: z is up and y to the left
+  await page.locator("#scrub").fill("0");
+  await settled(page);
+  const [low, fixed] = [await label(page, "W"), await label(page, "LF")];
+  await page.locator("#scrub").fill("40");
+  await settled(page);
+  const high = await label(page, "W");
+  assert.ok(low.y - high.y > 60, `the wheel rises by ${low.y - high.y} pixels`);
+  assert.deepEqual(await label(page, "LF"), fixed);
+  assert.equal(await page.locator("#input-value").innerText(), "80 mm");
+  const before = await label(page, "TI");
+  assert.equal(await page.locator('[data-plot="toe"] .chart').getAttribute("data-present"), "rack 0 mm");
+  await page.locator("#second").focus();
+  await page.keyboard.press("ArrowRight");
+  await settled(page);
+  assert.equal(await page.locator("#second-value").innerText(), "20\u202fmm");
+  assert.ok(before.x - (await label(page, "TI")).x > 5, "the rack moves to the left");
+  assert.equal(await page.locator("#scrub").inputValue(), "40"); // the arrow key belongs to the second slider
+  assert.equal(await page.locator('[data-plot="toe"] .chart').getAttribute("data-present"), "rack 20 mm");
+  assert.match(await page.locator('[data-plot="steer"]').innerText(), /41 curves[^]*strong: wheel travel 80 mm/);
+  const cursor = await marker(page, "steer");
+  await page.locator("body").press(",");
+  await page.locator("body").press(",");
+  assert.ok((await marker(page, "steer")) < cursor - 40, "the cursor follows the second input");
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("pointing at a diagram over the second input moves it there", async () => {
+  const { page, close } = await open("spatial.html", { reducedMotion: "reduce" });
+  const over = page.locator('[data-plot="steer"] .u-over');
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + box.width * 0.5, box.y + 40);
+  await page.mouse.move(box.x + box.width * 0.98, box.y + 40);
+  await until(async () => (await page.locator("#second").inputValue()) === "4");
+  await close();
+});
+
+test("space is drawn only when something changes", async () => {
+  const { page, errors, close } = await open("spatial.html", { reducedMotion: "reduce" });
+  await page.waitForSelector("#space canvas");
+  await settled(page);
+  const idle = await frames(page);
+  await page.waitForTimeout(500);
+  assert.equal(await frames(page), idle);
+  const at = await label(page, "ST");
+  await page.locator("#space").focus();
+  await page.keyboard.press("ArrowLeft");
+  await settled(page);
+  assert.notDeepEqual(await label(page, "ST"), at);
+  assert.equal(await page.locator("#scrub").inputValue(), "0");
+  await page.keyboard.press("0");
+  await settled(page);
+  assert.deepEqual(await label(page, "ST"), at);
+  const box = await page.locator("#space").boundingBox();
+  await page.mouse.move(box.x + 60, box.y + 200);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 160, box.y + 230, { steps: 4 });
+  await page.mouse.up();
+  await settled(page);
+  assert.notDeepEqual(await label(page, "ST"), at);
+  await page.locator('[data-view="top"]').click();
+  assert.equal(await page.locator("#parallel").getAttribute("aria-pressed"), "true");
+  await page.locator("body").press("p");
+  assert.equal(await page.locator("#parallel").getAttribute("aria-pressed"), "false");
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("joints in space tell their coordinates to pointers and keys", async () => {
+  const { page, errors, close } = await open("spatial.html", { reducedMotion: "reduce", permissions: ["clipboard-read", "clipboard-write"] });
+  await page.locator("#scrub").fill("20");
+  await settled(page);
+  const [box, at] = [await page.locator("#space").boundingBox(), await label(page, "LF")];
+  await page.mouse.click(box.x + at.x - 9, box.y + at.y + 20);
+  await page.mouse.move(2, 2);
+  assert.match(await page.locator("#picked").innerText(), /^LF\nx 210, y 380, z −100 mm/);
+  await page.locator("#picked .copy").click();
+  assert.equal(await page.evaluate(() => navigator.clipboard.readText()), "LF at wheel travel 0\u202fmm, rack 0\u202fmm: x 210, y 380, z −100 mm");
+  await page.locator("body").press("Escape");
+  await page.locator(".positions summary").click();
+  assert.match(await page.locator(".positions tbody tr").nth(4).innerText(), /L\s+10\s+720\s+−125/);
+  await page.locator(".positions .copy").click();
+  assert.match(await page.evaluate(() => navigator.clipboard.readText()), /^at wheel travel 0[^]*joint\tx \(mm\)\ty \(mm\)\tz \(mm\)\nLF\t210\t380\t−100\n/);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("spatial drawings can be taken along", async () => {
+  const { page, errors, close } = await open("spatial.html", { reducedMotion: "reduce" });
+  await page.locator("#scrub").fill("20");
+  await settled(page);
+  assert.match(readFileSync((await download(page, "svg")).path, "utf8"), /^<svg[^]*rear view[^]*top view[^]*<\/svg>$/);
+  const picture = readFileSync((await download(page, "png")).path);
+  assert.equal(picture.subarray(1, 4).toString(), "PNG");
+  assert.ok(picture.length > 15_000, "there is something on the picture");
+  const drawing = await download(page, "dxf");
+  assert.equal(execFileSync(python, [checkDxf.replace("check_dxf", "check_spatial_dxf"), drawing.path], { encoding: "utf8" }).trim(), "ok");
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("without WebGL, and in print, there are three fixed views", async () => {
+  const { page, errors, close } = await open("spatial.html", { reducedMotion: "reduce" }, () => {
+    HTMLCanvasElement.prototype.getContext = new Proxy(HTMLCanvasElement.prototype.getContext, { apply: (target, self, [kind, ...rest]) => (kind.startsWith("webgl") ? null : Reflect.apply(target, self, [kind, ...rest])) });
+  });
+  assert.ok(await page.locator(".no-webgl").isVisible());
+  assert.ok(await page.locator(".still svg .view").first().isVisible());
+  assert.equal(await page.locator("#space canvas").count(), 0);
+  assert.deepEqual(errors, []);
+  await close();
+  const printed = await open("spatial.html", { reducedMotion: "reduce" });
+  assert.ok(!(await printed.page.locator(".still").isVisible()));
+  await printed.page.emulateMedia({ media: "print" });
+  assert.ok(await printed.page.locator(".still svg").first().isVisible());
+  await printed.close();
+});
+
 test("no accessibility violations", async () => {
   const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-  for (const [name, options] of [["report.html", {}], ["simulation.html", {}], ["simulation.html", { colorScheme: "dark" }], ["simulation.html", { viewport: { width: 390, height: 844 } }]]) {
+  for (const [name, options] of [["report.html", {}], ["simulation.html", {}], ["simulation.html", { colorScheme: "dark" }], ["simulation.html", { viewport: { width: 390, height: 844 } }],
+    ["spatial.html", {}], ["spatial.html", { colorScheme: "dark" }], ["spatial.html", { viewport: { width: 390, height: 844 } }]]) {
     const { page, close } = await open(name, { reducedMotion: "reduce", ...options });
     if (name === "simulation.html") {
       await page.locator("body").press("w");
       await page.locator(".values summary").click();
       await page.locator(".values tbody button").first().click();
     }
+    if (name === "spatial.html") for (const summary of await page.locator(".values summary").all()) await summary.click();
     await page.addScriptTag({ content: axe });
     const found = await page.evaluate(() => axe.run(document));
     assert.deepEqual(found.violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target).join(" ")}`), [], `${name} ${JSON.stringify(options)}`);
     await close();
   }
+});
+
+test("without scripts a spatial scene is seen from three sides", async () => {
+  const { page, close } = await open("spatial.html", { javaScriptEnabled: false });
+  assert.equal(await page.locator("#static .view").count(), 3);
+  assert.equal(await page.locator('#static [data-scene="0"] .wheel').count(), 3);
+  assert.deepEqual([await page.locator("#static .band").count(), await page.locator("#static .baseline").count()], [1, 5]);
+  await close();
 });
 
 test("without scripts there are drawings and tables", async () => {

@@ -4,10 +4,13 @@
 
 #include <initializer_list>
 #include <iterator>
+#include <utility>
 
 #include "linkwright/planar/reproductions.h"
 #include "linkwright/planar/studies.h"
 #include "linkwright/study/study.h"
+#include "linkwright/suspension/reproductions.h"
+#include "linkwright/suspension/studies.h"
 
 namespace linkwright::app {
 namespace {
@@ -24,7 +27,7 @@ Kinds join(std::initializer_list<Kinds> domains) {
 
 std::span<const study::Kind> catalogue() {
   // One line for each domain.
-  static const Kinds kinds = join({planar::studies()});
+  static const Kinds kinds = join({planar::studies(), suspension::studies()});
   return kinds;
 }
 
@@ -56,7 +59,11 @@ const study::Kind* find_kind(std::string_view name, std::span<const study::Kind>
 }
 
 std::span<const study::Reproduction> reproductions() {
-  static const std::vector<study::Reproduction> all = planar::reproductions();
+  static const auto all = [] {
+    std::vector<study::Reproduction> joined = planar::reproductions();
+    for (study::Reproduction& r : suspension::reproductions()) joined.push_back(std::move(r));
+    return joined;
+  }();
   return all;
 }
 

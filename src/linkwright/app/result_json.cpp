@@ -57,10 +57,14 @@ Value to_value(const study::Comparison& comparison) {
   return v;
 }
 
-/// Column arrays; like in CSV, `status` is the last column.
+/// Column arrays; like in CSV, `status` is the last column. Names of the rows, if they have any, stand beside.
 Value to_value(const Table& table) {
   Value v;
   v["name"] = table.name;
+  if (!table.names.empty()) {
+    v["names"] = Value::array();
+    for (const std::string& name : table.names) v["names"].push_back(name);
+  }
   Value::Array columns, data;
   const auto describe = [&](std::string_view key, std::string_view unit, std::string_view label) {
     Value column;

@@ -101,7 +101,8 @@ std::optional<Table> read_csv(std::string_view text, const std::string& file, Di
   }
   Table table;
   const bool has_status = trimmed(cells.back().text) == "status";
-  for (std::size_t c = 0; c + (has_status ? 1 : 0) < cells.size(); ++c) {
+  const std::size_t first = trimmed(cells[0].text) == "name" ? 1 : 0;
+  for (std::size_t c = first; c + (has_status ? 1 : 0) < cells.size(); ++c) {
     const std::string key(trimmed(cells[c].text));
     double number;
     if (key.empty() ||
@@ -116,22 +117,25 @@ std::optional<Table> read_csv(std::string_view text, const std::string& file, Di
     const bool closed = scanner.row(cells);
     if (!closed) problem(cells.back().position, {}, "a quote is not closed");
     if (cells.size() == 1 && trimmed(cells[0].text).empty()) continue;
-    const std::size_t expected = table.columns.size() + (has_status ? 1 : 0);
+    const std::size_t expected = first + table.columns.size() + (has_status ? 1 : 0);
     if (cells.size() != expected) {
       problem(cells[0].position, {},
               fmt::format("{} values, the header has {} columns", cells.size(), expected));
       continue;
     }
+    if (first == 1) table.names.emplace_back(trimmed(cells[0].text));
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      const std::string_view cell = trimmed(cells[c].text);
+      const std::string_view cell = trimmed(cells[first + c].text);
       double value = std::numeric_limits<double>::quiet_NaN();
       const std::string_view digits = cell.starts_with('+') ? cell.substr(1) : cell;
       const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
       if (!cell.empty() && (error != std::errc() || end != digits.data() + digits.size()))
-        problem(cells[c].position, table.columns[c].key, fmt::format("'{}' is not a number", shown(cell)),
+        problem(cells[first + c].position, table.columns[c].key,
+                fmt::format("'{}' is not a number", shown(cell)),
                 "write numbers like 0.25 or 1e-3, columns separated by commas");
       else if (!cell.empty() && !std::isfinite(value))
-        problem(cells[c].position, table.columns[c].key, fmt::format("'{}' is not finite", shown(cell)));
+        problem(cells[first + c].position, table.columns[c].key,
+                fmt::format("'{}' is not finite", shown(cell)));
       table.columns[c].values.push_back(value);
     }
     if (has_status) table.status.push_back(cells.back().text);

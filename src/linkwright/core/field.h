@@ -29,7 +29,8 @@ enum class Dimension {
   stiffness,
   stiffness_angular,
   damping,
-  damping_angular
+  damping_angular,
+  angle_by_length
 };
 
 /// What a member of a struct means to a person and to a file. A struct that appears in files has one field

@@ -38,10 +38,13 @@ std::string to_csv(const Table& table) {
                        column.values.size(), rows);
   LINKWRIGHT_REQUIRE(table.status.empty() || table.status.size() == rows, "{} status entries for {} rows",
                      table.status.size(), rows);
-  std::string text;
+  LINKWRIGHT_REQUIRE(table.names.empty() || table.names.size() == rows, "{} names for {} rows",
+                     table.names.size(), rows);
+  std::string text = table.names.empty() ? "" : "name,";
   for (const Column& column : table.columns) text += csv_cell(column.key) + ',';
   text += "status\r\n";
   for (std::size_t row = 0; row < rows; ++row) {
+    if (!table.names.empty()) text += csv_cell(table.names[row]) + ',';
     for (const Column& column : table.columns) {
       if (const double value = column.values[row]; std::isfinite(value))
         fmt::format_to(std::back_inserter(text), "{}", value);

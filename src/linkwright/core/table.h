@@ -14,11 +14,13 @@ struct Column {
 };
 
 /// Columns of equal length and a status per row ("done" or why the row is incomplete).
-/// Written as CSV with the column keys as header and `status` as last column.
+/// Written as CSV with the column keys as header, `name` as first column if rows have names, and `status` as
+/// last column.
 struct Table {
   std::string name;
-  std::vector<Column> columns;
-  std::vector<std::string> status;  ///< one per row; empty = every row is done
+  std::vector<std::string> names = {};  ///< of the rows; empty = they have none
+  std::vector<Column> columns = {};
+  std::vector<std::string> status = {};  ///< one per row; empty = every row is done
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
   const Column* find(std::string_view key) const;

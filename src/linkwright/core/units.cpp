@@ -32,6 +32,8 @@ constexpr std::array stiffness_units{Unit{"N_per_m"}, Unit{"N_per_mm", 1e3, 1}};
 constexpr std::array stiffness_angular_units{Unit{"N_m_per_rad"}, Unit{"N_m_per_deg", 180, pi}};
 constexpr std::array damping_units{Unit{"N_s_per_m"}};
 constexpr std::array damping_angular_units{Unit{"N_m_s_per_rad"}};
+constexpr std::array angle_by_length_units{Unit{"rad_per_m"}, Unit{"deg_per_m", pi, 180},
+                                           Unit{"deg_per_mm", 1e3 * pi, 180}};
 
 constexpr std::array all_dimensions{Dimension::length,
                                     Dimension::angle,
@@ -53,7 +55,8 @@ constexpr std::array all_dimensions{Dimension::length,
                                     Dimension::stiffness,
                                     Dimension::stiffness_angular,
                                     Dimension::damping,
-                                    Dimension::damping_angular};
+                                    Dimension::damping_angular,
+                                    Dimension::angle_by_length};
 
 }  // namespace
 
@@ -103,6 +106,8 @@ std::span<const Unit> units(Dimension dimension) {
       return damping_units;
     case Dimension::damping_angular:
       return damping_angular_units;
+    case Dimension::angle_by_length:
+      return angle_by_length_units;
   }
   return {};
 }
@@ -178,6 +183,8 @@ std::string_view describe(Dimension dimension) {
       return "a damping";
     case Dimension::damping_angular:
       return "a torsional damping";
+    case Dimension::angle_by_length:
+      return "an angle by length";
   }
   return "a number";
 }

@@ -34,10 +34,10 @@ std::string_view quantity_name(Scene::Quantity quantity) {
   return "force";
 }
 
-double Components::size() const { return std::hypot(x, y); }
+double Components::size() const { return std::hypot(x, y, z); }
 
 Components components(const Scene::Vector& vector, std::size_t sample) {
-  return {at(vector.x, sample), at(vector.y, sample)};
+  return {at(vector.x, sample), at(vector.y, sample), vector.z.empty() ? 0 : at(vector.z, sample)};
 }
 
 double value(const Scene::Moment& moment, std::size_t sample) { return at(moment.value, sample); }
@@ -69,12 +69,11 @@ ArrowScale arrow_scale(const Scene& scene, Scene::Quantity quantity) {
     }
     if (size > 0) sizes.push_back(size);
   }
-  const Box box = bounds(scene);
-  const double extent = box.empty() ? 0 : std::max(box.width(), box.height());
-  if (sizes.empty() || !(extent > 0)) return out;
+  const double size = extent(scene);
+  if (sizes.empty() || !(size > 0)) return out;
   std::sort(sizes.begin(), sizes.end());
   const double reference = std::min(sizes.back(), outstanding * sizes[sizes.size() / 2]);
-  out.metres_per_unit = share_of_scene * extent / reference;
+  out.metres_per_unit = share_of_scene * size / reference;
   out.key_value = nice_step(reference, 1);
   return out;
 }
@@ -82,7 +81,8 @@ ArrowScale arrow_scale(const Scene& scene, Scene::Quantity quantity) {
 Place tip(const Scene& scene, const Scene::Vector& vector, std::size_t sample, const ArrowScale& scale) {
   const Place from = place(scene, vector.point, sample);
   const Components v = components(vector, sample);
-  return {from.x + scale.metres_per_unit * v.x, from.y + scale.metres_per_unit * v.y};
+  return {from.x + scale.metres_per_unit * v.x, from.y + scale.metres_per_unit * v.y,
+          from.z + scale.metres_per_unit * v.z};
 }
 
 }  // namespace linkwright::report

@@ -30,9 +30,9 @@ struct ArrowScale {
 /// largest, and some arrows are longer.
 ArrowScale arrow_scale(const study::Scene& scene, study::Scene::Quantity quantity);
 
-/// A value along x and y.
+/// A value along x, y and, in space, z.
 struct Components {
-  double x = 0, y = 0;
+  double x = 0, y = 0, z = 0;
   double size() const;
 };
 

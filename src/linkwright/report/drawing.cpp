@@ -6,6 +6,36 @@
 #include <limits>
 
 namespace linkwright::report {
+namespace {
+
+// How far a wheel reaches from its centre along each coordinate.
+Place reach_of(const study::Scene& scene, const study::Scene::Disc& disc, std::size_t sample) {
+  const Place centre = place(scene, disc.centre, sample), end = place(scene, disc.axis, sample);
+  const double x = end.x - centre.x, y = end.y - centre.y, z = end.z - centre.z, length = std::hypot(x, y, z);
+  const auto reach = [&](double along) {
+    const double share = along / length;
+    return disc.radius * std::sqrt(std::max(0.0, 1 - share * share)) + disc.width / 2 * std::abs(share);
+  };
+  return {reach(x), reach(y), reach(z)};
+}
+
+std::size_t middle_sample(const study::Scene& scene) {
+  const auto share = [](const std::vector<double>& values, std::size_t i) {
+    if (values.empty()) return 0.0;
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return *high > *low ? std::abs(values[i]) / (*high - *low) : 0.0;
+  };
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < scene.samples(); ++i) {
+    const double far =
+        share(scene.input, i % scene.input.size()) + share(scene.second, i / scene.input.size());
+    if (far < least && assembled(scene, i)) best = i, least = far;
+  }
+  return best;
+}
+
+}  // namespace
 
 void Box::add(double x, double y) {
   if (!std::isfinite(x) || !std::isfinite(y)) return;
@@ -37,10 +67,33 @@ Box bounds(const study::Scene& scene) {
       box.add(centre.x - r, centre.y - r);
       box.add(centre.x + r, centre.y + r);
     }
+  for (const auto& disc : scene.discs)
+    for (std::size_t i = 0; i < scene.samples(); ++i) {
+      const Place centre = place(scene, disc.centre, i), reach = reach_of(scene, disc, i);
+      box.add(centre.x - reach.x, centre.y - reach.y);
+      box.add(centre.x + reach.x, centre.y + reach.y);
+    }
   return box;
 }
 
-bool Place::finite() const { return std::isfinite(x) && std::isfinite(y); }
+double extent(const study::Scene& scene) {
+  const Box box = bounds(scene);
+  if (box.empty()) return 0;
+  Box height;  // in y
+  if (scene.spatial()) {
+    for (const auto& point : scene.points)
+      for (const double z : point.z) height.add(0, z);
+    for (const auto& disc : scene.discs)
+      for (std::size_t i = 0; i < scene.samples(); ++i) {
+        const Place centre = place(scene, disc.centre, i), reach = reach_of(scene, disc, i);
+        height.add(0, centre.z - reach.z);
+        height.add(0, centre.z + reach.z);
+      }
+  }
+  return std::max({box.width(), box.height(), height.empty() ? 0 : height.height()});
+}
+
+bool Place::finite() const { return std::isfinite(x) && std::isfinite(y) && std::isfinite(z); }
 
 Place place(const study::Scene& scene, int point, std::size_t sample) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -50,7 +103,7 @@ Place place(const study::Scene& scene, int point, std::size_t sample) {
     if (values.size() == 1) return values.front();
     return sample < values.size() ? values[sample] : nan;
   };
-  return {at(p.x), at(p.y)};
+  return {at(p.x), at(p.y), p.z.empty() ? 0 : at(p.z)};
 }
 
 double radius(const study::Scene& scene, const study::Scene::Circle& circle, std::size_t sample) {
@@ -99,12 +152,15 @@ std::vector<std::vector<Place>> symbol_lines(study::Scene::BodyStyle style, cons
 
 bool assembled(const study::Scene& scene, std::size_t sample) {
   if (sample < scene.status.size() && scene.status[sample] != "done") return false;
+  // In space a mark such as a roll centre may be without a place while the mechanism stands.
+  if (scene.spatial() && !scene.status.empty()) return true;
   for (int i = 0; i < static_cast<int>(scene.points.size()); ++i)
     if (!place(scene, i, sample).finite()) return false;
   return true;
 }
 
 std::size_t reference_sample(const study::Scene& scene) {
+  if (scene.spatial() || !scene.second.empty()) return middle_sample(scene);
   for (std::size_t i = 0; i < scene.samples(); ++i)
     if (assembled(scene, i)) return i;
   return 0;

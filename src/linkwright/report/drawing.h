@@ -20,12 +20,16 @@ struct Box {
   void add(double x, double y);
 };
 
-/// Smallest rectangle with every finite point of the scene, over all samples, its circles and its targets.
+/// Smallest rectangle in x and y with every finite point of the scene, over all samples, its circles, wheels
+/// and targets.
 Box bounds(const study::Scene& scene);
 
-/// A place in the plane (m); NaN when it does not exist.
+/// Largest side of the scene over all samples (m), along z too; 0 when it has no finite point.
+double extent(const study::Scene& scene);
+
+/// A place (m), in the plane with z = 0; NaN when it does not exist.
 struct Place {
-  double x = 0, y = 0;
+  double x = 0, y = 0, z = 0;
   bool finite() const;
 };
 
@@ -45,10 +49,11 @@ std::vector<std::vector<Place>> symbol_lines(study::Scene::BodyStyle style, cons
 /// Whether a body is drawn by symbol_lines.
 bool is_symbol(study::Scene::BodyStyle style);
 
-/// True when every point of the scene exists at the sample.
+/// True when every point of the scene exists at the sample; in space its status alone decides, if it has one.
 bool assembled(const study::Scene& scene, std::size_t sample);
 
-/// The sample to draw when one must do: the first that is assembled; 0 when none is.
+/// The sample to draw when one must do: in the plane the first that is assembled; in space, and with a second
+/// input, the one of these whose inputs are nearest to zero, measured by their ranges. 0 when none is.
 std::size_t reference_sample(const study::Scene& scene);
 
 /// The largest of 1, 2, 5 times a power of ten that is not above `span / divisions`; 1 for a span of 0 or

@@ -1,5 +1,7 @@
 #include "linkwright/report/html.h"
 
+#include <algorithm>
+
 #include "linkwright/report/markup.h"
 #include "linkwright/report/static_page.h"
 #include "linkwright/report/view_data.h"
@@ -32,6 +34,11 @@ std::string html(const ReportInput& input) {
     out += "</script>\n<script type=\"application/json\" id=\"view-data\">";
     out += script_safe(study::to_json(view_data(input)));
     out += "</script>\n<script>\n";
+    const auto& scenes = input.result.scenes;
+    if (std::any_of(scenes.begin(), scenes.end(), [](const study::Scene& s) { return s.spatial(); })) {
+      out += space_js();
+      out += "</script>\n<script>\n";
+    }
     out += script;
     out += "</script>\n";
   }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -28,6 +30,8 @@ constexpr std::size_t most_named = 7;                                      // mo
 constexpr std::array<std::string_view, 6> colours = {"#0072B2", "#D55E00", "#009E73",
                                                      "#CC79A7", "#E69F00", "#56B4E9"};
 constexpr std::array<std::string_view, 6> dashes = {"none", "8 4", "2 3", "10 3 2 3", "5 2", "1 2"};
+
+constexpr std::string_view pale = "#8fa0ae", band_colour = "#009E73";
 
 struct Curve {
   std::string label;
@@ -58,15 +62,53 @@ std::string unit_of(const Column& column) {
   return at != std::string::npos && column.label.back() == ')' ? column.label.substr(at + 1) : "";
 }
 
+// The rows of one curve.
+struct Group {
+  std::string label;  ///< "rack -30 mm"; empty = all rows
+  std::vector<std::size_t> rows;
+};
+
+std::vector<Group> groups_of(const study::Plot& plot, const Table& table) {
+  const Column* column = plot.group.empty() ? nullptr : table.find(plot.group);
+  if (!column) {
+    std::vector<std::size_t> rows(table.rows());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    return {{"", std::move(rows)}};
+  }
+  std::vector<double> values;
+  for (const double v : column->values)
+    if (std::isfinite(v)) values.push_back(v);
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  const std::string unit = unit_of(*column);
+  std::string name = label_of(*column);
+  if (!unit.empty()) name.resize(name.size() - unit.size() - 1);
+  const std::string_view symbol = unit.empty() ? "" : std::string_view(unit).substr(1, unit.size() - 2);
+  std::vector<Group> out;
+  for (const double value : values) {
+    Group group{fmt::format("{} {}{}{}", name, number(value), symbol.empty() ? "" : " ", symbol), {}};
+    for (std::size_t i = 0; i < column->values.size(); ++i)
+      if (column->values[i] == value) group.rows.push_back(i);
+    out.push_back(std::move(group));
+  }
+  return out;
+}
+
 std::vector<Curve> curves_of(const study::Plot& plot, const Table& table) {
   std::vector<Curve> out;
-  const auto add = [&](std::string label, const Column* x, const Column* y) {
+  const std::vector<Group> groups = groups_of(plot, table);
+  const auto add = [&](const std::string& label, const Column* x, const Column* y) {
     if (!x || !y) return;
-    const std::size_t rows = std::min(x->values.size(), y->values.size());
-    const std::size_t step = rows / most_points + 1;
-    Curve curve{std::move(label), {}};
-    for (std::size_t i = 0; i < rows; i += step) curve.points.push_back({x->values[i], y->values[i]});
-    out.push_back(std::move(curve));
+    const std::size_t end = std::min(x->values.size(), y->values.size());
+    for (const Group& group : groups) {
+      const std::size_t step = group.rows.size() / most_points + 1;
+      const bool alone = plot.style != Style::polar && plot.y.size() == 1;
+      Curve curve{group.label.empty() ? label : alone ? group.label : label + ", " + group.label, {}};
+      for (std::size_t i = 0; i < group.rows.size(); i += step)
+        if (const std::size_t row = group.rows[i]; row < end)
+          curve.points.push_back({x->values[row], y->values[row]});
+      out.push_back(std::move(curve));
+    }
   };
   if (plot.style == Style::polar) {
     for (std::size_t i = 0; i + 1 < plot.y.size(); i += 2)
@@ -79,6 +121,28 @@ std::vector<Curve> curves_of(const study::Plot& plot, const Table& table) {
     for (auto& curve : out)
       for (Place& p : curve.points)
         p.y = p.y > 0 ? std::log10(p.y) : std::numeric_limits<double>::quiet_NaN();
+  return out;
+}
+
+// A band as pairs of points, lower and upper edge by turns; NaN interrupts it. Of groups the first in which
+// it has values is taken.
+Curve band_of(const study::Plot& plot, const study::Plot::Band& band, const Table& table) {
+  const Column *x = table.find(plot.x), *lower = table.find(band.lower), *upper = table.find(band.upper);
+  Curve out{band.label, {}};
+  if (!x || !lower || !upper) return out;
+  const std::size_t end = std::min({x->values.size(), lower->values.size(), upper->values.size()});
+  for (const Group& group : groups_of(plot, table)) {
+    bool any = false;
+    out.points.clear();
+    for (const std::size_t row : group.rows) {
+      if (row >= end) continue;
+      out.points.push_back({x->values[row], lower->values[row]});
+      out.points.push_back({x->values[row], upper->values[row]});
+      any = any || (out.points.back().finite() && out.points[out.points.size() - 2].finite());
+    }
+    if (any) return out;
+  }
+  out.points.clear();
   return out;
 }
 
@@ -119,12 +183,13 @@ struct Axes {
   double y(double v) const { return top + (box.y_max - v) / box.height() * inner_height(); }
 };
 
-Axes axes_of(const std::vector<Curve>& curves, Style style) {
+Axes axes_of(std::initializer_list<const std::vector<Curve>*> drawn, Style style) {
   Axes axes;
   axes.height = style == Style::polar ? 420 : 260;
-  for (const auto& curve : curves)
-    for (const Place& p : curve.points)
-      if (p.finite()) axes.box.add(p.x, p.y);
+  for (const auto* curves : drawn)
+    for (const auto& curve : *curves)
+      for (const Place& p : curve.points)
+        if (p.finite()) axes.box.add(p.x, p.y);
   if (axes.box.empty()) return axes;
   Box& box = axes.box;
   if (style == Style::polar) box.add(0, 0);
@@ -186,8 +251,7 @@ void draw_axes(std::string& out, const Axes& axes, const std::string& x_label, c
         axes.x(0), top, bottom, left, axes.y(0), width - right);
 }
 
-void draw_curve(std::string& out, const Axes& axes, const Curve& curve, std::size_t index, bool bundle,
-                bool points) {
+std::string path_of(const Axes& axes, const Curve& curve, bool points) {
   std::string path;
   bool down = false;
   for (const Place& p : curve.points) {
@@ -201,6 +265,39 @@ void draw_curve(std::string& out, const Axes& axes, const Curve& curve, std::siz
       put(path, "{}{:.1f} {:.1f}", down ? 'L' : 'M', axes.x(p.x), axes.y(p.y));
     down = true;
   }
+  return path;
+}
+
+void draw_band(std::string& out, const Axes& axes, const Curve& band) {
+  std::string path, back;
+  const auto flush = [&] {
+    if (!back.empty()) path += back + "Z";
+    back.clear();
+  };
+  for (std::size_t i = 0; i + 1 < band.points.size(); i += 2) {
+    const Place &lower = band.points[i], &upper = band.points[i + 1];
+    if (!lower.finite() || !upper.finite()) {
+      flush();
+      continue;
+    }
+    put(path, "{}{:.1f} {:.1f}", back.empty() ? 'M' : 'L', axes.x(lower.x), axes.y(lower.y));
+    back = fmt::format("L{:.1f} {:.1f}", axes.x(upper.x), axes.y(upper.y)) + back;
+  }
+  flush();
+  put(out, "<path class=\"band\" d=\"{}\" fill=\"{}\" fill-opacity=\"0.16\"><title>{}</title></path>\n", path,
+      band_colour, escape(band.label));
+}
+
+void draw_baseline(std::string& out, const Axes& axes, const Curve& curve, std::string_view name) {
+  put(out,
+      "<path class=\"baseline\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.4\" "
+      "stroke-dasharray=\"5 4\"><title>{}</title></path>\n",
+      path_of(axes, curve, false), pale, escape(fmt::format("{}: {}", name, curve.label)));
+}
+
+void draw_curve(std::string& out, const Axes& axes, const Curve& curve, std::size_t index, bool bundle,
+                bool points) {
+  const std::string path = path_of(axes, curve, points);
   const std::size_t look = bundle ? 0 : index % colours.size();
   put(out,
       "<path class=\"curve\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
@@ -212,15 +309,39 @@ void draw_curve(std::string& out, const Axes& axes, const Curve& curve, std::siz
 
 }  // namespace
 
-std::string plot_svg(const study::Plot& plot, const Table& table) {
+std::string plot_svg(const study::Plot& plot, const Table& table, const Table* baseline) {
   const bool counts = plot.style == Style::histogram, polar = plot.style == Style::polar;
   const std::vector<Curve> curves =
       counts ? std::vector<Curve>{histogram(plot, table)} : curves_of(plot, table);
-  const Axes axes = axes_of(curves, plot.style);
+  std::vector<Curve> bands, before;
+  if (plot.style == Style::line || plot.style == Style::points)
+    for (const auto& band : plot.bands)
+      if (Curve edges = band_of(plot, band, table); !edges.points.empty()) bands.push_back(std::move(edges));
+  if (baseline && !counts) before = curves_of(plot, *baseline);
+  const Axes axes = axes_of({&curves, &bands, &before}, plot.style);
   const bool bundle = curves.size() > most_named, empty = axes.box.empty();
   const bool named = !bundle && !counts && (polar || curves.size() > 1);
+  struct Sign {
+    std::string look, text;
+  };
+  std::vector<Sign> legend;
+  if (named)
+    for (std::size_t i = 0; i < curves.size(); ++i)
+      legend.push_back({fmt::format("stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"",
+                                    colours[i % colours.size()], dashes[i % dashes.size()]),
+                        curves[i].label});
+  else if (bundle && !plot.group.empty())
+    legend.push_back(
+        {fmt::format("stroke=\"{}\" stroke-width=\"2.4\"", colours[0]),
+         fmt::format("{} curves, {} to {}", curves.size(), curves.front().label, curves.back().label)});
+  for (const auto& band : bands)
+    legend.push_back(
+        {fmt::format("stroke=\"{}\" stroke-width=\"12\" stroke-opacity=\"0.16\"", band_colour), band.label});
+  if (!before.empty())
+    legend.push_back(
+        {fmt::format("stroke=\"{}\" stroke-width=\"1.8\" stroke-dasharray=\"5 4\"", pale), baseline->name});
   const double height =
-      empty ? 60 : axes.height + (named ? line_height * static_cast<double>(curves.size()) + 6 : 0);
+      empty ? 60 : axes.height + (legend.empty() ? 0 : line_height * static_cast<double>(legend.size()) + 6);
   std::string out;
   put(out,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
@@ -235,22 +356,24 @@ std::string plot_svg(const study::Plot& plot, const Table& table) {
   const Column* x = table.find(plot.x);
   const std::string unit = first ? unit_of(*first) : "";
   const std::string x_label = polar ? "x " + unit : counts ? curves.front().label : x ? label_of(*x) : plot.x;
-  const std::string y_label = polar                ? "y " + unit
-                              : counts             ? "count"
-                              : curves.size() == 1 ? curves.front().label
-                                                   : unit;
+  const bool one = curves.size() == 1 || (!plot.group.empty() && plot.y.size() == 1 && first);
+  const std::string y_label =
+      polar    ? "y " + unit
+      : counts ? "count"
+      : one    ? (curves.size() == 1 && plot.group.empty() ? curves.front().label : label_of(*first))
+               : unit;
   draw_axes(out, axes, x_label, y_label, plot.logarithmic_y && !polar, polar);
+  for (const auto& band : bands) draw_band(out, axes, band);
+  for (const auto& curve : before) draw_baseline(out, axes, curve, baseline->name);
   for (std::size_t i = 0; i < curves.size(); ++i)
     draw_curve(out, axes, curves[i], i, bundle, plot.style == Style::points);
-  if (named)
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      const double y = axes.height + line_height * (static_cast<double>(i) + 0.5);
-      put(out,
-          "<path d=\"M{:.0f} {:.0f}h34\" stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"/>"
-          "<text x=\"{:.0f}\" y=\"{:.0f}\" font-size=\"12\" fill=\"#1d2935\">{}</text>\n",
-          left, y, colours[i % colours.size()], dashes[i % dashes.size()], left + 42, y + 4,
-          escape(curves[i].label));
-    }
+  for (std::size_t i = 0; i < legend.size(); ++i) {
+    const double y = axes.height + line_height * (static_cast<double>(i) + 0.5);
+    put(out,
+        "<path d=\"M{:.0f} {:.0f}h34\" {}/>"
+        "<text x=\"{:.0f}\" y=\"{:.0f}\" font-size=\"12\" fill=\"#1d2935\">{}</text>\n",
+        left, y, legend[i].look, left + 42, y + 4, escape(legend[i].text));
+  }
   out += "</svg>\n";
   return out;
 }

@@ -81,23 +81,37 @@ void write_banner(std::string& out, const ReportInput& input) {
 }
 
 // The instant for which the arrows of a drawing hold.
+std::string input_text(std::string_view key, double value) {
+  return key.ends_with("_rad") ? number(value * 180 / std::numbers::pi, 5) + "°"
+         : key.ends_with("_s") ? number(value, 5) + " s"
+         : key.ends_with("_m") ? number(value, 5) + " m"
+                               : number(value, 5);
+}
+
 std::string shown_at(const study::Scene& scene) {
   if (scene.samples() == 0) return {};
-  const double value = scene.input[reference_sample(scene)];
-  const std::string_view key = scene.input_key;
-  const std::string text = key.ends_with("_rad") ? number(value * 180 / std::numbers::pi, 5) + "°"
-                           : key.ends_with("_s") ? number(value, 5) + " s"
-                           : key.ends_with("_m") ? number(value, 5) + " m"
-                                                 : number(value, 5);
-  return fmt::format(", arrows at {} {}", scene.input_label, text);
+  const std::size_t sample = reference_sample(scene);
+  const std::string text = fmt::format("{} {}", scene.input_label,
+                                       input_text(scene.input_key, scene.input[sample % scene.input.size()]));
+  const std::string second =
+      scene.second.empty()
+          ? ""
+          : fmt::format(", {} {}", scene.second_label,
+                        input_text(scene.second_key, scene.second[sample / scene.input.size()]));
+  return fmt::format("{} {}{}", scene.spatial() ? ", at" : ", arrows at", text, second);
 }
 
 void write_drawings(std::string& out, const study::Result& result) {
-  for (const auto& scene : result.scenes) {
+  for (std::size_t i = 0; i < result.scenes.size(); ++i) {
+    const study::Scene& scene = result.scenes[i];
+    const bool spatial = scene.spatial();
     SvgOptions options;
-    options.ghosts = scene.vectors.empty() && scene.moments.empty() ? 8 : 0;  // poses and arrows are too much
+    // Poses and arrows, or poses in three views, are too much.
+    options.ghosts = scene.vectors.empty() && scene.moments.empty() && !spatial ? 8 : 0;
     options.labels = scene.joints.size() <= most_named;
-    put(out, "<figure class=\"drawing\">{}<figcaption>{}</figcaption></figure>\n", svg(scene, options),
+    // The viewer takes the drawing of a spatial scene for print, and for browsers that cannot draw in space.
+    put(out, "<figure class=\"drawing\"{}>{}<figcaption>{}</figcaption></figure>\n",
+        spatial ? fmt::format(" data-scene=\"{}\"", i) : "", svg(scene, options),
         escape(scene.title + (options.ghosts == 0 ? shown_at(scene) : "")));
   }
 }
@@ -105,15 +119,19 @@ void write_drawings(std::string& out, const study::Result& result) {
 void write_plots(std::string& out, const study::Result& result) {
   bool first = true;
   for (const auto& plot : result.plots) {
-    const auto table = std::find_if(result.tables.begin(), result.tables.end(),
-                                    [&](const Table& t) { return t.name == plot.table; });
-    if (table == result.tables.end()) continue;
+    const auto find = [&](const std::string& name) {
+      const auto found = std::find_if(result.tables.begin(), result.tables.end(),
+                                      [&](const Table& t) { return t.name == name; });
+      return found == result.tables.end() ? nullptr : &*found;
+    };
+    const Table* table = find(plot.table);
+    if (!table) continue;
     if (std::exchange(first, false)) {
       heading(out, "Diagrams");
       out += "<div class=\"diagrams\">\n";
     }
-    put(out, "<figure class=\"drawing\">{}<figcaption>{}</figcaption></figure>\n", plot_svg(plot, *table),
-        escape(plot.title));
+    put(out, "<figure class=\"drawing\">{}<figcaption>{}</figcaption></figure>\n",
+        plot_svg(plot, *table, find(plot.baseline)), escape(plot.title));
   }
   if (!first) out += "</div>\n";
 }
@@ -189,11 +207,13 @@ void write_tables(std::string& out, const study::Result& result) {
     const std::size_t step = std::max<std::size_t>(1, (table.rows() + longest_table - 1) / longest_table);
     if (step > 1) put(out, "<p class=\"note\">Every {}th of {} rows.</p>\n", step, table.rows());
     std::vector<std::string> head;
+    if (!table.names.empty()) head.emplace_back("name");
     for (const auto& column : table.columns) head.push_back(column.label.empty() ? column.key : column.label);
     if (!table.status.empty()) head.push_back("status");
     Sheet sheet(out, head);
     for (std::size_t row = 0; row < table.rows(); row += step) {
       std::vector<std::string> cells;
+      if (!table.names.empty()) cells.push_back(table.names[row]);
       for (const auto& column : table.columns)
         cells.push_back(row < column.values.size() ? number(column.values[row]) : "");
       if (!table.status.empty()) cells.push_back(row < table.status.size() ? table.status[row] : "");

@@ -7,15 +7,17 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/report/arrows.h"
+#include "linkwright/report/canvas.h"
 #include "linkwright/report/drawing.h"
 #include "linkwright/report/markup.h"
+#include "linkwright/report/spatial.h"
+#include "linkwright/report/svg_arrows.h"
 
 namespace linkwright::report {
 namespace {
@@ -25,68 +27,12 @@ using study::Scene;
 // Okabe and Ito's colours, which stay apart for the colour-blind; bodies take them in turn.
 constexpr std::array<std::string_view, 6> body_colours = {"#0072B2", "#E69F00", "#009E73",
                                                           "#CC79A7", "#56B4E9", "#D55E00"};
-constexpr std::string_view ink = "#1d2935";
-constexpr std::string_view paper = "#ffffff";
 constexpr std::string_view trace_colour = "#0072B2";
 constexpr std::string_view error_colour = "#D55E00";
 
-constexpr double margin = 64;        // px: room for ground hatching, labels and axis numbers
 constexpr double bar_width = 13;     // px
 constexpr double pin_radius = 4.6;   // px
 constexpr double symbol_width = 18;  // px, across springs
-constexpr double arc_radius = 30;    // px, of couples
-
-// Shapes tell the quantities apart without their colours: one filled head, one open head, two open heads on
-// dashes.
-struct ArrowLook {
-  std::string_view colour;
-  double width;  // px
-  std::string_view dashes;
-};
-ArrowLook look(Scene::Quantity quantity) {
-  switch (quantity) {
-    case Scene::Quantity::force:
-      return {"#B8442E", 3, ""};
-    case Scene::Quantity::velocity:
-      return {"#00734F", 2.2, ""};
-    case Scene::Quantity::acceleration:
-      return {"#8A3D7F", 2.2, "6 3"};
-  }
-  return {ink, 2, ""};
-}
-
-// World (m, y up) to picture (px, y down).
-class Canvas {
- public:
-  Canvas(const Box& box, const SvgOptions& options) {
-    const double size = std::max({box.width(), box.height(), 1e-12});
-    // A scene that is flat in one direction still needs some room in it.
-    const double width = std::max(box.width(), 0.2 * size), height = std::max(box.height(), 0.2 * size);
-    scale_ = std::min((options.width - 2 * margin) / width, (options.max_height - 2 * margin) / height);
-    width_ = options.width;
-    height_ = std::ceil(height * scale_ + 2 * margin);
-    centre_x_ = (box.x_min + box.x_max) / 2;
-    centre_y_ = (box.y_min + box.y_max) / 2;
-  }
-  double x(double world) const { return width_ / 2 + (world - centre_x_) * scale_; }
-  double y(double world) const { return height_ / 2 - (world - centre_y_) * scale_; }
-  double world_x(double pixel) const { return centre_x_ + (pixel - width_ / 2) / scale_; }
-  double world_y(double pixel) const { return centre_y_ - (pixel - height_ / 2) / scale_; }
-  double width() const { return width_; }
-  double height() const { return height_; }
-  double scale() const { return scale_; }
-  /// Times the usual width: bars are thinner where they are short, so that chains of many can be told apart.
-  double thickness() const { return thickness_; }
-  void fit_bars(double length) { thickness_ = std::clamp(length * scale_ / 40, 0.22, 1.0); }
-
- private:
-  double scale_, width_, height_, centre_x_, centre_y_, thickness_ = 1;
-};
-
-template <class... Args>
-void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
-}
 
 std::string path_of(const Canvas& canvas, const std::vector<Place>& places, bool closed) {
   std::string path;
@@ -103,29 +49,41 @@ std::string path_of(const Canvas& canvas, const std::vector<Place>& places, bool
   return path;
 }
 
-void draw_grid(std::string& out, const Canvas& canvas) {
-  const double step = nice_step(std::max(canvas.width(), canvas.height()) / canvas.scale(), 9);
-  const LengthUnit unit = length_unit(std::max(canvas.width(), canvas.height()) / canvas.scale() / 2);
+// Coordinates along the sheet that grow to the left, and their names, as the views of a spatial scene have
+// them; `sheet` is what the distance of the lines is chosen for (px).
+struct Mirrored {
+  std::string_view across, up;
+  double sheet;
+};
+
+void draw_grid(std::string& out, const Canvas& canvas, const Mirrored* mirrored = nullptr) {
+  const double sheet = mirrored ? mirrored->sheet : std::max(canvas.width(), canvas.height());
+  const double across = mirrored ? -1 : 1;
+  const double step = nice_step(sheet / canvas.scale(), 9);
+  const LengthUnit unit = length_unit(sheet / canvas.scale() / 2);
   out += "<g class=\"grid\" stroke=\"#dfe5ea\" stroke-width=\"1\" fill=\"#64727f\" font-size=\"11\">\n";
   const auto from = [step](double w) { return static_cast<long long>(std::ceil(w / step)); };
   for (long long i = from(canvas.world_x(0)); canvas.x(static_cast<double>(i) * step) <= canvas.width();
        ++i) {
     const double x = canvas.x(static_cast<double>(i) * step);
     put(out, "<path d=\"M{0:.2f} 0V{1:.0f}\"/>", x, canvas.height());
-    if (x > 30 && x < canvas.width() - 30)
+    if (x > 30 && x < canvas.width() - (mirrored ? 70 : 30))
       put(out, "<text stroke=\"none\" x=\"{:.2f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n", x,
-          canvas.height() - 8, number(static_cast<double>(i) * step * unit.per_metre));
+          canvas.height() - 8, number(i == 0 ? 0 : across * static_cast<double>(i) * step * unit.per_metre));
   }
   for (long long i = from(canvas.world_y(canvas.height())); canvas.y(static_cast<double>(i) * step) >= 0;
        ++i) {
     const double y = canvas.y(static_cast<double>(i) * step);
     put(out, "<path d=\"M0 {0:.2f}H{1:.0f}\"/>", y, canvas.width());
-    if (y > 20 && y < canvas.height() - 30)
+    if (y > (mirrored ? 40 : 20) && y < canvas.height() - 30)
       put(out, "<text stroke=\"none\" x=\"6\" y=\"{:.2f}\">{}</text>\n", y - 4,
           number(static_cast<double>(i) * step * unit.per_metre));
   }
+  const std::string name = mirrored ? fmt::format("{} ({})", mirrored->across, unit.symbol) : unit.symbol;
+  if (mirrored)
+    put(out, "<text stroke=\"none\" x=\"6\" y=\"20\">{} ({})</text>\n", mirrored->up, unit.symbol);
   put(out, "<text stroke=\"none\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text></g>\n",
-      canvas.width() - 8, canvas.height() - 8, unit.symbol);
+      canvas.width() - 8, canvas.height() - 8, name);
 }
 
 void draw_symbol(std::string& out, const Canvas& canvas, const Scene::Body& body,
@@ -177,6 +135,13 @@ void draw_body(std::string& out, const Canvas& canvas, const Scene& scene, const
         path);
     return;
   }
+  if (body.style == Scene::BodyStyle::axis) {
+    put(out,
+        "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.4\" stroke-dasharray=\"14 4 2 "
+        "4\"/></g>\n",
+        path_of(canvas, beyond(places), false), error_colour);
+    return;
+  }
   if (plate) put(out, "<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.24\"/>", path, colour);
   // A rounded bar with an outline is a thick line under a slightly thinner one.
   const double inside = (bar_width - 2.6) * canvas.thickness();
@@ -225,7 +190,7 @@ double usual_length(const Scene& scene, std::size_t sample) {
     if (body.style != Scene::BodyStyle::bar && body.style != Scene::BodyStyle::plate) continue;
     if (body.points.size() < 2) continue;
     const Place a = place(scene, body.points[0], sample), b = place(scene, body.points[1], sample);
-    if (a.finite() && b.finite()) lengths.push_back(std::hypot(b.x - a.x, b.y - a.y));
+    if (a.finite() && b.finite()) lengths.push_back(std::hypot(b.x - a.x, b.y - a.y, b.z - a.z));
   }
   if (lengths.empty()) return std::numeric_limits<double>::infinity();
   std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2),
@@ -239,7 +204,7 @@ void draw_bodies(std::string& out, const Canvas& canvas, const Scene& scene, std
   std::size_t colour = 0;
   for (const auto& body : scene.bodies) {
     const std::string_view fill = body_colours[colour % body_colours.size()];
-    if (body.style != Scene::BodyStyle::ground) ++colour;
+    if (body.style != Scene::BodyStyle::ground && body.style != Scene::BodyStyle::axis) ++colour;
     if ((body.style == Scene::BodyStyle::plate) == plates) draw_body(out, canvas, scene, body, sample, fill);
   }
 }
@@ -282,136 +247,167 @@ void draw_targets(std::string& out, const Canvas& canvas, const Scene& scene, do
   }
 }
 
-// The head of an arrow that ends at (x, y), `angle` from the x axis of the picture.
-std::string head_of(Scene::Quantity quantity, double x, double y, double angle, double size) {
-  const auto wings = [&](double back) {
-    const double cx = x - back * std::cos(angle), cy = y - back * std::sin(angle);
-    const auto wing = [&](double side) {
-      return std::pair{cx - size * std::cos(angle + side), cy - size * std::sin(angle + side)};
+// Names of joints of which several may lie behind each other: one that would cover another moves down.
+class Labels {
+ public:
+  void write(std::string& out, double x, double y, std::string_view text) {
+    const double width = 7.5 * static_cast<double>(text.size());
+    const auto taken = [&](const Taken& t) {
+      return std::abs(t.y - y) < 13 && x < t.x + t.width && t.x < x + width;
     };
-    const auto a = wing(0.36), b = wing(-0.36);
-    return fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}L{:.2f} {:.2f}", a.first, a.second, cx, cy, b.first,
-                       b.second);
-  };
-  if (quantity == Scene::Quantity::force) return wings(0) + "Z";
-  if (quantity == Scene::Quantity::velocity) return wings(0);
-  return wings(0) + wings(0.6 * size);
-}
-
-void draw_arrow(std::string& out, Scene::Quantity quantity, double x, double y, double end_x, double end_y,
-                std::string_view title, std::string_view text) {
-  const double length = std::hypot(end_x - x, end_y - y), angle = std::atan2(end_y - y, end_x - x);
-  if (!(length > 0.5)) return;
-  const ArrowLook style = look(quantity);
-  const double size = std::min(13.0, std::max(5.0, 0.6 * length));
-  const bool filled = quantity == Scene::Quantity::force;
-  // The shaft ends inside the filled head, so that the head keeps its point.
-  const double end = filled ? std::max(0.0, length - 0.8 * size) : length;
-  const std::string shaft =
-      fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", x, y, x + end * std::cos(angle), y + end * std::sin(angle));
-  const std::string head = head_of(quantity, end_x, end_y, angle, size);
-  put(out, "<g class=\"arrow {}\" fill=\"none\" stroke-linejoin=\"round\"><title>{}</title>",
-      quantity_name(quantity), escape(title));
-  put(out, "<path d=\"{}{}\" stroke=\"{}\" stroke-width=\"{}\"/>", shaft, head, paper, style.width + 3);
-  put(out, "<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\" stroke-dasharray=\"{}\"/>", shaft, style.colour,
-      style.width, style.dashes.empty() ? "none" : style.dashes);
-  put(out, "<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\" fill=\"{}\"/>", head, style.colour,
-      filled ? 1 : style.width, filled ? style.colour : "none");
-  if (!text.empty())
+    while (std::any_of(taken_.begin(), taken_.end(), taken)) y += 13;
+    taken_.push_back({x, y, width});
     put(out,
-        "<text x=\"{:.2f}\" y=\"{:.2f}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"4\" paint-order=\"stroke\" "
-        "font-size=\"13\" text-anchor=\"{}\">{}</text>",
-        end_x + 10 * std::cos(angle), end_y + 10 * std::sin(angle) + 4.5, style.colour, paper,
-        std::cos(angle) < -0.3  ? "end"
-        : std::cos(angle) < 0.3 ? "middle"
-                                : "start",
-        escape(text));
-  out += "</g>\n";
-}
-
-void draw_vectors(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample,
-                  Scene::Quantity quantity, bool labels) {
-  const ArrowScale scale = arrow_scale(scene, quantity);
-  if (scale.metres_per_unit == 0) return;
-  for (const auto& vector : scene.vectors) {
-    if (vector.quantity != quantity) continue;
-    const Place from = place(scene, vector.point, sample), end = tip(scene, vector, sample, scale);
-    if (end.finite())
-      draw_arrow(
-          out, quantity, canvas.x(from.x), canvas.y(from.y), canvas.x(end.x), canvas.y(end.y),
-          fmt::format("{}: {} {}", vector.name, number(components(vector, sample).size(), 5), vector.unit),
-          labels ? vector.symbol : std::string());
+        "<text x=\"{:.2f}\" y=\"{:.2f}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"3\" "
+        "paint-order=\"stroke\" font-size=\"12\" font-style=\"italic\">{}</text>",
+        x, y, ink, paper, escape(text));
   }
-}
 
-// An arc from the top: its length tells the size, its sense the sign.
-void draw_arc(std::string& out, double x, double y, double r, double turn) {
-  const std::string_view colour = look(Scene::Quantity::force).colour;
-  // In the picture y points down: counter-clockwise is a falling angle.
-  const double start = -std::numbers::pi / 2, end = start - turn;
-  const double end_x = x + r * std::cos(end), end_y = y + r * std::sin(end);
-  const double direction = end - std::copysign(std::numbers::pi / 2, turn);
-  const std::string arc =
-      fmt::format("M{:.2f} {:.2f}A{:.2f} {:.2f} 0 {} {} {:.2f} {:.2f}", x, y - r, r, r,
-                  std::abs(turn) > std::numbers::pi ? 1 : 0, turn > 0 ? 0 : 1, end_x, end_y);
-  put(out, "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"6\"/>", arc, paper);
-  put(out, "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2.6\"/>", arc, colour);
-  put(out, "<path d=\"{}\" fill=\"{}\"/>",
-      head_of(Scene::Quantity::force, end_x + 5 * std::cos(direction), end_y + 5 * std::sin(direction),
-              direction, 12),
-      colour);
-}
+ private:
+  struct Taken {
+    double x, y, width;
+  };
+  std::vector<Taken> taken_;
+};
 
-void draw_moments(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample,
-                  bool labels) {
-  const double most = largest_moment(scene);
-  for (auto moment = scene.moments.begin(); moment != scene.moments.end(); ++moment) {
-    const Place centre = place(scene, moment->point, sample);
-    const double v = value(*moment, sample);
-    if (!centre.finite() || !std::isfinite(v) || v == 0) continue;
-    // Several couples about one point lie one outside the other.
-    const auto before = std::count_if(scene.moments.begin(), moment,
-                                      [&](const Scene::Moment& m) { return m.point == moment->point; });
-    const double r = arc_radius + 10 * static_cast<double>(before);
-    const double x = canvas.x(centre.x), y = canvas.y(centre.y);
-    put(out, "<g class=\"moment\"><title>{}: {} {}</title>", escape(moment->name), number(v, 5),
-        escape(moment->unit));
-    draw_arc(out, x, y, r, arc_turn(v / most));
-    if (labels && !moment->symbol.empty())
+// Joints of a spatial scene have signs without a direction: ground joints are filled squares.
+void draw_spatial_joints(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample,
+                         bool label) {
+  Labels labels;
+  for (const auto& joint : scene.joints) {
+    const Place p = place(scene, joint.point, sample);
+    if (!p.finite()) continue;
+    const double x = canvas.x(p.x), y = canvas.y(p.y);
+    put(out, "<g class=\"joint\"><title>{}</title>", escape(joint.name));
+    if (joint.style == Scene::JointStyle::ground_pivot)
+      put(out, "<path d=\"M{:.2f} {:.2f}h8v8h-8z\" fill=\"{}\"/>", x - 4, y - 4, ink);
+    else
       put(out,
-          "<text x=\"{:.2f}\" y=\"{:.2f}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"4\" "
-          "paint-order=\"stroke\" font-size=\"13\" text-anchor=\"middle\">{}</text>",
-          x, y - r - 7, look(Scene::Quantity::force).colour, paper, escape(moment->symbol));
+          "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.6\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.4\"/>", x,
+          y, joint.style == Scene::JointStyle::tracer ? error_colour : paper, ink);
+    if (label) labels.write(out, x + 7, y - 6, joint.name);
     out += "</g>\n";
   }
 }
 
-// What an arrow of the length shown is worth, one line a quantity, at the top left.
-void draw_key(std::string& out, const Canvas& canvas, const Scene& scene,
-              const std::vector<Scene::Quantity>& shown) {
-  double y = 24;
-  const auto line = [&](double length, const std::string& text, auto&& sign) {
+void draw_wheels(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample) {
+  for (const auto& disc : scene.discs) {
+    const std::string outline = path_of(canvas, wheel_outline(scene, disc, sample), true);
+    if (outline.empty()) continue;
     put(out,
-        "<g class=\"key\"><rect x=\"34\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"24\" fill=\"{}\" "
-        "fill-opacity=\"0.88\"/>",
-        y - 12, length + 26 + 7.2 * static_cast<double>(text.size()), paper);
-    sign();
-    put(out, "<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"{}\" font-size=\"13\">{}</text></g>\n", 50 + length,
-        y + 4.5, ink, escape(text));
-    y += 24;
-  };
-  for (const Scene::Quantity quantity : shown) {
-    const ArrowScale scale = arrow_scale(scene, quantity);
-    if (scale.metres_per_unit == 0) continue;
-    const double length = scale.key_value * scale.metres_per_unit * canvas.scale();
-    const std::string text =
-        fmt::format("{} {} {}", quantity_name(quantity), number(scale.key_value), scale.unit);
-    line(length, text, [&] { draw_arrow(out, quantity, 40, y, 40 + length, y, text, {}); });
+        "<g class=\"wheel\"><title>{}</title><path d=\"{}\" fill=\"{}\" fill-opacity=\"0.08\" stroke=\"{}\" "
+        "stroke-width=\"1.3\"/>",
+        escape(disc.name), outline, ink, ink);
+    // The plane of the wheel, and the rim towards the eye.
+    put(out,
+        "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.2\" stroke-dasharray=\"14 3 2 "
+        "3\"/></g>\n",
+        path_of(canvas, wheel_circle(scene, disc, sample, 1, 0, 48), true), trace_colour);
   }
-  const double most = largest_moment(scene);
-  if (most > 0 && std::find(shown.begin(), shown.end(), Scene::Quantity::force) != shown.end())
-    line(20, fmt::format("full arc {} {}", number(most, 4), scene.moments.front().unit),
-         [&] { draw_arc(out, 50, y, 9, arc_turn(0.75)); });
+}
+
+std::vector<ShownArrows> shown_arrows(const Scene& scene, const SvgOptions& options) {
+  std::vector<ShownArrows> out;
+  for (const auto& [wanted, quantity] : {std::pair{options.forces, Scene::Quantity::force},
+                                         std::pair{options.velocities, Scene::Quantity::velocity},
+                                         std::pair{options.accelerations, Scene::Quantity::acceleration}})
+    if (wanted) out.push_back({quantity, arrow_scale(scene, quantity)});
+  return out;
+}
+
+void add_tips(Box& box, const Scene& scene, std::size_t sample, const std::vector<ShownArrows>& shown) {
+  for (const auto& [quantity, scale] : shown)
+    for (const auto& vector : scene.vectors)
+      if (const Place end = tip(scene, vector, sample, scale); vector.quantity == quantity)
+        box.add(end.x, end.y);
+}
+
+void open_document(std::string& out, double width, double height, std::string_view title) {
+  put(out,
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
+      "{1:.0f}\" role=\"img\" "
+      "font-family=\"system-ui, sans-serif\"><title>{2}</title>\n"
+      "<rect class=\"paper\" width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"{3}\"/>\n",
+      width, height, escape(title), paper);
+}
+
+std::string nothing(const Scene& scene, const SvgOptions& options) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"120\" viewBox=\"0 0 {0:.0f} "
+      "120\" role=\"img\" "
+      "font-family=\"sans-serif\"><title>{1}</title><text x=\"24\" y=\"64\" font-size=\"15\">Nothing to "
+      "draw: the mechanism "
+      "assembles at no input.</text></svg>\n",
+      options.width, escape(scene.title));
+}
+
+void draw_ghosts(std::string& out, const Canvas& canvas, const Scene& scene, int count) {
+  for (int i = 0; i < count; ++i) {
+    const std::size_t ghost = scene.samples() * static_cast<std::size_t>(i) / static_cast<std::size_t>(count);
+    out += "<g class=\"ghost\" opacity=\"0.13\">\n";
+    for (const bool plates : {true, false}) draw_bodies(out, canvas, scene, ghost, plates);
+    out += "</g>\n";
+  }
+}
+
+// Three views of one scale: the side right of the rear view, at the same height, and the top below it.
+std::string views_of(const Scene& scene, std::size_t sample, const SvgOptions& options) {
+  constexpr double edge = 46, gap = 1;  // px
+  const std::vector<ShownArrows> shown = shown_arrows(scene, options);
+  std::array<Scene, 3> seen;
+  std::array<Box, 3> boxes;
+  for (std::size_t k = 0; k < 3; ++k) {
+    seen[k] = seen_from(scene, viewpoints[k]);
+    boxes[k] = bounds(seen[k]);
+    if (boxes[k].empty()) return nothing(scene, options);
+    add_tips(boxes[k], seen[k], sample, shown);
+  }
+  auto& [rear, side, top] = boxes;
+  rear.x_min = top.x_min = std::min(rear.x_min, top.x_min);
+  rear.x_max = top.x_max = std::max(rear.x_max, top.x_max);
+  rear.y_min = side.y_min = std::min(rear.y_min, side.y_min);
+  rear.y_max = side.y_max = std::max(rear.y_max, side.y_max);
+  // What is flat in one direction still needs some room in it.
+  const double least = 0.2 * extent(scene) + 1e-12;
+  const auto room = [least](double length) { return std::max(length, least); };
+  const double left = room(rear.width()), right = room(side.width());
+  const double upper = room(rear.height()), lower = room(top.height());
+  const double scale = std::min((options.width - 4 * edge - gap) / (left + right),
+                                (1.5 * options.max_height - 4 * edge - gap) / (upper + lower));
+  // What the scale leaves over goes to both columns.
+  const double spare = (options.width - gap - 4 * edge - scale * (left + right)) / 2;
+  const double widths[] = {left * scale + 2 * edge + spare, right * scale + 2 * edge + spare};
+  const double heights[] = {std::ceil(upper * scale + 2 * edge), std::ceil(lower * scale + 2 * edge)};
+  std::string out;
+  open_document(out, options.width, heights[0] + gap + heights[1], scene.title);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double width = widths[k == 1], height = heights[k == 2];
+    Canvas canvas(boxes[k], scale, width, height);
+    canvas.fit_bars(usual_length(scene, sample), 0.55);
+    put(out, "<svg class=\"view\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\">\n",
+        k == 1 ? widths[0] + gap : 0, k == 2 ? heights[0] + gap : 0, width, height);
+    const Mirrored names{k == 1 ? "x" : "y", k == 2 ? "x" : "z", options.width};
+    if (options.grid) draw_grid(out, canvas, &names);
+    draw_ghosts(out, canvas, seen[k], options.ghosts);
+    draw_wheels(out, canvas, seen[k], sample);
+    draw_bodies(out, canvas, seen[k], sample, true);
+    if (options.traces) draw_traces(out, canvas, seen[k]);
+    draw_bodies(out, canvas, seen[k], sample, false);
+    draw_spatial_joints(out, canvas, seen[k], sample, options.labels);
+    for (const ShownArrows& arrows : shown)
+      draw_vectors(out, canvas, seen[k], sample, arrows, options.labels);
+    put(out,
+        "<rect x=\"0.5\" y=\"0.5\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#c3ccd4\"/>"
+        "<text x=\"{:.1f}\" y=\"20\" fill=\"{}\" stroke=\"{}\" stroke-width=\"4\" paint-order=\"stroke\" "
+        "font-size=\"13\" text-anchor=\"end\">{}</text></svg>\n",
+        width - 1, height - 1, width - 10, ink, paper, viewpoints[k].name);
+  }
+  // The corner that is left tells the scale of the arrows.
+  put(out, "<svg x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\">\n", widths[0] + gap,
+      heights[0] + gap, widths[1], heights[1]);
+  draw_key(out, Canvas(top, scale, widths[1], heights[1]), seen[0], shown);
+  out += "</svg></svg>\n";
+  return out;
 }
 
 }  // namespace
@@ -420,52 +416,29 @@ std::string svg(const study::Scene& scene, const SvgOptions& options) {
   LINKWRIGHT_REQUIRE(!options.sample || *options.sample < scene.samples(),
                      "sample {} of a scene with {} samples", *options.sample, scene.samples());
   const std::size_t sample = options.sample.value_or(reference_sample(scene));
-  std::vector<Scene::Quantity> shown;
-  if (options.forces) shown.push_back(Scene::Quantity::force);
-  if (options.velocities) shown.push_back(Scene::Quantity::velocity);
-  if (options.accelerations) shown.push_back(Scene::Quantity::acceleration);
+  if (!scene.second.empty()) {
+    SvgOptions within = options;
+    if (scene.samples() > 0) within.sample = sample % scene.input.size();
+    return svg(row_of(scene, scene.input.empty() ? 0 : sample / scene.input.size()), within);
+  }
+  if (scene.spatial()) return views_of(scene, sample, options);
+  const std::vector<ShownArrows> shown = shown_arrows(scene, options);
   Box box = bounds(scene);
-  for (const Scene::Quantity quantity : shown) {
-    const ArrowScale scale = arrow_scale(scene, quantity);
-    for (const auto& vector : scene.vectors)
-      if (const Place end = tip(scene, vector, sample, scale); vector.quantity == quantity)
-        box.add(end.x, end.y);
-  }
-  std::string out;
-  if (box.empty()) {
-    put(out,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"120\" viewBox=\"0 0 {0:.0f} "
-        "120\" role=\"img\" "
-        "font-family=\"sans-serif\"><title>{1}</title><text x=\"24\" y=\"64\" font-size=\"15\">Nothing to "
-        "draw: the mechanism "
-        "assembles at no input.</text></svg>\n",
-        options.width, escape(scene.title));
-    return out;
-  }
+  add_tips(box, scene, sample, shown);
+  if (box.empty()) return nothing(scene, options);
   Canvas canvas(box, options);
   canvas.fit_bars(usual_length(scene, sample));
-  put(out,
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
-      "{1:.0f}\" role=\"img\" "
-      "font-family=\"system-ui, sans-serif\"><title>{2}</title>\n"
-      "<rect class=\"paper\" width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"{3}\"/>\n",
-      canvas.width(), canvas.height(), escape(scene.title), paper);
+  std::string out;
+  open_document(out, canvas.width(), canvas.height(), scene.title);
   if (options.grid) draw_grid(out, canvas);
-  for (int i = 0; i < options.ghosts; ++i) {
-    const std::size_t ghost =
-        scene.samples() * static_cast<std::size_t>(i) / static_cast<std::size_t>(options.ghosts);
-    out += "<g class=\"ghost\" opacity=\"0.13\">\n";
-    for (const bool plates : {true, false}) draw_bodies(out, canvas, scene, ghost, plates);
-    out += "</g>\n";
-  }
+  draw_ghosts(out, canvas, scene, options.ghosts);
   draw_circles(out, canvas, scene, sample);
   draw_bodies(out, canvas, scene, sample, true);
   if (options.traces) draw_traces(out, canvas, scene);
   draw_bodies(out, canvas, scene, sample, false);
   for (const auto& joint : scene.joints) draw_joint(out, canvas, scene, joint, sample, options.labels);
   if (options.targets) draw_targets(out, canvas, scene, options.whisker_scale);
-  for (const Scene::Quantity quantity : shown)
-    draw_vectors(out, canvas, scene, sample, quantity, options.labels);
+  for (const ShownArrows& arrows : shown) draw_vectors(out, canvas, scene, sample, arrows, options.labels);
   if (options.forces) draw_moments(out, canvas, scene, sample, options.labels);
   draw_key(out, canvas, scene, shown);
   out += "</svg>\n";

@@ -89,11 +89,17 @@ Value scene_data(const Scene& scene) {
   out["input_key"] = scene.input_key;
   out["input_label"] = scene.input_label;
   out["input"] = coordinates(scene.input);
+  if (!scene.second.empty()) {
+    out["second_key"] = scene.second_key;
+    out["second_label"] = scene.second_label;
+    out["second"] = coordinates(scene.second);
+  }
   out["status"] = texts(scene.status);
   out["points"] = list(scene.points, [](Value& o, const Scene::Point& p) {
     o["name"] = p.name;
     o["x"] = coordinates(p.x);
     o["y"] = coordinates(p.y);
+    if (!p.z.empty()) o["z"] = coordinates(p.z);
   });
   out["bodies"] = list(scene.bodies, [](Value& o, const Scene::Body& b) {
     o["name"] = b.name;
@@ -127,6 +133,14 @@ Value scene_data(const Scene& scene) {
     o["centre"] = c.centre;
     o["rim"] = c.rim;
   });
+  if (!scene.discs.empty())
+    out["discs"] = list(scene.discs, [](Value& o, const Scene::Disc& d) {
+      o["name"] = d.name;
+      o["centre"] = d.centre;
+      o["axis"] = d.axis;
+      o["radius"] = rounded(d.radius);
+      o["width"] = rounded(d.width);
+    });
   out["vectors"] = list(scene.vectors, [](Value& o, const Scene::Vector& v) {
     o["name"] = v.name;
     o["quantity"] = quantity_name(v.quantity);
@@ -134,6 +148,7 @@ Value scene_data(const Scene& scene) {
     o["point"] = v.point;
     o["x"] = coordinates(v.x);
     o["y"] = coordinates(v.y);
+    if (!v.z.empty()) o["z"] = coordinates(v.z);
     o["symbol"] = v.symbol;
   });
   out["moments"] = list(scene.moments, [](Value& o, const Scene::Moment& m) {
@@ -192,6 +207,14 @@ Value view_data(const ReportInput& input) {
     o["style"] = style_name(p.style);
     o["logarithmic_y"] = p.logarithmic_y;
     o["scene"] = p.scene;
+    if (!p.group.empty()) o["group"] = p.group;
+    if (!p.bands.empty())
+      o["bands"] = list(p.bands, [](Value& b, const study::Plot::Band& band) {
+        b["lower"] = band.lower;
+        b["upper"] = band.upper;
+        b["label"] = band.label;
+      });
+    if (!p.baseline.empty()) o["baseline"] = p.baseline;
   });
   out["changes"] = list(result.changes, [](Value& o, const study::Change& c) {
     o["quantity"] = c.quantity;

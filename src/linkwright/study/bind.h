@@ -21,7 +21,8 @@
 
 // From documents to structs. A struct with a field list (core/field.h) is read by `reader.read(options)`;
 // single values by `reader(Field{...}, member)`. Members may be double, bool, whole numbers, std::string,
-// Range, an enum with `names`, std::array<double, 2 or 3>, a struct with a field list, std::optional of any
+// Range, an enum with `names`, std::array<double, 2 or 3>, a struct with a field list or a form of its own
+// (HasOwnForm), std::optional of any
 // of these, std::vector of any of these but bool and optional, std::vector of std::pair<std::string, any of
 // these> for a table whose keys are names that the user gives, and a choice: std::variant of structs, each
 // with
@@ -124,31 +125,15 @@ class ObjectReader {
   const Value& value() const { return *object_; }
   DocumentReader& document() const { return *document_; }
 
- private:
-  friend class DocumentReader;
+  // ---- for types with a form of their own ----
+
+  /// A value with the unit of its key and its path.
   struct Found {
     const Value* value;
     const Unit* unit;
     std::string path;
   };
-  ObjectReader(DocumentReader& document, const Value& object, DocumentReader::Record& record)
-      : document_(&document), object_(&object), record_(&record) {}
-
-  /// The member of a field; problems with its unit and its absence are noted.
-  std::optional<Found> find(const Field& field);
-  const Value::Member* member_of(const Field& field) const;
-  void know(const Field& field);
-  std::optional<ObjectReader> open(const Found& found);
-  std::vector<ObjectReader> open_all(const Found& found);
-  const Value::Array* elements(const Found& found, std::string_view expected);
-  void problem(const Found& found, std::string message, std::string hint = {});
-
-  bool number(const Found& found, const Field& field, double& result, std::string_view expected = "a number");
-  bool whole(const Found& found, const Field& field, std::int64_t lowest, std::int64_t highest,
-             std::int64_t& result);
-  bool numbers(const Found& found, const Field& field, std::span<double> result);
-  std::optional<std::size_t> one_of(const Found& found, std::span<const Word> words);
-
+  /// Reads it as what the result is.
   bool convert(const Found& found, const Field& field, double& result) {
     return number(found, field, result);
   }
@@ -157,6 +142,25 @@ class ObjectReader {
   bool convert(const Found& found, const Field& field, Range& result);
   template <class T>
   bool convert(const Found& found, const Field& field, T& result);
+  std::optional<ObjectReader> open(const Found& found);
+  void problem(const Found& found, std::string message, std::string hint = {});
+
+ private:
+  friend class DocumentReader;
+  ObjectReader(DocumentReader& document, const Value& object, DocumentReader::Record& record)
+      : document_(&document), object_(&object), record_(&record) {}
+
+  /// The member of a field; problems with its unit and its absence are noted.
+  std::optional<Found> find(const Field& field);
+  const Value::Member* member_of(const Field& field) const;
+  void know(const Field& field);
+  const Value::Array* elements(const Found& found, std::string_view expected);
+
+  bool number(const Found& found, const Field& field, double& result, std::string_view expected = "a number");
+  bool whole(const Found& found, const Field& field, std::int64_t lowest, std::int64_t highest,
+             std::int64_t& result);
+  bool numbers(const Found& found, const Field& field, std::span<double> result);
+  std::optional<std::size_t> one_of(const Found& found, std::span<const Word> words);
 
   template <class... Options>
   bool choose(const Field& field, std::variant<Options...>& result);
@@ -180,7 +184,9 @@ bool ObjectReader::operator()(const Field& field, T& member) {
 
 template <class T>
 bool ObjectReader::convert(const Found& found, const Field& field, T& result) {
-  if constexpr (is_optional<T>) {
+  if constexpr (HasOwnForm<T>) {
+    return read_value(*this, found, field, result);
+  } else if constexpr (is_optional<T>) {
     typename T::value_type value{};
     const bool good = convert(found, field, value);
     if (good) result = std::move(value);

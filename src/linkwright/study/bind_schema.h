@@ -23,7 +23,7 @@ class SchemaWriter {
       choice(field, member);
     } else {
       Value schema = of(field, member);
-      if constexpr (!is_optional<T> && !HasFields<T>) {
+      if constexpr (!is_optional<T> && !HasFields<T> && !HasOwnForm<T>) {
         if (!field.required) schema["default"] = ObjectWriter::to_value(member);
       }
       property(field, std::move(schema));
@@ -76,7 +76,9 @@ Value schema_any_of(Value::Array alternatives);
 
 template <class T>
 Value SchemaWriter::of(const Field& field, const T& member) {
-  if constexpr (is_optional<T>) {
+  if constexpr (HasOwnForm<T>) {
+    return schema_value(field, member);
+  } else if constexpr (is_optional<T>) {
     return of(field, typename T::value_type{});
   } else if constexpr (std::is_same_v<T, bool>) {
     Value schema;

@@ -26,6 +26,17 @@ concept HasFields = std::is_class_v<T> && requires(T& object, FieldProbe probe) 
   fields(probe, object);
 };
 
+/// A type that files write in a form of its own, by functions that argument-dependent lookup finds (`Found`
+/// is ObjectReader::Found):
+///
+///     bool read_value(ObjectReader& reader, const Found& found, const Field& field, T& member);
+///     Value write_value(const T& member);  // in SI units
+///     Value schema_value(const Field& field, const T& member);
+template <class T>
+concept HasOwnForm = std::is_class_v<T> && requires(const T& object) {
+  write_value(object);
+};
+
 /// An enumeration with `names(E)`.
 template <class T>
 concept HasNames = std::is_enum_v<T> && requires {

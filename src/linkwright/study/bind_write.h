@@ -39,7 +39,9 @@ class ObjectWriter {
   /// A value as documents hold it.
   template <class T>
   static Value to_value(const T& member) {
-    if constexpr (std::is_same_v<T, Range>) {
+    if constexpr (HasOwnForm<T>) {
+      return write_value(member);
+    } else if constexpr (std::is_same_v<T, Range>) {
       if (member.fixed()) return Value(member.lower);
       Value range;
       range["min"] = member.lower;

@@ -2,253 +2,352 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "linkwright/core/check.h"
-#include "linkwright/math/least_squares.h"
 #include "linkwright/suspension/link_fit_motion.h"
+#include "linkwright/suspension/pose_completion.h"
+#include "linkwright/suspension/seven_poses.h"
 #include "linkwright/suspension/structure.h"
 
 namespace linkwright::suspension {
 namespace {
 
-/// The point at distance l from the body point of the first link, seen from the second one: from + l along.
-struct Track {
-  std::vector<Eigen::Vector3d> from, along;  ///< the reference first
-  Mat3 frame;                                ///< of the second link in the reference pose, axes as rows
-  Vec3 origin;
+bool interrupted(Status status) { return status == Status::deadline || status == Status::cancelled; }
 
-  std::size_t size() const { return from.size(); }
-  Eigen::Vector3d at(std::size_t i, double l) const { return from[i] + l * along[i]; }
-};
+/// A synthesis on its way: what links and couplers came to, and what that means.
+class Assembly {
+ public:
+  explicit Assembly(const IndirectTask& task) : task_(task) {
+    for (const CouplerTask& c : task.couplers)
+      LINKWRIGHT_REQUIRE(
+          c.first >= 0 && c.second >= 0 && std::max(c.first, c.second) < static_cast<int>(task.links.size()),
+          "coupler '{}': links {} and {} of {}", c.name, c.first, c.second, task.links.size());
+    result.targets = task.targets;
+    result.guide.wheel = task.targets.wheel;
+    result.guide.rack_direction = task.targets.rack_direction;
+    result.links.resize(task.links.size());
+    result.couplers.resize(task.couplers.size());
+    if (!spin_is_given(task.targets)) settle_spin();
+  }
 
-/// Axes of the second link (59)-(64).
-Mat3 link_frame(const Vec3& ball, const Vec3& hinge, const Vec3& other) {
-  const Vec3 y = math::unit(other - hinge), z = math::unit(cross(ball - hinge, other - hinge));
-  return {{cross(y, z), y, z}};
-}
+  bool can_go_on() const { return rod_assembles_; }
+  bool spin_is_open() const { return !spin_is_given(result.targets); }
 
-Track coupler_track(const CarrierTargets& targets, const GuideLink& first, const GuideLink& second) {
-  Track track;
-  const auto add = [&](const Mat3& rotation, const Vec3& centre, double rack) {
-    const auto moved = [&](const Vec3& p) { return centre + rotation * (p - targets.wheel.centre); };
-    const auto body = [&](const GuideLink& link) {
-      return link.moved_by_rack ? link.body[0] + rack * targets.rack_direction : link.body[0];
+  /// Takes links and couplers of a joint search to the places `at`.
+  template <class Joint>
+  void take(const Joint& joint, std::span<const std::size_t> links, std::span<const std::size_t> couplers,
+            double tolerance) {
+    for (std::size_t l = 0; l < links.size(); ++l) {
+      LinkFit& fit = result.links[links[l]];
+      fit.link = joint.links[l];
+      set_errors(fit, joint.link_errors[l], tolerance, joint.status);
+    }
+    for (std::size_t k = 0; k < couplers.size(); ++k) {
+      CouplerFit& fit = result.couplers[couplers[k]];
+      const CouplerTask& task = task_.couplers[couplers[k]];
+      fit.coupler = joint.couplers[k];
+      fit.coupler.first = task.first, fit.coupler.second = task.second;
+      const GuideLink& first = result.links[static_cast<std::size_t>(task.first)].link;
+      fit.offset = fit.coupler.fraction * norm(first.carrier[0] - first.body[0]);
+      set_errors(fit, joint.coupler_errors[k], tolerance, joint.status);
+    }
+    result.evaluations += joint.evaluations;
+  }
+
+  IndirectSynthesis finish(RunContext& context) {
+    result.status = rod_assembles_ ? Status::done : Status::infeasible;
+    const auto worsen = [&](Status status) {
+      if (status == Status::done || interrupted(result.status)) return;
+      if (interrupted(status) || status == Status::infeasible || result.status == Status::done)
+        result.status = status;
     };
-    const Vec3 hinge = moved(second.carrier[0]);
-    const Mat3 frame = link_frame(body(second), hinge, moved(second.carrier[1]));
-    const Vec3 from = frame * (body(first) - hinge),
-               along = frame * math::unit(moved(first.carrier[0]) - body(first));
-    track.from.emplace_back(from.x, from.y, from.z);
-    track.along.emplace_back(along.x, along.y, along.z);
-    if (track.size() == 1) track.frame = frame, track.origin = hinge;
-  };
-  add({}, targets.wheel.centre, 0);
-  for (const CarrierTarget& pose : targets.poses) {
-    add(target_rotation(targets, pose), pose.centre, pose.rack);
+    for (const LinkFit& fit : result.links) {
+      result.guide.links.push_back(fit.link);
+      result.largest = std::max(result.largest, fit.largest);
+      worsen(fit.status);
+    }
+    for (const CouplerFit& fit : result.couplers) {
+      result.guide.couplers.push_back(fit.coupler);
+      result.largest = std::max(result.largest, fit.largest);
+      worsen(fit.status);
+    }
+    if (result.status != Status::done && context.interrupted()) result.status = context.interruption();
+    count_positions();
+    const bool complete = std::all_of(result.links.begin(), result.links.end(),
+                                      [](const LinkFit& fit) { return std::isfinite(fit.rms); }) &&
+                          std::all_of(result.couplers.begin(), result.couplers.end(),
+                                      [](const CouplerFit& fit) { return std::isfinite(fit.rms); });
+    if (complete) {
+      const Diagnostics structure = check_structure(result.guide);
+      result.findings.insert(result.findings.end(), structure.begin(), structure.end());
+      if (result.status == Status::done && has_errors(structure)) result.status = Status::singular;
+    }
+    return std::move(result);
   }
-  return track;
-}
 
-/// Centre of the sphere nearest to the track for an offset, the residuals of the linear problem, and their
-/// derivative.
-struct Sphere {
-  Eigen::Vector3d centre;
-  Eigen::VectorXd residual, derivative;
+  /// The links that share couplers with others, and all the others one by one.
+  std::vector<std::vector<std::size_t>> groups(bool together) const {
+    std::vector<std::size_t> group(task_.links.size());
+    for (std::size_t l = 0; l < group.size(); ++l) group[l] = together ? 0 : l;
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const CouplerTask& c : task_.couplers) {
+        std::size_t &a = group[static_cast<std::size_t>(c.first)],
+                    &b = group[static_cast<std::size_t>(c.second)];
+        changed = changed || a != b;
+        a = b = std::min(a, b);
+      }
+    }
+    std::vector<std::vector<std::size_t>> out;
+    for (std::size_t g = 0; g < group.size(); ++g) {
+      std::vector<std::size_t> members;
+      for (std::size_t l = 0; l < group.size(); ++l)
+        if (group[l] == g) members.push_back(l);
+      if (!members.empty()) out.push_back(std::move(members));
+    }
+    return out;
+  }
+  /// Tasks of a group; couplers count links within it. `places` are those of its couplers.
+  std::vector<LinkTask> links_of(std::span<const std::size_t> group) const {
+    std::vector<LinkTask> out;
+    for (const std::size_t l : group) out.push_back(task_.links[l]);
+    return out;
+  }
+  std::vector<CouplerTask> couplers_of(std::span<const std::size_t> group,
+                                       std::vector<std::size_t>& places) const {
+    std::vector<CouplerTask> out;
+    const auto within = [&](int link) {
+      return static_cast<int>(std::find(group.begin(), group.end(), static_cast<std::size_t>(link)) -
+                              group.begin());
+    };
+    for (std::size_t k = 0; k < task_.couplers.size(); ++k) {
+      CouplerTask c = task_.couplers[k];
+      c.first = within(c.first), c.second = within(c.second);
+      if (c.first == static_cast<int>(group.size())) continue;
+      out.push_back(c);
+      places.push_back(k);
+    }
+    return out;
+  }
+
+  IndirectSynthesis result;
+
+ private:
+  template <class Fit>
+  static void set_errors(Fit& fit, const ErrorTotals& errors, double tolerance, Status ended) {
+    fit.rms = errors.rms();
+    fit.largest = errors.largest;
+    fit.status = fit.rms <= tolerance ? Status::done : interrupted(ended) ? ended : Status::not_converged;
+  }
+
+  void settle_spin() {
+    for (const LinkTask& link : task_.links) {
+      if (link.type != LinkType::KS && link.type != LinkType::SS) continue;
+      const LinkCoordinates coordinates(link);
+      if (!coordinates.free().empty()) continue;
+      PoseCompletion made = complete(task_.targets, coordinates.middle(), PoseParameter::spin);
+      rod_assembles_ = made.status == Status::done;
+      if (rod_assembles_)
+        result.targets = std::move(made.targets);
+      else
+        result.findings.push_back(
+            {.severity = Diagnostic::Severity::error,
+             .key = fmt::format("link.{}", link.name),
+             .message = fmt::format("cannot keep its length at position {}: it misses by {:.3g} m",
+                                    made.position + 1, made.shortfall),
+             .hint = "move its points, or leave the spin to the synthesis"});
+      return;
+    }
+  }
+
+  void count_positions() {
+    int all = 0, equations = static_cast<int>(task_.couplers.size());
+    const bool open = !spin_is_given(task_.targets);
+    for (const LinkTask& link : task_.links) {
+      const int unknowns = static_cast<int>(LinkCoordinates(link).free().size());
+      all += unknowns;
+      equations += constraints(link.type);
+      if (!open) result.fewest = std::max(result.fewest, fewest_positions(unknowns, constraints(link.type)));
+    }
+    if (open) {  // all links count, couplers with their offset and point
+      for (const CouplerTask& c : task_.couplers)
+        all += 1 + (c.point.lower.x < c.point.upper.x) + (c.point.lower.y < c.point.upper.y) +
+               (c.point.lower.z < c.point.upper.z);
+      result.fewest = fewest_positions(all, equations, 5);
+    }
+    CarrierTargets counted = task_.targets;
+    for (CarrierTarget& pose : counted.poses)
+      if (std::isnan(pose.angles.spin)) pose.angles.spin = 0;
+    const auto given = static_cast<double>(link_motion(counted, false).size() + 1);
+    if (given < result.fewest)
+      result.findings.push_back(
+          {.severity = Diagnostic::Severity::warning,
+           .key = "target",
+           .message =
+               fmt::format("{} positions, the reference included, leave a family of exact solutions", given),
+           .hint = fmt::format("{:.3g} positions determine the links", std::ceil(result.fewest))});
+  }
+
+  const IndirectTask& task_;
+  bool rod_assembles_ = true;
 };
 
-Sphere fit_sphere(const Track& track, double l) {
-  const auto n = static_cast<Eigen::Index>(track.size());
-  Eigen::MatrixXd a(n, 3), da(n, 3);
-  Eigen::VectorXd b(n), db(n);
-  const Eigen::Vector3d t0 = track.at(0, l), u0 = track.along[0];
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Vector3d t = track.at(static_cast<std::size_t>(i), l),
-                          u = track.along[static_cast<std::size_t>(i)];
-    a.row(i) = (t - t0).transpose();
-    da.row(i) = (u - u0).transpose();
-    b[i] = (t - t0).dot(t + t0) / 2;
-    db[i] = t.dot(u) - t0.dot(u0);
+/// Rods that fit seven positions exactly, found when they are first asked for.
+class ExactRods {
+ public:
+  ExactRods(const CarrierTargets& targets, std::uint64_t seed) : targets_(targets), seed_(seed) {}
+
+  std::span<const GuideLink> of(bool moved_by_rack, std::vector<GuideLink>& arms) {
+    auto& rods = rods_[moved_by_rack ? 1 : 0];
+    if (!rods) {
+      rods.emplace();
+      if (link_motion(targets_, moved_by_rack).size() >= 6) {
+        const SevenPoseReport found = seven_pose_rods(targets_, moved_by_rack, seed_);
+        for (const SevenPoseRod& rod : found.rods) rods->push_back(rod.link);
+        arms.insert(arms.end(), found.arms.begin(), found.arms.end());
+      }
+    }
+    return *rods;
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
-  Sphere s;
-  s.centre = qr.solve(b);
-  s.residual = b - a * s.centre;
-  const Eigen::VectorXd change = db - da * s.centre;
-  // (I - Q Q') (db - dA y) - A+' dA' e
-  const Eigen::Vector3d turned = da.transpose() * s.residual;
-  const Eigen::MatrixXd normal = a.transpose() * a;
-  s.derivative = change - a * qr.solve(change) - a * normal.ldlt().solve(turned);
-  return s;
-}
 
-bool inside(const PointBox& box, const Vec3& p, double by) {
-  return p.x >= box.lower.x - by && p.x <= box.upper.x + by && p.y >= box.lower.y - by &&
-         p.y <= box.upper.y + by && p.z >= box.lower.z - by && p.z <= box.upper.z + by;
-}
+ private:
+  const CarrierTargets& targets_;
+  std::uint64_t seed_;
+  std::array<std::optional<std::vector<GuideLink>>, 2> rods_;
+};
 
-/// Errors |t_i - y| - |t_0 - y| over the offset and the point, for a search within bounds.
-bool coupler_errors(const Track& track, std::span<const double> x, std::span<double> errors,
-                    std::span<double> jacobian) {
-  const Vec3 y = track.frame * (Vec3{x[1], x[2], x[3]} - track.origin);
-  const Eigen::Vector3d centre(y.x, y.y, y.z);
-  const Eigen::Vector3d d0 = track.at(0, x[0]) - centre;
-  const double l0 = d0.norm();
-  if (!(l0 > 0)) return false;
-  const std::size_t m = track.size() - 1;
-  for (std::size_t i = 0; i < m; ++i) {
-    const Eigen::Vector3d d = track.at(i + 1, x[0]) - centre;
-    const double l = d.norm();
-    if (!(l > 0)) return false;
-    errors[i] = (d - d0).dot(d + d0) / (l + l0);
-    if (jacobian.empty()) continue;
-    const Eigen::Vector3d g = d0 / l0 - d / l;
-    jacobian[i] = d.dot(track.along[i + 1]) / l - d0.dot(track.along[0]) / l0;
-    const Vec3 row = g.x() * track.frame.row[0] + g.y() * track.frame.row[1] + g.z() * track.frame.row[2];
-    jacobian[m + i] = row.x, jacobian[2 * m + i] = row.y, jacobian[3 * m + i] = row.z;
-  }
-  return true;
-}
-
-constexpr int offsets_tried = 24;
-constexpr double in_box = 1e-9;  // m
-
-}  // namespace
-
-CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink> links,
-                       const CouplerTask& task, double tolerance) {
-  const auto link = [&](int index, LinkType type, LinkType same) -> const GuideLink& {
-    LINKWRIGHT_REQUIRE(index >= 0 && index < static_cast<int>(links.size()), "coupler '{}': link {} of {}",
-                       task.name, index, links.size());
-    const GuideLink& found = links[static_cast<std::size_t>(index)];
-    LINKWRIGHT_REQUIRE(found.type == type || found.type == same,
-                       "coupler '{}': link {} is of type {}, needs {}", task.name, index, name_of(found.type),
-                       name_of(type));
-    return found;
-  };
-  const GuideLink& first = link(task.first, LinkType::KS, LinkType::SS);
-  const GuideLink& second = link(task.second, LinkType::SR, LinkType::SR);
-  const double length = norm(first.carrier[0] - first.body[0]);
-  LINKWRIGHT_REQUIRE(task.least_offset >= 0 && task.least_offset < length,
-                     "coupler '{}': offset of at least {} m on a link of {} m", task.name, task.least_offset,
-                     length);
-  const Track track = coupler_track(targets, first, second);
-  LINKWRIGHT_REQUIRE(track.size() >= 5, "coupler '{}': needs four positions beside the reference, got {}",
-                     task.name, track.size() - 1);
-
-  CouplerFit fit;
-  fit.coupler = {.name = task.name, .first = task.first, .second = task.second};
-  // The best of a row of offsets, then Gauss-Newton with the exact derivative.
-  double offset = length, least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < offsets_tried; ++k) {
-    const double l = task.least_offset + (length - task.least_offset) * (k + 0.5) / offsets_tried;
-    const double square = fit_sphere(track, l).residual.squaredNorm();
-    if (square < least) least = square, offset = l;
-  }
-  math::LeastSquaresOptions options;
-  options.decrease_tolerance = 0;
-  options.cost_tolerance = 1e-34;
-  math::LeastSquaresWorkspace workspace;
-  const auto n = static_cast<std::size_t>(track.size());
-  math::minimise_least_squares(
-      [&](std::span<const double> x, std::span<double> r, std::span<double> j) {
-        const Sphere s = fit_sphere(track, x[0]);
-        std::copy(s.residual.begin(), s.residual.end(), r.begin());
-        if (!j.empty()) std::copy(s.derivative.begin(), s.derivative.end(), j.begin());
-        return true;
-      },
-      n, {&offset, 1}, {&task.least_offset, 1}, {&length, 1}, options, workspace);
-  const Eigen::Vector3d centre = fit_sphere(track, offset).centre;
-  std::array x{offset, 0.0, 0.0, 0.0};
-  const auto set_point = [&](const Vec3& p) { x[1] = p.x, x[2] = p.y, x[3] = p.z; };
-  const Mat3 back = transposed(track.frame);
-  set_point(track.origin + back * Vec3{centre.x(), centre.y(), centre.z()});
-  const auto errors = [&] {
-    std::vector<double> e(n - 1);
-    fit.rms = fit.largest = std::numeric_limits<double>::infinity();
-    if (!coupler_errors(track, x, e, {})) return;
-    double square = 0;
-    fit.largest = 0;
-    for (const double v : e) square += v * v, fit.largest = std::max(fit.largest, std::abs(v));
-    fit.rms = std::sqrt(square / static_cast<double>(e.size()));
-  };
-  errors();
-  if (!(fit.rms <= tolerance) || !inside(task.point, {x[1], x[2], x[3]}, in_box)) {
-    const std::array lower{task.least_offset, task.point.lower.x, task.point.lower.y, task.point.lower.z};
-    const std::array upper{length, task.point.upper.x, task.point.upper.y, task.point.upper.z};
-    options.max_iterations = 500;
-    math::minimise_least_squares([&](std::span<const double> at, std::span<double> r,
-                                     std::span<double> j) { return coupler_errors(track, at, r, j); },
-                                 n - 1, x, lower, upper, options, workspace);
-    errors();
-  }
-  if (!std::isfinite(fit.rms)) return fit;
-  fit.status = fit.rms <= tolerance ? Status::done : Status::not_converged;
-  fit.offset = x[0];
-  fit.coupler.fraction = x[0] / length;
-  fit.coupler.point = {x[1], x[2], x[3]};
+LinkFit find_link(const LinkTask& task, std::uint32_t run, const LinkFitOptions& options,
+                  std::span<const GuideLink> exact, ExactRods& rods, IndirectSynthesis& result,
+                  std::uint64_t seed, RunContext& context) {
+  LinkFit fit = fit_link(result.targets, task, options, exact, seed, context, run);
+  const bool rod = task.type == LinkType::KS || task.type == LinkType::SS;
+  if (fit.status == Status::done || !rod || context.interrupted()) return fit;
+  std::vector<GuideLink> starts(rods.of(task.moved_by_rack, result.arms).begin(),
+                                rods.of(task.moved_by_rack, result.arms).end());
+  for (GuideLink& start : starts) start.type = task.type, start.name = task.name;
+  LinkFit second = fit_link_from(starts, result.targets, task, options, exact, context);
+  second.starts += fit.starts;
+  second.duplicates += fit.duplicates;
+  second.evaluations += fit.evaluations;
+  if (second.rms < fit.rms) return second;
+  fit.starts = second.starts, fit.duplicates = second.duplicates, fit.evaluations = second.evaluations;
   return fit;
 }
 
-IndirectSynthesis synthesise(const IndirectTask& task, const LinkFitOptions& options, std::uint64_t seed) {
-  IndirectSynthesis result;
-  result.guide.wheel = task.targets.wheel;
-  result.guide.rack_direction = task.targets.rack_direction;
-  result.status = Status::done;
-  const auto worsen = [&](Status status) {
-    if (status == Status::infeasible || result.status == Status::done) result.status = status;
-  };
+std::vector<std::size_t> all_places(std::size_t count) {
+  std::vector<std::size_t> out(count);
+  for (std::size_t i = 0; i < count; ++i) out[i] = i;
+  return out;
+}
+
+/// Links that share couplers, all together, from where they are.
+void refine(const IndirectTask& task, const LinkFitOptions& options, Assembly& assembly) {
+  for (const std::vector<std::size_t>& group : assembly.groups(false)) {
+    std::vector<std::size_t> places;
+    const std::vector<CouplerTask> couplers = assembly.couplers_of(group, places);
+    if (couplers.empty()) continue;
+    bool exact = true, there = true;
+    std::vector<GuideLink> links;
+    std::vector<Coupler> found;
+    for (const std::size_t l : group) {
+      const LinkFit& fit = assembly.result.links[l];
+      exact = exact && fit.status == Status::done;
+      there = there && std::isfinite(fit.rms);
+      links.push_back(fit.link);
+    }
+    for (const std::size_t k : places) {
+      const CouplerFit& fit = assembly.result.couplers[k];
+      exact = exact && fit.status == Status::done;
+      there = there && std::isfinite(fit.rms);
+      found.push_back(fit.coupler);
+    }
+    if (exact || !there) continue;
+    const SpinFit together = fit_together(task.targets, assembly.links_of(group), couplers, links, found,
+                                          {.tolerance = options.tolerance, .distinct_links = 0});
+    if (!together.links.empty()) assembly.take(together, group, places, options.tolerance);
+  }
+}
+
+}  // namespace
+
+IndirectSynthesis synthesise(const IndirectTask& task, const IndirectOptions& options, std::uint64_t seed,
+                             RunContext& context) {
+  Assembly assembly(task);
+  IndirectSynthesis& result = assembly.result;
+  if (!assembly.can_go_on()) return assembly.finish(context);
+  if (assembly.spin_is_open()) {
+    const SpinFit fit =
+        fit_with_unknown_spin(task.targets, task.links, options.spin, seed, context, task.couplers);
+    result.targets = fit.targets;
+    if (!fit.links.empty())
+      assembly.take(fit, all_places(task.links.size()), all_places(task.couplers.size()),
+                    fit.status == Status::done ? fit.largest : options.spin.tolerance);
+    for (LinkFit& link : result.links) link.starts = fit.starts, link.duplicates = fit.refused;
+    return assembly.finish(context);
+  }
   std::vector<GuideLink> exact;
-  std::uint32_t run = 0;
-  for (const LinkTask& link : task.links) {
-    result.links.push_back(fit_link(task.targets, link, options, exact, seed, run++));
-    const LinkFit& fit = result.links.back();
-    result.guide.links.push_back(fit.link);
-    result.largest = std::max(result.largest, fit.largest);
-    if (fit.status == Status::done)
-      exact.push_back(fit.link);
-    else
-      worsen(fit.status);
+  ExactRods rods(result.targets, seed);
+  for (std::size_t l = 0; l < task.links.size(); ++l) {
+    LinkFit& fit = result.links[l];
+    if (l > 0 && context.interrupted()) {
+      fit.link = LinkCoordinates(task.links[l]).middle();
+      fit.status = context.interruption();
+      continue;
+    }
+    fit = find_link(task.links[l], static_cast<std::uint32_t>(l), options.link, exact, rods, result, seed,
+                    context);
+    result.evaluations += fit.evaluations;
+    if (fit.status == Status::done) exact.push_back(fit.link);
+    if (options.link.progress)
+      context.report({.stage = "links",
+                      .fraction = static_cast<double>(l + 1) / static_cast<double>(task.links.size()),
+                      .best = std::isfinite(fit.rms) ? fit.rms : std::numeric_limits<double>::quiet_NaN()});
+  }
+  std::vector<GuideLink> links;
+  for (const LinkFit& fit : result.links) links.push_back(fit.link);
+  for (std::size_t k = 0; k < task.couplers.size(); ++k) {
+    const CouplerTask& coupler = task.couplers[k];
+    if (std::isfinite(result.links[static_cast<std::size_t>(coupler.first)].rms) &&
+        std::isfinite(result.links[static_cast<std::size_t>(coupler.second)].rms))
+      result.couplers[k] = fit_coupler(result.targets, links, coupler, options.link.tolerance);
+  }
+  IndirectTask complete = task;
+  complete.targets = result.targets;
+  refine(complete, options.link, assembly);
+  return assembly.finish(context);
+}
 
-    int unknowns = 0;
-    for (const auto& boxes : {link.body, link.carrier})
-      for (const PointBox& b : boxes)
-        unknowns += (b.lower.x < b.upper.x) + (b.lower.y < b.upper.y) + (b.lower.z < b.upper.z);
-    result.fewest = std::max(result.fewest, fewest_positions(unknowns, constraints(link.type)));
+IndirectSynthesis evolve(const IndirectTask& task, const IndirectEvolutionOptions& options,
+                         std::uint64_t seed, RunContext& context) {
+  LINKWRIGHT_REQUIRE(options.tolerance > 0, "tolerance {} m", options.tolerance);
+  Assembly assembly(task);
+  IndirectSynthesis& result = assembly.result;
+  if (!assembly.can_go_on()) return assembly.finish(context);
+  const auto groups = assembly.groups(options.together || assembly.spin_is_open());
+  CarrierTargets found = result.targets;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    std::vector<std::size_t> places;
+    const std::vector<CouplerTask> couplers = assembly.couplers_of(groups[g], places);
+    EvolutionOptions method = options.method;
+    if (!method.checkpoint.empty()) method.checkpoint += fmt::format("/links {}", g + 1);
+    const Evolution run = evolve_links(result.targets, assembly.links_of(groups[g]), couplers, method,
+                                       {.seed = seed, .run = static_cast<std::uint32_t>(g)}, context);
+    result.generations += run.generations;
+    if (std::isfinite(run.objective)) {
+      assembly.take(run, groups[g], places, options.tolerance);
+      found = run.targets;
+    } else {  // links with points that coincide, or a dyad that never assembled
+      result.evaluations += run.evaluations;
+      for (std::size_t l = 0; l < groups[g].size(); ++l) result.links[groups[g][l]].link = run.links[l];
+    }
+    for (const std::size_t l : groups[g]) result.links[l].starts = 1;
   }
-  for (const CouplerTask& coupler : task.couplers) {
-    const bool there = coupler.first < static_cast<int>(result.links.size()) &&
-                       coupler.second < static_cast<int>(result.links.size()) && coupler.first >= 0 &&
-                       coupler.second >= 0 && std::isfinite(result.links[coupler.first].rms) &&
-                       std::isfinite(result.links[coupler.second].rms);
-    LINKWRIGHT_REQUIRE(coupler.first >= 0 && coupler.second >= 0 &&
-                           std::max(coupler.first, coupler.second) < static_cast<int>(task.links.size()),
-                       "coupler '{}': links {} and {} of {}", coupler.name, coupler.first, coupler.second,
-                       task.links.size());
-    result.couplers.push_back(
-        there ? fit_coupler(task.targets, result.guide.links, coupler, options.tolerance) : CouplerFit{});
-    const CouplerFit& fit = result.couplers.back();
-    result.guide.couplers.push_back(fit.coupler);
-    result.largest = std::max(result.largest, fit.largest);
-    if (fit.status != Status::done) worsen(fit.status);
-  }
-
-  const auto given = static_cast<double>(link_motion(task.targets, false).size() + 1);
-  if (given < result.fewest)
-    result.findings.push_back(
-        {.severity = Diagnostic::Severity::warning,
-         .key = "target",
-         .message =
-             fmt::format("{} positions, the reference included, leave a family of exact solutions", given),
-         .hint = fmt::format("{:.3g} positions determine the links", std::ceil(result.fewest))});
-  if (result.status != Status::infeasible) {
-    const Diagnostics structure = check_structure(result.guide);
-    result.findings.insert(result.findings.end(), structure.begin(), structure.end());
-    if (result.status == Status::done && has_errors(structure)) result.status = Status::singular;
-  }
-  return result;
+  result.targets = found;
+  return assembly.finish(context);
 }
 
 }  // namespace linkwright::suspension

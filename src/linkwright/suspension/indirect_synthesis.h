@@ -1,41 +1,18 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <string>
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
+#include "linkwright/core/run_context.h"
+#include "linkwright/suspension/coupler_fit.h"
+#include "linkwright/suspension/indirect_synthesis_spin.h"
 #include "linkwright/suspension/link_fit.h"
+#include "linkwright/suspension/link_synthesis.h"
+#include "linkwright/suspension/link_task.h"
 #include "linkwright/suspension/suspension.h"
 
 namespace linkwright::suspension {
-
-/// A rod to be found between two links of the task: from a point on the line of a KS link to one fixed to an
-/// SR link.
-struct CouplerTask {
-  std::string name;
-  int first = 0;   ///< KS link
-  int second = 0;  ///< SR link
-  double least_offset =
-      0;           ///< m: of its point on the first link from that link's body point; at most its length
-  PointBox point;  ///< of its point on the second link, in the reference pose
-};
-
-/// What was found for a coupler.
-struct CouplerFit {
-  Status status = Status::infeasible;  ///< as LinkFit::status; infeasible also when a link is not there
-  Coupler coupler;
-  double offset = 0;  ///< m, from the body point of the first link
-  double rms = std::numeric_limits<double>::infinity(), largest = rms;  ///< m: change of its length
-};
-
-/// Finds a coupler between links that are known: seen from the second link, the point on the first one moves
-/// on a sphere about the coupler's other end. The centre solves a linear problem for every offset, so one
-/// unknown is searched (Poznanovic 2016, section 5.3.4, decoupled). Throws ContractError for links of other
-/// types and for a position without spin.
-CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink> links,
-                       const CouplerTask& task, double tolerance = 1e-8);
 
 /// A wheel guide to be found from positions of its carrier. The wheel needs its tyre diameter: at its radius
 /// turns count in the check of the rank.
@@ -47,17 +24,46 @@ struct IndirectTask {
 
 struct IndirectSynthesis {
   /// done: all links are exact and the guide moves as it should; not_converged, infeasible: of the links or
-  /// couplers; singular: exact links that leave the carrier a further freedom, see `findings`.
+  /// couplers, or of a rod that cannot settle the spins; singular: exact links that leave the carrier a
+  /// further freedom, see `findings`; deadline, cancelled: the best so far.
   Status status = Status::infeasible;
-  std::vector<LinkFit> links;
+  std::vector<LinkFit> links;  ///< each with its own status
   std::vector<CouplerFit> couplers;
-  WheelGuide guide;    ///< as far as it was found
-  double largest = 0;  ///< m: structural error of all links and couplers
-  double fewest = 0;   ///< positions that determine all links, see fewest_positions, the largest of the links
+  WheelGuide guide;             ///< as far as it was found
+  CarrierTargets targets;       ///< with the spins that were not prescribed
+  double largest = 0;           ///< m: structural error of all links and couplers
+  double fewest = 0;            ///< positions that determine all links, see fewest_positions
+  std::vector<GuideLink> arms;  ///< hinged arms that exact rods come from, where these were asked for
+  std::int64_t evaluations = 0;
+  int generations = 0;   ///< of population methods, all links together
   Diagnostics findings;  ///< of check_structure, and a warning when there are fewer positions
 };
 
-/// Finds the links one after the other, each from its own starts and none twice, then the couplers.
-IndirectSynthesis synthesise(const IndirectTask& task, const LinkFitOptions& options, std::uint64_t seed);
+struct IndirectOptions {
+  LinkFitOptions link;
+  SpinFitOptions spin;  ///< where positions do not prescribe the spin and no KS link is given
+};
+
+/// Finds the links one after the other, each from its own starts and none twice, then the couplers. Where no
+/// start of a rod is exact and there are seven positions, the rods that fit seven of them exactly are starts,
+/// too. Links that share a coupler are at last fitted together if they are not exact.
+///
+/// Spins that are not prescribed follow from a KS link whose coordinates are all given, if there is one
+/// (section 5.3.5.1); else all links are found together with them.
+///
+/// Throws ContractError as fit_link, fit_coupler and fit_with_unknown_spin do.
+IndirectSynthesis synthesise(const IndirectTask& task, const IndirectOptions& options, std::uint64_t seed,
+                             RunContext& context);
+
+struct IndirectEvolutionOptions {
+  EvolutionOptions method;
+  bool together = false;    ///< all links at once, not link by link
+  double tolerance = 1e-6;  ///< m: root mean square of the structural errors of a link that counts as found
+};
+
+/// The same by differential evolution, as the source has it: link by link, links that share a coupler
+/// together, and all together where spins are missing and no KS link is given.
+IndirectSynthesis evolve(const IndirectTask& task, const IndirectEvolutionOptions& options,
+                         std::uint64_t seed, RunContext& context);
 
 }  // namespace linkwright::suspension

@@ -12,7 +12,6 @@
 namespace linkwright::suspension {
 namespace {
 
-constexpr double in_box = 1e-9;  // m: a point this far outside is at the bound
 constexpr int projected_iterations = 150, direct_iterations = 60, final_iterations = 500;
 constexpr double exact_cost = 1e-31;     // errors of some 1e-16 m at each position
 constexpr double largest_damping = 1e3;  // steps a thousand times shorter: what they gain is rounding
@@ -22,56 +21,6 @@ constexpr double rounded_rms = 1e-12;    // m: what exact positions leave
 // whose errors vanish to rounding is looked for in so many searches more.
 constexpr int further_starts = 32;
 
-double component(const Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
-
-/// The unknown coordinates of a link: boxes and columns, coordinates taken from `origin`.
-struct Unknowns {
-  GuideLink middle;  ///< of the boxes
-  std::vector<int> columns;
-  std::vector<double> lower, upper;  ///< of all twelve coordinates or less
-  std::vector<int> free;             ///< coordinate of each column
-
-  Unknowns(const LinkTask& task, const Vec3& origin) {
-    middle.name = task.name;
-    middle.type = task.type;
-    middle.moved_by_rack = task.moved_by_rack;
-    const auto add = [&](const std::vector<PointBox>& boxes, std::vector<Vec3>& to) {
-      for (const PointBox& box : boxes) {
-        for (int k = 0; k < 3; ++k) {
-          const double low = component(box.lower, k), high = component(box.upper, k);
-          LINKWRIGHT_REQUIRE(std::isfinite(low) && std::isfinite(high) && low <= high,
-                             "link '{}': box from {} to {} m", task.name, low, high);
-          columns.push_back(low < high ? static_cast<int>(free.size()) : -1);
-          if (low < high) free.push_back(static_cast<int>(lower.size()));
-          lower.push_back(low - component(origin, k));
-          upper.push_back(high - component(origin, k));
-        }
-        to.push_back(0.5 * (box.lower + box.upper) - origin);
-      }
-    };
-    add(task.body, middle.body);
-    add(task.carrier, middle.carrier);
-  }
-
-  double get(const GuideLink& link, int place) const {
-    const std::size_t point = static_cast<std::size_t>(place) / 3;
-    const Vec3& p = point < link.body.size() ? link.body[point] : link.carrier[point - link.body.size()];
-    return component(p, place % 3);
-  }
-  void set(GuideLink& link, int place, double value) const {
-    const std::size_t point = static_cast<std::size_t>(place) / 3;
-    Vec3& p = point < link.body.size() ? link.body[point] : link.carrier[point - link.body.size()];
-    (place % 3 == 0 ? p.x : place % 3 == 1 ? p.y : p.z) = value;
-  }
-  bool inside(const GuideLink& link) const {
-    for (std::size_t i = 0; i < lower.size(); ++i) {
-      const double value = get(link, static_cast<int>(i));
-      if (!(value >= lower[i] - in_box && value <= upper[i] + in_box)) return false;
-    }
-    return true;
-  }
-};
-
 struct Errors {
   double rms = std::numeric_limits<double>::infinity(), largest = rms;
 };
@@ -79,17 +28,17 @@ struct Errors {
 /// One search for a link, with its memory.
 class Search {
  public:
-  Search(const LinkMotion& motion, const Unknowns& unknowns)
-      : motion_(motion), unknowns_(unknowns), projection_(motion, unknowns.middle, unknowns.columns) {
-    rows_ = error_rows(unknowns.middle.type, motion.size());
+  Search(const LinkMotion& motion, const LinkCoordinates& unknowns)
+      : motion_(motion), unknowns_(unknowns), projection_(motion, unknowns.middle(), unknowns.columns()) {
+    rows_ = error_rows(unknowns.middle().type, motion.size());
     errors_.resize(rows_);
     for (const int place : projection_.unknowns()) {
-      lower_.push_back(unknowns.lower[place]);
-      upper_.push_back(unknowns.upper[place]);
+      lower_.push_back(unknowns.lower(place));
+      upper_.push_back(unknowns.upper(place));
     }
-    for (const int place : unknowns.free) {
-      all_lower_.push_back(unknowns.lower[place]);
-      all_upper_.push_back(unknowns.upper[place]);
+    for (const int place : unknowns.free()) {
+      all_lower_.push_back(unknowns.lower(place));
+      all_upper_.push_back(unknowns.upper(place));
     }
   }
 
@@ -98,7 +47,7 @@ class Search {
 
   Errors errors(const GuideLink& link) {
     Errors e;
-    if (!structural_errors(motion_, link, errors_, unknowns_.columns, {})) return e;
+    if (!structural_errors(motion_, link, errors_, unknowns_.columns(), {})) return e;
     const std::size_t n = motion_.size(),
                       parts = rows_ / (static_cast<std::size_t>(error_count(link.type)) * n);
     double sum = 0;
@@ -142,7 +91,7 @@ class Search {
   /// All unknowns within the boxes.
   bool fit(GuideLink& link, int iterations) {
     x_.clear();
-    for (const int place : unknowns_.free) x_.push_back(unknowns_.get(link, place));
+    for (const int place : unknowns_.free()) x_.push_back(unknowns_.get(link, place));
     math::LeastSquaresOptions o;
     o.max_iterations = iterations;
     o.lambda_success = 0.1;
@@ -152,11 +101,11 @@ class Search {
     o.cost_tolerance = exact_cost;
     GuideLink trial = link;
     const auto place_all = [&](GuideLink& to, std::span<const double> x) {
-      for (std::size_t j = 0; j < x.size(); ++j) unknowns_.set(to, unknowns_.free[j], x[j]);
+      for (std::size_t j = 0; j < x.size(); ++j) unknowns_.set(to, unknowns_.free()[j], x[j]);
     };
     const auto function = [&](std::span<const double> x, std::span<double> r, std::span<double> j) {
       place_all(trial, x);
-      return structural_errors(motion_, trial, r, unknowns_.columns, j);
+      return structural_errors(motion_, trial, r, unknowns_.columns(), j);
     };
     const auto report =
         math::minimise_least_squares(function, rows_, x_, all_lower_, all_upper_, o, workspace_);
@@ -173,7 +122,7 @@ class Search {
   }
 
   const LinkMotion& motion_;
-  const Unknowns& unknowns_;
+  const LinkCoordinates& unknowns_;
   LinkProjection projection_;
   std::size_t rows_ = 0;
   std::vector<double> errors_, lower_, upper_, all_lower_, all_upper_, x_, scratch_;
@@ -181,119 +130,156 @@ class Search {
   std::int64_t evaluations_ = 0;
 };
 
-void move(GuideLink& link, const Vec3& by) {
-  for (Vec3& p : link.body) p += by;
-  for (Vec3& p : link.carrier) p += by;
-}
+/// Gathers what searches for a link end in.
+class LinkSearch {
+ public:
+  LinkSearch(const CarrierTargets& targets, const LinkTask& task, const LinkFitOptions& options,
+             std::span<const GuideLink> known, const LinkMotion& motion)
+      : origin_(targets.wheel.centre),
+        options_(options),
+        unknowns_(task, origin_),
+        search_(motion, unknowns_) {
+    for (const GuideLink& link : known)
+      if (link.type == task.type && link.moved_by_rack == task.moved_by_rack)
+        known_.push_back(shifted(link, -origin_));
+    fit_.link = unknowns_.middle();
+  }
 
-void require_points(LinkType type, std::size_t body, std::size_t carrier, const std::string& name) {
-  LINKWRIGHT_REQUIRE(
-      static_cast<int>(body) == body_points(type) && static_cast<int>(carrier) == carrier_points(type),
-      "link '{}' of type {} needs {} points on the body and {} on the carrier, got {} and {}", name,
-      name_of(type), body_points(type), carrier_points(type), body, carrier);
+  const LinkCoordinates& unknowns() const { return unknowns_; }
+  bool found() const {
+    return fit_.rms <= rounded_rms || (first_exact_ >= 0 && fit_.starts >= first_exact_ + further_starts);
+  }
+
+  /// Takes a link as it is.
+  void take(const GuideLink& link) {
+    link_ = link;
+    consider();
+  }
+  /// Searches from a link: by projection first if so wanted.
+  void start(const GuideLink& from, bool project) {
+    ++fit_.starts;
+    link_ = from;
+    if (project && search_.can_project()) {
+      if (!search_.project(link_, false) || !unknowns_.inside(link_)) return;
+      consider();
+      if (found()) return;
+    }
+    if (search_.fit(link_, direct_iterations)) consider();
+  }
+  LinkFit finish(RunContext& context) {
+    if (fit_.starts > 0 && std::isfinite(fit_.rms) && fit_.rms > options_.tolerance) {
+      link_ = fit_.link;
+      if (search_.fit(link_, final_iterations)) consider();
+    }
+    const Status interruption = context.interruption();
+    if (std::isfinite(fit_.rms))
+      fit_.status = fit_.rms <= options_.tolerance ? Status::done : Status::not_converged;
+    if (fit_.status != Status::done && interruption != Status::done) fit_.status = interruption;
+    fit_.evaluations = search_.evaluations();
+    fit_.link = shifted(fit_.link, origin_);
+    return fit_;
+  }
+
+ private:
+  bool is_known(const GuideLink& link) const {
+    return std::any_of(known_.begin(), known_.end(), [&](const GuideLink& other) {
+      return largest_distance(other, link) <= options_.same_point;
+    });
+  }
+  void consider() {  // takes link_ if it is the best so far
+    if (!unknowns_.inside(link_)) return;
+    Errors e = search_.errors(link_);
+    const bool exact = e.rms <= options_.tolerance;
+    if (exact && e.rms > polished_rms && search_.can_project()) {
+      const GuideLink before = link_;
+      Errors after;
+      if (search_.project(link_, true) && unknowns_.inside(link_)) after = search_.errors(link_);
+      if (after.rms < e.rms)
+        e = after;
+      else
+        link_ = before;
+    }
+    if (exact && is_known(link_)) {
+      ++fit_.duplicates;
+      return;
+    }
+    if (e.rms < fit_.rms) {
+      fit_.rms = e.rms;
+      fit_.largest = e.largest;
+      fit_.link = link_;
+    }
+    if (exact && first_exact_ < 0) first_exact_ = fit_.starts;
+  }
+
+  Vec3 origin_;
+  LinkFitOptions options_;
+  LinkCoordinates unknowns_;
+  Search search_;
+  std::vector<GuideLink> known_;
+  GuideLink link_;
+  LinkFit fit_;
+  int first_exact_ = -1;
+};
+
+LinkMotion motion_for(const CarrierTargets& targets, const LinkTask& task, const LinkFitOptions& options) {
+  LINKWRIGHT_REQUIRE(options.starts >= 1 && options.tolerance > 0 && options.same_point >= 0,
+                     "{} starts, tolerance {} m, same point within {} m", options.starts, options.tolerance,
+                     options.same_point);
+  LinkMotion motion = link_motion(targets, task.moved_by_rack, targets.wheel.centre);
+  LINKWRIGHT_REQUIRE(motion.size() >= 1, "link '{}': no position besides the reference", task.name);
+  return motion;
 }
 
 }  // namespace
 
-PointBox box_around(const Vec3& centre, double edge) {
-  const Vec3 half{edge / 2, edge / 2, edge / 2};
-  return {centre - half, centre + half};
+LinkFit fit_link(const CarrierTargets& targets, const LinkTask& task, const LinkFitOptions& options,
+                 std::span<const GuideLink> known, std::uint64_t seed, RunContext& context,
+                 std::uint32_t run) {
+  const LinkMotion motion = motion_for(targets, task, options);
+  LinkSearch search(targets, task, options, known, motion);
+  const LinkCoordinates& unknowns = search.unknowns();
+  if (unknowns.free().empty()) {
+    search.take(unknowns.middle());
+    return search.finish(context);
+  }
+  // The first start always runs.
+  for (int s = 0; s < options.starts && !search.found() && (s == 0 || !context.interrupted()); ++s) {
+    RandomStream random({seed, run, 0, static_cast<std::uint32_t>(s)});
+    GuideLink link = unknowns.middle();
+    for (const int place : unknowns.free())
+      LinkCoordinates::set(link, place, random.uniform(unknowns.lower(place), unknowns.upper(place)));
+    search.start(link, s % 2 == 0);
+  }
+  return search.finish(context);
 }
 
-LinkFit fit_link(const CarrierTargets& targets, const LinkTask& task, const LinkFitOptions& options,
-                 std::span<const GuideLink> known, std::uint64_t seed, std::uint32_t run) {
-  require_points(task.type, task.body.size(), task.carrier.size(), task.name);
-  LINKWRIGHT_REQUIRE(options.starts >= 1 && options.tolerance > 0 && options.same_point >= 0,
-                     "{} starts, tolerance {} m, same point within {} m", options.starts, options.tolerance,
-                     options.same_point);
-  const LinkMotion motion = link_motion(targets, task.moved_by_rack, targets.wheel.centre);
-  LINKWRIGHT_REQUIRE(motion.size() >= 1, "link '{}': no position besides the reference", task.name);
-  const Unknowns unknowns(task, targets.wheel.centre);
-  Search search(motion, unknowns);
-
-  LinkFit fit;
-  fit.link = unknowns.middle;
-  GuideLink link;
-  const auto is_known = [&](const GuideLink& found) {
-    for (GuideLink other : known) {
-      if (other.type != task.type || other.moved_by_rack != task.moved_by_rack) continue;
-      move(other, -targets.wheel.centre);
-      if (largest_distance(other, found) <= options.same_point) return true;
-    }
-    return false;
-  };
-  int first_exact = -1;
-  const auto consider = [&] {  // takes `link` if it is the best so far
-    if (!unknowns.inside(link)) return;
-    Errors e = search.errors(link);
-    const bool exact = e.rms <= options.tolerance;
-    if (exact && e.rms > polished_rms && search.can_project()) {
-      const GuideLink before = link;
-      Errors after;
-      if (search.project(link, true) && unknowns.inside(link)) after = search.errors(link);
-      if (after.rms < e.rms)
-        e = after;
-      else
-        link = before;
-    }
-    if (exact && is_known(link)) {
-      ++fit.duplicates;
-      return;
-    }
-    if (e.rms < fit.rms) {
-      fit.rms = e.rms;
-      fit.largest = e.largest;
-      fit.link = link;
-    }
-    if (exact && first_exact < 0) first_exact = fit.starts;
-  };
-  const auto found = [&] {
-    return fit.rms <= rounded_rms || (first_exact >= 0 && fit.starts >= first_exact + further_starts);
-  };
-
-  const int starts = unknowns.free.empty() ? 0 : options.starts;
-  if (starts == 0) {
-    link = unknowns.middle;
-    consider();
+LinkFit fit_link_from(std::span<const GuideLink> starts, const CarrierTargets& targets, const LinkTask& task,
+                      const LinkFitOptions& options, std::span<const GuideLink> known, RunContext& context) {
+  const LinkMotion motion = motion_for(targets, task, options);
+  LinkSearch search(targets, task, options, known, motion);
+  for (const GuideLink& start : starts) {
+    const GuideLink link = shifted(start, -targets.wheel.centre);
+    if (search.found() || context.interrupted()) break;
+    if (link.type == task.type && search.unknowns().inside(link)) search.start(link, false);
   }
-  for (int s = 0; s < starts && !found(); ++s) {
-    RandomStream random({seed, run, 0, static_cast<std::uint32_t>(s)});
-    link = unknowns.middle;
-    for (const int place : unknowns.free)
-      unknowns.set(link, place, random.uniform(unknowns.lower[place], unknowns.upper[place]));
-    ++fit.starts;
-    if (s % 2 == 0 && search.can_project()) {
-      if (!search.project(link, false) || !unknowns.inside(link)) continue;
-      consider();
-      if (found()) break;
-    }
-    if (search.fit(link, direct_iterations)) consider();
-  }
-  if (starts > 0 && std::isfinite(fit.rms) && fit.rms > options.tolerance) {
-    link = fit.link;
-    if (search.fit(link, final_iterations)) consider();
-  }
-  if (std::isfinite(fit.rms))
-    fit.status = fit.rms <= options.tolerance ? Status::done : Status::not_converged;
-  fit.evaluations = search.evaluations();
-  move(fit.link, targets.wheel.centre);
-  return fit;
+  return search.finish(context);
 }
 
 LinkConditioning conditioning(const CarrierTargets& targets, const LinkTask& task, const GuideLink& link) {
-  require_points(task.type, link.body.size(), link.carrier.size(), task.name);
-  require_points(task.type, task.body.size(), task.carrier.size(), task.name);
   const LinkMotion motion = link_motion(targets, task.moved_by_rack, targets.wheel.centre);
-  const Unknowns unknowns(task, targets.wheel.centre);
-  GuideLink shifted = link;
-  move(shifted, -targets.wheel.centre);
-  const std::size_t rows = error_rows(task.type, motion.size()), n = unknowns.free.size();
+  const LinkCoordinates unknowns(task, targets.wheel.centre);
+  LINKWRIGHT_REQUIRE(link.type == task.type && link.body.size() == task.body.size() &&
+                         link.carrier.size() == task.carrier.size(),
+                     "link '{}': {} with {} and {} points for a task of type {}", task.name,
+                     name_of(link.type), link.body.size(), link.carrier.size(), name_of(task.type));
+  const std::size_t rows = error_rows(task.type, motion.size()), n = unknowns.free().size();
   std::vector<double> errors(rows), jacobian(rows * n);
   LinkConditioning found;
-  found.weakest = unknowns.middle;
+  found.weakest = unknowns.middle();
   for (Vec3& p : found.weakest.body) p = {};
   for (Vec3& p : found.weakest.carrier) p = {};
-  if (n == 0 || rows == 0 || !structural_errors(motion, shifted, errors, unknowns.columns, jacobian))
+  if (n == 0 || rows == 0 ||
+      !structural_errors(motion, shifted(link, -targets.wheel.centre), errors, unknowns.columns(), jacobian))
     return found;
   const Eigen::Map<const Eigen::MatrixXd> j(jacobian.data(), static_cast<Eigen::Index>(rows),
                                             static_cast<Eigen::Index>(n));
@@ -302,8 +288,8 @@ LinkConditioning conditioning(const CarrierTargets& targets, const LinkTask& tas
   for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k)
     found.singular_values[k] = svd.singularValues()[k];
   for (std::size_t k = 0; k < n; ++k)
-    unknowns.set(found.weakest, unknowns.free[k],
-                 svd.matrixV()(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(n) - 1));
+    LinkCoordinates::set(found.weakest, unknowns.free()[k],
+                         svd.matrixV()(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(n) - 1));
   return found;
 }
 

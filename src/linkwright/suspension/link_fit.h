@@ -3,47 +3,47 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "linkwright/core/field.h"
 #include "linkwright/core/random.h"
+#include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/suspension/carrier_poses.h"
 #include "linkwright/suspension/link_fit_motion.h"
+#include "linkwright/suspension/link_task.h"
 #include "linkwright/suspension/suspension.h"
 
 namespace linkwright::suspension {
-
-/// Where a point of a link may lie (m), in the frame of the vehicle with the carrier in its reference pose. A
-/// coordinate whose limits are equal is given.
-struct PointBox {
-  Vec3 lower;
-  Vec3 upper;
-};
-
-/// A cube of edge `edge` around a point.
-PointBox box_around(const Vec3& centre, double edge);
-
-/// A link to be found. Points needed: see GuideLink. Two points of one axis (RS, SR, RR, R) have a freedom
-/// along that axis, and the point of a strut on the carrier one along the strut: give one coordinate of each,
-/// that of the axis' largest component.
-struct LinkTask {
-  std::string name;
-  LinkType type = LinkType::KS;
-  std::vector<PointBox> body, carrier;
-  bool moved_by_rack = false;  ///< the body's points move along the rack
-};
 
 struct LinkFitOptions {
   int starts = 200;          ///< local searches at most
   double tolerance = 1e-8;   ///< m: root mean square of the structural errors of an exact link
   double same_point = 1e-5;  ///< m: links whose points lie closer are one link
+  bool progress = true;      ///< report to the run context
 };
+template <class Visitor>
+void fields(Visitor&& visit, LinkFitOptions& o) {
+  visit(Field{.key = "starts", .summary = "local searches for a link at most", .minimum = 1, .maximum = 1e6},
+        o.starts);
+  visit(Field{.key = "tolerance",
+              .summary = "root mean square of the structural errors at which a link counts as exact",
+              .dimension = Dimension::length,
+              .minimum = 0,
+              .exclusive_minimum = true},
+        o.tolerance);
+  visit(Field{.key = "same_point",
+              .summary = "links whose points lie closer are one link",
+              .dimension = Dimension::length,
+              .minimum = 0},
+        o.same_point);
+}
 
 /// What was found for one link.
 struct LinkFit {
   /// done: the structural errors are within the tolerance, polished to rounding; not_converged: no start came
-  /// there, the best place in the boxes is given; infeasible: nothing was found but known links.
+  /// there, the best place in the boxes is given; infeasible: nothing was found but known links; deadline,
+  /// cancelled: as not_converged.
   Status status = Status::infeasible;
   GuideLink link;
   double rms = std::numeric_limits<double>::infinity();      ///< m, of all equations and positions
@@ -61,7 +61,13 @@ struct LinkFit {
 /// Throws ContractError for a wrong number of points, empty boxes, a pose without spin, or options out of
 /// range.
 LinkFit fit_link(const CarrierTargets& targets, const LinkTask& task, const LinkFitOptions& options,
-                 std::span<const GuideLink> known, std::uint64_t seed, std::uint32_t run = 0);
+                 std::span<const GuideLink> known, std::uint64_t seed, RunContext& context,
+                 std::uint32_t run = 0);
+
+/// The same from given links, of which those with all points in their boxes are starts, instead of random
+/// ones.
+LinkFit fit_link_from(std::span<const GuideLink> starts, const CarrierTargets& targets, const LinkTask& task,
+                      const LinkFitOptions& options, std::span<const GuideLink> known, RunContext& context);
 
 /// How well the positions determine the coordinates of a link: the derivatives of its structural errors,
 /// decomposed.

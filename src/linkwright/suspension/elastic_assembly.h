@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "linkwright/suspension/constraints.h"
+#include "linkwright/suspension/elasticity.h"
+
+/// The bodies and elastic elements of a guide at a position, as `solve_compliance` puts them together.
+namespace linkwright::suspension {
+
+/// In the place of a body's number: the vehicle body, which stands still.
+inline constexpr int ground = -1;
+
+/// Joint between two bodies: relative displacement of the second against the first, in its axes.
+struct ElasticJoint {
+  int first = ground, second = 0;
+  bool at_carrier = false;
+  int link = 0;
+  Vec3 point;
+  Mat3 axes;  ///< its rows
+  JointStiffness stiffness;
+  std::array<int, 6> multiplier{-1, -1, -1, -1, -1, -1};  ///< of rigid components
+};
+
+/// Something that acts along a line: a spring, a coupler. Elongation = motion of the second end against the
+/// first one along `line`.
+struct ElasticBar {
+  int first = ground, second = 0;
+  Vec3 from, to;
+  double stiffness = 0;
+  int multiplier = -1;
+};
+
+struct ElasticAssembly {
+  const WheelGuide* guide = nullptr;
+  std::vector<Vec3> origin;         ///< of the bodies: 0 is the carrier
+  std::vector<std::string> labels;  ///< of the bodies
+  std::vector<ElasticJoint> joints;
+  std::vector<ElasticBar> couplers;
+  std::optional<ElasticBar> spring;
+  std::vector<std::pair<int, Vec3>> idle;  ///< bodies free to turn about a direction that nothing resists
+  Vec3 height_arm;                         ///< from the wheel centre to the point whose height can be held
+
+  int displacements() const { return 6 * static_cast<int>(origin.size()); }
+  Vec3 arm(int body, const Vec3& point) const { return point - origin[body]; }
+};
+
+/// Bodies: the carrier with its origin at the wheel centre, then each link but R and S, its origin at the
+/// first body point as it stands. The stiffnesses have to be free of what `check` finds. The guide has to
+/// outlive the assembly.
+ElasticAssembly assemble(const WheelGuide& guide, const GuidePlace& place, double rack,
+                         const GuideElasticity& elasticity);
+
+}  // namespace linkwright::suspension

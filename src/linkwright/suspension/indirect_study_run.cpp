@@ -1,0 +1,362 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "linkwright/math/angles.h"
+#include "linkwright/optimise/statistics.h"
+#include "linkwright/suspension/guide_deviations.h"
+#include "linkwright/suspension/guide_scene.h"
+#include "linkwright/suspension/hard_points.h"
+#include "linkwright/suspension/indirect_study.h"
+#include "linkwright/suspension/structure.h"
+#include "linkwright/suspension/sweep_study.h"
+
+namespace linkwright::suspension {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+double coordinate(const Vec3& v, std::size_t i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
+
+bool interrupted(Status status) { return status == Status::deadline || status == Status::cancelled; }
+
+/// What one seed came to.
+struct SeedRun {
+  IndirectSynthesis answer;
+  double error = infinity;  ///< m, largest misfit of the joints at the prescribed positions
+  double seconds = 0;
+};
+
+IndirectSynthesis search(const RecommendedIndirect& method, const IndirectTask& task, std::uint64_t seed,
+                         bool only, RunContext& context) {
+  IndirectOptions options = method.options;
+  options.link.progress = options.spin.progress = only;
+  return synthesise(task, options, seed, context);
+}
+IndirectSynthesis search(const PublishedIndirect& method, const IndirectTask& task, std::uint64_t seed,
+                         bool only, RunContext& context) {
+  IndirectEvolutionOptions options = method.options;
+  options.method.progress = only;
+  return evolve(task, options, seed, context);
+}
+
+SeedRun run_seed(const IndirectStudy& s, std::uint64_t seed, bool only, RunContext& context) {
+  SeedRun out;
+  out.answer = std::visit([&](const auto& method) { return search(method, s.task, seed, only, context); },
+                          s.optimiser.method);
+  // Measured by the equations of the mechanism, not by the fit.
+  if (!has_errors(check_structure(out.answer.guide)))
+    out.error = constraint_error(out.answer.guide, out.answer.targets).gap;
+  if (s.description.guide.side == Side::right) out.answer.guide = mirrored(out.answer.guide);
+  return out;
+}
+
+struct Runs {
+  Status status = Status::done;
+  std::vector<std::uint64_t> seeds;
+  std::vector<SeedRun> runs;
+};
+
+Runs run_seeds(const IndirectStudy& s, const study::Common& common, RunContext& context) {
+  const auto count = static_cast<std::size_t>(common.seeds.count);
+  std::vector<SeedRun> all(count);
+  const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
+  const optimise::SeedLoop loop =
+      optimise::for_each_seed(seeds, context, "links", [&](std::size_t i, std::uint64_t seed) {
+        all[i] = run_seed(s, seed, count == 1, context);
+        return all[i].error;
+      });
+  Runs out;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!loop.ran[i]) continue;
+    if (out.status == Status::done && interrupted(all[i].answer.status)) out.status = all[i].answer.status;
+    out.seeds.push_back(seeds.first + i);
+    out.runs.push_back(std::move(all[i]));
+  }
+  if (out.runs.size() < count) out.status = loop.status;
+  return out;
+}
+
+/// Exact ones first, then by what the joints miss.
+bool better(const SeedRun& a, const SeedRun& b) {
+  const bool good = a.answer.status == Status::done, other = b.answer.status == Status::done;
+  return good != other ? good : a.error < b.error;
+}
+
+/// Calls visit(name, point, box) for every point of the links.
+template <class Visit>
+void each_point(const IndirectStudy& s, const WheelGuide& guide, Visit&& visit) {
+  for (std::size_t i = 0; i < guide.links.size(); ++i) {
+    const GuideLink& link = guide.links[i];
+    const LinkTask& task = s.description.links[i];
+    const auto one_end = [&](const std::vector<Vec3>& points, const std::vector<PointBox>& boxes,
+                             std::string_view end) {
+      for (std::size_t k = 0; k < points.size(); ++k)
+        visit(fmt::format("{}, {}{}", link.name, end,
+                          points.size() > 1 ? fmt::format(" {}", k + 1) : std::string()),
+              points[k], boxes[k]);
+    };
+    one_end(link.body, task.body, "body");
+    one_end(link.carrier, task.carrier, "carrier");
+  }
+  for (std::size_t i = 0; i < guide.couplers.size() && i < s.description.couplers.size(); ++i)
+    visit(guide.couplers[i].name + ", second end", guide.couplers[i].point, s.description.couplers[i].point);
+}
+
+study::Solution solution_of(const IndirectStudy& s, const SeedRun& run, std::string scene) {
+  study::Solution out;
+  out.label = structure_name(structure_of(run.answer.guide));
+  each_point(s, run.answer.guide, [&](const std::string& name, const Vec3& at, const PointBox& box) {
+    for (std::size_t i = 0; i < 3; ++i)
+      out.parameters.push_back({fmt::format("{}_{}_m", plain_name(name), axes[i]),
+                                fmt::format("{} {}", name, axes[i]), coordinate(at, i),
+                                coordinate(box.lower, i), coordinate(box.upper, i)});
+  });
+  out.objectives["max_constraint_error_m"] = run.error;
+  out.objectives["max_structural_error_m"] = run.answer.largest;
+  out.classification["structure"] = out.label;
+  out.classification["status"] = to_string(run.answer.status);
+  out.defects = Value::array();
+  for (const Diagnostic& d : run.answer.findings)
+    if (d.severity == Diagnostic::Severity::error) out.defects.push_back(d.message);
+  out.scene = std::move(scene);
+  return out;
+}
+
+Table points_table(const IndirectStudy& s, const WheelGuide& guide) {
+  std::vector<HardPoint> points;
+  each_point(s, guide, [&](const std::string& name, const Vec3& at, const PointBox&) {
+    points.push_back({plain_name(name), at});
+  });
+  return hard_point_table(points);
+}
+
+/// Prescribed positions and what the wheel does there at the height and rack of each.
+Table poses_table(const CarrierTargets& targets, const WheelGuide& left) {
+  Table table{.name = "poses"};
+  const GuidePlan plan = prepare(left);
+  const GuidePosition reference = reference_position(plan);
+  const std::array<std::pair<const char*, const char*>, 6> keys{{{"centre_x_m", "wheel centre x"},
+                                                                 {"centre_y_m", "wheel centre y"},
+                                                                 {"centre_z_m", "wheel centre z"},
+                                                                 {"toe_rad", "toe"},
+                                                                 {"camber_rad", "camber"},
+                                                                 {"spin_rad", "spin"}}};
+  std::vector<std::vector<double>> columns(2 + 3 * keys.size());
+  for (const CarrierTarget& t : targets.poses) {
+    const double travel = t.centre.z - targets.wheel.centre.z;
+    const GuidePosition p = reference.status == Status::done
+                                ? solve_position(plan, Driver::wheel_centre_z, {travel, t.rack}, reference)
+                                : reference;
+    const WheelAngles a = wheel_angles(Side::left, left.wheel, p.place.carrier.rotation);
+    const Vec3 c = p.place.carrier.centre;
+    const std::array<double, 6> wanted{t.centre.x,   t.centre.y,      t.centre.z,
+                                       t.angles.toe, t.angles.camber, t.angles.spin};
+    const std::array<double, 6> got{c.x, c.y, c.z, a.toe, a.camber, a.spin};
+    columns[0].push_back(travel);
+    columns[1].push_back(t.rack);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const double now = p.status == Status::done ? got[i] : WheelParameters::missing;
+      columns[2 + i].push_back(now);
+      columns[2 + keys.size() + i].push_back(wanted[i]);
+      columns[2 + 2 * keys.size() + i].push_back(now - wanted[i]);
+    }
+    table.status.emplace_back(to_string(p.status));
+  }
+  const auto add = [&](std::string key, std::string label, std::size_t i) {
+    table.add(std::move(key), std::move(label), columns[i]);
+  };
+  add("travel_m", "travel (m)", 0);
+  add("rack_m", "rack (m)", 1);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const std::string key = keys[i].first, name = keys[i].second, unit = i < 3 ? " (m)" : " (rad)";
+    add(key, name + unit, 2 + i);
+    add("prescribed_" + key, "prescribed " + name + unit, 2 + keys.size() + i);
+    add("deviation_" + key, "deviation of " + name + unit, 2 + 2 * keys.size() + i);
+  }
+  return table;
+}
+
+/// How well the positions determine each link.
+Table conditioning_table(const IndirectStudy& s, const SeedRun& run) {
+  Table table{.name = "conditioning"};
+  std::vector<double> rms, largest, strongest, weakest;
+  for (std::size_t i = 0; i < s.task.links.size() && i < run.answer.links.size(); ++i) {
+    const LinkFit& fit = run.answer.links[i];
+    table.names.push_back(s.task.links[i].name);
+    rms.push_back(fit.rms);
+    largest.push_back(fit.largest);
+    double most = WheelParameters::missing, least = most;
+    if (spin_is_given(run.answer.targets) && std::isfinite(fit.rms)) {
+      const LinkConditioning c = conditioning(run.answer.targets, s.task.links[i], fit.link);
+      if (!c.singular_values.empty()) most = c.singular_values.front(), least = c.singular_values.back();
+    }
+    strongest.push_back(most);
+    weakest.push_back(least);
+  }
+  table.add("structural_error_rms_m", "structural error, root mean square (m)", rms);
+  table.add("structural_error_max_m", "structural error, largest (m)", largest);
+  table.add("largest_singular_value", "largest singular value (error by coordinate)", strongest);
+  table.add("smallest_singular_value",
+            "smallest singular value: errors of positions move points by its inverse", weakest);
+  return table;
+}
+
+Table seeds_table(const Runs& runs) {
+  Table table{.name = "seeds"};
+  std::vector<double> seed, error, evaluations;
+  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+    const SeedRun& r = runs.runs[i];
+    seed.push_back(static_cast<double>(runs.seeds[i]));
+    error.push_back(std::isfinite(r.error) ? r.error : WheelParameters::missing);
+    evaluations.push_back(static_cast<double>(r.answer.evaluations));
+    table.status.emplace_back(to_string(r.answer.status));
+  }
+  table.add("seed", "seed", seed);
+  table.add("max_constraint_error_m", "largest constraint error (m)", error);
+  table.add("evaluations", "evaluations", evaluations);
+  return table;
+}
+
+study::Scene scene_of(const IndirectStudy& s, const WheelGuide& guide, const std::string& name) {
+  double low = 0, high = 0;
+  std::vector<double> racks{0};
+  const double height = s.task.targets.wheel.centre.z;
+  for (const CarrierTarget& t : s.task.targets.poses) {
+    low = std::min(low, t.centre.z - height);
+    high = std::max(high, t.centre.z - height);
+    if (racks.size() < 41) racks.push_back(t.rack);
+  }
+  std::sort(racks.begin(), racks.end());
+  racks.erase(std::unique(racks.begin(), racks.end()), racks.end());
+  std::vector<double> travels;
+  constexpr int steps = 20;  // each way
+  for (int i = -steps; i <= steps; ++i) travels.push_back((i < 0 ? -low : high) * i / steps);
+  travels.erase(std::unique(travels.begin(), travels.end()), travels.end());
+  RunContext nobody;
+  const GridPositions grid = solve_grid(prepare(guide), Driver::wheel_centre_z, travels, racks, nobody);
+  return guide_scene(
+      guide, name, "wheel travel and rack",
+      {Driver::wheel_centre_z, travels, racks, grid.positions, grid.wheels, Driver::wheel_centre_z});
+}
+
+void add_statistics(study::Result& result, const IndirectStudy& s, const Runs& runs) {
+  std::vector<optimise::SeedOutcome> outcomes;
+  result.log = Value::array();
+  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
+    const SeedRun& r = runs.runs[i];
+    const bool good = r.answer.status == Status::done;
+    outcomes.push_back({r.error, good ? 0.0 : 1.0, r.answer.evaluations});
+    Value entry;
+    entry["seed"] = static_cast<std::int64_t>(runs.seeds[i]);
+    entry["status"] = to_string(r.answer.status);
+    entry["best"] = r.error;
+    entry["evaluations"] = r.answer.evaluations;
+    if (r.answer.generations > 0) entry["generations"] = r.answer.generations;
+    entry["history"] = Value::array();
+    result.log.push_back(std::move(entry));
+  }
+  const optimise::SeedStatistics st = optimise::statistics(outcomes, infinity);
+  result.statistics["method"] =
+      std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method);
+  result.statistics["seeds"] = st.seeds;
+  result.statistics["success_rate"] = st.success_rate;
+  result.statistics["best"] = st.best;
+  result.statistics["median"] = st.median;
+  result.statistics["worst"] = st.worst;
+  result.statistics["evaluations"] = st.evaluations;
+  result.statistics["median_evaluations"] = st.median_evaluations;
+}
+
+std::string metres(double value) {
+  if (value >= 1e-3) return fmt::format("{:.4g} mm", value * 1e3);
+  return fmt::format("{:.2g} m", value);
+}
+
+}  // namespace
+
+study::Result run_indirect_study(const IndirectStudy& s, const study::Common& common, RunContext& context) {
+  study::Result result;
+  const Runs runs = run_seeds(s, common, context);
+  result.status = runs.status;
+  if (runs.runs.empty()) {
+    result.headline = "Interrupted before the first seed was done.";
+    return result;
+  }
+  const SeedRun& best = *std::min_element(runs.runs.begin(), runs.runs.end(), better);
+  const WheelGuide& guide = best.answer.guide;
+  const bool assembled = std::isfinite(best.error);
+  if (result.status == Status::done) result.status = best.answer.status;
+  add_statistics(result, s, runs);
+  const double success = result.statistics.find("success_rate")->as_number();
+  const std::string scene = assembled ? "solution-1" : "";
+  result.solutions.push_back(solution_of(s, best, scene));
+  if (assembled) {
+    const WheelGuide left = guide.side == Side::left ? guide : mirrored(guide);
+    result.tables.push_back(poses_table(best.answer.targets, left));
+    result.scenes.push_back(scene_of(s, guide, scene));
+    const auto deviations = [&](std::string name, std::string title, std::vector<std::string> y) {
+      result.plots.push_back({.name = std::move(name),
+                              .title = std::move(title),
+                              .table = "poses",
+                              .x = "travel_m",
+                              .y = std::move(y),
+                              .style = study::Plot::Style::points});
+    };
+    deviations("place-deviations", "Deviations of the wheel centre from the prescribed positions",
+               {"deviation_centre_x_m", "deviation_centre_y_m"});
+    deviations("angle-deviations", "Deviations of the angles from the prescribed positions",
+               {"deviation_toe_rad", "deviation_camber_rad", "deviation_spin_rad"});
+  }
+  result.tables.push_back(points_table(s, guide));
+  result.tables.push_back(conditioning_table(s, best));
+  result.tables.push_back(seeds_table(runs));
+
+  using Verdict = study::Fact::Verdict;
+  const bool good = best.answer.status == Status::done;
+  const std::size_t poses = s.task.targets.poses.size();
+  result.headline =
+      good ? fmt::format("A {} wheel guide takes all {} positions: its joints miss at most {}.",
+                         structure_name(structure_of(guide)), poses, metres(best.error))
+      : assembled
+          ? fmt::format(
+                "No exact wheel guide found ({}): the best one misses the {} positions by {} at most.",
+                to_string(best.answer.status), poses, metres(best.error))
+          : fmt::format("No wheel guide found ({}).", to_string(best.answer.status));
+  result.facts = {
+      {"largest constraint error at the positions", assembled ? metres(best.error) : "-",
+       good ? Verdict::good : Verdict::bad},
+      {"structure", structure_name(structure_of(guide))},
+      {"positions", fmt::format("{} (at least {:.2g} determine the links)", poses, best.answer.fewest)},
+      {"method", std::string(result.statistics.find("method")->as_string())},
+      {"seeds that found exact links",
+       fmt::format("{:.0f} of {}", success * static_cast<double>(runs.runs.size()), runs.runs.size()),
+       success > 0.9 ? Verdict::good : Verdict::plain},
+      {"evaluations", fmt::format("{}", result.statistics.find("evaluations")->as_integer())}};
+  for (const Diagnostic& d : best.answer.findings) {
+    Diagnostic remark = d;
+    remark.severity = Diagnostic::Severity::warning;
+    result.diagnostics.push_back(std::move(remark));
+  }
+  if (!spin_is_given(s.task.targets))
+    result.diagnostics.push_back({Diagnostic::Severity::warning,
+                                  {},
+                                  {},
+                                  {},
+                                  "the positions do not prescribe the spin of the carrier: many guides move "
+                                  "the wheel alike, this is one of them",
+                                  {}});
+  if (runs.runs.size() < static_cast<std::size_t>(common.seeds.count))
+    result.diagnostics.push_back(
+        {Diagnostic::Severity::warning,
+         {},
+         {},
+         {},
+         fmt::format("interrupted: {} of {} seeds ran", runs.runs.size(), common.seeds.count),
+         {}});
+  return result;
+}
+
+}  // namespace linkwright::suspension

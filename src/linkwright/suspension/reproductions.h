@@ -1,0 +1,12 @@
+#pragma once
+
+#include <vector>
+
+#include "linkwright/study/reproduction.h"
+
+namespace linkwright::suspension {
+
+/// The published tables about wheel guides.
+std::vector<study::Reproduction> reproductions();
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,185 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/study/bind_write.h"
+#include "linkwright/suspension/guide_columns.h"
+#include "linkwright/suspension/sweep_study.h"
+
+namespace linkwright::suspension {
+namespace {
+
+constexpr std::size_t most_rows = 1000000;
+
+std::vector<Word> quantity_words() {
+  return {{"carrier", "place of the wheel centre"},
+          {"toe", ""},
+          {"camber", ""},
+          {"spin", "turn of the carrier about the wheel's axis"},
+          {"contact", "contact point of the tyre"},
+          {"track", "half-track change"},
+          {"wheelbase", "wheelbase change and recession"},
+          {"gains", "bump steer and camber by travel"},
+          {"roll_centre", "its height, both wheels travelling equally"},
+          {"instant_centres", "front and side view, with swing arms"},
+          {"support", "support tangents of braking and driving"},
+          {"spring", "length and motion ratio"},
+          {"steering_axis", "caster, kingpin inclination, trail, scrub radius, offsets"},
+          {"steering", "toe by rack"}};
+}
+
+}  // namespace
+
+std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const study::Common& common,
+                                           Value& canonical) {
+  SweepStudy s;
+  s.quantities = common.output.quantities;
+  const auto description = read_guide(document, common, OpenPoints::none);
+  GuideSweep sweep;
+  std::optional<std::vector<double>> travels, racks = std::vector{0.0};
+  if (auto table = document.table(Field{.key = "sweep", .summary = {}, .required = true})) {
+    table->read(sweep);
+    const GridSweep& grid = std::get<GridSweep>(sweep.type);
+    s.travel = grid.travel.coordinate;
+    if (description)
+      s.lock =
+          sweep.steering_lock.value_or(description->guide.spring ? Driver::spring : Driver::wheel_centre_z);
+    if (auto travel = table->table("travel")) travels = values_of(*travel, grid.travel.values, "mm");
+    if (auto rack = table->table("rack"); rack && grid.rack) racks = values_of(*rack, *grid.rack, "mm");
+    if (description) {
+      const WheelGuide& guide = description->guide;
+      if (s.travel == Driver::spring && !guide.spring)
+        if (auto travel = table->table("travel"))
+          travel->error("coordinate", "there is no spring", "add [mechanism.spring], or take wheel_centre_z");
+      if (s.lock == Driver::spring && !guide.spring)
+        table->error("steering_lock", "there is no spring to hold",
+                     "add [mechanism.spring], or take wheel_centre_z");
+      const bool steered = std::any_of(guide.links.begin(), guide.links.end(),
+                                       [](const GuideLink& l) { return l.moved_by_rack; });
+      if (!steered && racks && (racks->size() > 1 || (*racks)[0] != 0))
+        table->error("rack", "no link is moved by the rack",
+                     "write moved_by = \"rack\" in the tie rod's table");
+    }
+    if (s.lock == Driver::contact_z) table->error("steering_lock", "must be spring or wheel_centre_z");
+    if (travels && racks && travels->size() * racks->size() > most_rows)
+      table->error("travel",
+                   fmt::format("{} travels with {} racks make {} rows, at most {} are allowed",
+                               travels->size(), racks->size(), travels->size() * racks->size(), most_rows));
+  }
+  document(Field{.key = "vehicle", .summary = {}}, s.vehicle);
+  document(Field{.key = "axle", .summary = {}}, s.axle);
+  document(Field{.key = "compliance", .summary = {}}, s.compliance);
+  document(Field{.key = "sensitivity", .summary = {}}, s.sensitivity);
+  document(Field{.key = "tolerances", .summary = {}}, s.tolerances);
+  if (description && s.sensitivity) complete_sensitivity(document, *s.sensitivity, description->guide);
+  if (description && s.tolerances) complete_tolerances(document, *s.tolerances, description->guide);
+  if (description && s.axle) complete_axle(document, *s.axle, description->guide);
+  if (description && s.compliance) check_compliance(document, *s.compliance, *description);
+  if (!description || !travels || !racks || document.document().has_errors()) return std::nullopt;
+  s.description = *description;
+  s.travels = *travels;
+  s.racks = *racks;
+  canonical["mechanism"] = write_guide(s.description);
+  canonical["sweep"] = study::write_fields(GuideSweep{
+      GridSweep{{s.travel, listed<LengthValues>(s.travels)}, listed<LengthValues>(s.racks)}, s.lock});
+  if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);
+  if (s.axle) canonical["axle"] = study::write_fields(*s.axle);
+  if (s.sensitivity) canonical["sensitivity"] = study::write_fields(*s.sensitivity);
+  if (s.tolerances) canonical["tolerances"] = study::write_fields(*s.tolerances);
+  if (s.compliance) canonical["compliance"] = study::write_fields(*s.compliance);
+  return s;
+}
+
+study::Kind sweep_kind() {
+  study::Kind kind;
+  kind.kind = "analysis";
+  kind.mechanism = "suspension.wheel_guide";
+  kind.summary =
+      "wheel guide over wheel travel and rack: toe, camber, track, roll centre, steering axis, ...";
+  kind.quantities = quantity_words();
+  kind.example = R"(# linkwright study: a double wishbone over wheel travel and rack
+schema = 1
+kind   = "analysis"
+title  = "My front suspension"
+
+[mechanism]
+type = "suspension.wheel_guide"     # frame: x forward, y to the left, z up
+side = "left"
+
+# Points by name. A list of another program: file = "points.csv" (name,x_mm,y_mm,z_mm) or plain text, and the
+# directions of its axes, for example x = "rearward", y = "right".
+[mechanism.hard_points.points_mm]
+lower_front   = [ 180.0, 370.0, -110.0]
+lower_rear    = [-170.0, 370.0, -100.0]
+lower_ball    = [   8.0, 715.0, -130.0]
+upper_front   = [ 120.0, 440.0,  165.0]
+upper_rear    = [-140.0, 440.0,  150.0]
+upper_ball    = [ -22.0, 665.0,  215.0]
+tie_inner     = [-125.0, 415.0,  -47.0]
+tie_outer     = [-140.0, 700.0,  -42.0]
+spring_top    = [ -10.0, 500.0,  330.0]
+spring_bottom = [   0.0, 570.0, -105.0]
+wheel_centre  = [   0.0, 760.0,    0.0]
+
+[mechanism.wheel]
+point            = "wheel_centre"   # or centre_mm = [0, 760, 0]
+toe_deg          = 0.1
+camber_deg       = -0.5
+tyre_diameter_mm = 640.0
+
+# Type: joint at the body, joint at the carrier. Points: those of the body first; or body_mm and carrier_mm.
+[[mechanism.link]]
+name   = "lower wishbone"
+type   = "RS"
+points = ["lower_front", "lower_rear", "lower_ball"]
+
+[[mechanism.link]]
+name   = "upper wishbone"
+type   = "RS"
+points = ["upper_front", "upper_rear", "upper_ball"]
+
+[[mechanism.link]]
+name     = "tie rod"
+type     = "KS"
+points   = ["tie_inner", "tie_outer"]
+moved_by = "rack"
+
+[mechanism.spring]
+points      = ["spring_top", "spring_bottom"]
+attached_to = "lower wishbone"
+
+[sweep.travel]
+coordinate = "wheel_centre_z"       # or contact_z, spring
+from_mm    = -80.0
+to_mm      =  80.0
+step_mm    =  5.0
+
+[sweep.rack]
+values_mm = [-60.0, -30.0, 0.0, 30.0, 60.0]
+)";
+  kind.schema = [](study::SchemaWriter& document) {
+    describe_guide(document);
+    document.property(Field{.key = "sweep", .summary = "positions that are taken", .required = true},
+                      study::schema_fields<GuideSweep>());
+    document.property(Field{.key = "vehicle", .summary = "what the axle is part of: anti-dive, Ackermann"},
+                      study::schema_fields<VehicleForm>());
+    document.property(Field{.key = "axle", .summary = "both wheels: roll and steering"},
+                      study::schema_fields<AxleForm>());
+    document.property(Field{.key = "compliance", .summary = "elastic joints and loads"},
+                      study::schema_fields<ComplianceForm>());
+    document.property(Field{.key = "sensitivity", .summary = "derivatives of curves by the hard points"},
+                      study::schema_fields<SensitivityForm>());
+    document.property(Field{.key = "tolerances", .summary = "bands of curves when points have tolerances"},
+                      study::schema_fields<TolerancesForm>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    study::Prepared prepared;
+    if (auto s = read_sweep_study(document, common, prepared.canonical))
+      prepared.run = [s = *std::move(s)](RunContext& context) { return run_sweep_study(s, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,314 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "linkwright/math/angles.h"
+#include "linkwright/suspension/guide_columns.h"
+#include "linkwright/suspension/guide_scene.h"
+#include "linkwright/suspension/structure.h"
+#include "linkwright/suspension/sweep_study.h"
+
+namespace linkwright::suspension {
+namespace {
+
+constexpr const char* scene_name = "travel";
+/// A scene is for looking at: so many samples at most.
+constexpr std::size_t most_scene_samples = 2500;
+
+std::size_t next_to_zero(std::span<const double> values) {
+  const auto at = std::min_element(values.begin(), values.end(),
+                                   [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return static_cast<std::size_t>(at - values.begin());
+}
+
+/// Rows that are quantities of the study and that the guide has.
+std::vector<const GuideColumn*> columns_of(const SweepStudy& s) {
+  const WheelGuide& guide = s.description.guide;
+  const bool steered =
+      std::any_of(guide.links.begin(), guide.links.end(), [](const GuideLink& l) { return l.moved_by_rack; });
+  std::vector<const GuideColumn*> out;
+  for (const GuideColumn& c : guide_columns()) {
+    const bool listed = std::find(s.quantities.begin(), s.quantities.end(), c.group) != s.quantities.end();
+    const bool has = (c.group != "spring" || guide.spring) &&
+                     ((c.group != "steering_axis" && c.group != "steering") || steered);
+    if (listed || (s.quantities.empty() && has)) out.push_back(&c);
+  }
+  return out;
+}
+
+struct Grid {
+  const SweepStudy& study;
+  GridPositions solved;
+  std::size_t racks = 0;  ///< that were done
+
+  std::size_t rows() const { return racks * study.travels.size(); }
+  double travel(std::size_t row) const { return study.travels[row % study.travels.size()]; }
+  double rack(std::size_t row) const { return study.racks[row / study.travels.size()]; }
+  GuideRow row(std::size_t i) const {
+    const WheelParameters& w = solved.wheels[i];
+    return {solved.positions[i], w, study.lock};
+  }
+};
+
+Table sweep_table(const Grid& grid) {
+  Table table{.name = "sweep"};
+  const std::size_t rows = grid.rows();
+  const auto add = [&](std::string_view key, std::string_view label, auto&& value) {
+    std::vector<double> values(rows);
+    for (std::size_t i = 0; i < rows; ++i) values[i] = value(i);
+    table.add(std::string(key), std::string(label), std::move(values));
+  };
+  add("travel_m", "travel (m)", [&](std::size_t i) { return grid.travel(i); });
+  add("rack_m", "rack (m)", [&](std::size_t i) { return grid.rack(i); });
+  for (const GuideColumn* c : columns_of(grid.study))
+    add(c->key, c->label, [&](std::size_t i) { return value_of(*c, grid.row(i)); });
+  add("closure_residual_m", "closure residual (m)",
+      [&](std::size_t i) { return grid.solved.positions[i].residual; });
+  const bool complete = std::all_of(grid.solved.positions.begin(), grid.solved.positions.end(),
+                                    [](const GuidePosition& p) { return p.status == Status::done; });
+  if (!complete)
+    for (const GuidePosition& p : grid.solved.positions) table.status.emplace_back(to_string(p.status));
+  return table;
+}
+
+Table limits_table(const std::vector<double>& racks, const std::vector<TravelLimits>& limits) {
+  Table table{.name = "limits"};
+  std::vector<double> low, high;
+  for (const TravelLimits& l : limits) {
+    // Without a fold the wheel goes further than anyone asks.
+    low.push_back(l.status[0] == Status::no_assembly ? l.value[0] : WheelParameters::missing);
+    high.push_back(l.status[1] == Status::no_assembly ? l.value[1] : WheelParameters::missing);
+  }
+  table.add("rack_m", "rack (m)",
+            {racks.begin(), racks.begin() + static_cast<std::ptrdiff_t>(limits.size())});
+  table.add("lowest_travel_m", "lowest travel that the links reach (m)", low);
+  table.add("highest_travel_m", "highest travel that the links reach (m)", high);
+  return table;
+}
+
+/// What the spring does at the wheel, in further columns.
+void add_wheel_rates(Table& table, const SweepStudy& s, const GuidePlan& plan, const Grid& grid) {
+  std::vector<double> force, rate, by_ratio;
+  for (std::size_t i = 0; i < grid.rows(); ++i) {
+    WheelRate w{.status = Status::no_assembly};
+    if (grid.solved.positions[i].status == Status::done)
+      w = wheel_rate(s.description.guide, plan, grid.solved.positions[i], *s.description.spring);
+    const bool there = w.status == Status::done;
+    force.push_back(there ? w.wheel_force : WheelParameters::missing);
+    rate.push_back(there ? w.rate : WheelParameters::missing);
+    by_ratio.push_back(there ? w.motion_ratio_by_travel : WheelParameters::missing);
+  }
+  table.add("wheel_force_N", "force of the spring at the wheel centre (N)", std::move(force));
+  table.add("wheel_rate_N_per_m", "wheel rate (N/m)", std::move(rate));
+  table.add("motion_ratio_by_travel", "motion ratio by travel (1/m)", std::move(by_ratio));
+}
+
+void add_plots(study::Result& result, const SweepStudy& s) {
+  const Table& table = result.tables.front();
+  const auto over_travel = [&](std::string name, std::string title, std::vector<std::string> y) {
+    std::erase_if(y, [&](const std::string& key) { return !table.find(key); });
+    if (y.empty()) return;
+    result.plots.push_back({.name = std::move(name),
+                            .title = std::move(title),
+                            .table = "sweep",
+                            .x = "travel_m",
+                            .y = std::move(y),
+                            .scene = scene_name,
+                            .group = s.racks.size() > 1 ? "rack_m" : ""});
+  };
+  over_travel("toe", "Toe over travel", {"toe_rad"});
+  over_travel("camber", "Camber over travel", {"camber_rad"});
+  over_travel("track", "Half-track change over travel", {"half_track_change_m"});
+  over_travel("wheelbase", "Wheelbase change over travel", {"wheelbase_change_m"});
+  over_travel("roll-centre", "Roll-centre height over travel", {"roll_centre_height_m"});
+  over_travel("caster", "Caster over travel", {"caster_rad"});
+  over_travel("kingpin-inclination", "Kingpin inclination over travel", {"kingpin_inclination_rad"});
+  over_travel("trail", "Trail over travel", {"trail_m"});
+  over_travel("scrub-radius", "Scrub radius over travel", {"scrub_radius_m"});
+  over_travel("motion-ratio", "Motion ratio of the spring over travel", {"motion_ratio"});
+  over_travel("wheel-rate", "Wheel rate over travel", {"wheel_rate_N_per_m"});
+  over_travel("spin", "Spin of the carrier over travel", {"spin_rad"});
+}
+
+std::string degrees(double radians) { return fmt::format("{:.3f}°", math::degrees(radians)); }
+std::string millimetres(double metres) { return fmt::format("{:.2f} mm", metres * 1e3); }
+std::string degrees_by_metre(double value) { return fmt::format("{:.3f} °/m", math::degrees(value)); }
+
+void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, const TravelLimits& limits) {
+  const WheelGuide& guide = s.description.guide;
+  const auto fact = [&](std::string label, std::string text) {
+    result.facts.push_back({std::move(label), std::move(text)});
+  };
+  fact("structure", structure_name(structure_of(guide)));
+  const std::size_t rack = next_to_zero(s.racks), first = rack * s.travels.size();
+  if (rack >= grid.racks) return;
+  const std::string centred = s.racks[rack] == 0 ? "" : fmt::format(" (rack {})", millimetres(s.racks[rack]));
+  const auto span = [&](double WheelAngles::*angle) {
+    double least = 1e300, largest = -1e300;
+    for (std::size_t i = first; i < first + s.travels.size(); ++i) {
+      if (grid.solved.positions[i].status != Status::done) continue;
+      const double value = grid.solved.wheels[i].angles.*angle;
+      least = std::min(least, value);
+      largest = std::max(largest, value);
+    }
+    return fmt::format("{} to {}", degrees(least), degrees(largest));
+  };
+  fact("toe over the travel" + centred, span(&WheelAngles::toe));
+  fact("camber over the travel" + centred, span(&WheelAngles::camber));
+  const std::size_t middle = first + next_to_zero(s.travels);
+  const WheelParameters& w = grid.solved.wheels[middle];
+  if (grid.solved.positions[middle].status == Status::done && w.status == Status::done) {
+    const std::string here = s.travels[next_to_zero(s.travels)] == 0
+                                 ? centred
+                                 : fmt::format(" (travel {})", millimetres(grid.travel(middle)));
+    fact("bump steer" + here, degrees_by_metre(w.toe_by_travel));
+    fact("camber by travel" + here, degrees_by_metre(w.camber_by_travel));
+    fact("roll-centre height" + here, millimetres(w.roll_centre_height));
+    if (guide.spring) fact("motion ratio" + here, fmt::format("{:.4f}", w.motion_ratio));
+    if (const SteeringAxis* axis = steering_axis_of(w, s.lock)) {
+      const std::string held = s.lock == Driver::spring ? "spring held" : "wheel centre's height held";
+      fact("caster, kingpin inclination" + here,
+           fmt::format("{}, {} ({})", degrees(axis->caster), degrees(axis->inclination), held));
+      fact("trail, scrub radius" + here,
+           fmt::format("{}, {}", millimetres(axis->trail), millimetres(axis->scrub)));
+    }
+  }
+  const auto limit = [&](int i) {
+    return limits.status[static_cast<std::size_t>(i)] == Status::no_assembly
+               ? millimetres(limits.value[static_cast<std::size_t>(i)])
+               : std::string("none within 1 m");
+  };
+  fact("travel limits of the links, rack centred", fmt::format("{} and {}", limit(0), limit(1)));
+}
+
+/// Every so manieth value, with both ends and the one next to zero.
+std::vector<std::size_t> thinned(std::span<const double> values, std::size_t most) {
+  std::vector<std::size_t> out;
+  const std::size_t step = (values.size() + most - 1) / most, middle = next_to_zero(values);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (i % step == 0 || i + 1 == values.size() || i == middle) out.push_back(i);
+  return out;
+}
+
+study::Scene scene_of(const SweepStudy& s, const Grid& grid) {
+  const auto racks = thinned(std::span(s.racks).first(grid.racks), 41);
+  const auto travels = thinned(s.travels, std::max<std::size_t>(2, most_scene_samples / racks.size()));
+  std::vector<double> rack_values, travel_values;
+  std::vector<GuidePosition> positions;
+  std::vector<WheelParameters> wheels;
+  for (const std::size_t t : travels) travel_values.push_back(s.travels[t]);
+  for (const std::size_t r : racks) {
+    rack_values.push_back(s.racks[r]);
+    for (const std::size_t t : travels) {
+      positions.push_back(grid.solved.positions[r * s.travels.size() + t]);
+      wheels.push_back(grid.solved.wheels[r * s.travels.size() + t]);
+    }
+  }
+  return guide_scene(s.description.guide, scene_name, "wheel travel and rack",
+                     {s.travel, travel_values, rack_values, positions, wheels, s.lock});
+}
+
+}  // namespace
+
+GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const double> travels,
+                         std::span<const double> racks, RunContext& context) {
+  GridPositions out;
+  out.positions.reserve(travels.size() * racks.size());
+  const GuidePosition reference = reference_position(plan, travel);
+  const std::size_t middle = next_to_zero(travels);
+  std::vector<GuidePosition> row(travels.size());
+  for (const double rack : racks) {
+    if (context.interruption() != Status::done) break;
+    const auto from = [&](const GuidePosition& start, std::size_t i) {
+      row[i] = start.status == Status::done ? solve_position(plan, travel, {travels[i], rack}, start) : start;
+      return row[i].status == Status::done;
+    };
+    from(reference, middle);
+    // Outwards, each from the last one that was reached.
+    for (const int way : {-1, 1}) {
+      GuidePosition last = row[middle].status == Status::done ? row[middle] : reference;
+      for (std::ptrdiff_t i = static_cast<std::ptrdiff_t>(middle) + way;
+           i >= 0 && i < static_cast<std::ptrdiff_t>(travels.size()); i += way)
+        if (from(last, static_cast<std::size_t>(i))) last = row[static_cast<std::size_t>(i)];
+    }
+    for (GuidePosition& p : row) {
+      if (p.status == Status::done) {
+        out.wheels.push_back(wheel_parameters(plan, p));
+      } else {
+        out.wheels.emplace_back();
+        out.wheels.back().status = p.status;
+      }
+      out.positions.push_back(std::move(p));
+    }
+  }
+  return out;
+}
+
+study::Result run_sweep_study(const SweepStudy& s, RunContext& context) {
+  study::Result result;
+  const GuidePlan plan = prepare(s.description.guide);
+  Grid grid{s, solve_grid(plan, s.travel, s.travels, s.racks, context)};
+  grid.racks = grid.solved.positions.size() / s.travels.size();
+  if (grid.racks < s.racks.size()) result.status = context.interruption();
+  if (grid.racks == 0) {
+    result.headline = "Interrupted before the first position.";
+    return result;
+  }
+  result.tables.push_back(sweep_table(grid));
+  if (s.description.spring) add_wheel_rates(result.tables.front(), s, plan, grid);
+  std::vector<TravelLimits> limits;
+  const GuidePosition reference = reference_position(plan, s.travel);
+  TravelLimits centred;
+  if (reference.status == Status::done) {
+    for (std::size_t i = 0; i < grid.racks; ++i)
+      limits.push_back(travel_limits(plan, s.travel, s.racks[i], reference));
+    centred = travel_limits(plan, s.travel, 0, reference);
+    result.tables.push_back(limits_table(s.racks, limits));
+  }
+  add_plots(result, s);
+  add_facts(result, s, grid, centred);
+  if (s.vehicle) add_anti_features(result, *s.vehicle, grid.solved.wheels);
+  if (s.axle) add_axle(result, s.description.guide, *s.axle, s.vehicle);
+  const SensitivityInputs inputs{s.travel, s.travels, s.racks[next_to_zero(s.racks)], s.lock};
+  if (s.sensitivity) add_sensitivity(result, s.description.guide, *s.sensitivity, inputs);
+  if (s.tolerances) add_tolerances(result, s.description.guide, *s.tolerances, inputs, context);
+  if (s.compliance) add_compliance(result, s.description, *s.compliance);
+  result.scenes.push_back(scene_of(s, grid));
+
+  std::size_t lost = 0;
+  double worst = 0;
+  for (std::size_t i = 0; i < grid.rows(); ++i) {
+    const GuidePosition& p = grid.solved.positions[i];
+    if (p.status == Status::done) {
+      worst = std::max(worst, p.residual);
+      continue;
+    }
+    if (result.status == Status::done) result.status = p.status;
+    if (lost++ < 5)
+      result.diagnostics.push_back(
+          {Diagnostic::Severity::warning,
+           {},
+           {},
+           {},
+           fmt::format("travel {:.6g} mm, rack {:.6g} mm: {}: {}", grid.travel(i) * 1e3, grid.rack(i) * 1e3,
+                       to_string(p.status), p.reason),
+           "the table `limits` tells how far the links reach"});
+  }
+  if (lost > 5)
+    result.diagnostics.push_back({Diagnostic::Severity::warning,
+                                  {},
+                                  {},
+                                  {},
+                                  fmt::format("{} more positions are not reached", lost - 5),
+                                  {}});
+  result.headline =
+      lost == 0 ? fmt::format("{} wheel guide: all {} positions reached (largest closure residual {:.1g} m).",
+                              structure_name(structure_of(s.description.guide)), grid.rows(), worst)
+                : fmt::format("{} wheel guide: {} of {} positions are not reached.",
+                              structure_name(structure_of(s.description.guide)), lost, grid.rows());
+  return result;
+}
+
+}  // namespace linkwright::suspension

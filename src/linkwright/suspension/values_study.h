@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "linkwright/study/kind.h"
+
+// Values of an input as studies of wheel guides list them.
+namespace linkwright::suspension {
+
+/// Values of one input: from, to and step or samples; or listed (m, rad).
+struct InputValues {
+  std::optional<double> from, to, step;
+  std::optional<int> samples;
+  std::optional<std::vector<double>> values;
+};
+/// ... of a length and of an angle.
+struct LengthValues : InputValues {};
+struct AngleValues : InputValues {};
+
+template <class Visitor>
+void visit_values(Visitor&& visit, InputValues& v, Dimension dimension, double most) {
+  const auto number = [&](std::string_view key, std::string_view summary, double least) {
+    return Field{.key = key, .summary = summary, .dimension = dimension, .minimum = least, .maximum = most};
+  };
+  visit(number("from", "first value", -most), v.from);
+  visit(number("to", "last value", -most), v.to);
+  visit(number("step", "between values", 1e-9), v.step);
+  visit(Field{.key = "samples",
+              .summary = "number of values, in the place of step",
+              .minimum = 1,
+              .maximum = 1e6},
+        v.samples);
+  visit(number("values", "in the place of from, to and step", -most), v.values);
+}
+template <class Visitor>
+void fields(Visitor&& visit, LengthValues& v) {
+  visit_values(visit, v, Dimension::length, 10);
+}
+template <class Visitor>
+void fields(Visitor&& visit, AngleValues& v) {
+  visit_values(visit, v, Dimension::angle, 1);
+}
+
+/// One number, or several.
+struct Numbers {
+  std::vector<double> of;
+};
+bool read_value(study::ObjectReader& reader, const study::ObjectReader::Found& found, const Field& field,
+                Numbers& member);
+Value write_value(const Numbers& member);
+Value schema_value(const Field& field, const Numbers& member);
+
+/// The values, ascending, each once; nothing, and the problem told, if they make no sense. `unit` is for
+/// hints: "mm".
+std::optional<std::vector<double>> values_of(study::ObjectReader& table, const InputValues& values,
+                                             std::string_view unit);
+/// Values as a list, as canonical studies have them.
+template <class Values>
+Values listed(std::vector<double> values) {
+  Values out;
+  out.values = std::move(values);
+  return out;
+}
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,154 @@
+#include "linkwright/suspension/guide_study.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "linkwright/suspension/samples.h"
+#include "suspension/studies.h"
+
+namespace linkwright::suspension {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::problems_of;
+using testing::replaced;
+using testing::run_text;
+
+const std::string head = "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\n";
+std::string sample(const std::string& name, const std::string& rest) {
+  return head + "sample = \"" + name + "\"\n" + rest;
+}
+const std::string sweep = "[sweep.travel]\nfrom_mm = -80\nto_mm = 80\nstep_mm = 40\n";
+const std::string racks = "[sweep.rack]\nvalues_mm = [-30, 0, 30]\n";
+
+const std::vector<double>& column(const study::Result& result, std::string_view key) {
+  const Column* found = result.tables.at(0).find(key);
+  EXPECT_NE(found, nullptr) << key;
+  static const std::vector<double> none;
+  return found ? found->values : none;
+}
+
+// The same car printed by another program: millimetres, x rearward, y to the right, origin 1.2 m ahead of
+// and 0.3 m below the wheel centres, and the wheel on the right.
+TEST(GuideStudy, ReadsPrintedHardPointsOfTheRightWheelInAnotherFrame) {
+  const auto folder = std::filesystem::temp_directory_path() / "linkwright_hard_points";
+  std::filesystem::create_directories(folder);
+  const WheelGuide& left = guide_sample("2RS-KS").guide;
+  std::ofstream file(folder / "car.txt");
+  file << "$ printed in mm: X rearward, Y right, Z up\n";
+  const auto print = [&](const char* name, const Vec3& at) {
+    // Forward x becomes 1200 - x; the right wheel's y is the left one's in this frame; z + 300.
+    file << fmt::format("{:24} {:.3f} {:.3f} {:.3f}\n", name, 1200 - at.x * 1e3, at.y * 1e3,
+                        at.z * 1e3 + 300);
+  };
+  print("LCA front", left.links[0].body[0]);
+  print("LCA rear", left.links[0].body[1]);
+  print("LCA outer", left.links[0].carrier[0]);
+  print("UCA front", left.links[1].body[0]);
+  print("UCA rear", left.links[1].body[1]);
+  print("UCA outer", left.links[1].carrier[0]);
+  print("Tie rod inner", left.links[2].body[0]);
+  print("Tie rod outer", left.links[2].carrier[0]);
+  print("Spring top", left.spring->body);
+  print("Spring bottom", left.spring->moving);
+  print("Wheel centre", left.wheel.centre);
+  file.close();
+  const std::string text = head + R"(side = "right"
+[mechanism.hard_points]
+file = "car.txt"
+x = "rearward"
+y = "right"
+z = "up"
+origin_mm = [1200, 0, -300]
+[mechanism.wheel]
+point = "wheel centre"
+toe_deg = 0.1
+camber_deg = -0.5
+tyre_diameter_mm = 640
+[[mechanism.link]]
+name = "lower wishbone"
+type = "RS"
+points = ["LCA front", "LCA rear", "LCA outer"]
+[[mechanism.link]]
+name = "upper wishbone"
+type = "RS"
+points = ["UCA front", "UCA rear", "UCA outer"]
+[[mechanism.link]]
+name = "tie rod"
+type = "KS"
+points = ["Tie rod inner", "Tie rod outer"]
+moved_by = "rack"
+[mechanism.spring]
+points = ["Spring top", "Spring bottom"]
+attached_to = "lower wishbone"
+)" + sweep + racks;
+  const study::Result right = run_text(text, folder);
+  const study::Result known = run_text(sample("2RS-KS", sweep + racks));
+  ASSERT_EQ(right.status, Status::done);
+  for (const char* key : {"toe_rad", "camber_rad", "spin_rad", "half_track_change_m", "roll_centre_height_m",
+                          "caster_rad", "kingpin_inclination_rad", "trail_m", "scrub_radius_m",
+                          "motion_ratio", "wheelbase_change_m", "support_tangent"})
+    for (std::size_t rack = 0; rack < 3; ++rack)
+      for (std::size_t i = 0; i < 5; ++i)
+        EXPECT_NEAR(column(right, key).at(5 * rack + i), column(known, key).at(5 * (2 - rack) + i), 1e-12)
+            << key;
+  // Places are where the right wheel is: y < 0.
+  EXPECT_NEAR(column(right, "centre_y_m").at(7), -0.76, 1e-12);
+  EXPECT_NEAR(column(right, "centre_x_m").at(0), column(known, "centre_x_m").at(10), 1e-12);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(GuideStudyRead, NamesWhatIsWrongWithTheMechanism) {
+  const std::string good = sample("5KS", sweep);
+  EXPECT_THAT(problems_of(replaced(good, "5KS", "5KX")),
+              HasSubstr("mechanism.sample: there is no sample '5KX'; there are: R, RR-KS"));
+  EXPECT_THAT(problems_of(replaced(good, "[sweep", "[mechanism.wheel]\ntyre_diameter_m = 0.6\n[sweep")),
+              HasSubstr("mechanism.wheel: a sample brings its own; remove it, or the sample"));
+  EXPECT_THAT(problems_of(head + sweep), AllOf(HasSubstr("mechanism.wheel: this key is missing"),
+                                               HasSubstr("mechanism.link: there are no links")));
+  const std::string wheel = head + "[mechanism.wheel]\ncentre_m = [0, 0.7, 0]\ntyre_diameter_m = 0.6\n";
+  const auto link = [](const std::string& type, const std::string& points) {
+    return "[[mechanism.link]]\nname = \"arm\"\ntype = \"" + type + "\"\n" + points;
+  };
+  EXPECT_THAT(
+      problems_of(wheel + link("RS", "body_m = [0, 0.3, 0]\ncarrier_m = [0, 0.7, 0]\n") + sweep),
+      HasSubstr("mechanism.link[0].body_m: a link of type RS needs 2 points here, there are 1; two points on "
+                "the axis: [[x, y, z], [x, y, z]]"));
+  EXPECT_THAT(problems_of(wheel + link("KS", "points = [\"a\", \"b\"]\n") + sweep),
+              HasSubstr("mechanism.link[0].points: there is no hard point 'a': there are none; give "
+                        "[mechanism.hard_points] file"));
+  EXPECT_THAT(
+      problems_of(wheel +
+                  link("KS", "body_m = { near = [0, 0.3, 0], box_m = 0.1 }\ncarrier_m = [0, 0.7, 0]\n") +
+                  sweep),
+      HasSubstr("mechanism.link[0].body_m: is open, but nothing is looked for in this kind of study"));
+  // One rod leaves the carrier five freedoms.
+  EXPECT_THAT(problems_of(wheel + link("KS", "body_m = [0, 0.3, 0]\ncarrier_m = [0, 0.7, 0]\n") + sweep),
+              HasSubstr("mechanism"));
+  EXPECT_THAT(problems_of(wheel + "[mechanism.hard_points]\nx = \"left\"\n" +
+                          link("KS", "body_m = [0, 0.3, 0]\ncarrier_m = [0, 0.7, 0]\n") + sweep),
+              HasSubstr("x and y both lie along left and right"));
+  EXPECT_THAT(problems_of(wheel + "[mechanism.hard_points]\nfile = \"nowhere.csv\"\n" + sweep),
+              HasSubstr("mechanism.hard_points.file: cannot read './nowhere.csv'; file names are relative"));
+}
+
+TEST(GuideStudyRead, CanonicalStudiesAreStudiesOfTheSameGuide) {
+  std::string messages;
+  const auto prepared = testing::prepare(testing::kinds().at(0).example, messages);
+  ASSERT_TRUE(prepared) << messages;
+  const Value& mechanism = *prepared->canonical.find("mechanism");
+  EXPECT_FALSE(mechanism.find("hard_points"));
+  Diagnostics problems;
+  Value again = prepared->canonical;
+  const auto second = study::prepare(again, "canonical", ".", testing::kinds(), problems);
+  ASSERT_TRUE(second) << (problems.empty() ? "" : to_string(problems[0]));
+  EXPECT_EQ(second->canonical, prepared->canonical);
+}
+
+}  // namespace
+}  // namespace linkwright::suspension

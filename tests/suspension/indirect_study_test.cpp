@@ -1,0 +1,106 @@
+#include "linkwright/suspension/indirect_study.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <regex>
+#include <string>
+
+#include "suspension/studies.h"
+
+namespace linkwright::suspension {
+namespace {
+
+using testing::fact;
+using ::testing::HasSubstr;
+using testing::problems_of;
+using testing::replaced;
+using testing::run_text;
+
+const std::string& example() {
+  static const std::string text = [] {
+    for (const study::Kind& kind : testing::kinds())
+      if (kind.target == "carrier_poses") return kind.example;
+    return std::string();
+  }();
+  return text;
+}
+
+TEST(IndirectStudy, FindsTheRodsThatThePositionsComeFrom) {
+  const study::Result result = run_text(example());
+  ASSERT_EQ(result.status, Status::done) << result.headline;
+  EXPECT_EQ(result.statistics.find("success_rate")->as_number(), 1);
+  const study::Solution& best = result.solutions.at(0);
+  EXPECT_LT(best.objectives.find("max_constraint_error_m")->as_number(), 1e-9);
+  EXPECT_EQ(best.label, "5KS");
+  // Poznanovic 2016, example 1; the positions are given with 10 digits, and link 1 is determined to about
+  // 1e-4 of their errors.
+  const auto value = [&](std::string_view key) {
+    for (const study::Parameter& p : best.parameters)
+      if (p.key == key) return p.value;
+    ADD_FAILURE() << key;
+    return 0.0;
+  };
+  EXPECT_NEAR(value("lower_front_rod_body_x_m"), 0.2115, 1e-5);
+  EXPECT_NEAR(value("lower_front_rod_carrier_z_m"), -0.134, 1e-5);
+  EXPECT_NEAR(value("tie_rod_body_y_m"), 0.366, 1e-5);
+  EXPECT_EQ(value("upper_rear_rod_body_x_m"), -0.303);
+  const Table& poses = result.tables.at(0);
+  ASSERT_EQ(poses.name, "poses");
+  for (double deviation : poses.find("deviation_toe_rad")->values) EXPECT_LT(std::abs(deviation), 1e-8);
+}
+
+TEST(IndirectStudy, FindsTheSameGuideOnTheRight) {
+  // The mirror image: y changes its sign in every [x, y, z], and so does the rack's direction.
+  std::string mirrored = std::regex_replace(
+      example(), std::regex(R"(\[([^\[\],]+),\s*(-?)([0-9.]+),([^\[\],]+)\])"), "[$1, @$2$3,$4]");
+  mirrored = std::regex_replace(mirrored, std::regex("@-"), "");
+  mirrored = std::regex_replace(mirrored, std::regex("@"), "-");
+  mirrored = replaced(mirrored, "side = \"left\"", "side = \"right\"\nrack = { direction = [0, -1, 0] }");
+  const study::Result right = run_text(mirrored), left = run_text(example());
+  ASSERT_EQ(right.status, Status::done) << right.headline;
+  for (std::size_t i = 0; i < left.solutions.at(0).parameters.size(); ++i) {
+    const study::Parameter &l = left.solutions[0].parameters[i], &r = right.solutions.at(0).parameters.at(i);
+    EXPECT_NEAR(r.value, l.key.ends_with("_y_m") ? -l.value : l.value, 1e-6) << l.key;
+  }
+}
+
+TEST(IndirectStudy, SaysWhatItLacksWhenPositionsCannotBeTaken) {
+  // A wheel that rises straight but turns about itself by a degree: no rods in these boxes do that.
+  const study::Result result = run_text(replaced(example(), "toe_deg = -6.688676046", "toe_deg = -5.5"));
+  EXPECT_NE(result.status, Status::done);
+  EXPECT_THAT(result.headline, HasSubstr("No exact wheel guide found"));
+  EXPECT_EQ(result.statistics.find("success_rate")->as_number(), 0);
+}
+
+TEST(IndirectStudyRead, NamesWhatIsWrongWithTheTarget) {
+  const std::string good = example();
+  const auto target = good.find("[target]"), optimiser = good.find("[optimiser]");
+  const std::string before = good.substr(0, target), after = good.substr(optimiser);
+  const auto told = [&](const std::string& text) {
+    return problems_of(before + "[target]\ntype = \"carrier_poses\"\n" + text + after);
+  };
+  EXPECT_THAT(told(""), HasSubstr("target.pose: the target has no positions; write file = \"poses.csv\""));
+  EXPECT_THAT(told("file = \"nowhere.csv\"\n"), HasSubstr("target.file: cannot read './nowhere.csv'"));
+  EXPECT_THAT(told("pose = [ { centre_m = [0, 0.7, 0.1], camber_deg = 0 } ]\n"),
+              HasSubstr("target.pose[0].toe_rad: this key is missing"));
+  EXPECT_THAT(told("pose = [ { centre_mm = [0, 768, 0], toe_deg = 0, camber_deg = -0.7, spin_deg = 0 } ]\n"),
+              HasSubstr("target.pose: no position besides the reference"));
+}
+
+TEST(IndirectStudyRead, NamesWhatIsWrongWithTheMechanism) {
+  std::string all_given = example();
+  for (const char* text :
+       {"near = [220.0, 380.0,  -90.0], box_mm = 150.0", "near = [ 10.0, 730.0, -140.0], box_mm = 150.0"})
+    EXPECT_THAT(all_given, HasSubstr(text));
+  EXPECT_THAT(problems_of(replaced(example(), "near = [220.0, 380.0,  -90.0], box_mm = 150.0",
+                                   "near = [220.0, 380.0,  -90.0], box_mm = -1.0")),
+              HasSubstr("mechanism.link[0].body_mm.box_mm: is -1 mm"));
+  EXPECT_THAT(
+      problems_of(replaced(example(), "body_mm    = { near = [220.0, 380.0,  -90.0], box_mm = 150.0 }",
+                           "body_mm = [220, { min = 400, max = 300 }, -90]")),
+      HasSubstr("mechanism.link[0].body_mm[1]: min 0.4 m is larger than max 0.3 m"));
+}
+
+}  // namespace
+}  // namespace linkwright::suspension

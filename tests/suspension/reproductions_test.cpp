@@ -1,0 +1,95 @@
+#include "linkwright/suspension/reproductions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace linkwright::suspension {
+namespace {
+
+std::vector<study::Comparison> rows(std::string_view id) {
+  for (const study::Reproduction& r : reproductions())
+    if (r.id == id) {
+      RunContext context;
+      return r.run(context);
+    }
+  ADD_FAILURE() << "no table " << id;
+  return {};
+}
+
+/// Verdicts of rows whose item begins so.
+std::map<std::string, int> verdicts(const std::vector<study::Comparison>& rows, std::string_view beginning) {
+  std::map<std::string, int> out;
+  for (const study::Comparison& r : rows)
+    if (r.item.starts_with(beginning)) ++out[r.verdict];
+  return out;
+}
+
+using Counts = std::map<std::string, int>;
+
+TEST(GuideReproductions, HaveIdsTitlesSourcesAndNotes) {
+  std::set<std::string> ids;
+  for (const study::Reproduction& r : reproductions()) {
+    EXPECT_TRUE(ids.insert(r.id).second) << r.id;
+    EXPECT_FALSE(r.title.empty() || r.source.empty() || r.notes.empty()) << r.id;
+  }
+}
+
+const study::Comparison& row(const std::vector<study::Comparison>& rows, std::string_view item) {
+  for (const study::Comparison& r : rows)
+    if (r.item == item) return r;
+  throw std::runtime_error("no row " + std::string(item));
+}
+
+TEST(GuideReproductions, FrontSuspension) {
+  const auto table = rows("poznanovic-2016-example-1");
+  EXPECT_EQ(verdicts(table, "position "), (Counts{{"reproduced", 75}}));
+  EXPECT_EQ(row(table, "links found exactly from random boxes of 150 mm, %").ours, 100);
+  EXPECT_LT(row(table, "mean error of coordinates, m").ours, 1e-6);
+  EXPECT_EQ(row(table, "generations of differential evolution, all links").verdict, "reproduced");
+  EXPECT_EQ(verdicts(table, "recommended method"), (Counts{{"improved", 10}}));
+  EXPECT_EQ(row(table, "objective of the points found").verdict, "corrected");
+  EXPECT_EQ(row(table, "objective of the quasi-Newton run").verdict, "not reproduced");
+  EXPECT_EQ(verdicts(table, "largest error"), (Counts{{"reproduced", 4}}));
+}
+
+TEST(GuideReproductions, Strut) {
+  const auto table = rows("poznanovic-2016-example-2");
+  const Counts positions = verdicts(table, "position ");
+  EXPECT_EQ(positions.at("reproduced") + positions.at("corrected"), 75);
+  EXPECT_GT(positions.at("corrected"), 20);
+  EXPECT_EQ(row(table, "links found exactly from random boxes of 150 mm, %").ours, 100);
+  EXPECT_EQ(row(table, "generations of differential evolution, all links").verdict, "reproduced");
+}
+
+TEST(GuideReproductions, InterconnectedLinks) {
+  const auto table = rows("poznanovic-2016-example-3");
+  EXPECT_EQ(verdicts(table, "position "), (Counts{{"corrected", 2}, {"reproduced", 53}}));
+  EXPECT_EQ(row(table, "position 9 (travel 0.06 m, rack 0 m): spin in deg").verdict, "corrected");
+  EXPECT_EQ(row(table, "links found exactly from random boxes of 150 mm, %").ours, 100);
+  EXPECT_LT(row(table, "mean error of coordinates, m").ours, 1e-5);
+}
+
+TEST(GuideReproductions, RearSuspension) {
+  const auto table = rows("poznanovic-2016-example-4");
+  EXPECT_EQ(verdicts(table, "position "), (Counts{{"reproduced", 52}}));
+  EXPECT_EQ(row(table, "links found exactly from random boxes of 150 mm, %").ours, 100);
+  EXPECT_EQ(row(table, "generations of differential evolution, all links").verdict, "reproduced");
+  for (const char* technique : {"spin unknown, quadratic", "spin unknown, dyad"}) {
+    const Counts counts = verdicts(table, technique);
+    EXPECT_EQ(counts.count("not reproduced"), 0u) << technique;
+  }
+}
+
+TEST(GuideReproductions, EndEarlyWhenTold) {
+  RunContext context;
+  context.cancel();
+  const auto table = reproductions()[0].run(context);
+  EXPECT_EQ(verdicts(table, "position "), (Counts{{"reproduced", 75}}));
+  EXPECT_TRUE(verdicts(table, "recommended method").empty());
+}
+
+}  // namespace
+}  // namespace linkwright::suspension

@@ -1,0 +1,27 @@
+#include "linkwright/suspension/studies.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+#include "linkwright/study/study.h"
+
+namespace linkwright::suspension {
+namespace {
+
+TEST(Studies, AreThoseOfWheelGuides) {
+  std::vector<std::string> names, seeded;
+  for (const study::Kind& kind : studies()) {
+    names.push_back(study::name_of(kind));
+    if (kind.seeded) seeded.push_back(names.back());
+  }
+  EXPECT_THAT(names, ::testing::ElementsAre("analysis/suspension.wheel_guide",
+                                            "synthesis/suspension.wheel_guide/carrier_poses",
+                                            "synthesis/suspension.wheel_guide/wheel_parameters"));
+  EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/suspension.wheel_guide/carrier_poses",
+                                             "synthesis/suspension.wheel_guide/wheel_parameters"));
+}
+
+}  // namespace
+}  // namespace linkwright::suspension

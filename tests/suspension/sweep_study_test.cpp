@@ -1,0 +1,107 @@
+#include "linkwright/suspension/sweep_study.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <string>
+
+#include "linkwright/suspension/guide_columns.h"
+#include "linkwright/suspension/samples.h"
+#include "suspension/studies.h"
+
+namespace linkwright::suspension {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::problems_of;
+using testing::run_text;
+
+const std::string head = "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\n";
+std::string sample(const std::string& name, const std::string& rest) {
+  return head + "sample = \"" + name + "\"\n" + rest;
+}
+const std::string sweep = "[sweep.travel]\nfrom_mm = -80\nto_mm = 80\nstep_mm = 40\n";
+const std::string racks = "[sweep.rack]\nvalues_mm = [-30, 0, 30]\n";
+
+const std::vector<double>& column(const study::Result& result, std::string_view key) {
+  const Column* found = result.tables.at(0).find(key);
+  EXPECT_NE(found, nullptr) << key;
+  static const std::vector<double> none;
+  return found ? found->values : none;
+}
+
+TEST(SweepStudy, TablesAGridAsTheLibrarySolvesIt) {
+  const study::Result result = run_text(sample("5KS", sweep + racks));
+  ASSERT_EQ(result.status, Status::done) << result.headline;
+  ASSERT_EQ(result.tables.at(0).rows(), 15U);
+  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  const GuidePosition reference = reference_position(plan);
+  for (std::size_t i = 0; i < 15; ++i) {
+    const GuideInput input{column(result, "travel_m")[i], column(result, "rack_m")[i]};
+    const GuidePosition at = solve_position(plan, Driver::wheel_centre_z, input, reference);
+    const WheelParameters wheel = wheel_parameters(plan, at);
+    const GuideRow row{at, wheel, Driver::spring};
+    // Another way to the same position: rounding.
+    for (const GuideColumn& c : guide_columns())
+      EXPECT_NEAR(column(result, c.key)[i], value_of(c, row), 1e-9 * (1 + std::abs(value_of(c, row)))) << c.key;
+    EXPECT_LE(column(result, "closure_residual_m")[i], 1e-11);
+  }
+  EXPECT_EQ(column(result, "rack_m").front(), -0.03);
+  EXPECT_EQ(column(result, "travel_m")[1], -0.04);
+}
+
+TEST(SweepStudy, KeepsToTheQuantitiesThatAreAskedFor) {
+  const study::Result result =
+      run_text(sample("5KS", sweep + "[output]\nquantities = [\"toe\", \"track\"]\n"));
+  std::vector<std::string> keys;
+  for (const Column& c : result.tables.at(0).columns) keys.push_back(c.key);
+  EXPECT_EQ(keys, (std::vector<std::string>{"travel_m", "rack_m", "toe_rad", "half_track_change_m", "track_m",
+                                            "closure_residual_m"}));
+}
+
+TEST(SweepStudy, ToldLimitsAreWhereRowsEnd) {
+  const study::Result whole = run_text(sample("SP-3KS", sweep));
+  const double highest = whole.tables.at(1).find("highest_travel_m")->values.at(0) * 1e3;
+  const std::string to = fmt::format("{:.3f}", highest - 1), beyond = fmt::format("{:.3f}", highest + 1);
+  const study::Result result =
+      run_text(sample("SP-3KS", "[sweep.travel]\nvalues_mm = [0, " + to + ", " + beyond + "]\n"));
+  EXPECT_EQ(result.status, Status::no_assembly);
+  EXPECT_EQ(result.tables.at(0).status, (std::vector<std::string>{"done", "done", "no_assembly"}));
+  EXPECT_TRUE(std::isnan(column(result, "toe_rad").at(2)));
+  ASSERT_EQ(result.diagnostics.size(), 1U);
+  EXPECT_THAT(to_string(result.diagnostics[0]),
+              AllOf(HasSubstr("no_assembly"), HasSubstr("cannot pass"), HasSubstr("1.000 mm short of")));
+}
+
+TEST(SweepStudy, SteersAboutTheAxisThatIsAskedFor) {
+  const auto caster = [&](const std::string& lock) {
+    return run_text(sample("2RS-KS", "[sweep]\n" + lock + "[sweep.travel]\nvalues_mm = [0]\n"))
+        .tables.at(0)
+        .find("caster_rad")
+        ->values.at(0);
+  };
+  // Specified for this double wishbone: 4.970 deg through both ball joints, 4.715 deg with the height held.
+  EXPECT_NEAR(caster("") * 180 / M_PI, 4.970, 6e-4);
+  EXPECT_NEAR(caster("steering_lock = \"wheel_centre_z\"\n") * 180 / M_PI, 4.715, 6e-4);
+}
+
+TEST(SweepStudyRead, NamesWhatIsWrongWithTheSweep) {
+  EXPECT_THAT(problems_of(sample("front_5KS", "[sweep.travel]\ncoordinate = \"spring\"\nvalues_mm = [0]\n")),
+              HasSubstr("sweep.travel.coordinate: there is no spring"));
+  EXPECT_THAT(problems_of(sample("R", sweep + racks)), HasSubstr("sweep.rack: no link is moved by the rack"));
+}
+
+TEST(SolveGrid, GoesOutwardsAndStopsWhenCancelled) {
+  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  const std::vector<double> travels{-0.05, 0, 0.05}, displacements{-0.02, 0.02};
+  RunContext context;
+  EXPECT_EQ(solve_grid(plan, Driver::wheel_centre_z, travels, displacements, context).positions.size(), 6U);
+  RunContext cancelled;
+  cancelled.cancel();
+  EXPECT_TRUE(solve_grid(plan, Driver::wheel_centre_z, travels, displacements, cancelled).positions.empty());
+}
+
+}  // namespace
+}  // namespace linkwright::suspension
