@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "linkwright/math/scalar.h"
 #include "linkwright/suspension/constraints.h"
 #include "linkwright/suspension/wheel_kernel.h"
 
@@ -154,8 +155,8 @@ T distance_residual(const Vector3<T>& d, const T& length) {
 }
 
 template <class T>
-void write_distance(const Placed<T>& placed, const BasicLinkConstants<T>& link, int body, int carrier,
-                    int which, Writer<T>& to) {
+LINKWRIGHT_KERNEL void write_distance(const Placed<T>& placed, const BasicLinkConstants<T>& link, int body,
+                                      int carrier, int which, Writer<T>& to) {
   const Vector3<T> r = placed.offset(link.offset[carrier]);
   const Vector3<T> d = placed.point(r) - placed.body(link, body);
   const T length = link.length[which];
@@ -180,7 +181,7 @@ void write_meeting(const Placed<T>& placed, const BasicLinkConstants<T>& link, c
 }
 
 template <class T>
-void write_link(const Placed<T>& placed, const BasicLinkConstants<T>& link, Writer<T>& to) {
+LINKWRIGHT_KERNEL void write_link(const Placed<T>& placed, const BasicLinkConstants<T>& link, Writer<T>& to) {
   switch (link.type) {
     case LinkType::KS:
     case LinkType::SS:

@@ -1,7 +1,5 @@
 #include "linkwright/suspension/derivatives.h"
 
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,16 +54,73 @@ BasicGuidePlace<T> constant(const GuidePlace& place) {
 }
 
 template <int N>
-using Column = Eigen::Matrix<double, N, 1>;
+using Column = std::array<double, N>;
 template <int N>
-using Columns = Eigen::Matrix<double, N, W>;
+using Columns = std::array<std::array<double, W>, N>;  // [row][direction]
+
+/// L U = P A. Small enough to be written out; sources that are compiled for speed keep Eigen's to themselves.
 template <int N>
-using Square = Eigen::Matrix<double, N, N>;
+class Factors {
+ public:
+  Factors() = default;
+  explicit Factors(const std::array<std::array<double, most_unknowns>, most_unknowns>& matrix) {
+    for (int i = 0; i < N; ++i) {
+      std::copy_n(matrix[i].begin(), N, lu_[i].begin());
+      order_[i] = i;
+    }
+    for (int k = 0; k < N; ++k) {
+      int pivot = k;
+      for (int i = k + 1; i < N; ++i)
+        if (std::abs(lu_[i][k]) > std::abs(lu_[pivot][k])) pivot = i;
+      std::swap(lu_[k], lu_[pivot]);
+      std::swap(order_[k], order_[pivot]);
+      for (int i = k + 1; i < N; ++i) {
+        lu_[i][k] /= lu_[k][k];
+        for (int j = k + 1; j < N; ++j) lu_[i][j] -= lu_[i][k] * lu_[k][j];
+      }
+    }
+  }
+
+  Columns<N> solve(const Columns<N>& right) const {
+    Columns<N> x;
+    for (int i = 0; i < N; ++i) {
+      x[i] = right[order_[i]];
+      for (int j = 0; j < i; ++j) subtract(x[i], lu_[i][j], x[j]);
+    }
+    for (int i = N - 1; i >= 0; --i) {
+      for (int j = i + 1; j < N; ++j) subtract(x[i], lu_[i][j], x[j]);
+      for (double& value : x[i]) value /= lu_[i][i];
+    }
+    return x;
+  }
+
+ private:
+  static void subtract(std::array<double, W>& from, double factor, const std::array<double, W>& other) {
+    for (int k = 0; k < W; ++k) from[k] -= factor * other[k];
+  }
+
+  std::array<std::array<double, N>, N> lu_{};
+  std::array<int, N> order_{};
+};
+
+template <int N>
+Column<N> direction(const Columns<N>& columns, int k) {
+  Column<N> out;
+  for (int i = 0; i < N; ++i) out[i] = columns[i][k];
+  return out;
+}
+
+/// A metre of travel that turns the wheel by a million radians is no motion any more.
+bool slow_enough(std::span<const double> rates) {
+  double square = 0;
+  for (const double rate : rates) square += rate * rate;
+  return std::sqrt(square) < 1e6;
+}
 
 template <int N>
 Twist twist(const Column<N>& x) {
-  Twist out{{x(0), x(1), x(2)}, {x(3), x(4), x(5)}};
-  if constexpr (N == 7) out.arm = x(6);
+  Twist out{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+  if constexpr (N == 7) out.arm = x[6];
   return out;
 }
 
@@ -78,19 +133,17 @@ class Linearised {
     const double rack = position.input.rack;
     const auto factors = [&](Driver driver) {
       evaluate(plan, position.place, rack, driver, 0, equations);
-      Square<N> matrix;
-      for (int i = 0; i < N; ++i)
-        for (int j = 0; j < N; ++j) matrix(i, j) = equations.jacobian[i][j];
-      return Eigen::PartialPivLU<Square<N>>(matrix);
+      return Factors<N>(equations.jacobian);
     };
     by_height_ = factors(Driver::wheel_centre_z);
     by_driver_ = position.driver == Driver::wheel_centre_z ? by_height_ : factors(position.driver);
-    Column<N> right;
-    for (int i = 0; i < N; ++i) right(i) = -equations.by_rack[i];
-    right(N - 1) = 0;  // of the height, whatever was evaluated last
-    bump_ = by_height_.solve(Column<N>::Unit(N - 1));
-    steer_ = by_height_.solve(right);
-    moves_ = bump_.norm() < 1e6 && steer_.norm() < 1e6;
+    Columns<N> right{};
+    right[N - 1][0] = 1;
+    for (int i = 0; i < N - 1; ++i) right[i][1] = -equations.by_rack[i];
+    const Columns<N> motions = by_height_.solve(right);
+    bump_ = direction<N>(motions, 0);
+    steer_ = direction<N>(motions, 1);
+    moves_ = slow_enough(bump_) && slow_enough(steer_);
   }
 
   bool moves() const { return moves_; }
@@ -104,7 +157,7 @@ class Linearised {
                      T(position_.input.value), equations);
     Columns<N> right;
     for (int i = 0; i < N; ++i)
-      for (int k = 0; k < W; ++k) right(i, k) = -equations.residual[i].by[k];
+      for (int k = 0; k < W; ++k) right[i][k] = -equations.residual[i].by[k];
     return by_driver_.solve(right);
   }
 
@@ -113,7 +166,7 @@ class Linearised {
     BasicGuidePlace<T> out = constant(position_.place);
     const Mat3& rotation = position_.place.carrier.rotation;
     for (int k = 0; k < W; ++k) {
-      const Twist by = twist<N>(shifts.col(k));
+      const Twist by = twist<N>(direction<N>(shifts, k));
       out.carrier.centre.x.by[k] = by.velocity.x;
       out.carrier.centre.y.by[k] = by.velocity.y;
       out.carrier.centre.z.by[k] = by.velocity.z;
@@ -142,14 +195,14 @@ class Linearised {
       for (int i = 0; i < N; ++i)
         for (int k = 0; k < W; ++k) {
           double sum = steering ? -equations.by_rack[i].by[k] : 0;
-          for (int j = 0; j < N; ++j) sum -= equations.jacobian[i][j].by[k] * x(j);
-          right(i, k) = sum;
+          for (int j = 0; j < N; ++j) sum -= equations.jacobian[i][j].by[k] * x[j];
+          right[i][k] = sum;
         }
       const Columns<N> change = by_height_.solve(right);
       std::array<T, N> dual;
       for (int i = 0; i < N; ++i) {
-        dual[i].value = x(i);
-        for (int k = 0; k < W; ++k) dual[i].by[k] = change(i, k);
+        dual[i].value = x[i];
+        for (int k = 0; k < W; ++k) dual[i].by[k] = change[i][k];
       }
       BasicTwist<T> made{{dual[0], dual[1], dual[2]}, {dual[3], dual[4], dual[5]}};
       if constexpr (N == 7) made.arm = dual[6];
@@ -160,8 +213,8 @@ class Linearised {
 
  private:
   const GuidePosition& position_;
-  Eigen::PartialPivLU<Square<N>> by_height_, by_driver_;
-  Column<N> bump_, steer_;
+  Factors<N> by_height_, by_driver_;
+  Column<N> bump_{}, steer_{};
   bool moves_ = true;
 };
 
@@ -205,7 +258,7 @@ WheelDerivatives by_numbers(const DerivativePlan& plan, const GuidePosition& pos
     const std::size_t first = i * W, count = std::min<std::size_t>(W, plan.numbers.size() - first);
     take_apart(parameters, out.parameters, std::span(out.by).subspan(first, count));
     for (std::size_t k = 0; k < count; ++k)
-      out.shift[first + k] = twist<N>(shifts.col(static_cast<Eigen::Index>(k)));
+      out.shift[first + k] = twist<N>(direction<N>(shifts, static_cast<int>(k)));
   }
   return out;
 }
@@ -220,9 +273,11 @@ InputDerivatives by_inputs(const DerivativePlan& plan, const GuidePosition& posi
     out.by_travel = out.by_rack = unknown(out.status);
     return out;
   }
-  Columns<N> shifts = Columns<N>::Zero();
-  shifts.col(0) = linear.bump();
-  shifts.col(1) = linear.steer();
+  Columns<N> shifts{};
+  for (int i = 0; i < N; ++i) {
+    shifts[i][0] = linear.bump()[i];
+    shifts[i][1] = linear.steer()[i];
+  }
   const auto place = linear.moved(shifts);
   const auto rack = T::variable(position.input.rack, 1);
   auto parameters = kernel::parameters_at_rest(plan.inputs, place, rack);
