@@ -73,6 +73,16 @@ TEST(IndirectStudy, SaysWhatItLacksWhenPositionsCannotBeTaken) {
   EXPECT_EQ(result.statistics.find("success_rate")->as_number(), 0);
 }
 
+TEST(IndirectStudy, TellsOfGivenLinksThatDoNotFit) {
+  const study::Result result =
+      run_text(replaced(example(), "body_mm    = [-303.0, 432.0, 295.0]", "body_mm = [-303.0, 432.0, 299.0]"));
+  EXPECT_EQ(result.status, Status::not_converged);
+  const Table& links = result.tables.at(2);
+  ASSERT_EQ(links.name, "conditioning");
+  EXPECT_LT(links.find("structural_error_max_m")->values.at(0), 1e-8);
+  EXPECT_GT(links.find("structural_error_max_m")->values.at(3), 1e-6);
+}
+
 TEST(IndirectStudyRead, NamesWhatIsWrongWithTheTarget) {
   const std::string good = example();
   const auto target = good.find("[target]"), optimiser = good.find("[optimiser]");

@@ -106,7 +106,10 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
       refuse(diagnostics, file, fmt::format("cannot be written: {}", problem));
   };
   const study::Result& result = outcome.result;
-  const std::string json = study::to_json_readable(result_json(study, result, outcome.record));
+  // The report carries it along; for tables alone it is not made, which takes longer than many a study.
+  const bool needs_json = wants(study, study::Format::json) || wants(study, study::Format::html);
+  const std::string json =
+      needs_json ? study::to_json_readable(result_json(study, result, outcome.record)) : std::string();
   if (wants(study, study::Format::json)) write("result.json", json);
   if (wants(study, study::Format::csv))
     for (const Table& table : result.tables) write(table.name + ".csv", to_csv(table));

@@ -99,13 +99,18 @@ std::string load_file(const fs::path& file, Diagnostics& diagnostics) {
     refuse(diagnostics, name, fmt::format("cannot be read: {}", std::strerror(errno)));
     return {};
   }
-  std::string text(largest_document + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  std::string text;
+  constexpr std::size_t piece = std::size_t{64} << 10;  // a study; more is read as it comes
+  while (stream && text.size() <= largest_document) {
+    const std::size_t before = text.size();
+    text.resize(std::min(before + std::max(before, piece), largest_document + 1));
+    stream.read(text.data() + before, static_cast<std::streamsize>(text.size() - before));
+    text.resize(before + static_cast<std::size_t>(stream.gcount()));
+  }
   if (stream.bad()) {
     refuse(diagnostics, name, fmt::format("cannot be read: {}", std::strerror(errno)));
     return {};
   }
-  text.resize(static_cast<std::size_t>(stream.gcount()));
   if (text.size() > largest_document) {
     refuse(diagnostics, name,
            fmt::format("has more than {} bytes ({} MiB)", largest_document, largest_document >> 20));

@@ -90,6 +90,7 @@ class Search {
 
   /// All unknowns within the boxes.
   bool fit(GuideLink& link, int iterations) {
+    if (unknowns_.free().empty()) return true;  // a given link is what it is
     x_.clear();
     for (const int place : unknowns_.free()) x_.push_back(unknowns_.get(link, place));
     math::LeastSquaresOptions o;

@@ -57,6 +57,7 @@ struct SweepStudy {
   std::vector<double> travels, racks;    ///< m, ascending
   Driver lock = Driver::wheel_centre_z;  ///< of the steering axis: wheel_centre_z or spring
   std::vector<std::string> quantities;   ///< empty = all that the guide has
+  bool drawn = true;                     ///< whether a scene is wanted: a grid may have many positions
   std::optional<VehicleForm> vehicle;
   std::optional<AxleForm> axle;
   std::optional<ComplianceForm> compliance;

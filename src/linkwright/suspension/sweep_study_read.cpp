@@ -35,6 +35,9 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
                                            Value& canonical) {
   SweepStudy s;
   s.quantities = common.output.quantities;
+  s.drawn = std::any_of(common.output.formats.begin(), common.output.formats.end(), [](study::Format f) {
+    return f != study::Format::json && f != study::Format::csv;
+  });
   const auto description = read_guide(document, common, OpenPoints::none);
   GuideSweep sweep;
   std::optional<std::vector<double>> travels, racks = std::vector{0.0};

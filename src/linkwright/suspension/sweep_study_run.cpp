@@ -278,7 +278,7 @@ study::Result run_sweep_study(const SweepStudy& s, RunContext& context) {
   if (s.sensitivity) add_sensitivity(result, s.description.guide, *s.sensitivity, inputs);
   if (s.tolerances) add_tolerances(result, s.description.guide, *s.tolerances, inputs, context);
   if (s.compliance) add_compliance(result, s.description, *s.compliance);
-  result.scenes.push_back(scene_of(s, grid));
+  if (s.drawn) result.scenes.push_back(scene_of(s, grid));
 
   std::size_t lost = 0;
   double worst = 0;
