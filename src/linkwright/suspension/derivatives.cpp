@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "linkwright/math/small_lu.h"
 #include "linkwright/suspension/wheel_parameters_kernel.h"
 
 namespace linkwright::suspension {
@@ -55,53 +56,23 @@ BasicGuidePlace<T> constant(const GuidePlace& place) {
 
 template <int N>
 using Column = std::array<double, N>;
-template <int N>
-using Columns = std::array<std::array<double, W>, N>;  // [row][direction]
 
-/// L U = P A. Small enough to be written out; sources that are compiled for speed keep Eigen's to themselves.
-template <int N>
-class Factors {
- public:
-  Factors() = default;
-  explicit Factors(const std::array<std::array<double, most_unknowns>, most_unknowns>& matrix) {
-    for (int i = 0; i < N; ++i) {
-      std::copy_n(matrix[i].begin(), N, lu_[i].begin());
-      order_[i] = i;
-    }
-    for (int k = 0; k < N; ++k) {
-      int pivot = k;
-      for (int i = k + 1; i < N; ++i)
-        if (std::abs(lu_[i][k]) > std::abs(lu_[pivot][k])) pivot = i;
-      std::swap(lu_[k], lu_[pivot]);
-      std::swap(order_[k], order_[pivot]);
-      for (int i = k + 1; i < N; ++i) {
-        lu_[i][k] /= lu_[k][k];
-        for (int j = k + 1; j < N; ++j) lu_[i][j] -= lu_[i][k] * lu_[k][j];
-      }
-    }
+/// A number in each direction.
+struct Directions {
+  std::array<double, W> of{};
+  double& operator[](int k) { return of[k]; }
+  double operator[](int k) const { return of[k]; }
+  Directions& operator-=(const Directions& other) {
+    for (int k = 0; k < W; ++k) of[k] -= other.of[k];
+    return *this;
   }
-
-  Columns<N> solve(const Columns<N>& right) const {
-    Columns<N> x;
-    for (int i = 0; i < N; ++i) {
-      x[i] = right[order_[i]];
-      for (int j = 0; j < i; ++j) subtract(x[i], lu_[i][j], x[j]);
-    }
-    for (int i = N - 1; i >= 0; --i) {
-      for (int j = i + 1; j < N; ++j) subtract(x[i], lu_[i][j], x[j]);
-      for (double& value : x[i]) value /= lu_[i][i];
-    }
-    return x;
+  friend Directions operator*(double factor, Directions a) {
+    for (double& value : a.of) value *= factor;
+    return a;
   }
-
- private:
-  static void subtract(std::array<double, W>& from, double factor, const std::array<double, W>& other) {
-    for (int k = 0; k < W; ++k) from[k] -= factor * other[k];
-  }
-
-  std::array<std::array<double, N>, N> lu_{};
-  std::array<int, N> order_{};
 };
+template <int N>
+using Columns = std::array<Directions, N>;  // [row][direction]
 
 template <int N>
 Column<N> direction(const Columns<N>& columns, int k) {
@@ -133,7 +104,9 @@ class Linearised {
     const double rack = position.input.rack;
     const auto factors = [&](Driver driver) {
       evaluate(plan, position.place, rack, driver, 0, equations);
-      return Factors<N>(equations.jacobian);
+      math::SmallLu<N> lu;
+      lu.factor(equations.jacobian);
+      return lu;
     };
     by_height_ = factors(Driver::wheel_centre_z);
     by_driver_ = position.driver == Driver::wheel_centre_z ? by_height_ : factors(position.driver);
@@ -213,7 +186,7 @@ class Linearised {
 
  private:
   const GuidePosition& position_;
-  Factors<N> by_height_, by_driver_;
+  math::SmallLu<N> by_height_, by_driver_;
   Column<N> bump_{}, steer_{};
   bool moves_ = true;
 };

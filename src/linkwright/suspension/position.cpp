@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/math/small_lu.h"
 #include "linkwright/suspension/structure.h"
 
 namespace linkwright::suspension {
@@ -31,6 +31,7 @@ template <int N>
 class Solver {
  public:
   using Vector = Eigen::Matrix<double, N, 1>;
+  using Column = std::array<double, N>;
 
   Solver(const GuidePlan& plan, Driver driver) : plan_(plan), driver_(driver) {}
 
@@ -43,7 +44,9 @@ class Solver {
       if (!(residual_ < 1e3) || residual_ <= converged || i == most_iterations) break;
       if (!factored || residual_ > chord) factor();
       factored = true;
-      const Vector step = lu_.solve(Eigen::Map<const Vector>(equations_.residual.data()));
+      Column residual;
+      std::copy_n(equations_.residual.begin(), N, residual.begin());
+      const Vector step = vector(lu_.solve(residual));
       if (!(step.template head<6>().squaredNorm() < 4)) return false;
       move(place, -step, 1);
     }
@@ -61,17 +64,13 @@ class Solver {
     }
   }
 
-  void factor() {
-    for (int i = 0; i < N; ++i)
-      for (int j = 0; j < N; ++j) matrix_(i, j) = equations_.jacobian[i][j];
-    lu_.compute(matrix_);
-  }
+  void factor() { lu_.factor(equations_.jacobian); }
 
   Vector tangent(double value_rate, double rack_rate) const {
-    Vector right;
-    for (int i = 0; i < N; ++i) right(i) = -equations_.by_rack[i] * rack_rate;
-    right(N - 1) += value_rate;
-    return lu_.solve(right);
+    Column right;
+    for (int i = 0; i < N; ++i) right[i] = -equations_.by_rack[i] * rack_rate;
+    right[N - 1] += value_rate;
+    return vector(lu_.solve(right));
   }
 
   static void move(GuidePlace& place, const Vector& along, double by) {
@@ -85,14 +84,23 @@ class Solver {
   bool orientation() const { return lu_.determinant() > 0; }
   /// Volume of the rows against that of a box with their lengths (Hadamard): 0 = rank lost, 1 = all at right
   /// angles.
-  double squareness() const { return std::abs(lu_.determinant()) / matrix_.rowwise().norm().prod(); }
+  double squareness() const {
+    double box = 1;
+    for (int i = 0; i < N; ++i) {
+      double square = 0;
+      for (int j = 0; j < N; ++j) square += equations_.jacobian[i][j] * equations_.jacobian[i][j];
+      box *= std::sqrt(square);
+    }
+    return std::abs(lu_.determinant()) / box;
+  }
 
  private:
+  static Vector vector(const Column& column) { return Eigen::Map<const Vector>(column.data()); }
+
   const GuidePlan& plan_;
   Driver driver_;
   GuideEquations equations_;
-  Eigen::Matrix<double, N, N> matrix_;
-  Eigen::PartialPivLU<Eigen::Matrix<double, N, N>> lu_;
+  math::SmallLu<N> lu_;
   double residual_ = 0;
 };
 
