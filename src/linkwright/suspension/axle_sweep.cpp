@@ -1,5 +1,6 @@
 #include "linkwright/suspension/axle_sweep.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "linkwright/core/check.h"
@@ -127,7 +128,9 @@ std::optional<AxleAckermann> axle_ackermann(const AxleParameters& straight, cons
                                             double wheelbase, double track) {
   const double left = turned.steer_left - straight.steer_left;
   const double right = turned.steer_right - straight.steer_right;
-  if (!(left * right > 0)) return std::nullopt;
+  // Straight ahead both angles are roundings, and so would be their ratio.
+  constexpr double no_steer = 1e-9;
+  if (!(left * right > 0) || !(std::min(std::abs(left), std::abs(right)) > no_steer)) return std::nullopt;
   const bool to_the_left = left > 0;
   AxleAckermann out{.inner = std::abs(to_the_left ? left : right),
                     .outer = std::abs(to_the_left ? right : left)};
