@@ -45,7 +45,8 @@ TEST(SweepStudy, TablesAGridAsTheLibrarySolvesIt) {
     const GuideRow row{at, wheel, Driver::spring};
     // Another way to the same position: rounding.
     for (const GuideColumn& c : guide_columns())
-      EXPECT_NEAR(column(result, c.key)[i], value_of(c, row), 1e-9 * (1 + std::abs(value_of(c, row)))) << c.key;
+      EXPECT_NEAR(column(result, c.key)[i], value_of(c, row), 1e-9 * (1 + std::abs(value_of(c, row))))
+          << c.key;
     EXPECT_LE(column(result, "closure_residual_m")[i], 1e-11);
   }
   EXPECT_EQ(column(result, "rack_m").front(), -0.03);
@@ -73,6 +74,14 @@ TEST(SweepStudy, ToldLimitsAreWhereRowsEnd) {
   ASSERT_EQ(result.diagnostics.size(), 1U);
   EXPECT_THAT(to_string(result.diagnostics[0]),
               AllOf(HasSubstr("no_assembly"), HasSubstr("cannot pass"), HasSubstr("1.000 mm short of")));
+}
+
+TEST(SweepStudy, ListsOtherAssemblies) {
+  const study::Result result = run_text(sample("R", "[sweep]\nassemblies = true\n" + sweep));
+  const auto table = std::find_if(result.tables.begin(), result.tables.end(),
+                                  [](const Table& t) { return t.name == "assemblies"; });
+  ASSERT_NE(table, result.tables.end());
+  EXPECT_EQ(table->rows(), 2U);
 }
 
 TEST(SweepStudy, SteersAboutTheAxisThatIsAskedFor) {

@@ -40,6 +40,7 @@ constexpr Word choice_word(const GridSweep&) { return {"grid", "every travel wit
 struct GuideSweep {
   std::variant<GridSweep> type;
   std::optional<Driver> steering_lock;
+  bool assemblies = false;
 };
 template <class Visitor>
 void fields(Visitor&& visit, GuideSweep& s) {
@@ -48,6 +49,8 @@ void fields(Visitor&& visit, GuideSweep& s) {
               .summary = "what is held while the wheel is steered about its steering axis: spring or "
                          "wheel_centre_z; default: the spring if there is one"},
         s.steering_lock);
+  visit(Field{.key = "assemblies", .summary = "table of the other ways to put the guide together"},
+        s.assemblies);
 }
 
 /// An analysis as read.
@@ -57,6 +60,7 @@ struct SweepStudy {
   std::vector<double> travels, racks;    ///< m, ascending
   Driver lock = Driver::wheel_centre_z;  ///< of the steering axis: wheel_centre_z or spring
   std::vector<std::string> quantities;   ///< empty = all that the guide has
+  bool assemblies = false;               ///< the other ways to put it together are looked for
   bool drawn = true;                     ///< whether a scene is wanted: a grid may have many positions
   std::optional<VehicleForm> vehicle;
   std::optional<AxleForm> axle;

@@ -35,9 +35,8 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
                                            Value& canonical) {
   SweepStudy s;
   s.quantities = common.output.quantities;
-  s.drawn = std::any_of(common.output.formats.begin(), common.output.formats.end(), [](study::Format f) {
-    return f != study::Format::json && f != study::Format::csv;
-  });
+  s.drawn = std::any_of(common.output.formats.begin(), common.output.formats.end(),
+                        [](study::Format f) { return f != study::Format::json && f != study::Format::csv; });
   const auto description = read_guide(document, common, OpenPoints::none);
   GuideSweep sweep;
   std::optional<std::vector<double>> travels, racks = std::vector{0.0};
@@ -45,6 +44,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
     table->read(sweep);
     const GridSweep& grid = std::get<GridSweep>(sweep.type);
     s.travel = grid.travel.coordinate;
+    s.assemblies = sweep.assemblies;
     if (description)
       s.lock =
           sweep.steering_lock.value_or(description->guide.spring ? Driver::spring : Driver::wheel_centre_z);
@@ -84,8 +84,9 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   s.travels = *travels;
   s.racks = *racks;
   canonical["mechanism"] = write_guide(s.description);
-  canonical["sweep"] = study::write_fields(GuideSweep{
-      GridSweep{{s.travel, listed<LengthValues>(s.travels)}, listed<LengthValues>(s.racks)}, s.lock});
+  canonical["sweep"] = study::write_fields(
+      GuideSweep{GridSweep{{s.travel, listed<LengthValues>(s.travels)}, listed<LengthValues>(s.racks)},
+                 s.lock, s.assemblies});
   if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);
   if (s.axle) canonical["axle"] = study::write_fields(*s.axle);
   if (s.sensitivity) canonical["sensitivity"] = study::write_fields(*s.sensitivity);

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/suspension/assemblies.h"
 #include "linkwright/suspension/guide_columns.h"
 #include "linkwright/suspension/guide_scene.h"
 #include "linkwright/suspension/hard_points.h"
@@ -104,6 +106,31 @@ void add_wheel_rates(Table& table, const SweepStudy& s, const GuidePlan& plan, c
   table.add("wheel_force_N", "force of the spring at the wheel centre (N)", std::move(force));
   table.add("wheel_rate_N_per_m", "wheel rate (N/m)", std::move(rate));
   table.add("motion_ratio_by_travel", "motion ratio by travel (1/m)", std::move(by_ratio));
+}
+
+/// At the position next to the reference.
+void add_assemblies(study::Result& result, const SweepStudy& s, const GuidePlan& plan) {
+  const GuideInput input{s.travels[next_to_zero(s.travels)], s.racks[next_to_zero(s.racks)]};
+  Table table{.name = "assemblies"};
+  std::array<std::vector<double>, 7> c;
+  for (const Assembly& a : assemblies(plan, s.travel, input)) {
+    const WheelAngles angles = wheel_angles(plan.side, plan.wheel, a.place.carrier.rotation);
+    const Vec3& centre = a.place.carrier.centre;
+    const std::array<double, 7> row{
+        centre.x, centre.y, centre.z, angles.toe, angles.camber, angles.spin, static_cast<double>(a.hits)};
+    for (std::size_t i = 0; i < row.size(); ++i) c[i].push_back(row[i]);
+  }
+  constexpr std::array<std::pair<const char*, const char*>, 7> keys{
+      {{"centre_x_m", "wheel centre x (m)"},
+       {"centre_y_m", "wheel centre y (m)"},
+       {"centre_z_m", "wheel centre z (m)"},
+       {"toe_rad", "toe (rad)"},
+       {"camber_rad", "camber (rad)"},
+       {"spin_rad", "spin of the carrier (rad)"},
+       {"hits", "random starts that ended here"}}};
+  for (std::size_t i = 0; i < keys.size(); ++i) table.add(keys[i].first, keys[i].second, c[i]);
+  result.facts.push_back({"ways to put it together, found", fmt::format("{}", table.rows())});
+  result.tables.push_back(std::move(table));
 }
 
 void add_plots(study::Result& result, const SweepStudy& s) {
@@ -269,6 +296,7 @@ study::Result run_sweep_study(const SweepStudy& s, RunContext& context) {
     centred = travel_limits(plan, s.travel, 0, reference);
     result.tables.push_back(limits_table(s.racks, limits));
   }
+  if (s.assemblies) add_assemblies(result, s, plan);
   result.tables.push_back(hard_point_table(points_of(s.description.guide)));
   add_plots(result, s);
   add_facts(result, s, grid, centred);
