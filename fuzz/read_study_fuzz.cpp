@@ -5,14 +5,13 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "linkwright/planar/studies.h"
+#include "linkwright/app/catalogue.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace linkwright;
-  static const std::vector<study::Kind> kinds = planar::studies();
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   for (study::Syntax syntax : {study::Syntax::toml, study::Syntax::json}) {
     Diagnostics diagnostics;
@@ -27,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Value from_json = study::read_text(study::to_json(document), study::Syntax::json, "again", again);
     if (syntax == study::Syntax::json && !(from_json == document)) std::abort();
 
-    const auto prepared = study::prepare(document, "input", ".", kinds, diagnostics);
+    const auto prepared = study::prepare(document, "input", ".", app::catalogue(), diagnostics);
     if (prepared.has_value() == has_errors(diagnostics)) std::abort();
   }
   return 0;

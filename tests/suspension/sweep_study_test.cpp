@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "linkwright/suspension/guide_columns.h"
@@ -74,6 +76,28 @@ TEST(SweepStudy, ToldLimitsAreWhereRowsEnd) {
   ASSERT_EQ(result.diagnostics.size(), 1U);
   EXPECT_THAT(to_string(result.diagnostics[0]),
               AllOf(HasSubstr("no_assembly"), HasSubstr("cannot pass"), HasSubstr("1.000 mm short of")));
+}
+
+TEST(SweepStudy, LaysAnotherGuideBehindTheCurves) {
+  const std::string text = sample("2RS-KS", sweep) + "[baseline.mechanism]\nsample = \"RS-SP-KS\"\n";
+  const study::Result result = run_text(text), other = run_text(sample("RS-SP-KS", sweep));
+  const auto baseline = std::find_if(result.tables.begin(), result.tables.end(),
+                                     [](const Table& t) { return t.name == "baseline"; });
+  ASSERT_NE(baseline, result.tables.end());
+  EXPECT_EQ(baseline->find("toe_rad")->values, column(other, "toe_rad"));
+  for (const study::Plot& plot : result.plots) EXPECT_EQ(plot.baseline, "baseline") << plot.name;
+  // From the study that it stands in, too.
+  const auto folder = std::filesystem::temp_directory_path() / "linkwright_sweep_study";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "before.toml") << sample("RS-SP-KS", sweep);
+  const study::Result read =
+      run_text(sample("2RS-KS", sweep) + "[baseline]\nfile = \"before.toml\"\n", folder);
+  EXPECT_EQ(read.tables.at(0).find("toe_rad")->values, column(result, "toe_rad"));
+  std::filesystem::remove_all(folder);
+  EXPECT_THAT(problems_of(sample("2RS-KS", sweep) + "[baseline]\nfile = \"nowhere.toml\"\n"),
+              HasSubstr("baseline.file: ./nowhere.toml: error: there is no such file"));
+  EXPECT_THAT(problems_of(sample("2RS-KS", sweep) + "[baseline]\n"),
+              HasSubstr("baseline.file: the baseline is missing"));
 }
 
 TEST(SweepStudy, ListsOtherAssemblies) {

@@ -22,7 +22,7 @@ struct Table {
   std::vector<Column> columns = {};
   std::vector<std::string> status = {};  ///< one per row; empty = every row is done
 
-  std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
+  std::size_t rows() const { return columns.empty() ? names.size() : columns.front().values.size(); }
   const Column* find(std::string_view key) const;
   /// Adds a column and returns it; its length must match the columns that are there already when it is
   /// written.

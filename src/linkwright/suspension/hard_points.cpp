@@ -153,6 +153,10 @@ std::optional<std::vector<HardPoint>> from_csv(std::string_view text, const std:
   const std::optional<Table> table = read_csv(text, file, diagnostics);
   if (!table) return std::nullopt;
   Collector collect(file, diagnostics);
+  if (table->names.size() != table->rows()) {
+    collect.problem(1, "name", "this column is missing", "write name,x_mm,y_mm,z_mm");
+    return std::nullopt;
+  }
   std::array<std::vector<double>, 3> at;
   constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -57,11 +57,12 @@ void fields(Visitor&& visit, GuideSweep& s) {
 struct SweepStudy {
   GuideDescription description;
   Driver travel = Driver::wheel_centre_z;
-  std::vector<double> travels, racks;    ///< m, ascending
-  Driver lock = Driver::wheel_centre_z;  ///< of the steering axis: wheel_centre_z or spring
-  std::vector<std::string> quantities;   ///< empty = all that the guide has
-  bool assemblies = false;               ///< the other ways to put it together are looked for
-  bool drawn = true;                     ///< whether a scene is wanted: a grid may have many positions
+  std::vector<double> travels, racks;        ///< m, ascending
+  Driver lock = Driver::wheel_centre_z;      ///< of the steering axis: wheel_centre_z or spring
+  std::vector<std::string> quantities;       ///< empty = all that the guide has
+  bool assemblies = false;                   ///< the other ways to put it together are looked for
+  bool drawn = true;                         ///< whether a scene is wanted: a grid may have many positions
+  std::optional<GuideDescription> baseline;  ///< another guide, whose curves are laid behind
   std::optional<VehicleForm> vehicle;
   std::optional<AxleForm> axle;
   std::optional<ComplianceForm> compliance;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/read.h"
 #include "linkwright/suspension/guide_columns.h"
 #include "linkwright/suspension/sweep_study.h"
 
@@ -11,6 +12,39 @@ namespace linkwright::suspension {
 namespace {
 
 constexpr std::size_t most_rows = 1000000;
+
+/// `[baseline]`: the mechanism of another study, or one beside this one.
+std::optional<GuideDescription> read_baseline(study::ObjectReader& document, const study::Common& common) {
+  auto table = document.table("baseline");
+  if (!table) return std::nullopt;
+  std::string file;
+  const bool named = (*table)(Field{.key = "file", .summary = {}}, file);
+  if (named == table->has("mechanism")) {
+    table->error("file", named ? "the baseline is given twice" : "the baseline is missing",
+                 "write file = \"before.toml\", the study that it stands in; or [baseline.mechanism]");
+    return std::nullopt;
+  }
+  if (!named) {
+    std::string type;
+    if (auto mechanism = table->table("mechanism")) (*mechanism)(Field{.key = "type", .summary = {}}, type);
+    return read_guide(*table, common, OpenPoints::none);
+  }
+  Diagnostics problems;
+  study::Common there = common;
+  const std::filesystem::path path = common.folder / file;
+  there.folder = path.parent_path();
+  const Value other = study::read_file(path, problems);
+  std::optional<GuideDescription> out;
+  if (!has_errors(problems)) {
+    study::DocumentReader reader(other, file, problems);
+    study::ObjectReader root = reader.root();
+    out = read_guide(root, there, OpenPoints::none);
+    if (!out && !has_errors(problems)) table->error("file", fmt::format("'{}' has no wheel guide", file));
+  }
+  for (const Diagnostic& d : problems)
+    if (d.severity == Diagnostic::Severity::error) table->error("file", to_string(d));
+  return out;
+}
 
 std::vector<Word> quantity_words() {
   return {{"carrier", "place of the wheel centre"},
@@ -70,6 +104,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
                    fmt::format("{} travels with {} racks make {} rows, at most {} are allowed",
                                travels->size(), racks->size(), travels->size() * racks->size(), most_rows));
   }
+  s.baseline = read_baseline(document, common);
   document(Field{.key = "vehicle", .summary = {}}, s.vehicle);
   document(Field{.key = "axle", .summary = {}}, s.axle);
   document(Field{.key = "compliance", .summary = {}}, s.compliance);
@@ -87,6 +122,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   canonical["sweep"] = study::write_fields(
       GuideSweep{GridSweep{{s.travel, listed<LengthValues>(s.travels)}, listed<LengthValues>(s.racks)},
                  s.lock, s.assemblies});
+  if (s.baseline) canonical["baseline"]["mechanism"] = write_guide(*s.baseline);
   if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);
   if (s.axle) canonical["axle"] = study::write_fields(*s.axle);
   if (s.sensitivity) canonical["sensitivity"] = study::write_fields(*s.sensitivity);
@@ -166,6 +202,12 @@ values_mm = [-60.0, -30.0, 0.0, 30.0, 60.0]
     describe_guide(document);
     document.property(Field{.key = "sweep", .summary = "positions that are taken", .required = true},
                       study::schema_fields<GuideSweep>());
+    study::SchemaWriter baseline;
+    baseline.property(Field{.key = "file", .summary = "study whose mechanism it is"}, Value());
+    baseline.property(Field{.key = "mechanism", .summary = "the mechanism itself"},
+                      study::schema_fields<GuideForm>());
+    document.property(Field{.key = "baseline", .summary = "another wheel guide to compare with"},
+                      std::move(baseline).finish());
     document.property(Field{.key = "vehicle", .summary = "what the axle is part of: anti-dive, Ackermann"},
                       study::schema_fields<VehicleForm>());
     document.property(Field{.key = "axle", .summary = "both wheels: roll and steering"},

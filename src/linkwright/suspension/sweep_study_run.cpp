@@ -55,8 +55,8 @@ struct Grid {
   }
 };
 
-Table sweep_table(const Grid& grid) {
-  Table table{.name = "sweep"};
+Table sweep_table(const Grid& grid, std::string name) {
+  Table table{.name = std::move(name)};
   const std::size_t rows = grid.rows();
   const auto add = [&](std::string_view key, std::string_view label, auto&& value) {
     std::vector<double> values(rows);
@@ -158,6 +158,27 @@ void add_plots(study::Result& result, const SweepStudy& s) {
   over_travel("motion-ratio", "Motion ratio of the spring over travel", {"motion_ratio"});
   over_travel("wheel-rate", "Wheel rate over travel", {"wheel_rate_N_per_m"});
   over_travel("spin", "Spin of the carrier over travel", {"spin_rad"});
+}
+
+/// The same table of the other guide, laid behind the diagrams.
+void add_baseline(study::Result& result, const SweepStudy& s, RunContext& context) {
+  SweepStudy other = s;
+  other.description = *s.baseline;
+  if (!other.description.guide.spring) other.lock = Driver::wheel_centre_z;
+  if (s.travel == Driver::spring && !other.description.guide.spring) {
+    result.diagnostics.push_back(
+        {Diagnostic::Severity::warning, {}, {}, "baseline", "it has no spring to travel by", {}});
+    return;
+  }
+  Grid grid{other, solve_grid(prepare(other.description.guide), s.travel, s.travels, s.racks, context)};
+  grid.racks = grid.solved.positions.size() / s.travels.size();
+  if (grid.racks == 0) return;
+  Table table = sweep_table(grid, "baseline");
+  for (study::Plot& plot : result.plots)
+    if (plot.table == "sweep" &&
+        std::all_of(plot.y.begin(), plot.y.end(), [&](const std::string& key) { return table.find(key); }))
+      plot.baseline = table.name;
+  result.tables.push_back(std::move(table));
 }
 
 std::string degrees(double radians) { return fmt::format("{:.3f}°", math::degrees(radians)); }
@@ -285,7 +306,7 @@ study::Result run_sweep_study(const SweepStudy& s, RunContext& context) {
     result.headline = "Interrupted before the first position.";
     return result;
   }
-  result.tables.push_back(sweep_table(grid));
+  result.tables.push_back(sweep_table(grid, "sweep"));
   if (s.description.spring) add_wheel_rates(result.tables.front(), s, plan, grid);
   std::vector<TravelLimits> limits;
   const GuidePosition reference = reference_position(plan, s.travel);
@@ -299,6 +320,7 @@ study::Result run_sweep_study(const SweepStudy& s, RunContext& context) {
   if (s.assemblies) add_assemblies(result, s, plan);
   result.tables.push_back(hard_point_table(points_of(s.description.guide)));
   add_plots(result, s);
+  if (s.baseline) add_baseline(result, s, context);
   add_facts(result, s, grid, centred);
   if (s.vehicle) add_anti_features(result, *s.vehicle, grid.solved.wheels);
   if (s.axle) add_axle(result, s.description.guide, *s.axle, s.vehicle);
