@@ -393,7 +393,9 @@ std::string views_of(const Scene& scene, std::size_t sample, const SvgOptions& o
     draw_bodies(out, canvas, seen[k], sample, true);
     if (options.traces) draw_traces(out, canvas, seen[k]);
     draw_bodies(out, canvas, seen[k], sample, false);
-    draw_spatial_joints(out, canvas, seen[k], sample, options.labels);
+    // More joints than this have no room for their names, which stay as titles.
+    constexpr std::size_t crowded = 12;
+    draw_spatial_joints(out, canvas, seen[k], sample, options.labels && scene.joints.size() <= crowded);
     for (const ShownArrows& arrows : shown)
       draw_vectors(out, canvas, seen[k], sample, arrows, options.labels);
     put(out,
