@@ -2,41 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "linkwright/core/csv.h"
 #include "linkwright/core/units.h"
 #include "linkwright/planar/path_study.h"
+#include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::planar {
 namespace {
 
 constexpr std::size_t most_points = 2000;
-constexpr std::uintmax_t largest_points_file = 4u << 20;
 
 // Columns x and y of a CSV file, in metres; any length unit.
 void read_points_file(study::ObjectReader& reader, const study::Common& common, const std::string& file,
                       PathStudy& s) {
-  const std::filesystem::path path = common.folder / file;
-  std::error_code failed;
-  const auto size = std::filesystem::file_size(path, failed);
-  if (failed || !std::filesystem::is_regular_file(path, failed)) {
-    reader.error("points_file", fmt::format("cannot read '{}'", path.string()),
-                 "file names are relative to the folder of the study");
-    return;
-  }
-  if (size > largest_points_file) {
-    reader.error("points_file",
-                 fmt::format("'{}' has {} bytes, at most {} are allowed", file, size, largest_points_file));
-    return;
-  }
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
+  const std::optional<std::string> text = study::read_beside(reader, "points_file", common.folder, file);
+  if (!text) return;
   Diagnostics problems;
-  const std::optional<Table> table = read_csv(text.str(), path.string(), problems);
+  const std::optional<Table> table = read_csv(*text, (common.folder / file).string(), problems);
   for (const Diagnostic& problem : problems) reader.error("points_file", to_string(problem));
   if (!table) return;
   const auto column = [&](std::string_view base) -> std::vector<double> {

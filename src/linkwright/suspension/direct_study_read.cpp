@@ -5,6 +5,7 @@
 
 #include "linkwright/core/csv.h"
 #include "linkwright/core/units.h"
+#include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/suspension/direct_study.h"
 
@@ -74,7 +75,7 @@ class TargetReader {
     target_(Field{.key = "coordinate", .summary = {}}, s_.task.driver);
     std::string file;
     if (target_(Field{.key = "file", .summary = {}}, file))
-      if (const auto text = read_beside(target_, "file", common_, file)) {
+      if (const auto text = study::read_beside(target_, "file", common_.folder, file)) {
         Diagnostics problems;
         table_ = read_csv(*text, file, problems);
         for (const Diagnostic& d : problems) target_.error("file", to_string(d));

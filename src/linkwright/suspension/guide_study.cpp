@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/suspension/samples.h"
 #include "linkwright/suspension/structure.h"
@@ -15,7 +14,6 @@
 namespace linkwright::suspension {
 namespace {
 
-constexpr std::uintmax_t largest_file = 4u << 20;
 constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
 
 double& coordinate(Vec3& v, std::size_t i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
@@ -196,25 +194,6 @@ Value schema_value(const Field&, const PointsForm&) {
   return study::schema_any_of({point, study::schema_array(point)});
 }
 
-std::optional<std::string> read_beside(study::ObjectReader& reader, std::string_view key,
-                                       const study::Common& common, const std::string& file) {
-  const std::filesystem::path path = common.folder / file;
-  std::error_code failed;
-  const auto size = std::filesystem::file_size(path, failed);
-  if (failed || !std::filesystem::is_regular_file(path, failed)) {
-    reader.error(key, fmt::format("cannot read '{}'", path.string()),
-                 "file names are relative to the folder of the study");
-    return std::nullopt;
-  }
-  if (size > largest_file) {
-    reader.error(key, fmt::format("'{}' has {} bytes, at most {} are allowed", file, size, largest_file));
-    return std::nullopt;
-  }
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 namespace {
 
 /// Reads one mechanism; keeps what its parts have in common.
@@ -278,7 +257,7 @@ class GuideReader {
     if (const std::string bad = problem(h.frame); !bad.empty())
       return table->error("x", bad, "for example x = \"rearward\", y = \"right\", z = \"up\"");
     if (h.file)
-      if (const auto text = read_beside(*table, "file", common_, *h.file)) {
+      if (const auto text = study::read_beside(*table, "file", common_.folder, *h.file)) {
         Diagnostics problems;
         const auto points = read_hard_points(*text, *h.file, h.unit, problems);
         for (const Diagnostic& d : problems) table->error("file", to_string(d));

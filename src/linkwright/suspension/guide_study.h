@@ -250,9 +250,4 @@ std::optional<GuideDescription> read_guide(study::ObjectReader& document, const 
 Value write_guide(const GuideDescription& description);
 void describe_guide(study::SchemaWriter& document);
 
-/// Text of a file beside the study; nothing, and the problem told at `key`, if it cannot be read or is larger
-/// than `most` bytes.
-std::optional<std::string> read_beside(study::ObjectReader& reader, std::string_view key,
-                                       const study::Common& common, const std::string& file);
-
 }  // namespace linkwright::suspension

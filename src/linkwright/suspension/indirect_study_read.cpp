@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linkwright/core/csv.h"
+#include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/suspension/indirect_study.h"
 
@@ -66,7 +67,7 @@ void read_poses(study::ObjectReader& target, const study::Common& common, Indire
     return;
   }
   if (form.file) {
-    const auto text = read_beside(target, "file", common, *form.file);
+    const auto text = study::read_beside(target, "file", common.folder, *form.file);
     if (!text) return;
     Diagnostics problems;
     const std::optional<Table> table = read_csv(*text, *form.file, problems);

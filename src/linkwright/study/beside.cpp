@@ -1,0 +1,30 @@
+#include "linkwright/study/beside.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace linkwright::study {
+
+std::optional<std::string> read_beside(ObjectReader& reader, std::string_view key,
+                                       const std::filesystem::path& folder, const std::string& file) {
+  constexpr std::uintmax_t largest = std::uintmax_t{4} << 20;
+  const std::filesystem::path path = folder / file;
+  std::error_code failed;
+  const auto size = std::filesystem::file_size(path, failed);
+  if (failed || !std::filesystem::is_regular_file(path, failed)) {
+    reader.error(key, fmt::format("cannot read '{}'", path.string()),
+                 "file names are relative to the folder of the study");
+    return std::nullopt;
+  }
+  if (size > largest) {
+    reader.error(key, fmt::format("'{}' has {} bytes, at most {} are allowed", file, size, largest));
+    return std::nullopt;
+  }
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+}  // namespace linkwright::study

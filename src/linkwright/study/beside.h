@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "linkwright/study/bind.h"
+
+namespace linkwright::study {
+
+/// Text of a file that a study names at `key`, relative to its folder. Nothing, and the problem told there,
+/// if it cannot be read or has more than 4 MiB.
+std::optional<std::string> read_beside(ObjectReader& reader, std::string_view key,
+                                       const std::filesystem::path& folder, const std::string& file);
+
+}  // namespace linkwright::study
