@@ -4,11 +4,11 @@
 #include <limits>
 
 #include "linkwright/math/angles.h"
-#include "linkwright/suspension/direct_synthesis.h"
 #include "linkwright/suspension/indirect_synthesis.h"
 #include "linkwright/suspension/indirect_synthesis_spin.h"
 #include "linkwright/suspension/link_synthesis.h"
 #include "linkwright/suspension/position.h"
+#include "linkwright/suspension/published_targets.h"
 #include "linkwright/suspension/samples.h"
 #include "linkwright/suspension/seven_poses.h"
 
@@ -121,62 +121,6 @@ void seven_poses(benchmark::State& state) {
 }
 BENCHMARK(seven_poses)->Unit(benchmark::kMicrosecond);
 
-// Example 5 of Poznanovic 2016: body points 3, 4 and 5 from targets for toe, camber and track.
-DirectTask example_5(std::uint64_t seed) {
-  DirectTask task;
-  task.guide.wheel = {{0.001, 0.747, 0.0006}, 0.005, 0.005, 0.604};
-  const std::array<Vec3, 5> body{{{0.1441, 0.3452, -0.0922},
-                                  {-0.2292, 0.3622, -0.1017},
-                                  {-0.10201, 0.39982, 0.30591},
-                                  {-0.08288, 0.39880, 0.41270},
-                                  {0.11510, 0.42092, 0.41301}}};
-  const std::array<Vec3, 5> carrier{{{0.0287, 0.6909, -0.098},
-                                     {-0.0244, 0.687, -0.1316},
-                                     {-0.1357, 0.6171, 0.2869},
-                                     {-0.0181, 0.6398, 0.3884},
-                                     {0.0154, 0.6733, 0.3895}}};
-  const std::array<double, 5> lengths{{0.3644986831251931, 0.3851390528107998, 0.2209, 0.25, 0.273}};
-  for (std::size_t i = 0; i < 5; ++i)
-    task.guide.links.push_back({.type = LinkType::KS,
-                                .body = {body[i]},
-                                .carrier = {carrier[i]},
-                                .length = lengths[i],
-                                .moved_by_rack = i == 2});
-  RandomStream random({seed, 5});
-  for (int link = 2; link < 5; ++link)
-    for (int axis = 0; axis < 3; ++axis) {
-      const DesignNumber number{DesignKind::body, link, 0, axis};
-      const double middle = at(task.guide, number) + random.uniform(-0.075, 0.075);
-      task.designed.push_back({number, middle - 0.075, middle + 0.075});
-    }
-  const std::array<double, 15> toe{-56.8157, -206.172, -414.478,  -412.571, -1672.94,
-                                   10.1499,  25.3615,  19.2855,   217.48,   -2.259,
-                                   0.560529, -3.88192, 0.0240037, 6.34032,  0.00500037};
-  const std::array<double, 15> camber{-16.7587,  25.2388,  104.936,  38.7101,   197.41,
-                                      1.80886,   -1.13993, -6.08698, -25.026,   -1.16772,
-                                      -0.775725, 0.945156, 0.112717, -0.172086, 0.00500037};
-  const std::array<double, 15> track{-3.40506, -24.9132, -78.0012,  -42.2912, -214.783,
-                                     0.762582, 4.49888,  5.42728,   19.2137,  -1.74714,
-                                     0.514008, -2.78094, 0.0237093, 0.118886, 0};
-  const ToleranceRule angle{math::radians(0.05), 0.025, math::radians(2.0)}, same{1.97304e-3};
-  const auto objective = [&](WheelQuantity quantity, const std::array<double, 15>& c,
-                             const ToleranceRule& rule) {
-    TargetCurve curve{.quantity = quantity};
-    if (quantity == WheelQuantity::track) curve.measure = TargetMeasure::relative_change;
-    const auto add = [&](double z, double q) {
-      const double value = quartic(c, z, q);
-      curve.points.push_back({.input = {z, q}, .value = value, .tolerance = tolerance_of(rule, value)});
-    };
-    for (int i = -4; i <= 4; ++i) add(0.025 * i, 0);
-    for (int i : {-3, -2, -1, 1, 2, 3}) add(0, 0.025 * i);
-    task.objectives.push_back({"", {curve}});
-  };
-  objective(WheelQuantity::toe, toe, angle);
-  objective(WheelQuantity::camber, camber, angle);
-  objective(WheelQuantity::track, track, same);
-  return task;
-}
-
 // The smallest largest deviation from 50 starts in random boxes of 150 mm, one thread; share of seeds that
 // reach it.
 void direct(benchmark::State& state) {
@@ -186,7 +130,9 @@ void direct(benchmark::State& state) {
     RunContext context;
     context.set_threads(1);
     ++seed;
-    reached += synthesise(example_5(seed), {}, seed, context).largest < 0.91779;
+    DirectTask task = published_direct_task();
+    place_published_boxes(task, seed);
+    reached += synthesise(task, {}, seed, context).largest < 0.91779;
   }
   state.counters["reached"] = reached / static_cast<double>(seed);
 }

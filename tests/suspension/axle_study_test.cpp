@@ -14,6 +14,7 @@ using testing::fact;
 using ::testing::HasSubstr;
 using testing::problems_of;
 using testing::run_text;
+using testing::table;
 
 std::string study(const std::string& sample, const std::string& rest) {
   return "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\nsample = \"" +
@@ -22,12 +23,6 @@ std::string study(const std::string& sample, const std::string& rest) {
 const std::string vehicle =
     "[vehicle]\nwheelbase_m = 2.7\ncentre_height_m = 0.55\nfront_brake_share = 0.65\n";
 
-const Table& table(const study::Result& result, std::string_view name) {
-  for (const Table& t : result.tables)
-    if (t.name == name) return t;
-  ADD_FAILURE() << name;
-  return result.tables.front();
-}
 double at(const Table& t, std::string_view key, std::size_t row) {
   const Column* column = t.find(key);
   EXPECT_TRUE(column) << key;

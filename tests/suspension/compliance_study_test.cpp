@@ -12,9 +12,11 @@ namespace linkwright::suspension {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::named;
 using testing::problems_of;
 using testing::replaced;
 using testing::run_text;
+using testing::table;
 
 // The sample 5KS with the stiffness of its spring.
 std::string study(const std::string& rest, const std::string& stiffness = "") {
@@ -42,18 +44,6 @@ std::string rod(const std::string& name, int stiffness) {
 std::string rods() {
   return rod("lower front rod", 18000) + rod("lower rear rod", 20000) + rod("tie rod", 15000) +
          rod("upper front rod", 12000) + rod("upper rear rod", 12000);
-}
-const Table& table(const study::Result& result, std::string_view name) {
-  for (const Table& t : result.tables)
-    if (t.name == name) return t;
-  ADD_FAILURE() << name;
-  return result.tables.front();
-}
-double named(const Table& t, std::string_view row, std::string_view column) {
-  for (std::size_t i = 0; i < t.names.size(); ++i)
-    if (t.names[i] == row) return t.find(column)->values.at(i);
-  ADD_FAILURE() << row;
-  return std::nan("");
 }
 
 TEST(ComplianceStudy, TellsWhatElasticRodsDo) {

@@ -16,21 +16,9 @@ using ::testing::HasSubstr;
 using testing::problems_of;
 using testing::replaced;
 using testing::run_text;
+using testing::table;
 
-const std::string& example() {
-  static const std::string text = [] {
-    for (const study::Kind& kind : testing::kinds())
-      if (kind.target == "wheel_parameters") return kind.example;
-    return std::string();
-  }();
-  return text;
-}
-const Table& table(const study::Result& result, std::string_view name) {
-  for (const Table& t : result.tables)
-    if (t.name == name) return t;
-  ADD_FAILURE() << name;
-  return result.tables.front();
-}
+const std::string& example() { return testing::example("wheel_parameters"); }
 
 TEST(DirectStudy, TakesBumpSteerAwayByTheInnerTieRodPoint) {
   const study::Result result = run_text(example());

@@ -19,8 +19,8 @@ using testing::numbers;
 TEST(DirectSynthesis, FindsTheSmallestLargestDeviationOfExample5) {
   int assembled = 0, reached = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    DirectTask task = test::example_5();
-    test::place_boxes(task, seed);
+    DirectTask task = published_direct_task();
+    place_published_boxes(task, seed);
     RunContext context;
     const DirectSynthesis found = synthesise(task, {}, seed, context);
     ASSERT_EQ(found.status, Status::done) << found.reason;
@@ -40,8 +40,8 @@ TEST(DirectSynthesis, FindsTheSmallestLargestDeviationOfExample5) {
 }
 
 TEST(DirectSynthesis, FindsTheLeastSquaresOptimumOfExample5) {
-  DirectTask task = test::example_5();
-  test::place_boxes(task, 11);
+  DirectTask task = published_direct_task();
+  place_published_boxes(task, 11);
   RunContext context;
   const DirectSynthesis found =
       synthesise(task, {.goal = DirectGoal::least_squares, .starts = 16}, 3, context);
@@ -58,8 +58,8 @@ TEST(DirectSynthesis, MinimisesOneObjectiveWithTheOthersWithinTolerance) {
   // The best known to their digits are toe 0.91716, camber 0.3463 and track 0.2447.
   const double best[]{0.91717, 0.34630, 0.24472};
   for (int k = 0; k < 3; ++k) {
-    DirectTask task = test::example_5();
-    test::place_boxes(task, 22);
+    DirectTask task = published_direct_task();
+    place_published_boxes(task, 22);
     RunContext context;
     const DirectSynthesis found =
         synthesise(task, {.goal = DirectGoal::one, .one = k, .starts = 16}, 3, context);
@@ -73,8 +73,8 @@ TEST(DirectSynthesis, MinimisesOneObjectiveWithTheOthersWithinTolerance) {
 }
 
 TEST(DirectSynthesis, KeepsPrioritiesWhereNotAllCanBeMet) {
-  DirectTask task = test::example_5();
-  test::place_boxes(task, 2);
+  DirectTask task = published_direct_task();
+  place_published_boxes(task, 2);
   // With a tenth of its tolerance for camber toe alone can be met.
   for (TargetPoint& point : task.objectives[1].curves[0].points) point.tolerance /= 10;
   RunContext context;
@@ -90,8 +90,8 @@ TEST(DirectSynthesis, KeepsPrioritiesWhereNotAllCanBeMet) {
 TEST(DirectSynthesis, ThreadsDoNotMatter) {
   std::vector<DirectSynthesis> found;
   for (const int threads : {1, 3}) {
-    DirectTask task = test::example_5();
-    test::place_boxes(task, 7);
+    DirectTask task = published_direct_task();
+    place_published_boxes(task, 7);
     RunContext context;
     context.set_threads(threads);
     found.push_back(synthesise(task, {.starts = 10, .refined = 2}, 7, context));
@@ -120,8 +120,8 @@ TEST(DirectSynthesis, TakesBumpSteerOutOfADoubleWishbone) {
 }
 
 TEST(DirectSynthesis, KeepsLimits) {
-  DirectTask task = test::example_5();
-  test::place_boxes(task, 1);
+  DirectTask task = published_direct_task();
+  place_published_boxes(task, 1);
   RunContext context;
   const DirectSynthesis open = synthesise(task, {.starts = 8}, 1, context);
   // The rods 4 and 5 are to be further apart than they are at the free optimum.
@@ -141,8 +141,8 @@ TEST(DirectSynthesis, KeepsLimits) {
 }
 
 TEST(DirectSynthesis, SaysWhenNothingAssembles) {
-  DirectTask task = test::example_5();
-  test::place_boxes(task, 1);
+  DirectTask task = published_direct_task();
+  place_published_boxes(task, 1);
   task.guide.links[4].length = 0.9;
   RunContext context;
   const DirectSynthesis found = synthesise(task, {.starts = 3, .draws = 3}, 1, context);
@@ -153,8 +153,8 @@ TEST(DirectSynthesis, SaysWhenNothingAssembles) {
 }
 
 TEST(DirectSynthesis, EndsWhenCancelled) {
-  DirectTask task = test::example_5();
-  test::place_boxes(task, 1);
+  DirectTask task = published_direct_task();
+  place_published_boxes(task, 1);
   RunContext context;
   context.cancel();
   const DirectSynthesis found = synthesise(task, {}, 1, context);
@@ -163,8 +163,8 @@ TEST(DirectSynthesis, EndsWhenCancelled) {
 }
 
 TEST(DirectSynthesis, EvolutionComesNear) {
-  DirectTask task = test::example_5();
-  test::place_boxes(task, 1);
+  DirectTask task = published_direct_task();
+  place_published_boxes(task, 1);
   RunContext context;
   const DirectEvolution found = evolve(task, {.goal = DirectGoal::priorities}, 1, context, 50, 200);
   EXPECT_TRUE(found.found.answer.assembled);
@@ -174,20 +174,20 @@ TEST(DirectSynthesis, EvolutionComesNear) {
 }
 
 TEST(DirectSynthesis, ContractsAreChecked) {
-  DirectTask task = test::example_5();
+  DirectTask task = published_direct_task();
   RunContext context;
   EXPECT_THAT([&] { synthesise(task, {}, 1, context); },
               ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("nothing to design")));
-  test::place_boxes(task, 1);
+  place_published_boxes(task, 1);
   task.designed[1] = task.designed[0];
   EXPECT_THAT(
       [&] { synthesise(task, {}, 1, context); },
       ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("link 3.body_x is designed twice")));
-  test::place_boxes(task, 1);
+  place_published_boxes(task, 1);
   task.designed[0].upper = task.designed[0].lower;
   EXPECT_THAT([&] { synthesise(task, {}, 1, context); },
               ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("link 3.body_x from")));
-  test::place_boxes(task, 1);
+  place_published_boxes(task, 1);
   EXPECT_THAT([&] { synthesise(task, {.one = 3}, 1, context); },
               ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("objective 3 of 3")));
 }

@@ -127,9 +127,9 @@ TEST(GuideLimits, OfLinksThatAreNotThereAreRefused) {
       ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("a limit for link 5, the guide has 5")));
   limits = {};
   limits.keep_out = {{0, true, 1, {}}};
-  EXPECT_THAT(
-      [&] { limit_answers(guide, limits, {}, {}, {}); },
-      ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("point 1 of lower front rod, which has 1")));
+  EXPECT_THAT([&] { limit_answers(guide, limits, {}, {}, {}); },
+              ::testing::ThrowsMessage<ContractError>(
+                  ::testing::HasSubstr("point 1 of lower front rod, which has 1")));
 }
 
 }  // namespace

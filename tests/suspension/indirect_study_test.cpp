@@ -17,14 +17,7 @@ using testing::problems_of;
 using testing::replaced;
 using testing::run_text;
 
-const std::string& example() {
-  static const std::string text = [] {
-    for (const study::Kind& kind : testing::kinds())
-      if (kind.target == "carrier_poses") return kind.example;
-    return std::string();
-  }();
-  return text;
-}
+const std::string& example() { return testing::example("carrier_poses"); }
 
 TEST(IndirectStudy, FindsTheRodsThatThePositionsComeFrom) {
   const study::Result result = run_text(example());
@@ -74,8 +67,8 @@ TEST(IndirectStudy, SaysWhatItLacksWhenPositionsCannotBeTaken) {
 }
 
 TEST(IndirectStudy, TellsOfGivenLinksThatDoNotFit) {
-  const study::Result result =
-      run_text(replaced(example(), "body_mm    = [-303.0, 432.0, 295.0]", "body_mm = [-303.0, 432.0, 299.0]"));
+  const study::Result result = run_text(
+      replaced(example(), "body_mm    = [-303.0, 432.0, 295.0]", "body_mm = [-303.0, 432.0, 299.0]"));
   EXPECT_EQ(result.status, Status::not_converged);
   const Table& links = result.tables.at(2);
   ASSERT_EQ(links.name, "conditioning");

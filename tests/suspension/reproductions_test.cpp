@@ -91,5 +91,16 @@ TEST(GuideReproductions, EndEarlyWhenTold) {
   EXPECT_TRUE(verdicts(table, "recommended method").empty());
 }
 
+TEST(GuideReproductions, DirectSynthesis) {
+  const auto table = rows("poznanovic-2016-example-5");
+  // 0.9177826 is the smallest there is; the note tells in how many boxes it was found.
+  EXPECT_LE(row(table, "largest deviation of all in tolerances").ours, 0.91779);
+  EXPECT_EQ(row(table, "largest deviation of all in tolerances").note,
+            "the smallest there is, in 20 of 20 boxes");
+  EXPECT_EQ(verdicts(table, "largest deviation of "), (Counts{{"improved", 3}, {"reproduced", 1}}));
+  EXPECT_EQ(verdicts(table, "deviation of "), (Counts{{"reproduced", 26}, {"corrected", 1}}));
+  EXPECT_EQ(row(table, "deviation of relative track at travel -50 mm").verdict, "corrected");
+}
+
 }  // namespace
 }  // namespace linkwright::suspension

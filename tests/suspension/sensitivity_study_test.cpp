@@ -12,26 +12,16 @@ namespace linkwright::suspension {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::named;
 using testing::problems_of;
 using testing::run_text;
+using testing::table;
 
 std::string study(const std::string& rest) {
   return "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\nsample = "
          "\"2RS-KS\"\n"
          "[sweep.travel]\nfrom_mm = -60\nto_mm = 60\nstep_mm = 30\n" +
          rest;
-}
-const Table& table(const study::Result& result, std::string_view name) {
-  for (const Table& t : result.tables)
-    if (t.name == name) return t;
-  ADD_FAILURE() << name;
-  return result.tables.front();
-}
-double named(const Table& t, std::string_view row, std::string_view column) {
-  for (std::size_t i = 0; i < t.names.size(); ++i)
-    if (t.names[i] == row) return t.find(column)->values.at(i);
-  ADD_FAILURE() << row;
-  return std::nan("");
 }
 // The double wishbone of the sample with the height of the inner end of its tie rod.
 double toe(double travel, double shift) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "linkwright/suspension/studies.h"
@@ -24,6 +27,45 @@ inline std::string problems_of(const std::string& text, const std::filesystem::p
 }
 inline study::Result run_text(const std::string& text, const std::filesystem::path& folder = ".") {
   return linkwright::testing::run_text(kinds(), text, folder);
+}
+
+/// The table of this name; a failure and the first one if there is none.
+inline const Table& table(const study::Result& result, std::string_view name) {
+  for (const Table& t : result.tables)
+    if (t.name == name) return t;
+  ADD_FAILURE() << "no table " << name;
+  return result.tables.front();
+}
+/// A value of a table by the name of its row; NaN and a failure if there is none.
+inline double named(const Table& table, std::string_view row, std::string_view column) {
+  const Column* found = table.find(column);
+  for (std::size_t i = 0; found && i < table.names.size(); ++i)
+    if (table.names[i] == row) return found->values.at(i);
+  ADD_FAILURE() << row << ", " << column;
+  return std::nan("");
+}
+/// A column of the first table; none and a failure if it is not there.
+inline const std::vector<double>& column(const study::Result& result, std::string_view key) {
+  const Column* found = result.tables.at(0).find(key);
+  EXPECT_NE(found, nullptr) << key;
+  static const std::vector<double> none;
+  return found ? found->values : none;
+}
+
+/// The beginning of a study of a wheel guide, one of a sample, and sweeps to go on with.
+inline const std::string head =
+    "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\n";
+inline std::string sample(const std::string& name, const std::string& rest) {
+  return head + "sample = \"" + name + "\"\n" + rest;
+}
+inline const std::string sweep = "[sweep.travel]\nfrom_mm = -80\nto_mm = 80\nstep_mm = 40\n";
+inline const std::string racks = "[sweep.rack]\nvalues_mm = [-30, 0, 30]\n";
+
+/// The example of the kind with this target.
+inline const std::string& example(std::string_view target) {
+  for (const study::Kind& kind : kinds())
+    if (kind.target == target) return kind.example;
+  throw std::logic_error("no kind with this target");
 }
 
 }  // namespace linkwright::suspension::testing

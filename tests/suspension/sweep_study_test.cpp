@@ -16,23 +16,13 @@ namespace linkwright::suspension {
 namespace {
 
 using ::testing::AllOf;
+using testing::column;
 using ::testing::HasSubstr;
 using testing::problems_of;
+using testing::racks;
 using testing::run_text;
-
-const std::string head = "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\n";
-std::string sample(const std::string& name, const std::string& rest) {
-  return head + "sample = \"" + name + "\"\n" + rest;
-}
-const std::string sweep = "[sweep.travel]\nfrom_mm = -80\nto_mm = 80\nstep_mm = 40\n";
-const std::string racks = "[sweep.rack]\nvalues_mm = [-30, 0, 30]\n";
-
-const std::vector<double>& column(const study::Result& result, std::string_view key) {
-  const Column* found = result.tables.at(0).find(key);
-  EXPECT_NE(found, nullptr) << key;
-  static const std::vector<double> none;
-  return found ? found->values : none;
-}
+using testing::sample;
+using testing::sweep;
 
 TEST(SweepStudy, TablesAGridAsTheLibrarySolvesIt) {
   const study::Result result = run_text(sample("5KS", sweep + racks));

@@ -7,6 +7,7 @@
 #include "linkwright/core/units.h"
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/designed.h"
 #include "linkwright/suspension/direct_study.h"
 
 namespace linkwright::suspension {
@@ -56,10 +57,6 @@ std::optional<int> find_link(study::ObjectReader& table, std::string_view key, c
   return std::nullopt;
 }
 
-std::string base_of(const GuideColumn& c) {
-  const auto parts = split_unit(c.key);
-  return std::string(parts ? parts->base : c.key);
-}
 Dimension dimension_of(const GuideColumn& c, TargetMeasure measure) {
   const auto parts = split_unit(c.key);
   return parts && measure != TargetMeasure::relative_change ? parts->dimension : Dimension::none;
@@ -124,7 +121,7 @@ class TargetReader {
     CurveForm c;
     std::vector<std::string> bases;
     for (const GuideColumn& column : guide_columns())
-      if (quantity_of(column, s_.lock)) bases.push_back(base_of(column));
+      if (quantity_of(column, s_.lock)) bases.push_back(study::base_of(column.key));
     std::vector<Word> words;
     for (const std::string& b : bases) words.push_back({b});
     const auto which = table.word(Field{.key = "quantity", .summary = {}, .required = true}, words);
@@ -161,11 +158,11 @@ class TargetReader {
     // What the table does not have comes from the file.
     c.values = value.of;
     if (!has_value) {
-      const auto found = column(base_of(*c.column), dimension);
+      const auto found = column(study::base_of(c.column->key), dimension);
       if (!found) {
         table.error("value",
                     table_ ? fmt::format("is missing, and the file has no column {}",
-                                         si_key(base_of(*c.column), dimension))
+                                         si_key(study::base_of(c.column->key), dimension))
                            : std::string("is missing"),
                     "one number for all positions, or a list");
         return std::nullopt;
@@ -320,7 +317,7 @@ Value write_curves(const DirectStudy& s) {
   for (const CurveForm& c : s.curves) {
     const Dimension dimension = dimension_of(*c.column, c.measure);
     Value curve;
-    curve["quantity"] = base_of(*c.column);
+    curve["quantity"] = study::base_of(c.column->key);
     curve["objective"] = c.objective;
     curve["measure"] = name_of(c.measure);
     curve["travel_m"] = study::ObjectWriter::to_value(c.travels);

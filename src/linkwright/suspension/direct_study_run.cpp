@@ -5,10 +5,11 @@
 #include <string>
 
 #include "linkwright/core/units.h"
-#include "linkwright/optimise/statistics.h"
+#include "linkwright/study/designed.h"
 #include "linkwright/suspension/direct_study.h"
 #include "linkwright/suspension/guide_scene.h"
 #include "linkwright/suspension/hard_points.h"
+#include "linkwright/suspension/seeds_study.h"
 #include "linkwright/suspension/structure.h"
 #include "linkwright/suspension/sweep_study.h"
 
@@ -18,8 +19,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A seed succeeds when it comes this close to the best of all, as a share of it.
 constexpr double success_share = 1e-4;
-
-bool interrupted(Status status) { return status == Status::deadline || status == Status::cancelled; }
 
 const DirectOptions& options_of(const DirectStudy& s) {
   return std::visit([](const auto& m) -> const DirectOptions& { return m.options; }, s.optimiser.method);
@@ -34,7 +33,8 @@ DirectSynthesis search(const PublishedDirect& method, const DirectTask& task, st
   return evolve(task, method.options, seed, context, method.population, method.generations).found;
 }
 
-/// What the goal makes small. Priorities: objectives that are not met weigh more than any deviation.
+/// One figure for what the goal makes small. By priorities it is the largest deviation, although the order of
+/// answers goes by objectives met: see better.
 double cost_of(const DirectSynthesis& answer, const DirectOptions& options) {
   if (!answer.answer.assembled) return infinity;
   switch (options.goal) {
@@ -57,32 +57,7 @@ bool better(const DirectSynthesis& a, const DirectSynthesis& b, const DirectOpti
   return cost_of(a, options) < cost_of(b, options);
 }
 
-struct Runs {
-  Status status = Status::done;
-  std::vector<std::uint64_t> seeds;
-  std::vector<DirectSynthesis> answers;
-};
-
-Runs run_seeds(const DirectStudy& s, const study::Common& common, RunContext& context) {
-  const auto count = static_cast<std::size_t>(common.seeds.count);
-  std::vector<DirectSynthesis> all(count);
-  const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
-  const optimise::SeedLoop loop =
-      optimise::for_each_seed(seeds, context, "designs", [&](std::size_t i, std::uint64_t seed) {
-        all[i] = std::visit([&](const auto& method) { return search(method, s.task, seed, context); },
-                            s.optimiser.method);
-        return cost_of(all[i], options_of(s));
-      });
-  Runs out;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!loop.ran[i]) continue;
-    if (out.status == Status::done && interrupted(all[i].status)) out.status = all[i].status;
-    out.seeds.push_back(seeds.first + i);
-    out.answers.push_back(std::move(all[i]));
-  }
-  if (out.answers.size() < count) out.status = loop.status;
-  return out;
-}
+using Runs = SeedRuns<DirectSynthesis>;
 
 std::string unit_suffix(const GuideColumn& c, TargetMeasure measure) {
   const auto parts = split_unit(c.key);
@@ -92,8 +67,7 @@ std::string unit_suffix(const GuideColumn& c, TargetMeasure measure) {
 
 /// "toe", "toe_change", "track_relative_change"
 std::string curve_name(const CurveForm& c) {
-  const auto parts = split_unit(c.column->key);
-  std::string name(parts ? parts->base : c.column->key);
+  std::string name = study::base_of(c.column->key);
   if (c.measure != TargetMeasure::value) name += "_" + std::string(name_of(c.measure));
   return name;
 }
@@ -133,7 +107,7 @@ void add_curves(study::Result& result, const DirectStudy& s, const DirectSynthes
     const auto add = [&](std::string key, std::string label, std::vector<double> values) {
       table.add(std::move(key), std::move(label), std::move(values));
     };
-    const std::string words(c.column->label.substr(0, c.column->label.find(" (")));
+    const std::string words(words_of(*c.column));
     add("travel_m", "travel (m)", c.travels);
     add("rack_m", "rack (m)", c.racks);
     add(name + unit, words + ", achieved", achieved);
@@ -323,7 +297,14 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
   study::Result result;
   const DirectOptions& options = options_of(s);
   const DirectSynthesis before = assess(s.task, options, s.task.guide);
-  const Runs runs = run_seeds(s, common, context);
+  const Runs runs = run_seeds(
+      common.seeds, context, "designs",
+      [&](std::uint64_t seed) {
+        return std::visit([&](const auto& method) { return search(method, s.task, seed, context); },
+                          s.optimiser.method);
+      },
+      [](const DirectSynthesis& answer) { return answer.status; },
+      [&](const DirectSynthesis& answer) { return cost_of(answer, options); });
   result.status = runs.status;
   if (runs.answers.empty()) {
     result.headline = "Interrupted before the first seed was done.";

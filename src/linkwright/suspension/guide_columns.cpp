@@ -80,6 +80,10 @@ const GuideColumn* guide_column(std::string_view base) {
   return at == columns.end() ? nullptr : &*at;
 }
 
+std::string_view words_of(const GuideColumn& column) {
+  return column.label.substr(0, column.label.find(" ("));
+}
+
 std::optional<WheelQuantity> quantity_of(const GuideColumn& column, Driver lock) {
   return lock == Driver::spring ? column.at_spring : column.at_height;
 }

@@ -30,6 +30,9 @@ std::span<const GuideColumn> guide_columns();
 /// The column whose key without unit this is, or null: "toe", "kingpin_inclination".
 const GuideColumn* guide_column(std::string_view base);
 
+/// Its label without the unit: "toe".
+std::string_view words_of(const GuideColumn& column);
+
 /// The quantity that a column shows; nothing for those of the place of the wheel centre.
 std::optional<WheelQuantity> quantity_of(const GuideColumn& column, Driver lock);
 /// Its value; NaN without a position, steering axis or spring.

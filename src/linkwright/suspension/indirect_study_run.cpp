@@ -5,11 +5,11 @@
 #include <string>
 
 #include "linkwright/math/angles.h"
-#include "linkwright/optimise/statistics.h"
 #include "linkwright/suspension/guide_deviations.h"
 #include "linkwright/suspension/guide_scene.h"
 #include "linkwright/suspension/hard_points.h"
 #include "linkwright/suspension/indirect_study.h"
+#include "linkwright/suspension/seeds_study.h"
 #include "linkwright/suspension/structure.h"
 #include "linkwright/suspension/sweep_study.h"
 
@@ -20,13 +20,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
 double coordinate(const Vec3& v, std::size_t i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
 
-bool interrupted(Status status) { return status == Status::deadline || status == Status::cancelled; }
-
 /// What one seed came to.
 struct SeedRun {
   IndirectSynthesis answer;
   double error = infinity;  ///< m, largest misfit of the joints at the prescribed positions
-  double seconds = 0;
 };
 
 IndirectSynthesis search(const RecommendedIndirect& method, const IndirectTask& task, std::uint64_t seed,
@@ -53,31 +50,7 @@ SeedRun run_seed(const IndirectStudy& s, std::uint64_t seed, bool only, RunConte
   return out;
 }
 
-struct Runs {
-  Status status = Status::done;
-  std::vector<std::uint64_t> seeds;
-  std::vector<SeedRun> runs;
-};
-
-Runs run_seeds(const IndirectStudy& s, const study::Common& common, RunContext& context) {
-  const auto count = static_cast<std::size_t>(common.seeds.count);
-  std::vector<SeedRun> all(count);
-  const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
-  const optimise::SeedLoop loop =
-      optimise::for_each_seed(seeds, context, "links", [&](std::size_t i, std::uint64_t seed) {
-        all[i] = run_seed(s, seed, count == 1, context);
-        return all[i].error;
-      });
-  Runs out;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!loop.ran[i]) continue;
-    if (out.status == Status::done && interrupted(all[i].answer.status)) out.status = all[i].answer.status;
-    out.seeds.push_back(seeds.first + i);
-    out.runs.push_back(std::move(all[i]));
-  }
-  if (out.runs.size() < count) out.status = loop.status;
-  return out;
-}
+using Runs = SeedRuns<SeedRun>;
 
 /// Exact ones first, then by what the joints miss.
 bool better(const SeedRun& a, const SeedRun& b) {
@@ -199,8 +172,8 @@ Table conditioning_table(const IndirectStudy& s, const SeedRun& run) {
 Table seeds_table(const Runs& runs) {
   Table table{.name = "seeds"};
   std::vector<double> seed, error, evaluations;
-  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
-    const SeedRun& r = runs.runs[i];
+  for (std::size_t i = 0; i < runs.answers.size(); ++i) {
+    const SeedRun& r = runs.answers[i];
     seed.push_back(static_cast<double>(runs.seeds[i]));
     error.push_back(std::isfinite(r.error) ? r.error : WheelParameters::missing);
     evaluations.push_back(static_cast<double>(r.answer.evaluations));
@@ -237,8 +210,8 @@ study::Scene scene_of(const IndirectStudy& s, const WheelGuide& guide, const std
 void add_statistics(study::Result& result, const IndirectStudy& s, const Runs& runs) {
   std::vector<optimise::SeedOutcome> outcomes;
   result.log = Value::array();
-  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
-    const SeedRun& r = runs.runs[i];
+  for (std::size_t i = 0; i < runs.answers.size(); ++i) {
+    const SeedRun& r = runs.answers[i];
     const bool good = r.answer.status == Status::done;
     outcomes.push_back({r.error, good ? 0.0 : 1.0, r.answer.evaluations});
     Value entry;
@@ -271,13 +244,16 @@ std::string metres(double value) {
 
 study::Result run_indirect_study(const IndirectStudy& s, const study::Common& common, RunContext& context) {
   study::Result result;
-  const Runs runs = run_seeds(s, common, context);
+  const Runs runs = run_seeds(
+      common.seeds, context, "links",
+      [&](std::uint64_t seed) { return run_seed(s, seed, common.seeds.count == 1, context); },
+      [](const SeedRun& run) { return run.answer.status; }, [](const SeedRun& run) { return run.error; });
   result.status = runs.status;
-  if (runs.runs.empty()) {
+  if (runs.answers.empty()) {
     result.headline = "Interrupted before the first seed was done.";
     return result;
   }
-  const SeedRun& best = *std::min_element(runs.runs.begin(), runs.runs.end(), better);
+  const SeedRun& best = *std::min_element(runs.answers.begin(), runs.answers.end(), better);
   const WheelGuide& guide = best.answer.guide;
   const bool assembled = std::isfinite(best.error);
   if (result.status == Status::done) result.status = best.answer.status;
@@ -324,7 +300,7 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
       {"positions", fmt::format("{} (at least {:.2g} determine the links)", poses, best.answer.fewest)},
       {"method", std::string(result.statistics.find("method")->as_string())},
       {"seeds that found exact links",
-       fmt::format("{:.0f} of {}", success * static_cast<double>(runs.runs.size()), runs.runs.size()),
+       fmt::format("{:.0f} of {}", success * static_cast<double>(runs.answers.size()), runs.answers.size()),
        success > 0.9 ? Verdict::good : Verdict::plain},
       {"evaluations", fmt::format("{}", result.statistics.find("evaluations")->as_integer())}};
   for (const Diagnostic& d : best.answer.findings) {
@@ -340,13 +316,13 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
                                   "the positions do not prescribe the spin of the carrier: many guides move "
                                   "the wheel alike, this is one of them",
                                   {}});
-  if (runs.runs.size() < static_cast<std::size_t>(common.seeds.count))
+  if (runs.answers.size() < static_cast<std::size_t>(common.seeds.count))
     result.diagnostics.push_back(
         {Diagnostic::Severity::warning,
          {},
          {},
          {},
-         fmt::format("interrupted: {} of {} seeds ran", runs.runs.size(), common.seeds.count),
+         fmt::format("interrupted: {} of {} seeds ran", runs.answers.size(), common.seeds.count),
          {}});
   return result;
 }

@@ -20,19 +20,10 @@ constexpr Polynomial relative_track{-3.40506, -24.9132, -78.0012,  -42.2912, -21
                                     0.762582, 4.49888,  5.42728,   19.2137,  -1.74714,
                                     0.514008, -2.78094, 0.0237093, 0.118886, 0};
 
-double value(const Polynomial& c, double x1, double x2) {
-  double out = c[14];
-  std::size_t next = 0;
-  for (int degree = 4; degree > 0; --degree)
-    for (int of_rack = 0; of_rack <= degree; ++of_rack)
-      out += c[next++] * std::pow(x1, degree - of_rack) * std::pow(x2, of_rack);
-  return out;
-}
-
 TargetObjective objective(const char* name, WheelQuantity quantity, const Polynomial& targets) {
   TargetCurve curve{.quantity = quantity, .measure = TargetMeasure::value, .reference = {}, .points = {}};
   const auto add = [&](double travel, double rack) {
-    curve.points.push_back({.input = {travel, rack}, .value = value(targets, travel, rack)});
+    curve.points.push_back({.input = {travel, rack}, .value = quartic(targets, travel, rack)});
   };
   for (int i = -4; i <= 4; ++i) add(0.025 * i, 0);
   for (const int i : {-3, -2, -1, 1, 2, 3}) add(0, 0.025 * i);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "linkwright/core/units.h"
+#include "linkwright/study/designed.h"
 #include "linkwright/suspension/derivatives.h"
 #include "linkwright/suspension/hard_points.h"
 
@@ -18,11 +19,6 @@ const std::vector<std::string> default_quantities{"toe", "camber", "half_track_c
 constexpr std::size_t most_curves = 6;
 constexpr std::size_t most_travels = 1000;
 
-std::string base_of(const GuideColumn& c) {
-  const auto parts = split_unit(c.key);
-  return std::string(parts ? parts->base : c.key);
-}
-std::string words_of(const GuideColumn& c) { return std::string(c.label.substr(0, c.label.find(" ("))); }
 std::string unit_of_column(const GuideColumn& c) {
   const auto parts = split_unit(c.key);
   return parts ? readable_unit(parts->unit->suffix) : "1";
@@ -39,7 +35,7 @@ void complete_quantities(study::ObjectReader& table, std::vector<std::string>& q
   const Driver lock = guide.spring ? Driver::spring : Driver::wheel_centre_z;
   std::vector<std::string> known;
   for (const GuideColumn& c : guide_columns())
-    if (quantity_of(c, lock)) known.push_back(base_of(c));
+    if (quantity_of(c, lock)) known.push_back(study::base_of(c.key));
   for (const std::string& q : quantities) {
     if (std::find(known.begin(), known.end(), q) != known.end()) continue;
     const std::vector<std::string_view> words(known.begin(), known.end());
@@ -194,7 +190,7 @@ void add_tolerances(study::Result& result, const WheelGuide& guide, const Tolera
   shares.names = names;
   for (std::size_t c = 0; c < form.quantities.size(); ++c) {
     const GuideColumn& column = *guide_column(form.quantities[c]);
-    const std::string key(column.key), words = words_of(column);
+    const std::string key(column.key), words(words_of(column));
     Table table{.name = "band-" + form.quantities[c]};
     const auto add = [&](std::string prefix, std::string text, auto&& value) {
       std::vector<double> values;

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "linkwright/optimise/statistics.h"
+#include "linkwright/study/kind.h"
+
+namespace linkwright::suspension {
+
+/// What the seeds of a study came to; under an interruption perhaps not all of them.
+template <class Answer>
+struct SeedRuns {
+  Status status = Status::done;  ///< done, or why it was interrupted
+  std::vector<std::uint64_t> seeds;
+  std::vector<Answer> answers;
+};
+
+/// Runs answer(seed) for each seed of a study on the threads of the context. `status` and `cost` (for the
+/// progress; infinite if none) of an answer are asked of it.
+template <class Run, class StatusOf, class CostOf>
+auto run_seeds(const study::Seeds& asked, RunContext& context, std::string_view stage, Run&& run,
+               StatusOf&& status, CostOf&& cost) {
+  using Answer = decltype(run(std::uint64_t{}));
+  const auto count = static_cast<std::size_t>(asked.count);
+  const optimise::SeedRange seeds{static_cast<std::uint64_t>(asked.first), asked.count};
+  std::vector<Answer> all(count);
+  const optimise::SeedLoop loop =
+      optimise::for_each_seed(seeds, context, stage, [&](std::size_t i, std::uint64_t seed) {
+        all[i] = run(seed);
+        return cost(all[i]);
+      });
+  SeedRuns<Answer> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!loop.ran[i]) continue;
+    const Status ended = status(all[i]);
+    if (out.status == Status::done && (ended == Status::deadline || ended == Status::cancelled))
+      out.status = ended;
+    out.seeds.push_back(seeds.first + i);
+    out.answers.push_back(std::move(all[i]));
+  }
+  // An interruption after the last seed was done took nothing away.
+  if (out.answers.size() < count) out.status = loop.status;
+  return out;
+}
+
+}  // namespace linkwright::suspension
