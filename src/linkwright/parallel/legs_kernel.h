@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cmath>
+
+#include "linkwright/math/scalar.h"
+#include "linkwright/parallel/robot.h"
+
+/// Formulas of one leg, written once for numbers and for SIMD batches.
+namespace linkwright::parallel {
+
+/// Arm and rod of a leg at a place of its platform joint.
+template <class T>
+struct LegAt {
+  math::Vector3<T> arm;     ///< u: unit direction of the arm
+  math::Vector3<T> normal;  ///< u' = du/dalpha
+  math::Vector3<T> rod;     ///< s: from the arm's end to the platform joint (m)
+  T cosine, sine;           ///< of alpha
+  T reach;  ///< rho^2 - c^2 (m2): negative = the leg cannot reach the joint; 0 = arm and rod aligned
+};
+
+/// The arm that reaches the platform joint `g` with the working mode `sign` (of s . u', 1 or -1), without any
+/// trigonometry: the law of cosines turned by the direction of the joint seen from the pivot. Where it cannot
+/// reach, `reach` is negative (or NaN) and the rest is of no use.
+template <class T>
+LINKWRIGHT_KERNEL LegAt<T> leg_at(const Leg& leg, const math::Vector3<T>& g, double sign) {
+  using std::sqrt;
+  const math::Vector3<T> v = g - leg.base;
+  const T x = dot(v, leg.ahead), w = dot(v, leg.aside);
+  const T square = x * x + w * w;
+  const T c = (dot(v, v) + (leg.arm * leg.arm - leg.rod * leg.rod)) * (0.5 / leg.arm);
+  LegAt<T> out;
+  out.reach = square - c * c;
+  const T root = sign * sqrt(out.reach), inverse = 1.0 / square;
+  out.cosine = (x * c + w * root) * inverse;
+  out.sine = (w * c - x * root) * inverse;
+  const auto along = [&](const T& a, const T& b) {
+    return math::Vector3<T>{a * leg.ahead.x + b * leg.aside.x, a * leg.ahead.y + b * leg.aside.y,
+                            a * leg.ahead.z + b * leg.aside.z};
+  };
+  out.arm = along(out.cosine, out.sine);
+  out.normal = along(-out.sine, out.cosine);
+  out.rod = {v.x - leg.arm * out.arm.x, v.y - leg.arm * out.arm.y, v.z - leg.arm * out.arm.z};
+  return out;
+}
+
+/// The same leg with the arm at an angle given by its cosine and sine.
+template <class T>
+LINKWRIGHT_KERNEL LegAt<T> leg_turned(const Leg& leg, const math::Vector3<T>& g, const T& cosine,
+                                      const T& sine) {
+  LegAt<T> out;
+  out.cosine = cosine;
+  out.sine = sine;
+  out.arm = {cosine * leg.ahead.x + sine * leg.aside.x, cosine * leg.ahead.y + sine * leg.aside.y,
+             cosine * leg.ahead.z + sine * leg.aside.z};
+  out.normal = {cosine * leg.aside.x - sine * leg.ahead.x, cosine * leg.aside.y - sine * leg.ahead.y,
+                cosine * leg.aside.z - sine * leg.ahead.z};
+  out.rod = {g.x - leg.base.x - leg.arm * out.arm.x, g.y - leg.base.y - leg.arm * out.arm.y,
+             g.z - leg.base.z - leg.arm * out.arm.z};
+  out.reach = T(0.0);
+  return out;
+}
+
+}  // namespace linkwright::parallel

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "linkwright/parallel/robot.h"
+#include "support/published.h"
+
+/// Robots of the reference figures, and those figures.
+namespace linkwright::parallel {
+
+inline Robot reference_delta() {
+  return delta({.base_radius = 0.2, .platform_radius = 0.045, .arm = 0.35, .rod = 0.8});
+}
+inline Robot reference_hexa() {
+  return hexa({.base_radius = 0.25,
+               .base_offset = 0.06,
+               .platform_radius = 0.09,
+               .platform_angle = 0.7853981633974483,
+               .arm = 0.25,
+               .rod = 0.55});
+}
+inline Robot reference_five_bar() {
+  return planar({.base_x = -0.15, .arm = 0.25, .rod = 0.35}, {.base_x = 0.15, .arm = 0.25, .rod = 0.35});
+}
+/// Platform of constant orientation.
+inline Robot reference_platform() {
+  return planar({.base_x = -0.15, .arm = 0.25, .rod = 0.35, .platform_x = -0.05},
+                {.base_x = 0.15, .arm = 0.25, .rod = 0.35, .platform_x = 0.05});
+}
+
+/// A case of tests/published/pi-joint-parallel-robots.json: what it computes, and what went in.
+inline const Value& computed(std::string_view id) {
+  return testing::at(testing::published_case("pi-joint-parallel-robots.json", id), "computed");
+}
+inline const Value& inputs(std::string_view id) {
+  return testing::at(testing::published_case("pi-joint-parallel-robots.json", id), "inputs");
+}
+inline Vec3 point(const Value& array) {
+  const auto at = testing::numbers(array);
+  return {at.at(0), at.at(1), at.size() > 2 ? at[2] : 0};
+}
+
+}  // namespace linkwright::parallel
