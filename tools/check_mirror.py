@@ -20,6 +20,7 @@ NO_TEST = {
     "suspension/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",
     "parallel/legs_kernel.h": "formulas of a leg, run by every test of position and jacobians",
     "parallel/pi_kernel.h": "part of pi_joint, compiled for numbers and for dual numbers; both are tested",
+    "parallel/pose_check_kernel.h": "part of pose_check, compiled once per instruction set and compared by its test",
     "suspension/wheel_kernel.h": "part of wheel, likewise",
     "suspension/wheel_parameters_kernel.h": "part of wheel_parameters, likewise",
     "math/ode_pairs.h": "coefficients; their orders are measured in ode_test.cpp",
