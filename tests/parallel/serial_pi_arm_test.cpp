@@ -177,15 +177,16 @@ TEST(SerialPiArm, JacobianStaticsAndQuality) {
 }
 
 TEST(SerialPiArm, ReachableArea) {
-  const SerialPiArm arm = reference_arm();
+  SerialPiArm arm = reference_arm();
+  arm.offset = {};
   int inside = 0;
-  constexpr int n = 1000;
+  constexpr int n = 400;
   constexpr double side = 1.2;
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < n; ++k)
       inside += inverse(arm, {side * ((i + 0.5) / n - 0.5), side * ((k + 0.5) / n - 0.5)}, 1).status ==
                 Status::done;
-  // Cells that the edges cut, some 3 in 1000 of a side, err at random.
+  // Some 1300 cells of 9 mm2 lie on the edges and are counted or not at random.
   EXPECT_NEAR(reachable_area(arm), inside * side * side / (n * n), 1e-3);
 }
 
