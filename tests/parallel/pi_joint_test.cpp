@@ -9,6 +9,7 @@
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/dual.h"
+#include "linkwright/parallel/pi_samples.h"
 #include "parallel/pi_joints.h"
 #include "parallel/robots.h"
 #include "support/allocations.h"
@@ -24,17 +25,19 @@ using testing::log_between;
 using testing::number_at;
 using testing::numbers;
 
+const PiJoint prototype = pi_prototype();
+
 TEST(PiJoint, StrokeOfThePrototype) {
   const Value &stroke = computed("pi-prototype-stroke"), &limits = computed("pi-prototype-d-limits");
-  expect_same(base_length(pi_prototype), number_at(stroke, "b_m"));
-  const double most = diagonal(pi_prototype, radians(60)), least = diagonal(pi_prototype, radians(-60));
+  expect_same(base_length(prototype), number_at(stroke, "b_m"));
+  const double most = diagonal(prototype, radians(60)), least = diagonal(prototype, radians(-60));
   expect_same(most - least, number_at(stroke, "stroke_m"));
   expect_same(most / least, number_at(stroke, "ratio"));
   expect_same(most, number_at(limits, "d_max_m"));
   expect_same(least, number_at(limits, "d_min_m"));
   // The printed limits, 232 and 117 mm, belong to other angles.
-  expect_same(angle_of(pi_prototype, 0.232).angle, radians(number_at(limits, "theta_of_printed_d_max_deg")));
-  expect_same(angle_of(pi_prototype, 0.117).angle, radians(number_at(limits, "theta_of_printed_d_min_deg")));
+  expect_same(angle_of(prototype, 0.232).angle, radians(number_at(limits, "theta_of_printed_d_max_deg")));
+  expect_same(angle_of(prototype, 0.117).angle, radians(number_at(limits, "theta_of_printed_d_min_deg")));
 }
 
 TEST(PiJoint, CurvesOfTheFigures) {
@@ -64,9 +67,9 @@ TEST(PiJoint, CurvesOfTheFigures) {
 TEST(PiJoint, AccelerationOfTheDiagonalAndOfItsDirection) {
   const Value& expected = computed("pi-acceleration");
   const PiMotion angle{radians(25), 1.3, -4.0};
-  expect_same(jacobian(pi_prototype, angle.value), number_at(expected, "J"));
-  expect_same(jacobian_slope(pi_prototype, angle.value), number_at(expected, "dJ_dtheta"));
-  const PiMotion d = diagonal_motion(pi_prototype, angle), phi = direction_motion(pi_prototype, angle);
+  expect_same(jacobian(prototype, angle.value), number_at(expected, "J"));
+  expect_same(jacobian_slope(prototype, angle.value), number_at(expected, "dJ_dtheta"));
+  const PiMotion d = diagonal_motion(prototype, angle), phi = direction_motion(prototype, angle);
   expect_same(d.rate, number_at(expected, "d_dot_m_s"));
   expect_same(d.acceleration, number_at(expected, "d_ddot_m_s2"));
   expect_same(phi.value, number_at(expected, "phi_rad"));
@@ -95,7 +98,7 @@ TEST(PiJoint, LimitsOfTheDiagonal) {
     EXPECT_EQ(shorter.status, Status::no_assembly);
     EXPECT_NEAR(shorter.gap, -1e-12, 1e-16);
   }
-  EXPECT_EQ(angle_of(pi_prototype, NAN).status, Status::no_assembly);
+  EXPECT_EQ(angle_of(prototype, NAN).status, Status::no_assembly);
 }
 
 TEST(PiJoint, EndsOfTheRangeAreSingular) {
@@ -114,8 +117,8 @@ TEST(PiJoint, EndsOfTheRangeAreSingular) {
       EXPECT_TRUE(std::isnan(motion.motion.acceleration));
     }
   }
-  EXPECT_EQ(angle_motion(pi_prototype, {0.3, 0.1, 0}).status, Status::no_assembly);
-  EXPECT_TRUE(std::isnan(angle_motion(pi_prototype, {0.3, 0.1, 0}).motion.value));
+  EXPECT_EQ(angle_motion(prototype, {0.3, 0.1, 0}).status, Status::no_assembly);
+  EXPECT_TRUE(std::isnan(angle_motion(prototype, {0.3, 0.1, 0}).motion.value));
 }
 
 // k = 1: at -pi/2 the diagonal has no length; everything tends to what it is next to it.
@@ -212,13 +215,13 @@ TEST(PiJoint, PositionsAllocateNothing) {
   double sum = 0;
   const std::size_t before = test::allocations();
   for (double at = -1.5; at < 1.5; at += 0.01)
-    sum += jacobian(pi_prototype, angle_of(pi_prototype, diagonal(pi_prototype, at)).angle);
+    sum += jacobian(prototype, angle_of(prototype, diagonal(prototype, at)).angle);
   EXPECT_EQ(test::allocations(), before);
   EXPECT_GT(sum, 0);
 }
 
 TEST(PiJoint, TellsWhatIsWrong) {
-  EXPECT_EQ(problem(pi_prototype), std::nullopt);
+  EXPECT_EQ(problem(prototype), std::nullopt);
   EXPECT_EQ(problem(PiJoint{.arm = 0, .ratio = 0.4}), "arm = 0 m");
   EXPECT_EQ(problem(PiJoint{.arm = INFINITY, .ratio = 0.4}), "arm = inf m");
   EXPECT_EQ(problem(PiJoint{.arm = 0.1, .ratio = -1}), "ratio of base to arm = -1");

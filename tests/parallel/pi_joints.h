@@ -4,12 +4,8 @@
 
 #include <cmath>
 
-#include "linkwright/parallel/pi_joint.h"
-
-/// The prototype of the Pi-joint, and figures of it.
+/// Comparison with figures that were computed elsewhere.
 namespace linkwright::parallel {
-
-inline constexpr PiJoint pi_prototype{.arm = 0.17, .ratio = 0.4};
 
 /// Relative tolerance of computed figures: printed with 16 digits, and some roundings lie between them and
 /// what is tested.

@@ -17,20 +17,6 @@ namespace {
 template <int N>
 using Square = std::array<std::array<double, N>, N>;
 
-/// f(integral constant of the number of legs).
-template <class F>
-auto sized(const Robot& robot, F&& f) {
-  switch (robot.freedom) {
-    case Freedom::plane_translation:
-      return f(std::integral_constant<int, 2>{});
-    case Freedom::space_translation:
-      return f(std::integral_constant<int, 3>{});
-    case Freedom::space:
-      break;
-  }
-  return f(std::integral_constant<int, 6>{});
-}
-
 template <int N>
 math::SmallLu<N> factored(const Matrix6& matrix) {
   math::SmallLu<N> out;
@@ -48,6 +34,15 @@ Vec3 platform_speed(const Robot& robot, const Jacobians& at, int leg, const Vect
   return v;
 }
 
+double dimensionless_determinant(const Robot& robot, const Jacobians& at, double length) {
+  Matrix6 rows = at.platform;
+  for (int i = 0; i < robot.legs(); ++i)
+    for (int j = 0; j < robot.legs(); ++j) rows[i][j] /= robot.leg[i].rod * (j < 3 ? 1 : length);
+  return sized(robot, [&](auto size) { return factored<size>(rows).determinant(); });
+}
+
+}  // namespace
+
 Vector6 solve(const Robot& robot, const Matrix6& matrix, const Vector6& right) {
   return sized(robot, [&](auto size) {
     constexpr int n = size;
@@ -59,15 +54,6 @@ Vector6 solve(const Robot& robot, const Matrix6& matrix, const Vector6& right) {
     return out;
   });
 }
-
-double dimensionless_determinant(const Robot& robot, const Jacobians& at, double length) {
-  Matrix6 rows = at.platform;
-  for (int i = 0; i < robot.legs(); ++i)
-    for (int j = 0; j < robot.legs(); ++j) rows[i][j] /= robot.leg[i].rod * (j < 3 ? 1 : length);
-  return sized(robot, [&](auto size) { return factored<size>(rows).determinant(); });
-}
-
-}  // namespace
 
 Jacobians jacobians(const Robot& robot, const Pose& pose, std::span<const double> angles) {
   LINKWRIGHT_REQUIRE(static_cast<int>(angles.size()) >= robot.legs(), "needs {} arm angles, got {}",

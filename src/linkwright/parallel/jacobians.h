@@ -27,6 +27,8 @@ Jacobians jacobians(const Robot& robot, const Pose& pose, std::span<const double
 
 /// J = Jx^-1 Jq, twist by arm speeds; not finite in a singular pose of type 2.
 Matrix6 jacobian(const Robot& robot, const Jacobians& at);
+/// x of matrix x = right for the leading legs() x legs() block; not finite when it is singular.
+Vector6 solve(const Robot& robot, const Matrix6& matrix, const Vector6& right);
 /// det Jx: its sign tells the assembly, 0 the singularity of type 2.
 double determinant(const Robot& robot, const Jacobians& at);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "linkwright/math/scalar.h"
 #include "linkwright/parallel/robot.h"
@@ -58,6 +59,20 @@ LINKWRIGHT_KERNEL LegAt<T> leg_turned(const Leg& leg, const math::Vector3<T>& g,
              g.z - leg.base.z - leg.arm * out.arm.z};
   out.reach = T(0.0);
   return out;
+}
+
+/// f(integral constant of the number of legs).
+template <class F>
+auto sized(const Robot& robot, F&& f) {
+  switch (robot.freedom) {
+    case Freedom::plane_translation:
+      return f(std::integral_constant<int, 2>{});
+    case Freedom::space_translation:
+      return f(std::integral_constant<int, 3>{});
+    case Freedom::space:
+      break;
+  }
+  return f(std::integral_constant<int, 6>{});
 }
 
 }  // namespace linkwright::parallel
