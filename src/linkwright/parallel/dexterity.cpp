@@ -12,6 +12,7 @@ PreparedRobot prepare(const DesignedRobot& designed, const WorkingMode& mode, co
   PreparedRobot out{.count = designed.count,
                     .output = what.output,
                     .per_length = 1 / what.length,
+                    .assembly = static_cast<double>(designed.assembly),
                     .origin = designed.offset * designed.ahead};
   for (int i = 0; i < designed.robot.legs(); ++i) {
     PreparedLeg& leg = out.leg[i];
@@ -19,6 +20,7 @@ PreparedRobot prepare(const DesignedRobot& designed, const WorkingMode& mode, co
     leg.axis = cross(leg.leg.ahead, leg.leg.aside);
     leg.lever = rotation * leg.leg.platform;
     leg.mode = mode[i];
+    out.assembly *= mode[i];
     leg.sense = designed.sense[i];
     for (int j = 0; j < designed.count; ++j) {
       const LegRate& rate = designed.by[j][i];

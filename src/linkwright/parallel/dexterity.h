@@ -17,13 +17,16 @@ struct DexterityMeasures {
 
 /// Of one pose. `by[j]` are derivatives by dimension j.
 ///
+/// The conditioning has a sign, that of det Jx relative to the assembly of the family: it goes through 0
+/// where the rods do not hold the platform (type 2), and a robot does not get to the poses beyond.
+///
 /// Beyond reach indices go on as numbers below 0 that tell how far: of a leg that cannot reach, the square of
 /// the input index is that of an imaginary one, (rho^2 - c^2) / L^2 < 0, and the conditioning is the least of
 /// these squares. Derivatives are those of these numbers. Where two singular values cross, the conditioning
 /// has a kink, and the derivative is that of one side.
 template <class T>
 struct PoseDexterity {
-  T conditioning;                         ///< LCI: least over largest singular value of J
+  T conditioning;  ///< LCI: least over largest singular value of J, with the sign of the assembly
   std::array<T, most_legs> input_square;  ///< (s . u' / L)^2: square of the input transmission index
   std::array<T, most_legs> cosine, sine;  ///< in proportion to those of the outward angle of the arm
   std::array<T, most_legs> side;          ///< |sine| of the rod's swing out of the plane of the arm

@@ -30,7 +30,8 @@ struct PreparedRobot {
   int count = 0;  ///< dimensions
   bool output = false;
   double per_length = 1;
-  Vec3 origin;  ///< of the region
+  double assembly = 1;  ///< sign of det J^-1 where the conditioning is positive
+  Vec3 origin;          ///< of the region
   std::array<PreparedLeg, most_legs> leg{};
 };
 
@@ -45,6 +46,30 @@ LINKWRIGHT_KERNEL math::Vector3<T> joint_velocity(const std::array<T, order>& tw
     if constexpr (order == 6) {
       const math::Vector3<T> w{twist[3] * per_length, twist[4] * per_length, twist[5] * per_length};
       out = out + cross(w, lever);
+    }
+    return out;
+  }
+}
+
+/// By elimination without exchange of rows: for matrices with perpendicular columns, whose pivots vanish in a
+/// set of measure 0 only.
+template <int order, class T>
+LINKWRIGHT_KERNEL T determinant(std::array<std::array<T, order>, order> m) {
+  if constexpr (order == 2) {
+    return m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  } else if constexpr (order == 3) {
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
+           m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  } else {
+    T out = m[0][0];
+    for (int k = 0; k < order - 1; ++k) {
+      const T inverse = T(1.0) / m[k][k];
+      for (int i = k + 1; i < order; ++i) {
+        const T factor = m[i][k] * inverse;
+        for (int j = k + 1; j < order; ++j) m[i][j] = m[i][j] - factor * m[k][j];
+      }
+      out = out * m[k + 1][k + 1];
     }
     return out;
   }
@@ -139,7 +164,10 @@ LINKWRIGHT_KERNEL void measure(const PreparedRobot& robot, const math::Vector3<T
     }
   }
   const auto fits = !(least < T(0.0));
-  const T conditioning = smallest / largest;
+  // V is a product of turns, so that the sign of det J^-1 is that of the left vectors.
+  const T conditioning =
+      S::choose(determinant<order>(svd.left) < T(0.0), T(-robot.assembly), T(robot.assembly)) * smallest /
+      largest;
   out.conditioning = S::choose(fits, conditioning, least);
 
   // Twist for a unit of one leg alone, from the same decomposition: Jx^-1 = V S^-1 U^T Jq^-1.

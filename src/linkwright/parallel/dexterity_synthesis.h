@@ -153,9 +153,9 @@ struct DexterityDesign {
   double objective = 0;  ///< least index, mean index, or size (m): what the goal is about
   double violation = 0;  ///< sum of what limits are missed by
   double size = 0;       ///< arm + rod (m)
-  double worst = 0;      ///< least local conditioning index of all nodes, below 0 beyond reach
-  Vec3 worst_place{};    ///< base axes (m)
-  double mean = 0;       ///< of the cells (GCI); indices beyond reach count as they are, below 0
+  double worst = 0;    ///< least local conditioning index of all nodes, below 0 beyond reach or a singularity
+  Vec3 worst_place{};  ///< base axes (m)
+  double mean = 0;     ///< of the cells (GCI); indices below 0 count as they are
   double arm_lowest = 0, arm_highest = 0;  ///< outward angles used (rad)
   std::vector<DexterityStand> limits;
 };

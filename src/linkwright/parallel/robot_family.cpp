@@ -28,6 +28,7 @@ constexpr std::array five_bar_dimensions{
 
 DesignedRobot designed_delta(std::span<const double> x) {
   DesignedRobot out{.robot = delta({.base_radius = x[0], .arm = x[1], .rod = x[2]}), .ahead = {0, 0, -1}};
+  out.assembly = -1;
   for (int i = 0; i < 3; ++i) out.by[0][i].base = out.robot.leg[i].ahead;
   return out;
 }
