@@ -15,7 +15,7 @@ import repository
 NO_TEST = {
     "core/field.h": "declarations; read, written and described by study/bind_test.cpp",
     "core/tolerance.h": "named constants",
-    "suspension/seeds_study.h": "the loop of both kinds of synthesis, run by their study tests",
+    "study/run_seeds.h": "the loop over seeds of every synthesis that has one, run by their study tests",
     "suspension/direct_synthesis_model.h": "part of direct_synthesis, tested in direct_synthesis_test.cpp",
     "suspension/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",
     "parallel/legs_kernel.h": "formulas of a leg, run by every test of position and jacobians",
