@@ -66,7 +66,7 @@ void pi_joint_design(benchmark::State& state) {
 BENCHMARK(pi_joint_design)->Unit(benchmark::kMicrosecond);
 
 // All 40 solutions for the arm angles of the reference, followed and proved; the generic platform they start
-// from is solved once, by the first call, in about five times as long.
+// from is solved once, by the first call: see below.
 void hexa_assembly_modes(benchmark::State& state) {
   const Robot robot = hexa({.base_radius = 0.25,
                             .base_offset = 0.06,
