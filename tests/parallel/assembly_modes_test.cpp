@@ -7,22 +7,11 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/random.h"
-#include "linkwright/parallel/legs_kernel.h"
+#include "linkwright/parallel/position.h"
 #include "parallel/robots.h"
 
 namespace linkwright::parallel {
 namespace {
-
-// Arm angles of a pose in the working mode with all elbows outwards; nothing where it is out of reach.
-std::optional<std::array<double, 6>> angles_at(const Robot& robot, const Pose& pose) {
-  std::array<double, 6> out;
-  for (int i = 0; i < 6; ++i) {
-    const auto leg = leg_at<double>(robot.leg[i], pose.position + pose.rotation * robot.leg[i].platform, 1);
-    if (!(leg.reach > 0)) return {};
-    out[i] = std::atan2(leg.sine, leg.cosine);
-  }
-  return out;
-}
 
 Pose random_pose(std::uint32_t number) {
   RandomStream random({99, number});
@@ -90,10 +79,11 @@ TEST(AssemblyModes, HoldThePoseThatTheAnglesCameFrom) {
   int poses = 0, complete = 0;
   for (std::uint32_t number = 0; poses < 50; ++number) {
     const Pose pose = random_pose(number);
-    const auto angles = angles_at(robot, pose);
-    if (!angles) continue;
+    const ArmAngles at = inverse(robot, pose);
+    if (at.status != Status::done) continue;
+    const auto& angles = at.angle;
     ++poses;
-    const AssemblyModes found = assembly_modes(robot, *angles);
+    const AssemblyModes found = assembly_modes(robot, angles);
     EXPECT_EQ(found.status, Status::done) << found.note;
     EXPECT_EQ(found.finite, 40) << number;
     EXPECT_TRUE(found.conjugate_closed) << number;
@@ -104,12 +94,12 @@ TEST(AssemblyModes, HoldThePoseThatTheAnglesCameFrom) {
     for (const AssemblyMode& mode : found.modes) {
       EXPECT_TRUE(mode.certified) << number;
       EXPECT_LT(mode.residual, 1e-12);
-      EXPECT_GT(mode.conditioning, 1e-4);
+      EXPECT_GT(mode.output, 1e-4);
       // Rods by the definition of the leg.
       for (int i = 0; i < 6; ++i) {
         const Leg& leg = robot.leg[i];
         const Vec3 end =
-            leg.base + leg.arm * (std::cos((*angles)[i]) * leg.ahead + std::sin((*angles)[i]) * leg.aside);
+            leg.base + leg.arm * (std::cos(angles[i]) * leg.ahead + std::sin(angles[i]) * leg.aside);
         EXPECT_NEAR(norm(mode.pose.position + mode.pose.rotation * leg.platform - end), leg.rod, 1e-12);
       }
     }
@@ -120,7 +110,7 @@ TEST(AssemblyModes, HoldThePoseThatTheAnglesCameFrom) {
 
 TEST(AssemblyModes, DoNotDependOnTheSeed) {
   const Robot robot = reference_hexa();
-  const auto angles = *angles_at(robot, random_pose(2));
+  const auto angles = inverse(robot, random_pose(2)).angle;
   const AssemblyModes first = assembly_modes(robot, angles);
   for (std::uint64_t seed = 2; seed < 8; ++seed) {
     const AssemblyModes again = assembly_modes(robot, angles, {.seed = seed});
@@ -138,7 +128,7 @@ TEST(AssemblyModes, AtTheHomePoseTwelveSolutionsAreAtInfinity) {
   const Robot robot = reference_hexa();
   const Pose home{{0, 0, -0.5}, {}};
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const AssemblyModes found = assembly_modes(robot, *angles_at(robot, home), {.seed = seed});
+    const AssemblyModes found = assembly_modes(robot, inverse(robot, home).angle, {.seed = seed});
     EXPECT_EQ(found.status, Status::done);
     EXPECT_EQ(found.finite, 28);
     EXPECT_EQ(found.infinite, 12);
@@ -148,7 +138,7 @@ TEST(AssemblyModes, AtTheHomePoseTwelveSolutionsAreAtInfinity) {
     ASSERT_EQ(found.real, 16);
     EXPECT_LT(nearest(found.modes, home), 1e-12);
     // Arms' ends are in one plane, a mirror for the modes.
-    const double plane = robot.leg[0].base.z - 0.25 * std::sin((*angles_at(robot, home))[0]);
+    const double plane = robot.leg[0].base.z - 0.25 * std::sin(inverse(robot, home).angle[0]);
     for (const AssemblyMode& mode : found.modes) {
       Pose image = mode.pose;
       image.position.z = 2 * plane - image.position.z;
@@ -167,7 +157,7 @@ TEST(AssemblyModes, AtATypeTwoSingularityTwoOfThemMeet) {
   const Robot robot = reference_hexa();
   const double yaw = testing::numbers(testing::at(computed("hexa-singular-yaw"), "yaw_rad")).back();
   const Pose pose{{0, 0, -0.5}, math::turn_z(yaw)};
-  const AssemblyModes found = assembly_modes(robot, *angles_at(robot, pose));
+  const AssemblyModes found = assembly_modes(robot, inverse(robot, pose).angle);
   EXPECT_EQ(found.status, Status::singular);
   EXPECT_EQ(found.finite, 38);
   EXPECT_EQ(found.singular, 2);
@@ -175,11 +165,11 @@ TEST(AssemblyModes, AtATypeTwoSingularityTwoOfThemMeet) {
             "38 of 40 complex solutions were found; 2 paths met others at the end (singular) (on way 2)");
   // A double solution is known to half the digits.
   EXPECT_LT(nearest(found.modes, pose), 1e-4);
-  const auto least = std::min_element(
-      found.modes.begin(), found.modes.end(),
-      [](const AssemblyMode& a, const AssemblyMode& b) { return a.conditioning < b.conditioning; });
+  const auto least =
+      std::min_element(found.modes.begin(), found.modes.end(),
+                       [](const AssemblyMode& a, const AssemblyMode& b) { return a.output < b.output; });
   EXPECT_LT(between(least->pose, pose), 1e-4);
-  EXPECT_LT(least->conditioning, 1e-4);
+  EXPECT_LT(least->output, 1e-4);
   EXPECT_FALSE(least->certified);
 }
 
@@ -200,7 +190,7 @@ TEST(AssemblyModes, OfAPlatformThatCanMoveAreNotCalledDone) {
   const std::array<double, 6> angles{0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
   // A platform like the figure of the arms' ends, a third as large: singular at every pose.
   for (int i = 0; i < 6; ++i) {
-    const Vec3 end = -leg_turned<double>(robot.leg[i], {}, std::cos(0.5), std::sin(0.5)).rod;
+    const Vec3 end = elbow(robot.leg[i], 0.5);
     robot.leg[i].platform = (1.0 / 3) * Vec3{end.x, end.y, 0};
   }
   const AssemblyModes found = assembly_modes(robot, angles);

@@ -79,7 +79,7 @@ TEST(ToolPath, IsReadWithUnitsAndWrittenBackTheSame) {
   EXPECT_TRUE(path.blend);
   EXPECT_EQ(path.corner, 0.005);
   ASSERT_EQ(path.steps.size(), 6);
-  const auto& line = std::get<ToolLine>(path.step[0].form);
+  const auto& line = std::get<ToolLine>(path.steps[0].form);
   EXPECT_EQ(line.to, (Coordinates{0.1, 0, -0.5}));
   EXPECT_EQ(line.rotation, (Coordinates{0, 0, std::numbers::pi / 2}));
   EXPECT_EQ(line.speed, 0.25);

@@ -2,17 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/random.h"
-#include "linkwright/math/small_lu.h"
-#include "linkwright/parallel/legs_kernel.h"
+#include "linkwright/parallel/jacobians.h"
 #include "linkwright/parallel/platform_paths.h"
 #include "linkwright/parallel/platform_proof.h"
 
@@ -21,45 +20,35 @@ namespace {
 
 constexpr double same = 1e-8;           // distance of solutions that are one
 constexpr double nearly_real = 1e-4;    // distance from the conjugate: worth a look among real poses
-constexpr double way_to_pose = 1e-7;    // m by the unit of length, rad: from there to the real pose
-constexpr double converged = 1e-12;     // of rods, by the unit of length
-constexpr double loose = 1e-10;         // the same where modes meet
+constexpr double way_to_pose = 1e-7;    // by the unit of length, rad: from there to the real pose
 constexpr double same_singular = 1e-3;  // poses that are one where modes meet, known to half the digits
 constexpr std::uint64_t start_seed = 2;
 
 // With the drives held.
 struct HeldRobot {
   const Robot& robot;
-  std::array<double, 6> cosine, sine;
-  double unit = 0;    // of length: mean rod
-  double radius = 0;  // mean distance of the joints from the platform point
-  PlatformLegs legs;  // in that unit, seen from the first leg's joints
+  std::span<const double> angles;
+  double unit = 0;      // of length: mean rod
+  PlatformLegs legs{};  // in that unit, seen from the first leg's joints
+  Vec3 first_elbow;
 
-  HeldRobot(const Robot& r, std::span<const double> angles) : robot(r), legs{} {
-    std::array<Vec3, 6> arm_end;
+  HeldRobot(const Robot& r, std::span<const double> a)
+      : robot(r), angles(a), first_elbow(elbow(r.leg[0], a[0])) {
+    for (const Leg& leg : robot.leg) unit += leg.rod / 6;
     for (int i = 0; i < 6; ++i) {
-      const Leg& leg = r.leg[i];
-      cosine[i] = std::cos(angles[i]);
-      sine[i] = std::sin(angles[i]);
-      arm_end[i] = leg.base + leg.arm * leg_turned<double>(leg, {}, cosine[i], sine[i]).arm;
-      unit += leg.rod / 6;
-      radius += norm(leg.platform) / 6;
-    }
-    const auto square = [&](int i) { return r.leg[i].rod * r.leg[i].rod; };
-    for (int i = 0; i < 6; ++i) {
-      const Vec3 base = (1 / unit) * (arm_end[i] - arm_end[0]);
-      const Vec3 platform = (1 / unit) * (r.leg[i].platform - r.leg[0].platform);
+      const Leg& leg = robot.leg[i];
+      const Vec3 base = (1 / unit) * (elbow(leg, angles[i]) - first_elbow);
+      const Vec3 platform = (1 / unit) * (leg.platform - robot.leg[0].platform);
       const double b[] = {base.x, base.y, base.z}, p[] = {platform.x, platform.y, platform.z};
       for (int k = 0; k < 3; ++k) {
         legs.base[k].re[i] = b[k];
         legs.platform[k].re[i] = p[k];
       }
-      legs.square.re[i] = (i == 0 ? square(0) : square(i) - square(0)) / (unit * unit);
+      const double first = i == 0 ? 0 : robot.leg[0].rod;
+      legs.square.re[i] = (leg.rod - first) * (leg.rod + first) / (unit * unit);
     }
-    first_end = arm_end[0];
   }
 
-  // A real point; e is taken to length 1.
   Pose pose(const std::array<double, 8>& x) const {
     const double w = x[0];
     const Vec3 v{x[1], x[2], x[3]}, h{x[5], x[6], x[7]};
@@ -69,31 +58,11 @@ struct HeldRobot {
       return b + (2 / n) * (w * c + cross(v, c));
     };
     Pose out;
-    out.rotation =
-        math::rectified(transposed(Mat3{{column({1, 0, 0}), column({0, 1, 0}), column({0, 0, 1})}}));
+    out.rotation = transposed(Mat3{{column({1, 0, 0}), column({0, 1, 0}), column({0, 0, 1})}});
     const Vec3 shift = (1 / n) * (w * h - x[4] * v - cross(h, v));
-    out.position = first_end + unit * shift - out.rotation * robot.leg[0].platform;
+    out.position = first_elbow + unit * shift - out.rotation * robot.leg[0].platform;
     return out;
   }
-
-  // Rods' errors (|s|^2 - L^2) / 2 and J_x; the greatest error of a length is returned.
-  double evaluate(const Pose& pose, std::array<double, 6>& f,
-                  std::array<std::array<double, 6>, 6>& jx) const {
-    double worst = 0;
-    for (int i = 0; i < 6; ++i) {
-      const Leg& leg = robot.leg[i];
-      const Vec3 arm = pose.rotation * leg.platform;
-      const Vec3 s = leg_turned<double>(leg, pose.position + arm, cosine[i], sine[i]).rod;
-      const Vec3 moment = cross(arm, s);
-      const double error = norm(s) - leg.rod;
-      f[i] = error * (norm(s) + leg.rod) / 2;
-      jx[i] = {s.x, s.y, s.z, moment.x, moment.y, moment.z};
-      worst = std::max(worst, std::abs(error));
-    }
-    return worst;
-  }
-
-  Vec3 first_end;
 };
 
 double between(const HeldRobot& held, const Pose& a, const Pose& b) {
@@ -102,43 +71,17 @@ double between(const HeldRobot& held, const Pose& a, const Pose& b) {
   return out;
 }
 
-// Newton's method among real poses. False where it does not arrive, or at another pose than it began with.
-bool refine(const HeldRobot& held, double tolerance, double way, AssemblyMode& mode) {
-  constexpr int most_iterations = 40;
-  const Pose start = mode.pose;
-  std::array<double, 6> f;
-  std::array<std::array<double, 6>, 6> jx;
-  math::SmallLu<6> lu;
-  mode.residual = held.evaluate(mode.pose, f, jx);
-  for (int i = 0; i < most_iterations && mode.residual > 0; ++i) {
-    lu.factor(jx);
-    const auto step = lu.solve(f);
-    Pose trial = mode.pose;
-    trial.position += -1.0 * Vec3{step[0], step[1], step[2]};
-    trial.rotation =
-        math::rectified(math::turn_about(-1.0 * Vec3{step[3], step[4], step[5]}) * trial.rotation);
-    const double residual = held.evaluate(trial, f, jx);
-    if (!(residual < mode.residual)) break;
-    mode.pose = trial;
-    mode.residual = residual;
-  }
-  return mode.residual <= tolerance * held.unit && between(held, start, mode.pose) < way;
-}
-
-void measure(const HeldRobot& held, AssemblyMode& mode) {
-  std::array<double, 6> f;
-  std::array<std::array<double, 6>, 6> jx;
-  held.evaluate(mode.pose, f, jx);
-  math::SmallLu<6> lu;
-  lu.factor(jx);
-  mode.determinant = lu.determinant();
-  if (!std::isfinite(mode.determinant)) mode.determinant = 0;
-  Eigen::Matrix<double, 6, 6> scaled;
-  for (int i = 0; i < 6; ++i)
-    for (int k = 0; k < 6; ++k)
-      scaled(i, k) = jx[i][k] / held.robot.leg[i].rod / (k < 3 || held.radius == 0 ? 1 : held.radius);
-  const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(scaled);
-  mode.conditioning = svd.singularValues()(5) / svd.singularValues()(0);
+// The real mode at most `way` from a point that is as good as real.
+std::optional<AssemblyMode> mode_at(const HeldRobot& held, const std::array<double, 8>& x, double way) {
+  const Pose start = held.pose(x);
+  const Placed placed = direct_near(held.robot, held.angles, start);
+  if (placed.status != Status::done || between(held, start, placed.pose) > way) return {};
+  AssemblyMode out{.pose = placed.pose, .residual = placed.residual};
+  const Jacobians at = jacobians(held.robot, out.pose, held.angles);
+  out.determinant = determinant(held.robot, at);
+  const auto output = quality(held.robot, at, platform_size(held.robot)).output;
+  out.output = *std::min_element(output.begin(), output.end());
+  return out;
 }
 
 // Made as real as it can be, with e of length 1.
@@ -286,29 +229,21 @@ AssemblyModes assembly_modes(const Robot& hexa, std::span<const double> arm_angl
   AssemblyModes out;
   std::vector<std::pair<AssemblyMode, PlatformPoint>> real;
   std::vector<PlatformPoint> others;
-  for (const PlatformPoint& x : found.solutions) {
-    const PlatformPoint onto = as_point(real_part(x));
-    AssemblyMode mode;
-    mode.pose = held.pose(real_part(x));
-    if (distance(x, conjugate(x)) < nearly_real && refine(held, converged, way_to_pose, mode)) {
-      const bool known = std::any_of(real.begin(), real.end(), [&](const auto& r) {
-        return between(held, r.first.pose, mode.pose) < same;
-      });
-      if (!known) real.emplace_back(mode, onto);
-    } else {
-      others.push_back(x);
-    }
-  }
+  const auto take = [&](const PlatformPoint& x, double how_real, double way, double apart) {
+    if (distance(x, conjugate(x)) > how_real) return false;
+    const auto mode = mode_at(held, real_part(x), way);
+    if (!mode || std::any_of(real.begin(), real.end(), [&](const auto& known) {
+          return between(held, known.first.pose, mode->pose) < apart;
+        }))
+      return false;
+    real.emplace_back(*mode, as_point(real_part(x)));
+    return true;
+  };
+  for (const PlatformPoint& x : found.solutions)
+    if (!take(x, nearly_real, way_to_pose, same)) others.push_back(x);
   out.finite = static_cast<int>(real.size() + others.size());
   // Where modes meet, they are known to half the digits: one of them stands for all.
-  for (const PlatformPoint& x : found.singular_ends) {
-    AssemblyMode mode;
-    mode.pose = held.pose(real_part(x));
-    if (!(distance(x, conjugate(x)) < same_singular && refine(held, loose, same_singular, mode))) continue;
-    if (std::none_of(real.begin(), real.end(),
-                     [&](const auto& r) { return between(held, r.first.pose, mode.pose) < same_singular; }))
-      real.emplace_back(mode, as_point(real_part(x)));
-  }
+  for (const PlatformPoint& x : found.singular_ends) take(x, same_singular, same_singular, same_singular);
   const auto height = [](const AssemblyMode& m) {
     const Vec3& p = m.pose.position;
     return std::tuple(p.z, p.x, p.y);
@@ -316,8 +251,7 @@ AssemblyModes assembly_modes(const Robot& hexa, std::span<const double> arm_angl
   std::sort(real.begin(), real.end(),
             [&](const auto& a, const auto& b) { return height(a.first) < height(b.first); });
   std::vector<PlatformPoint> points;
-  for (auto& [mode, point] : real) {
-    measure(held, mode);
+  for (const auto& [mode, point] : real) {
     out.modes.push_back(mode);
     points.push_back(point);
   }

@@ -13,13 +13,11 @@ namespace linkwright::parallel {
 /// One way to put a hexa together at given arm angles.
 struct AssemblyMode {
   Pose pose;
-  double residual = 0;  ///< greatest error of a rod's length (m)
-  /// det J_x, rows (s, R b x s) in the order of legs (m9): modes of either sign are apart by a type 2
-  /// singularity, where it is 0.
+  double residual = 0;  ///< largest error of a rod's length (m)
+  /// det Jx: modes with different signs are apart by a singularity of type 2, where it is 0.
   double determinant = 0;
-  /// Smallest by greatest singular value of J_x with the rods as unit vectors and rotations times the mean
-  /// distance of the platform's joints from the platform point: 0 = type 2 singularity, where modes meet.
-  double conditioning = 0;
+  /// Least output transmission index, see Quality: 0 in a singularity of type 2, where modes meet.
+  double output = 0;
   /// Proved, rounding included: there is exactly one real mode next to this one (see prove).
   bool certified = false;
 };
