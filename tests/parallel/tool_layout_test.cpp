@@ -130,7 +130,7 @@ TEST(ToolLayout, SaysWhichStepIsWrongAndHowToMendIt) {
       "step 2 (arc): the points (0, 0, 0) m, (1, 0, 0) m and (2, 0, 0) m of the arc are on one line; move "
       "the point through which it goes, or take a line");
   EXPECT_EQ(message_of(ToolArc{.through = {1, 0, 0}, .to = {0, 0, 0}}),
-            "step 2 (arc): the arc ends where it begins; for a full circle take a step \"circle\"");
+            "step 2 (arc): the arc ends where it begins; for a full circle take a circle");
   EXPECT_EQ(message_of(ToolArc{.through = {NAN, 0, 0}, .to = {2, 0, 0}}),
             "step 2 (arc): through is not finite");
 

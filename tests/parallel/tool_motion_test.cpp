@@ -83,12 +83,16 @@ TEST(ToolMotion, LineTakesTheTimeOfTheDoubleS) {
 }
 
 TEST(ToolMotion, OtherLawsMeetTheTightestLimit) {
-  const ToolLimits limits{.speed = 2, .acceleration = 10, .jerk = 1e4};
+  const ToolLimits limits{.speed = 2, .acceleration = 100, .jerk = 1e4};
   for (TimeLaw law : {TimeLaw::polynomial_345, TimeLaw::cycloidal}) {
-    const ToolMotion motion({.steps = {{ToolLine{.to = {0.5, 0, 0}}}}, .law = law}, limits, origin);
-    EXPECT_NEAR(motion.duration(), least_duration(law, 0.5, {2, 10, 1e4}), 1e-15);
+    const ToolPath path{.steps = {{PickAndPlace{.to = {0.3, 0, 0}, .height = 0.05}}}, .law = law};
+    const ToolMotion motion(path, limits, origin);
     expect_consistent(motion, limits);
-    EXPECT_NEAR(peaks(motion, limits).acceleration, 1, 1e-6);
+    const Peaks p = peaks(motion, limits, 20000);
+    EXPECT_LE(p.speed, 1 + 1e-9);
+    // A peak at a joint is missed by the change of the jerk within a sample, 1 / 20000 of a law whose jerk
+    // swings several times.
+    EXPECT_NEAR(std::max(p.acceleration, p.jerk), 1, 5e-3);
   }
 }
 

@@ -34,25 +34,25 @@ law = "cycloidal"
 blend = true
 corner_mm = 5
 
-[[steps]]
-step = "line"
+[[step]]
+type = "line"
 to_mm = [100, 0, -500]
 rotation_deg = [0, 0, 90]
 speed_mm_per_s = 250
 
-[[steps]]
-step = "arc"
+[[step]]
+type = "arc"
 through_mm = [50, 50, -500]
 to_m = [0, 0, -0.5]
 
-[[steps]]
-step = "circle"
+[[step]]
+type = "circle"
 centre_mm = [0, 10, 0]
 axis = [0, 0, 2]
 angle_deg = -360
 
-[[steps]]
-step = "pick_and_place"
+[[step]]
+type = "pick_and_place"
 to_mm = [305, 0, -500]
 height_mm = 25
 corner = 0.8
@@ -60,12 +60,12 @@ back = true
 dwell_ms = 20
 back_dwell_ms = 30
 
-[[steps]]
-step = "dwell"
+[[step]]
+type = "dwell"
 duration_s = 0.1
 
-[[steps]]
-step = "table"
+[[step]]
+type = "table"
 times_ms = [0, 100]
 points_mm = [[0, 0, -500], [10, 0, -500]]
 rotations_deg = [[0, 0, 90], [0, 0, 180]]
@@ -103,9 +103,9 @@ TEST(ToolPath, IsReadWithUnitsAndWrittenBackTheSame) {
   EXPECT_EQ(table.rotations[1], (Coordinates{0, 0, std::numbers::pi}));
 
   const Value written = study::write_fields(path);
-  const Value* steps = written.find("steps");
+  const Value* steps = written.find("step");
   ASSERT_NE(steps, nullptr);
-  EXPECT_EQ(steps->as_array()[3].find("step")->as_string(), "pick_and_place");
+  EXPECT_EQ(steps->as_array()[3].find("type")->as_string(), "pick_and_place");
   EXPECT_EQ(steps->as_array()[3].find("dwell_s")->as_number(), 0.02);
   EXPECT_EQ(steps->as_array()[1].find("speed_m_per_s"), nullptr);
   EXPECT_EQ(study::schema_fields<ToolPath>().find("properties") != nullptr, true);
@@ -124,20 +124,20 @@ TEST(ToolPath, FilesAreToldWhatIsWrong) {
     read<ToolPath>(text, messages);
     return messages;
   };
-  EXPECT_THAT(message("law = \"s_curve\"\nsteps = []\n"),
+  EXPECT_THAT(message("law = \"s_curve\"\nstep = []\n"),
               HasSubstr("law: is 's_curve', must be one of: double_s, polynomial_345, cycloidal"));
-  EXPECT_THAT(message("blend = true\n"), HasSubstr("steps"));
+  EXPECT_THAT(message("blend = true\n"), HasSubstr("step"));
   EXPECT_THAT(
-      message("[[steps]]\nstep = \"lien\"\nto_m = [0, 0, 0]\n"),
+      message("[[step]]\ntype = \"lien\"\nto_m = [0, 0, 0]\n"),
       HasSubstr("is 'lien', must be one of: line, arc, circle, pick_and_place, dwell, table; did you mean "
                 "'line'?"));
-  EXPECT_THAT(message("[[steps]]\nstep = \"line\"\nto_deg = [0, 0, 0]\n"),
+  EXPECT_THAT(message("[[step]]\ntype = \"line\"\nto_deg = [0, 0, 0]\n"),
               HasSubstr("is a length, but 'deg' is not a unit of it"));
   EXPECT_THAT(
-      message("[[steps]]\nstep = \"pick_and_place\"\nto_m = [0, 0, 0]\nheight_mm = 25\ncorner = 1.5\n"),
-      HasSubstr("steps[0].corner: is 1.5, must be at most 1"));
-  EXPECT_THAT(message("[[steps]]\nstep = \"dwell\"\nduration_s = -1\n"),
-              HasSubstr("steps[0].duration_s: is -1 s, must be at least 0 s"));
+      message("[[step]]\ntype = \"pick_and_place\"\nto_m = [0, 0, 0]\nheight_mm = 25\ncorner = 1.5\n"),
+      HasSubstr("step[0].corner: is 1.5, must be at most 1"));
+  EXPECT_THAT(message("[[step]]\ntype = \"dwell\"\nduration_s = -1\n"),
+              HasSubstr("step[0].duration_s: is -1 s, must be at least 0 s"));
 }
 
 TEST(ToolPath, StepsAreNamedByNumberAndKind) {

@@ -42,7 +42,7 @@ class Layer {
       out_.problem =
           ToolProblem{-1, "corner", fmt::format("corner is {:g} m, must be at least 0 m", path_.corner), {}};
     } else if (path_.steps.empty()) {
-      out_.problem = ToolProblem{-1, "steps", "the path has no steps", "give at least one"};
+      out_.problem = ToolProblem{-1, "step", "the path has no steps", "give at least one"};
     } else {
       for (step_ = 0; step_ < static_cast<int>(path_.steps.size()); ++step_)
         if (!std::visit([&](const auto& s) { return lay(s); }, path_.steps[step_].form)) break;
@@ -173,7 +173,7 @@ class Layer {
     if (!finite(s.through)) return fail("through", "through is not finite");
     const Vec3 from = here_.position, to = vector(s.to), a = vector(s.through) - from, b = to - from;
     if (norm(b) <= least_way)
-      return fail("to", "the arc ends where it begins", "for a full circle take a step \"circle\"");
+      return fail("to", "the arc ends where it begins", "for a full circle take a circle");
     const Vec3 across = cross(a, b);
     if (norm(across) <= 1e-9 * std::max(dot(a, a), dot(b, b)))
       return fail("through",

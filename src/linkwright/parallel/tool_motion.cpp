@@ -10,6 +10,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/math/dual.h"
 #include "linkwright/parallel/tool_layout.h"
+#include "linkwright/parallel/tool_timing.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -26,10 +27,6 @@ std::size_t last_from(std::size_t count, double x, Begin&& begin) {
     count -= half;
   }
   return low;
-}
-
-RateLimits least(const RateLimits& a, const RateLimits& b) {
-  return {std::min(a.speed, b.speed), std::min(a.acceleration, b.acceleration), std::min(a.jerk, b.jerk)};
 }
 
 // Angular velocity (seen from the base) of the rotation with the vector r that changes at the rate v.
@@ -123,31 +120,9 @@ ToolMotion::ToolMotion(const ToolPath& path, const ToolLimits& limits, const Pos
     }
     run.end_piece = pieces_.size();
     if (!from.parts.empty()) {
-      std::vector<RateLimits> along;
-      std::vector<double> steady;
-      for (const ToolPart& part : from.parts) {
-        // A turn in proportion to the length; on the spot the length is the angle itself.
-        RateLimits turning{part.speed, INFINITY, INFINITY};
-        const double angle = norm(from.turn), share = run.length / angle;
-        if (angle > 0)
-          turning = least(turning, {limits.angular_speed * share, limits.angular_acceleration * share,
-                                    limits.angular_jerk * share});
-        if (norm(part.curve.tangent) == 0) {
-          along.push_back({limits.angular_speed, limits.angular_acceleration, limits.angular_jerk});
-          steady.push_back(limits.angular_speed);
-        } else {
-          const RateLimits all{std::min(limits.speed, turning.speed), limits.acceleration, limits.jerk};
-          along.push_back(least(limits_along(part.curve, all), turning));
-          steady.push_back(steady_speed(part.curve, all));
-        }
-      }
-      if (path.law == TimeLaw::double_s) {
-        add_double_s(run, along, steady);
-      } else {
-        RateLimits tightest = along.front();
-        for (const RateLimits& l : along) tightest = least(tightest, l);
-        run.duration = least_duration(path.law, run.length, tightest);
-      }
+      const ToolTiming timing = timed(from, path.law, limits);
+      phases_.insert(phases_.end(), timing.phases.begin(), timing.phases.end());
+      run.duration = timing.duration;
     } else if (from.table) {
       Spline spline;
       std::vector<double> times;
@@ -168,40 +143,6 @@ ToolMotion::ToolMotion(const ToolPath& path, const ToolLimits& limits, const Pos
     runs_.push_back(run);
   }
   end_ = {.position = layout.end.position, .rotation = layout.end.rotation};
-}
-
-// From both ends: no piece is entered faster than the rest can be run, nor left faster than it can be
-// reached. A curved piece is either run at one speed, up to its steady speed, or within its limits along, up
-// to theirs.
-void ToolMotion::add_double_s(Run& run, const std::vector<RateLimits>& along,
-                              const std::vector<double>& steady) {
-  const std::size_t n = along.size();
-  const auto piece = [&](std::size_t i) -> const Piece& { return pieces_[run.first_piece + i]; };
-  const auto reached = [&](std::size_t i, double speed) {
-    return speed > along[i].speed ? speed : reachable_speed(speed, piece(i).curve.length, along[i]);
-  };
-  std::vector<double> speed(n + 1, 0);
-  for (std::size_t i = 0; i + 1 < n; ++i)
-    speed[i + 1] = std::min({steady[i], steady[i + 1], reached(i, speed[i])});
-  for (std::size_t i = n - 1; i > 0; --i) speed[i] = std::min(speed[i], reached(i, speed[i + 1]));
-
-  for (std::size_t i = 0; i < n; ++i) {
-    const double length = piece(i).curve.length;
-    if (speed[i] > along[i].speed) {
-      const double time = length / speed[i];
-      phases_.push_back({run.duration, time, {piece(i).offset, speed[i], 0, 0}});
-      run.duration += time;
-      continue;
-    }
-    const DoubleS motion = double_s(length, speed[i], speed[i + 1], along[i]);
-    for (JerkPhase phase : motion.phase) {
-      if (phase.duration <= 0) continue;
-      phase.start += run.duration;
-      phase.at.length += piece(i).offset;
-      phases_.push_back(phase);
-    }
-    run.duration += motion.duration;
-  }
 }
 
 const ToolMotion::Run& ToolMotion::run_at(double t) const {
@@ -227,21 +168,20 @@ Progress ToolMotion::progress(const Run& run, double time) const {
 }
 
 ToolState ToolMotion::along(const Run& run, double time) const {
-  auto [s, v, a, j] = progress(run, time);
-  s = std::clamp(s, 0.0, run.length);
+  const Progress p = progress(run, time);
+  const double s = std::clamp(p.length, 0.0, run.length);
   const Piece& piece = piece_at(run, s);
-  const CurvePoint p = point_at(piece.curve, std::min(s - piece.offset, piece.curve.length));
-  const double k = p.curvature;
-  ToolState out{
-      .position = p.position,
-      .velocity = v * p.tangent,
-      .acceleration = a * p.tangent + k * v * v * p.normal,
-      .jerk = (j - k * k * v * v * v) * p.tangent + v * (3 * k * a + p.curvature_slope * v * v) * p.normal,
-      .rotation = run.rotation};
+  const CurvePoint point = point_at(piece.curve, std::min(s - piece.offset, piece.curve.length));
+  const auto [velocity, acceleration, jerk] = moved(point, p);
+  ToolState out{.position = point.position,
+                .velocity = velocity,
+                .acceleration = acceleration,
+                .jerk = jerk,
+                .rotation = run.rotation};
   if (run.turn != Vec3{}) {
     out.rotation = math::turn_about((s / run.length) * run.turn) * run.rotation;
-    out.angular_velocity = (v / run.length) * run.turn;
-    out.angular_acceleration = (a / run.length) * run.turn;
+    out.angular_velocity = (p.speed / run.length) * run.turn;
+    out.angular_acceleration = (p.acceleration / run.length) * run.turn;
   }
   return out;
 }

@@ -25,11 +25,9 @@ std::optional<ToolProblem> problem(const ToolPath& path, const ToolLimits& limit
 
 /// The motion along a path: from rest to rest, step by step, as fast as the limits and the law allow.
 ///
-/// Steps are cut into runs, between which the tool rests. Along a run of lines, arcs and rounded corners the
-/// double S keeps the limits of each piece (limits_along, steady_speed) and passes from piece to piece at the
-/// largest speed from which the rest can be run, without acceleration along the path there. A polynomial or
-/// cycloidal law stretches over the whole run and keeps the limits of its tightest piece. A turn is about a
-/// fixed axis by the least angle, in proportion to the length run through; the slower of both decides.
+/// Steps are cut into runs, between which the tool rests; tool_timing.h tells how a run is timed. A turn is
+/// about a fixed axis by the least angle, in proportion to the length run through; the slower of both
+/// decides.
 class ToolMotion {
  public:
   /// Throws ContractError with the message of `problem` if there is one.
@@ -78,7 +76,6 @@ class ToolMotion {
     Vec3 turn;      // by the end of the run, rad
   };
 
-  void add_double_s(Run& run, const std::vector<RateLimits>& along, const std::vector<double>& steady);
   const Run& run_at(double t) const;
   const Piece& piece_at(const Run& run, double length) const;
   Progress progress(const Run& run, double time) const;

@@ -241,7 +241,7 @@ void fields(Visitor&& visit, ToolTable& s) {
 }
 template <class Visitor>
 void fields(Visitor&& visit, ToolStep& s) {
-  visit(Field{.key = "step", .summary = "what the tool does", .required = true}, s.form);
+  visit(Field{.key = "type", .summary = "what the tool does", .required = true}, s.form);
 }
 
 template <class Visitor>
@@ -254,7 +254,7 @@ void fields(Visitor&& visit, ToolPath& p) {
               .minimum = 0,
               .maximum = tool_fields::most},
         p.corner);
-  visit(Field{.key = "steps", .summary = "what the tool does, in order", .required = true}, p.steps);
+  visit(Field{.key = "step", .summary = "what the tool does, in order", .required = true}, p.steps);
 }
 
 template <class Visitor>
