@@ -120,6 +120,23 @@ Extremes DexterityModel::extremes(const DesignedRobot& designed, Work& work, boo
   return out;
 }
 
+void DexterityModel::indices(const DesignedRobot& designed, PoseLimit::Kind kind, int leg, Work& work,
+                             std::vector<double>& out) const {
+  out.clear();
+  for (const Group& group : groups_) {
+    measure(designed, task_.mode, measures_, group.all, false, work.set);
+    const SetDexterity& set = work.set;
+    const std::vector<double>& from = kind == PoseLimit::conditioning ? set.conditioning
+                                      : kind == PoseLimit::input      ? set.input_square[leg]
+                                      : kind == PoseLimit::output     ? set.output[leg]
+                                                                      : set.side[leg];
+    for (std::size_t k = 0; k < group.all.size(); ++k)
+      out.push_back(kind == PoseLimit::arm_low || kind == PoseLimit::arm_high
+                        ? std::atan2(set.sine[leg][k], set.cosine[leg][k])
+                        : from[k]);
+  }
+}
+
 double DexterityModel::mean(const DesignedRobot& designed, Work& work, std::span<double> by) const {
   double sum = 0;
   std::fill(by.begin(), by.end(), 0.0);
