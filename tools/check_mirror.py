@@ -22,6 +22,7 @@ NO_TEST = {
     "parallel/dexterity_synthesis_search.h": "part of dexterity_synthesis, tested in dexterity_synthesis_test.cpp",
     "parallel/legs_kernel.h": "formulas of a leg, run by every test of position and jacobians",
     "parallel/pi_kernel.h": "part of pi_joint, compiled for numbers and for dual numbers; both are tested",
+    "parallel/pose_check_kernel.h": "part of pose_check, compiled once per instruction set and compared by its test",
     "suspension/wheel_kernel.h": "part of wheel, likewise",
     "suspension/wheel_parameters_kernel.h": "part of wheel_parameters, likewise",
     "math/ode_pairs.h": "coefficients; their orders are measured in ode_test.cpp",

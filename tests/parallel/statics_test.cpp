@@ -71,12 +71,6 @@ TEST(Statics, OfTheReferenceHexa) {
   }
 }
 
-// Twist of a robot: what counts of it, in the order of the Jacobian.
-Vector6 components(const Robot& robot, const Vec3& linear, const Vec3& angular) {
-  if (robot.freedom == Freedom::plane_translation) return {linear.x, linear.y};
-  return {linear.x, linear.y, linear.z, angular.x, angular.y, angular.z};
-}
-
 TEST(Statics, VirtualWorkAndTheRodsAgree) {
   RandomStream random({.seed = 11});
   const auto draw = [&](double size) {

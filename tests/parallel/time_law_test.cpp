@@ -180,26 +180,5 @@ TEST(TimeLaw, ShapesRunFromRestToRestWithTheirDerivatives) {
   }
 }
 
-TEST(TimeLaw, DurationsMeetOneLimitExactly) {
-  RandomStream random({.seed = 4});
-  for (int n = 0; n < 50; ++n)
-    for (TimeLaw law : {TimeLaw::polynomial_345, TimeLaw::cycloidal}) {
-      const RateLimits limits{log_uniform(random, 0.1, 10), log_uniform(random, 1, 1e2),
-                              log_uniform(random, 1e1, 1e4)};
-      const double length = log_uniform(random, 1e-3, 10), T = least_duration(law, length, limits);
-      double v = 0, a = 0, j = 0;
-      for (int i = 0; i <= 10000; ++i) {
-        const Progress p = shape(law, i / 10000.0);
-        v = std::max(v, p.speed);
-        a = std::max(a, std::abs(p.acceleration));
-        j = std::max(j, std::abs(p.jerk));
-      }
-      // A peak between two of 10^4 samples is missed by (pi / 10^4)^2 / 2 of it at most.
-      EXPECT_NEAR(std::max({v * length / T / limits.speed, a * length / (T * T) / limits.acceleration,
-                            j * length / (T * T * T) / limits.jerk}),
-                  1, 1e-7);
-    }
-}
-
 }  // namespace
 }  // namespace linkwright::parallel

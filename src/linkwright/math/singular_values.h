@@ -18,15 +18,17 @@ struct SingularValues {
   std::array<T, N> value;                 ///< sigma_k >= 0
 };
 
-template <int N, class T>
+/// Without `Right` the columns v are left out: for those who want the values.
+template <int N, bool Right = true, class T>
 LINKWRIGHT_KERNEL SingularValues<T, N> singular_values(const std::array<std::array<T, N>, N>& matrix,
                                                        int rounds = N <= 3 ? 6 : 9) {
   using std::abs;
   using std::sqrt;
   SingularValues<T, N> out;
   out.left = matrix;
-  for (int i = 0; i < N; ++i)
-    for (int k = 0; k < N; ++k) out.right[i][k] = T(i == k ? 1.0 : 0.0);
+  if constexpr (Right)
+    for (int i = 0; i < N; ++i)
+      for (int k = 0; k < N; ++k) out.right[i][k] = T(i == k ? 1.0 : 0.0);
   for (int round = 0; round < rounds; ++round)
     for (int p = 0; p < N - 1; ++p)
       for (int q = p + 1; q < N; ++q) {
@@ -48,6 +50,7 @@ LINKWRIGHT_KERNEL SingularValues<T, N> singular_values(const std::array<std::arr
           const T x = a[i][p], y = a[i][q];
           a[i][p] = c * x - s * y;
           a[i][q] = s * x + c * y;
+          if constexpr (!Right) continue;
           const T v = out.right[i][p], w = out.right[i][q];
           out.right[i][p] = c * v - s * w;
           out.right[i][q] = s * v + c * w;

@@ -31,9 +31,8 @@ Drawn draw(const DexterityModel& model, std::uint64_t seed, int index, Dexterity
   if (task.pi_joint) {
     const double ratio = random.uniform(task.pi_joint->ratio.lower, task.pi_joint->ratio.upper);
     const auto [low, high] = model.travel(extremes);
-    // The centre with the largest least rate of the diagonal, sin(theta) = -k cos(half travel).
-    const double least = std::min(ratio, 1 / ratio) * std::max(0.0, std::cos((high - low) / 2));
-    const double mounting = (low + high) / 2 + task.pi_joint->mirror * std::asin(least);
+    const double half = std::min((high - low) / 2, std::numbers::pi / 2);
+    const double mounting = (low + high) / 2 - task.pi_joint->mirror * best_centre({1, ratio}, half);
     x.push_back(std::clamp(mounting, task.pi_joint->mounting.lower, task.pi_joint->mounting.upper));
     x.push_back(ratio);
   }

@@ -29,10 +29,10 @@ bool stands_out(const PrescribedRegion& region, const RegionPoint& point) {
   return true;
 }
 
-double least_rate(const PiTravelLimits& l) {
+double least_rate(const PiRequirements& l) {
   return std::max(l.torque / l.force_limit, l.quantum / l.resolution);
 }
-double most_rate(const PiTravelLimits& l) {
+double most_rate(const PiRequirements& l) {
   return l.speed > 0 ? l.rate_limit / l.speed : std::numeric_limits<double>::infinity();
 }
 
@@ -258,7 +258,7 @@ void DexterityModel::whole(std::span<const double> u, std::vector<Whole>& out,
   }
   if (!task_.pi_joint) return;
 
-  const PiTravelLimits& limits = task_.pi_joint->limits;
+  const PiRequirements& limits = task_.pi_joint->limits;
   const int mirror = task_.pi_joint->mirror;
   const double first = mirror > 0 ? u[low] - u[mounting()] : u[mounting()] - u[high];
   const double last = mirror > 0 ? u[high] - u[mounting()] : u[mounting()] - u[low];

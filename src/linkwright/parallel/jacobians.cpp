@@ -55,6 +55,13 @@ Vector6 solve(const Robot& robot, const Matrix6& matrix, const Vector6& right) {
   });
 }
 
+Matrix6 transposed(const Robot& robot, const Matrix6& matrix) {
+  Matrix6 out{};
+  for (int i = 0; i < robot.legs(); ++i)
+    for (int k = 0; k < robot.legs(); ++k) out[i][k] = matrix[k][i];
+  return out;
+}
+
 Jacobians jacobians(const Robot& robot, const Pose& pose, std::span<const double> angles) {
   LINKWRIGHT_REQUIRE(static_cast<int>(angles.size()) >= robot.legs(), "needs {} arm angles, got {}",
                      robot.legs(), angles.size());
@@ -91,8 +98,34 @@ Matrix6 jacobian(const Robot& robot, const Jacobians& at) {
   });
 }
 
-double determinant(const Robot& robot, const Jacobians& at) {
-  return sized(robot, [&](auto size) { return factored<size>(at.platform).determinant(); });
+double determinant(const Robot& robot, const Matrix6& matrix) {
+  return sized(robot, [&](auto size) { return factored<size>(matrix).determinant(); });
+}
+
+double determinant(const Robot& robot, const Jacobians& at) { return determinant(robot, at.platform); }
+
+Vector6 components(const Robot& robot, const Vec3& linear, const Vec3& angular) {
+  switch (robot.freedom) {
+    case Freedom::plane_translation:
+      return {linear.x, linear.y};
+    case Freedom::space_translation:
+      return {linear.x, linear.y, linear.z};
+    case Freedom::space:
+      break;
+  }
+  return {linear.x, linear.y, linear.z, angular.x, angular.y, angular.z};
+}
+
+Twist twist(const Robot& robot, const Vector6& t) {
+  switch (robot.freedom) {
+    case Freedom::plane_translation:
+      return {{t[0], t[1], 0}, {}};
+    case Freedom::space_translation:
+      return {{t[0], t[1], t[2]}, {}};
+    case Freedom::space:
+      break;
+  }
+  return {{t[0], t[1], t[2]}, {t[3], t[4], t[5]}};
 }
 
 Vector6 arm_speeds(const Robot& robot, const Jacobians& at, const Twist& velocity) {
@@ -122,8 +155,7 @@ Vector6 arm_accelerations(const Robot& robot, const Jacobians& at, const Twist& 
 Twist platform_velocity(const Robot& robot, const Jacobians& at, std::span<const double> arm_speeds) {
   Vector6 right{};
   for (int i = 0; i < robot.legs(); ++i) right[i] = at.drive[i] * arm_speeds[i];
-  const Vector6 t = solve(robot, at.platform, right);
-  return {{t[0], t[1], robot.freedom == Freedom::plane_translation ? 0 : t[2]}, {t[3], t[4], t[5]}};
+  return twist(robot, solve(robot, at.platform, right));
 }
 
 Quality quality(const Robot& robot, const Jacobians& at, double characteristic_length) {

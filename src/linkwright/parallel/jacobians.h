@@ -29,14 +29,22 @@ Jacobians jacobians(const Robot& robot, const Pose& pose, std::span<const double
 Matrix6 jacobian(const Robot& robot, const Jacobians& at);
 /// x of matrix x = right for the leading legs() x legs() block; not finite when it is singular.
 Vector6 solve(const Robot& robot, const Matrix6& matrix, const Vector6& right);
+Matrix6 transposed(const Robot& robot, const Matrix6& matrix);
 /// det Jx: its sign tells the assembly, 0 the singularity of type 2.
 double determinant(const Robot& robot, const Jacobians& at);
+/// det of the leading legs() x legs() block.
+double determinant(const Robot& robot, const Matrix6& matrix);
 
 /// Velocity or acceleration of the platform: of its point, and of its turning, in base axes.
 struct Twist {
   Vec3 linear{};   ///< m/s or m/s2
   Vec3 angular{};  ///< rad/s or rad/s2
 };
+
+/// What counts of a twist or a wrench of this robot, in the order of the columns of Jx; the rest is 0.
+Vector6 components(const Robot& robot, const Vec3& linear, const Vec3& angular);
+/// And back.
+Twist twist(const Robot& robot, const Vector6& components);
 
 /// Arm speeds (rad/s) for a velocity of the platform; not finite where arm and rod are aligned (type 1).
 Vector6 arm_speeds(const Robot& robot, const Jacobians& at, const Twist& velocity);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "linkwright/core/field.h"
 #include "linkwright/core/status.h"
 #include "linkwright/parallel/pi_joint.h"
 
@@ -24,6 +25,27 @@ struct PiMasses {
   double rotor_inertia = 0;  ///< of motor and screw, about the axis of the screw (kg m2)
   double lead = 0;           ///< of the screw (m); needed with an inertia of the rotor
 };
+
+/// The lead belongs to the screw, not to its masses.
+template <class Visitor>
+void fields(Visitor&& visit, PiMasses& m) {
+  const auto number = [](std::string_view key, std::string_view summary, Dimension dimension,
+                         double least = 0) {
+    return Field{.key = key, .summary = summary, .dimension = dimension, .minimum = least, .maximum = 1e9};
+  };
+  using enum Dimension;
+  visit(number("arm_inertia", "of each of both arms about its pivot", inertia), m.arm_inertia);
+  visit(number("arm_mass", "of each of both arms", mass), m.arm_mass);
+  visit(number("arm_centre", "mass centre of each arm from its pivot", length, -1e9), m.arm_centre);
+  visit(number("coupler_mass", "of the coupler", mass), m.coupler_mass);
+  visit(number("nut_mass", "of the part of the diagonal that turns about the base", mass), m.nut_mass);
+  visit(number("nut_centre", "its mass centre from the base pivot", length, -1e9), m.nut_centre);
+  visit(number("nut_inertia", "about its mass centre", inertia), m.nut_inertia);
+  visit(number("rod_mass", "of the part of the diagonal that ends at the coupler", mass), m.rod_mass);
+  visit(number("rod_centre", "its mass centre from that end", length, -1e9), m.rod_centre);
+  visit(number("rod_inertia", "about its mass centre", inertia), m.rod_inertia);
+  visit(number("rotor_inertia", "of motor and screw about the axis of the screw", inertia), m.rotor_inertia);
+}
 
 /// What keeps them from being masses, with the value; nothing if all is well.
 std::optional<std::string> problem(const PiMasses& masses);

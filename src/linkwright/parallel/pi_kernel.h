@@ -35,6 +35,23 @@ LINKWRIGHT_KERNEL PiTerms<T> pi_terms(const T& arm, const T& ratio, const T& hal
   return t;
 }
 
+/// The same from sine and cosine of theta, for numbers and batches.
+template <class T>
+LINKWRIGHT_KERNEL PiTerms<T> pi_terms_of_direction(const T& arm, const T& ratio, const T& sine,
+                                                   const T& cosine) {
+  using std::sqrt;
+  using S = math::Scalar<T>;
+  PiTerms<T> t;
+  t.arm = arm;
+  t.ratio = ratio;
+  t.lift = S::choose(sine < T(0.0), cosine * cosine / (T(1.0) - sine), T(1.0) + sine);
+  t.cosine = cosine;
+  t.fold = T(1.0) - ratio;
+  t.square = t.fold * t.fold + T(2.0) * ratio * t.lift;
+  t.root = sqrt(t.square);
+  return t;
+}
+
 /// 1 + k sin(theta): what the arm is long along itself beyond the end of the coupler, per arm length.
 template <class T>
 LINKWRIGHT_KERNEL T pi_along(const PiTerms<T>& t) {

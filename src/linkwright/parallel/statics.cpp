@@ -37,22 +37,9 @@ bool elastic(const LegStiffness& own) {
   return std::isfinite(std::min({own.rod, own.arm_along, own.arm_bending, own.arm_lateral}));
 }
 
-Matrix6 transposed(const Robot& robot, const Matrix6& matrix) {
-  Matrix6 out{};
-  for (int i = 0; i < robot.legs(); ++i)
-    for (int k = 0; k < robot.legs(); ++k) out[i][k] = matrix[k][i];
-  return out;
-}
-
 // lambda of Jx^T lambda = -W.
 Vector6 rod_factors(const Robot& robot, const Jacobians& at, const Wrench& load) {
-  Vector6 right{-load.force.x, -load.force.y};
-  if (robot.freedom != Freedom::plane_translation) right[2] = -load.force.z;
-  if (robot.freedom == Freedom::space) {
-    right[3] = -load.moment.x;
-    right[4] = -load.moment.y;
-    right[5] = -load.moment.z;
-  }
+  const Vector6 right = components(robot, -load.force, -load.moment);
   return solve(robot, transposed(robot, at.platform), right);
 }
 
@@ -137,10 +124,8 @@ Displacement displacement(const Robot& robot, const Drives& drives, const Jacobi
   for (int i = 0; i < robot.legs(); ++i)
     right[i] = -compliance(robot.leg[i], drives[i], drives_at[i], own[i], at, i) * held.rod_force[i] /
                robot.leg[i].rod;
-  const Vector6 x = solve(robot, at.platform, right);
-  Displacement out{.shift = {x[0], x[1], 0}, .turn = {x[3], x[4], x[5]}};
-  if (robot.freedom != Freedom::plane_translation) out.shift.z = x[2];
-  return out;
+  const Twist small = twist(robot, solve(robot, at.platform, right));
+  return {.shift = small.linear, .turn = small.angular};
 }
 
 }  // namespace linkwright::parallel

@@ -115,14 +115,4 @@ Progress shape(TimeLaw law, double x) {
   return {x - s / (2 * pi), 1 - c, 2 * pi * s, 4 * pi * pi * c};
 }
 
-double least_duration(TimeLaw law, double length, const RateLimits& limits) {
-  LINKWRIGHT_REQUIRE(law != TimeLaw::double_s, "a double S has no one shape");
-  // Largest derivatives of the shape.
-  const std::array<double, 3> most = law == TimeLaw::polynomial_345
-                                         ? std::array{1.875, 10 / std::numbers::sqrt3, 60.0}
-                                         : std::array{2.0, 2 * pi, 4 * pi * pi};
-  return std::max({most[0] * length / limits.speed, std::sqrt(most[1] * length / limits.acceleration),
-                   std::cbrt(most[2] * length / limits.jerk)});
-}
-
 }  // namespace linkwright::parallel

@@ -55,7 +55,4 @@ double reachable_speed(double speed, double length, const RateLimits& limits);
 /// of the time.
 Progress shape(TimeLaw law, double x);
 
-/// The least time (s) over `length` for a law other than double_s.
-double least_duration(TimeLaw law, double length, const RateLimits& limits);
-
 }  // namespace linkwright::parallel

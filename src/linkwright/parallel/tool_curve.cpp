@@ -109,6 +109,13 @@ CurvePoint point_at(const ToolCurve& curve, double length) {
   return out;
 }
 
+PointMotion moved(const CurvePoint& at, const Progress& along) {
+  const auto& [length, v, a, j] = along;
+  const double k = at.curvature;
+  return {v * at.tangent, a * at.tangent + k * v * v * at.normal,
+          (j - k * k * v * v * v) * at.tangent + v * (3 * k * a + at.curvature_slope * v * v) * at.normal};
+}
+
 Vec3 end_of(const ToolCurve& curve) {
   return curve.form == ToolCurve::Form::circular ? point_at(curve, curve.length).position : curve.to;
 }

@@ -1,0 +1,65 @@
+#include "linkwright/parallel/workspace_study.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "parallel/studies.h"
+
+namespace linkwright::parallel {
+namespace {
+
+using testing::column;
+using ::testing::HasSubstr;
+using testing::problems_of;
+using testing::replaced;
+using testing::run_text;
+
+const std::string delta =
+    "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"parallel.delta\"\nbase_radius_mm = "
+    "200\nplatform_radius_mm = 45\n"
+    "arm_mm = 350\nrod_mm = 800\n[mechanism.drive]\ntype = \"pi_joint\"\nmounting_deg = 30\ntravel_deg = "
+    "[-60, 60]\n"
+    "[limits]\ntransmission = 0.5\n[home]\nposition_mm = [0, 0, -800]\n";
+const std::string box =
+    "[workspace]\nlower_mm = [-1000, -1000, -1200]\nupper_mm = [1000, 1000, 0]\nstep_mm = 40\n";
+
+TEST(WorkspaceStudy, CountsNodesByWhatTheyFail) {
+  const auto result = run_text(delta + box);
+  EXPECT_EQ(result.status, Status::done);
+  const auto& left = column(result, "workspace_totals", "left");
+  for (std::size_t i = 1; i < left.size(); ++i) EXPECT_LE(left[i], left[i - 1]);
+  // A grid of 20 mm has 44273 nodes, 0.3542 m3; one of 40 mm about an eighth of them.
+  EXPECT_NEAR(column(result, "workspace_totals", "volume_left_m3").back(), 0.3542, 0.006);
+  const Table& nodes = testing::table(result, "workspace");
+  EXPECT_EQ(std::count(nodes.status.begin(), nodes.status.end(), "done"), static_cast<long>(left.back()));
+  double sum = 0;
+  for (const double lci : column(result, "workspace", "conditioning"))
+    if (!std::isnan(lci)) sum += lci;
+  EXPECT_NEAR(sum / left.back(), 0.3915, 0.003);
+}
+
+TEST(WorkspaceStudy, DrawsSlices) {
+  const auto result = run_text(delta + box + "slices = 3\nindices = [\"transmission\"]\nnodes = false\n");
+  ASSERT_EQ(result.plots.size(), 1u);
+  EXPECT_EQ(result.plots[0].style, study::Plot::Style::map);
+  EXPECT_EQ(result.plots[0].group, "z_m");
+  std::set<double> levels;
+  for (const double z : column(result, "workspace_slices", "z_m")) levels.insert(z);
+  EXPECT_EQ(levels.size(), 3u);
+  for (const Table& t : result.tables) EXPECT_NE(t.name, "workspace");
+}
+
+TEST(WorkspaceStudy, TellsWhatIsWrongWithTheBox) {
+  EXPECT_THAT(problems_of(delta + replaced(box, "step_mm = 40", "step_mm = 1")),
+              HasSubstr("at most 2e+06 are allowed"));
+  EXPECT_THAT(problems_of(delta + replaced(box, "upper_mm = [1000", "upper_mm = [-2000")),
+              HasSubstr("is below lower along x"));
+  EXPECT_THAT(problems_of(delta + box + "rotation_deg = [0, 0, 5]\n"),
+              HasSubstr("the platform of this robot does not turn"));
+  EXPECT_THAT(problems_of(delta + box + "indices = []\n"), HasSubstr("name at least one"));
+  EXPECT_THAT(problems_of(delta + box + "indices = [\"rods\", \"rods\"]\n"), HasSubstr("one is named twice"));
+}
+
+}  // namespace
+}  // namespace linkwright::parallel
