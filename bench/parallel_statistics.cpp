@@ -81,10 +81,7 @@ int main(int argc, char** argv) {
                          : name == "B2" ? dexterity_benchmark(DexterityGoal::mean)
                                         : dexterity_benchmark(DexterityGoal::size);
     if (name == "joint") {
-      task.limits.arm_travel = std::numeric_limits<double>::infinity();
-      task.pi_joint = PiTravelTask{};
-      task.pi_joint->limits.telescoping = 2;
-      task.pi_joint->limits.transmission = math::radians(std::atof(method.c_str()));
+      task = dexterity_benchmark_with_pi_joints(math::radians(std::atof(method.c_str())));
       method = "exact";
     }
     std::vector<Run> runs;

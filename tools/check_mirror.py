@@ -18,6 +18,8 @@ NO_TEST = {
     "study/run_seeds.h": "the loop over seeds of every synthesis that has one, run by their study tests",
     "suspension/direct_synthesis_model.h": "part of direct_synthesis, tested in direct_synthesis_test.cpp",
     "suspension/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",
+    "parallel/dexterity_kernel.h": "part of dexterity, compiled for numbers and for registers, compared by its test",
+    "parallel/dexterity_synthesis_search.h": "part of dexterity_synthesis, tested in dexterity_synthesis_test.cpp",
     "parallel/legs_kernel.h": "formulas of a leg, run by every test of position and jacobians",
     "parallel/pi_kernel.h": "part of pi_joint, compiled for numbers and for dual numbers; both are tested",
     "parallel/pose_check_kernel.h": "part of pose_check, compiled once per instruction set and compared by its test",

@@ -31,9 +31,8 @@ Drawn draw(const DexterityModel& model, std::uint64_t seed, int index, Dexterity
   if (task.pi_joint) {
     const double ratio = random.uniform(task.pi_joint->ratio.lower, task.pi_joint->ratio.upper);
     const auto [low, high] = model.travel(extremes);
-    // The centre with the largest least rate of the diagonal, sin(theta) = -k cos(half travel).
-    const double least = std::min(ratio, 1 / ratio) * std::max(0.0, std::cos((high - low) / 2));
-    const double mounting = (low + high) / 2 + task.pi_joint->mirror * std::asin(least);
+    const double half = std::min((high - low) / 2, std::numbers::pi / 2);
+    const double mounting = (low + high) / 2 - task.pi_joint->mirror * best_centre({1, ratio}, half);
     x.push_back(std::clamp(mounting, task.pi_joint->mounting.lower, task.pi_joint->mounting.upper));
     x.push_back(ratio);
   }
@@ -170,31 +169,25 @@ DexterityDesign assessed(const DexterityModel& model, std::span<const double> x)
 void look_between(const DexterityModel& model, RunContext& context, DexteritySynthesis& out) {
   const DexterityDesign& best = out.best;
   const DesignedRobot designed = model.designed(best.x);
-  DexterityModel::Work work;
-  const Extremes extremes = model.extremes(designed, work);
-  const auto worst_of = [&](PoseLimit::Kind kind, auto&& extremes_of) {
+  constexpr double close = 0.02;
+  const auto worst_of = [&](PoseLimit::Kind kind) {
     const bool more = kind == PoseLimit::side_swing;
     double worst = more ? -HUGE_VAL : HUGE_VAL;
-    for (int i = 0; i < model.legs(); ++i) {
-      const BetweenNodes found = between_nodes(model, designed, {kind, i, extremes_of[i].pose}, context);
-      worst = more ? std::max(worst, found.value) : std::min(worst, found.value);
-      out.poses += found.poses;
+    for (int i = 0; i < (kind == PoseLimit::conditioning ? 1 : model.legs()); ++i) {
+      const double found = between_nodes(model, designed, kind, i, close, context, out.poses)[0].value;
+      worst = more ? std::max(worst, found) : std::min(worst, found);
     }
     return worst;
   };
-  const BetweenNodes least =
-      between_nodes(model, designed, {PoseLimit::conditioning, 0, extremes.conditioning.pose}, context);
-  out.poses += least.poses;
-  out.worst_between_nodes = least.value;
+  out.worst_between_nodes = worst_of(PoseLimit::conditioning);
   for (const DexterityStand& stand : best.limits) {
     double value = std::numeric_limits<double>::quiet_NaN();
-    if (stand.limit == DexterityLimit::conditioning) value = least.value;
-    if (stand.limit == DexterityLimit::reach) value = worst_of(PoseLimit::input, extremes.input_square);
-    if (stand.limit == DexterityLimit::input)
-      value = std::sqrt(std::max(0.0, worst_of(PoseLimit::input, extremes.input_square)));
-    if (stand.limit == DexterityLimit::output) value = worst_of(PoseLimit::output, extremes.output);
+    if (stand.limit == DexterityLimit::conditioning) value = out.worst_between_nodes;
+    if (stand.limit == DexterityLimit::reach) value = worst_of(PoseLimit::input);
+    if (stand.limit == DexterityLimit::input) value = std::sqrt(std::max(0.0, worst_of(PoseLimit::input)));
+    if (stand.limit == DexterityLimit::output) value = worst_of(PoseLimit::output);
     if (stand.limit == DexterityLimit::side_swing)
-      value = std::asin(std::min(1.0, worst_of(PoseLimit::side_swing, extremes.side)));
+      value = std::asin(std::min(1.0, worst_of(PoseLimit::side_swing)));
     out.between_nodes.push_back(value);
   }
 }

@@ -12,6 +12,7 @@
 #include "linkwright/core/run_context.h"
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/parallel/drives.h"
+#include "linkwright/parallel/pi_design_synthesis.h"
 #include "linkwright/parallel/prescribed_region.h"
 #include "linkwright/parallel/robot_family.h"
 
@@ -40,20 +41,6 @@ struct DexterityLimits {
   double size = std::numeric_limits<double>::infinity();  ///< arm + rod at most (m)
 };
 
-/// What the Pi-joints must keep to over the travel of the arms.
-struct PiTravelLimits {
-  double end_margin = std::numbers::pi / 180;                    ///< between theta and +-pi/2, above 0 (rad)
-  double telescoping = std::numeric_limits<double>::infinity();  ///< longest to shortest diagonal, above 1
-  double stroke = std::numeric_limits<double>::infinity();       ///< m
-  double transmission = 0;                                       ///< least mu, below pi/2 (rad)
-  double torque = 0;                                             ///< at the arm (N m), with
-  double force_limit = std::numeric_limits<double>::infinity();  ///< of the screw (N)
-  double speed = 0;                                              ///< of the arm (rad/s), with
-  double rate_limit = std::numeric_limits<double>::infinity();   ///< of the screw (m/s)
-  double quantum = 0;                                            ///< step of the screw (m), which turns
-  double resolution = std::numeric_limits<double>::infinity();   ///< the arm by at most this (rad)
-};
-
 struct DesignRange {
   double lower = 0, upper = 0;  ///< equal: fixed
 };
@@ -64,7 +51,8 @@ struct PiTravelTask {
   DesignRange mounting{-std::numbers::pi, std::numbers::pi};  ///< rad
   DesignRange ratio{0.05, 0.95};                              ///< k
   int mirror = 1;                                             ///< or -1
-  PiTravelLimits limits;
+  /// Over the travel of the arms, which follows from the robot: half_travel does not count.
+  PiRequirements limits;
 };
 
 struct DexterityTask {

@@ -29,10 +29,10 @@ bool stands_out(const PrescribedRegion& region, const RegionPoint& point) {
   return true;
 }
 
-double least_rate(const PiTravelLimits& l) {
+double least_rate(const PiRequirements& l) {
   return std::max(l.torque / l.force_limit, l.quantum / l.resolution);
 }
-double most_rate(const PiTravelLimits& l) {
+double most_rate(const PiRequirements& l) {
   return l.speed > 0 ? l.rate_limit / l.speed : std::numeric_limits<double>::infinity();
 }
 
@@ -118,6 +118,23 @@ Extremes DexterityModel::extremes(const DesignedRobot& designed, Work& work, boo
     }
   }
   return out;
+}
+
+void DexterityModel::indices(const DesignedRobot& designed, PoseLimit::Kind kind, int leg, Work& work,
+                             std::vector<double>& out) const {
+  out.clear();
+  for (const Group& group : groups_) {
+    measure(designed, task_.mode, measures_, group.all, false, work.set);
+    const SetDexterity& set = work.set;
+    const std::vector<double>& from = kind == PoseLimit::conditioning ? set.conditioning
+                                      : kind == PoseLimit::input      ? set.input_square[leg]
+                                      : kind == PoseLimit::output     ? set.output[leg]
+                                                                      : set.side[leg];
+    for (std::size_t k = 0; k < group.all.size(); ++k)
+      out.push_back(kind == PoseLimit::arm_low || kind == PoseLimit::arm_high
+                        ? std::atan2(set.sine[leg][k], set.cosine[leg][k])
+                        : from[k]);
+  }
 }
 
 double DexterityModel::mean(const DesignedRobot& designed, Work& work, std::span<double> by) const {
@@ -241,7 +258,7 @@ void DexterityModel::whole(std::span<const double> u, std::vector<Whole>& out,
   }
   if (!task_.pi_joint) return;
 
-  const PiTravelLimits& limits = task_.pi_joint->limits;
+  const PiRequirements& limits = task_.pi_joint->limits;
   const int mirror = task_.pi_joint->mirror;
   const double first = mirror > 0 ? u[low] - u[mounting()] : u[mounting()] - u[high];
   const double last = mirror > 0 ? u[high] - u[mounting()] : u[mounting()] - u[low];

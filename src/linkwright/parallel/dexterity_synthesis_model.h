@@ -70,6 +70,9 @@ class DexterityModel {
   std::size_t poses(bool few) const { return few ? few_points_.size() * groups_.size() : nodes_; }
   /// Nodes of the few.
   std::vector<std::size_t> few() const;
+  /// One index at all nodes, as it is in Extremes.
+  void indices(const DesignedRobot& designed, PoseLimit::Kind kind, int leg, Work& work,
+               std::vector<double>& out) const;
   /// Mean of the conditioning over the cells, with derivatives if there is room for them.
   double mean(const DesignedRobot& designed, Work& work, std::span<double> by) const;
   std::size_t cells() const { return cell_weight_.size() * task_.orientations.size(); }

@@ -1,5 +1,7 @@
 #include "linkwright/parallel/dexterity_synthesis_samples.h"
 
+#include <limits>
+
 #include "linkwright/math/angles.h"
 
 namespace linkwright::parallel {
@@ -14,6 +16,15 @@ DexterityTask dexterity_benchmark(DexterityGoal goal) {
         .conditioning = 0.4, .input = 0.5, .arm_travel = math::radians(120), .side_swing = math::radians(40)};
   else
     task.limits.size = 1.2;
+  return task;
+}
+
+DexterityTask dexterity_benchmark_with_pi_joints(double transmission) {
+  DexterityTask task = dexterity_benchmark(DexterityGoal::size);
+  task.limits.arm_travel = std::numeric_limits<double>::infinity();
+  task.pi_joint = PiTravelTask{};
+  task.pi_joint->limits.telescoping = 2;
+  task.pi_joint->limits.transmission = transmission;
   return task;
 }
 

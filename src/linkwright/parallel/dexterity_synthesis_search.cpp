@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "linkwright/optimise/minimise_largest.h"
 #include "linkwright/optimise/nlopt_bridge.h"
@@ -191,14 +192,15 @@ bool Search::exchange_between(std::span<const double> u, const Extremes& extreme
     if (!looks_at(kind)) continue;
     for (int i = 0; i < (kind == PoseLimit::conditioning ? 1 : model_.legs()); ++i) {
       const Extreme& extreme = extreme_of(extremes, kind, i);
-      const PoseLimit which{kind, i, extreme.pose};
-      if (!is_function(which) && model_.limit(kind, extreme, u) < -close) continue;
-      const BetweenNodes found = between_nodes(model_, designed, which, context_);
-      out_.poses += found.poses;
-      const double g = is_function(which) ? worst_ - found.value : model_.limit(kind, {found.value, 0}, u);
-      if (g <= feasible) continue;
-      between_.push_back(found.at);
-      added |= add({kind, i, model_.nodes() + between_.size() - 1});
+      const bool function = is_function({kind, i, extreme.pose});
+      if (!function && model_.limit(kind, extreme, u) < -close) continue;
+      for (const BetweenNodes& found :
+           between_nodes(model_, designed, kind, i, close, context_, out_.poses)) {
+        const double g = function ? worst_ - found.value : model_.limit(kind, {found.value, 0}, u);
+        if (g <= feasible) break;
+        between_.push_back(found.at);
+        added |= add({kind, i, model_.nodes() + between_.size() - 1});
+      }
     }
   }
   return added;
@@ -231,48 +233,71 @@ DexterityStart Search::run(std::vector<double> u) {
 
 }  // namespace
 
-BetweenNodes between_nodes(const DexterityModel& model, const DesignedRobot& designed, PoseLimit which,
-                           RunContext& context) {
+std::vector<BetweenNodes> between_nodes(const DexterityModel& model, const DesignedRobot& designed,
+                                        PoseLimit::Kind kind, int leg, double close, RunContext& context,
+                                        std::int64_t& poses) {
+  constexpr std::size_t most = 8;
   const PrescribedRegion& region = model.task().region;
-  BetweenNodes out{.at = model.at(which.pose)};
-  const bool more = which.kind == PoseLimit::side_swing || which.kind == PoseLimit::arm_high;
-  const auto value_at = [&](const Vec3& place) {
-    PoseDexterity<double> there;
-    measure(designed, model.task().mode, model.measures(), place,
-            model.task().orientations[out.at.orientation], there);
-    ++out.poses;
-    return index_of(which.kind, which.leg, there);
-  };
-  out.value = value_at(out.at.place);
   const int n = coordinates(region.shape);
-  std::vector<double> at(out.at.coordinates.begin(), out.at.coordinates.begin() + n), lower(n), upper(n);
+  const double sign = kind == PoseLimit::side_swing || kind == PoseLimit::arm_high ? -1 : 1;
+  std::array<double, 3> step{};
   for (int k = 0; k < n; ++k) {
-    // A cell to both sides, within the region.
     const auto [low, high] = coordinate_range(region, k);
-    const double step = (high - low) / (region.nodes[k] - 1);
-    lower[k] = std::max(low, at[k] - step);
-    upper[k] = std::min(high, at[k] + step);
+    step[k] = (high - low) / (region.nodes[k] - 1);
   }
-  const auto coordinates_of = [&](std::span<const double> c) {
-    std::array<double, 3> all{};
-    std::copy(c.begin(), c.end(), all.begin());
-    return all;
-  };
-  const auto cost = [&](std::span<const double> c, std::span<double>) {
-    const double value = value_at(place(region, coordinates_of(c)));
-    return more ? -value : value;
-  };
-  const optimise::LocalOptions local{.method = optimise::LocalMethod::bobyqa,
-                                     .max_evaluations = 200,
-                                     .step_tolerance = 1e-9,
-                                     .decrease_tolerance = 1e-12};
-  const optimise::LocalReport report = optimise::minimise_local(cost, at, lower, upper, local, context);
-  const double value = more ? -report.cost : report.cost;
-  if (more ? value > out.value : value < out.value) {
-    out.value = value;
-    out.at.coordinates = coordinates_of(at);
-    out.at.place = place(region, out.at.coordinates);
+  DexterityModel::Work work;
+  std::vector<double> values;
+  model.indices(designed, kind, leg, work, values);
+  poses += static_cast<std::int64_t>(values.size());
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return sign * values[a] < sign * values[b]; });
+  std::vector<BetweenNodes> out;
+  for (const std::size_t node : order) {
+    if (out.size() == most || std::abs(values[node] - values[order[0]]) > close) break;
+    const DexterityModel::At at = model.at(node);
+    const bool apart = std::all_of(out.begin(), out.end(), [&](const BetweenNodes& other) {
+      if (other.at.orientation != at.orientation) return true;
+      for (int k = 0; k < n; ++k)
+        if (std::abs(other.at.coordinates[k] - at.coordinates[k]) > 1.5 * step[k]) return true;
+      return false;
+    });
+    if (apart) out.push_back({at, values[node]});
   }
+  for (BetweenNodes& found : out) {
+    const auto start = found.at.coordinates;
+    std::vector<double> at(start.begin(), start.begin() + n), lower(n), upper(n);
+    for (int k = 0; k < n; ++k) {
+      const auto [low, high] = coordinate_range(region, k);
+      lower[k] = std::max(low, at[k] - step[k]);
+      upper[k] = std::min(high, at[k] + step[k]);
+    }
+    const auto coordinates_of = [&](std::span<const double> c) {
+      std::array<double, 3> all{};
+      std::copy(c.begin(), c.end(), all.begin());
+      return all;
+    };
+    const auto cost = [&](std::span<const double> c, std::span<double>) {
+      PoseDexterity<double> there;
+      measure(designed, model.task().mode, model.measures(), place(region, coordinates_of(c)),
+              model.task().orientations[found.at.orientation], there);
+      ++poses;
+      return sign * index_of(kind, leg, there);
+    };
+    const optimise::LocalOptions local{.method = optimise::LocalMethod::bobyqa,
+                                       .max_evaluations = 200,
+                                       .step_tolerance = 1e-9,
+                                       .decrease_tolerance = 1e-13};
+    const optimise::LocalReport report = optimise::minimise_local(cost, at, lower, upper, local, context);
+    if (!(report.cost < sign * found.value)) continue;
+    found.value = sign * report.cost;
+    found.at.coordinates = coordinates_of(at);
+    found.at.place = place(region, found.at.coordinates);
+  }
+  std::stable_sort(out.begin(), out.end(), [&](const BetweenNodes& a, const BetweenNodes& b) {
+    return sign * a.value < sign * b.value;
+  });
   return out;
 }
 

@@ -11,13 +11,15 @@ namespace linkwright::parallel {
 DexterityStart descend(const DexterityModel& model, const DexterityOptions& options,
                        std::vector<double> start, RunContext& context);
 
-/// The place near a node where an index is extreme in the direction that its limit does not like.
+/// A place where an index goes furthest in the direction that its limit does not like, nearby.
 struct BetweenNodes {
   DexterityModel::At at;
-  double value = 0;  ///< of the Extreme that it would be
-  std::int64_t poses = 0;
+  double value = 0;  ///< as in Extremes
 };
-BetweenNodes between_nodes(const DexterityModel& model, const DesignedRobot& designed, PoseLimit which,
-                           RunContext& context);
+/// Such places, worst first: from the worst nodes that lie apart and come close to the worst of all, within
+/// `close`, a search without derivatives in the cells around each. `poses` grows by what was measured.
+std::vector<BetweenNodes> between_nodes(const DexterityModel& model, const DesignedRobot& designed,
+                                        PoseLimit::Kind kind, int leg, double close, RunContext& context,
+                                        std::int64_t& poses);
 
 }  // namespace linkwright::parallel

@@ -26,7 +26,7 @@ std::optional<std::string> positive_problem(std::string_view name, double value,
 }
 
 std::optional<std::string> pi_problem(const PiTravelTask& pi) {
-  const PiTravelLimits& l = pi.limits;
+  const PiRequirements& l = pi.limits;
   if (const auto p = range_problem("mounting of the Pi-joints", pi.mounting, -HUGE_VAL)) return p;
   if (const auto p = range_problem("ratio of the Pi-joints", pi.ratio, 1e-3)) return p;
   if (pi.mirror != 1 && pi.mirror != -1) return fmt::format("mirror is 1 or -1, not {}", pi.mirror);
