@@ -63,8 +63,6 @@ Answer answer_of(const DexterityStudy& s, std::uint64_t seed, RunContext& contex
   return out;
 }
 
-Range range_of(const DesignRange& r) { return {r.lower, r.upper}; }
-
 std::array<int, 3> three(const std::vector<int>& v, std::array<int, 3> rest) {
   for (std::size_t i = 0; i < v.size() && i < 3; ++i) rest[i] = v[i];
   return rest;
@@ -75,20 +73,7 @@ PiTravelTask pi_task(const PiTravelForm& f) {
   if (f.mounting) out.mounting = {f.mounting->lower, f.mounting->upper};
   if (f.ratio) out.ratio = {f.ratio->lower, f.ratio->upper};
   out.mirror = f.mirrored ? -1 : 1;
-  const auto take = [](double& to, const std::optional<double>& from) {
-    if (from) to = *from;
-  };
-  PiTravelLimits& l = out.limits;
-  take(l.end_margin, f.end_margin);
-  take(l.telescoping, f.telescoping);
-  take(l.stroke, f.stroke);
-  take(l.transmission, f.transmission);
-  take(l.torque, f.torque);
-  take(l.force_limit, f.force_limit);
-  take(l.speed, f.speed);
-  take(l.rate_limit, f.rate_limit);
-  take(l.quantum, f.quantum);
-  take(l.resolution, f.resolution);
+  out.limits = requirements_of(f);
   return out;
 }
 

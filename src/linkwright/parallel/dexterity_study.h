@@ -6,7 +6,7 @@
 
 #include "linkwright/optimise/population_methods.h"
 #include "linkwright/parallel/dexterity_synthesis.h"
-#include "linkwright/parallel/robot_study.h"
+#include "linkwright/parallel/pi_joint_study.h"
 
 // The synthesis of a robot's dimensions for a region: what its file holds, how it is read, run and reported.
 namespace linkwright::parallel {
@@ -49,45 +49,18 @@ void fields(Visitor&& visit, DexterityLimitsForm& l) {
 }
 
 /// `[target.pi_joint]`: Pi-joints that are designed with the robot.
-struct PiTravelForm {
+struct PiTravelForm : PiLimitsForm {
   std::optional<Range> mounting, ratio;
   bool mirrored = false;
-  std::optional<double> telescoping, stroke, transmission, torque, force_limit, speed, rate_limit, quantum,
-      resolution, end_margin;
 };
 template <class Visitor>
 void fields(Visitor&& visit, PiTravelForm& p) {
-  const auto number = [](std::string_view key, std::string_view summary, Dimension dimension,
-                         double most = 1e12) {
-    return Field{.key = key,
-                 .summary = summary,
-                 .dimension = dimension,
-                 .minimum = 0,
-                 .maximum = most,
-                 .exclusive_minimum = true};
-  };
   visit(robot_fields::angle("mounting", "outward angle of the arm where theta is 0; default: any"),
         p.mounting);
   visit(Field{.key = "ratio", .summary = "base by arm; default: 0.05 to 0.95", .minimum = 0, .maximum = 100},
         p.ratio);
   visit(Field{.key = "mirrored", .summary = "theta turns against the arm"}, p.mirrored);
-  visit(Field{.key = "telescoping",
-              .summary = "largest ratio of the longest to the shortest diagonal",
-              .minimum = 1,
-              .maximum = 1e6,
-              .exclusive_minimum = true},
-        p.telescoping);
-  visit(number("stroke", "largest stroke of the diagonal", Dimension::length), p.stroke);
-  visit(number("transmission", "least angle between diagonal and arm", Dimension::angle, 1.57),
-        p.transmission);
-  visit(number("torque", "at the arm, everywhere", Dimension::torque), p.torque);
-  visit(number("force_limit", "largest force of the diagonal", Dimension::force), p.force_limit);
-  visit(number("speed", "of the arm", Dimension::speed_angular), p.speed);
-  visit(number("rate_limit", "largest rate of the diagonal", Dimension::speed), p.rate_limit);
-  visit(number("quantum", "smallest step of the diagonal", Dimension::length), p.quantum);
-  visit(number("resolution", "largest turn of the arm for that step", Dimension::angle), p.resolution);
-  visit(number("end_margin", "between the range and +-90 deg; default 1 deg", Dimension::angle, 1.5),
-        p.end_margin);
+  fields(visit, static_cast<PiLimitsForm&>(p));
 }
 
 /// `[target]`: the region and what is wanted there.
