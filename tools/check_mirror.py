@@ -19,6 +19,8 @@ NO_TEST = {
     "suspension/direct_synthesis_model.h": "part of direct_synthesis, tested in direct_synthesis_test.cpp",
     "suspension/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",
     "parallel/legs_kernel.h": "part of position, compiled for numbers and for batches; both are tested",
+    "flexible/joint_kernel.h": "part of chain and chain_equations, tested in both",
+    "flexible/vec2.h": "sums and products of pairs, used by every test of the room",
     "suspension/wheel_kernel.h": "part of wheel, likewise",
     "suspension/wheel_parameters_kernel.h": "part of wheel_parameters, likewise",
     "math/ode_pairs.h": "coefficients; their orders are measured in ode_test.cpp",

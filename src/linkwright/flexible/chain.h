@@ -92,5 +92,7 @@ ChainShape shape(const Chain& chain, std::span<const double> q);
 /// Largest |delta| between two bars (rad): beyond 0.5 the cells are too long for what they bend.
 double largest_kink(const Chain& chain, std::span<const double> q);
 inline constexpr double kink_limit = 0.5;
+/// Beyond it the chain folds and shows nothing of the link any more.
+inline constexpr double fold_limit = 1;
 
 }  // namespace linkwright::flexible

@@ -210,6 +210,19 @@ const ChainForces& ChainEquations::evaluate(const ChainState& state, const TipLo
   return forces_;
 }
 
+double ChainEquations::relative_residual() const {
+  double force = 0, couple = 0;
+  for (std::size_t i = 0; i < residual_.size(); ++i) {
+    double& most = i % per == turn ? couple : force;
+    most = std::isnan(residual_[i]) ? INFINITY : std::max(most, std::abs(residual_[i]));
+  }
+  return std::max(force / force_scale_, couple / moment_scale_);
+}
+
+Vec2 ChainEquations::tip() const {
+  return linearised_ ? Vec2{chain_->hub_radius + chain_->length(), node_.back().z.y} : node_.back().z;
+}
+
 ChainEnergy ChainEquations::energy(const ChainState& state) const {
   const Chain& c = *chain_;
   const double hub = state.rate,

@@ -64,9 +64,14 @@ class ChainEquations {
   const ChainForces& evaluate(const ChainState& state, const TipLoad& load = {});
   const ChainForces& forces() const { return forces_; }
   std::span<const double> residual() const { return residual_; }
-  /// Sizes that a residual of forces (N) and one of couples (N m) is small against.
-  double force_scale() const { return force_scale_; }
+  /// Largest residual, of forces relative to the largest force in the chain, of couples to the largest
+  /// couple.
+  double relative_residual() const;
+  /// What a couple at the hub (N m) is small against.
   double moment_scale() const { return moment_scale_; }
+  /// Of the state evaluated last, from O, in axes of the hub; and the angle of the last bar against the hub.
+  Vec2 tip() const;
+  double tip_angle() const { return node_.back().angle; }
 
   /// Of the state evaluated last.
   ChainEnergy energy(const ChainState& state) const;

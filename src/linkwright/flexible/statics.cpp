@@ -11,16 +11,6 @@ namespace {
 
 constexpr std::size_t per = coordinates_per_cell;
 
-// Largest residual, each kind relative to its own scale.
-double relative_residual(const ChainEquations& equations) {
-  double most = 0;
-  const auto r = equations.residual();
-  for (std::size_t i = 0; i < r.size(); ++i)
-    most = std::max(most,
-                    std::abs(r[i]) / (i % per == turn ? equations.moment_scale() : equations.force_scale()));
-  return most;
-}
-
 // Beyond this turn in one joint a step of Newton's method has left the place where it holds.
 constexpr double longest_turn = 1;
 
@@ -44,8 +34,8 @@ Equilibrium equilibrium(const Chain& chain, const TipLoad& load, const Equilibri
     bool met = false, regular = true;
     for (int i = 0; i <= options.max_iterations; ++i) {
       evaluate(trial, share);
-      met = relative_residual(equations) <= options.tolerance;
-      if (met || !std::isfinite(relative_residual(equations)) || i == options.max_iterations) break;
+      met = equations.relative_residual() <= options.tolerance;
+      if (met || !std::isfinite(equations.relative_residual()) || i == options.max_iterations) break;
       regular = equations.factor({}, false);
       if (!regular) break;
       equations.solve(equations.residual(), 0, change);
