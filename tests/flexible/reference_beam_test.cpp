@@ -12,8 +12,8 @@
 namespace linkwright::flexible {
 namespace {
 
-// Enough for slow motions to some 1e-6 m, and ten times as fast as the default: the stiffest of its vibrations set
-// the steps of an explicit method.
+// Enough for slow motions to some 1e-6 m, and ten times as fast as the default: the stiffest of its
+// vibrations set the steps of an explicit method.
 constexpr ReferenceOptions coarse{.degree = 7, .points = 16};
 
 TEST(ReferenceBeam, LargeDeflectionsAreThoseOfTheElastica) {
