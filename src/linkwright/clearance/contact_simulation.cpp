@@ -72,13 +72,17 @@ class Simulation {
     std::size_t shown = 0;
     while (true) {
       const double longest = longest_step(times.back() - times.front());
+      for (std::size_t k = 0; k < joints_.size(); ++k)
+        events[k].crossing = contact_[k].on ? math::OdeCrossing::falling : math::OdeCrossing::rising;
+      stiff_ = stiffness() * longest > (stiff_ ? 1 : 5);
       math::OdeHooks hooks{.output_times = times.subspan(shown), .events = events, .context = context};
       // A row at an end of a stretch belongs to the next one, too.
       hooks.output = [&](double time, std::span<const double> s) { return ++shown, show(time, s); };
       hooks.step = [&](double time, std::span<const double> s) { return after_step(time, s, longest); };
       hooks.event_values = [&](double time, std::span<const double> s, std::span<double> values) {
         place(time, s);
-        for (std::size_t k = 0; k < joints_.size(); ++k) values[k] = now_[k].depth;
+        for (std::size_t k = 0; k < joints_.size(); ++k)
+          values[k] = now_[k].depth + (contact_[k].on ? noise_ : 0);
       };
       hooks.event = [&](double time, std::span<const std::size_t> which, std::span<double> s) {
         for (const std::size_t k : which) change(k, time, s);
@@ -88,7 +92,7 @@ class Simulation {
           math::integrate([&](double time, std::span<const double> s,
                               std::span<double> rate) { return slope(time, s, rate); },
                           y, t, times.back(),
-                          {.method = options_.method,
+                          {.method = stiff_ ? math::OdeMethod::bdf : options_.method,
                            .relative_tolerance = options_.tolerance,
                            .absolute_tolerances = tolerances,
                            .initial_step = std::min(length, std::min(longest, times.back() - t)),
@@ -110,6 +114,7 @@ class Simulation {
         break;
       }
       place(t, y);
+      settle(t, y);
       remember(t);
     }
     return std::move(run_);
@@ -287,6 +292,15 @@ class Simulation {
       begin(k, t, now_[k].depth_rate);
     }
   }
+  // A touch within rounding can begin or end without a crossing that shows. True when it does.
+  bool slipped(std::size_t k) const {
+    return contact_[k].on ? now_[k].depth < -noise_ && now_[k].depth_rate < 0
+                          : now_[k].depth > 0 && now_[k].depth_rate > 0;
+  }
+  void settle(double t, std::span<const double> y) {
+    for (std::size_t k = 0; k < joints_.size(); ++k)
+      if (slipped(k)) change(k, t, y);
+  }
   // Acceleration of a pin in its bush at the present forces; after accelerate().
   Vec<double> acceleration(std::size_t k) {
     const auto of = [&](const planar::BodyPoint& p) {
@@ -369,10 +383,27 @@ class Simulation {
     return longest;
   }
 
+  // Fastest rate (1/s) at which damping and friction of the contacts bring speeds to rest: beyond some per
+  // step explicit formulas are of no use. Long contacts that begin slowly are so.
+  double stiffness() const {
+    double most = 0;
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+      const Contact& c = contact_[k];
+      if (!c.on || !(c.mass > 0)) continue;
+      const ContactLaw& law = joints_[k].law;
+      const double approach = std::max(run_.events[c.event].approach, least_approach);
+      most = std::max(most, (elastic_force(law, c.depth) * damping_factor(law) / approach +
+                             c.force * law.friction / (law.friction_whole - law.friction_from)) /
+                                c.mass);
+    }
+    return most;
+  }
+
   // ---- start, steps, rows -------------------------------------------------------------------------------
 
   bool start(double t) {
     run_.time = t;
+    noise_ = 2e-15 * open_.plan.size;
     for (std::size_t k = 0; k < inputs_.size(); ++k)
       if (k >= original_) inputs_[k] = {open_.start[k], 0, 0};
     for (const auto& [k, curve] : laws_) {
@@ -399,7 +430,7 @@ class Simulation {
     start_potential_ = planar::potential_energy(open_.linkage, open_.plan, dynamics_->motion);
     std::vector<std::size_t> touching;
     for (std::size_t k = 0; k < joints_.size(); ++k) {
-      const double rounding = 1e-13 * (open_.plan.size + joints_[k].clearance);
+      const double rounding = 10 * noise_;
       const double pace = 1e-9 * (norm(now_[k].rate) + std::abs(now_[k].slip));
       if (now_[k].depth > rounding ||
           (now_[k].depth >= -rounding &&
@@ -420,6 +451,10 @@ class Simulation {
     if (place(t, y) != Status::done) return true;
     remember(t);
     if (ended_) return false;
+    for (std::size_t k = 0; k < joints_.size(); ++k)
+      if (slipped(k)) return false;
+    const double rate = stiffness() * longest;
+    if (stiff_ ? rate < 1 : rate > 5) return false;
     // A new pace of the flight needs another length of the steps.
     const double wanted = longest_step(std::numeric_limits<double>::infinity());
     return wanted > longest / 2 && (wanted < 4 * longest || !std::isfinite(wanted));
@@ -471,8 +506,9 @@ class Simulation {
   std::vector<Forces> forces_;
   std::vector<ContactState> rows_;
   double start_kinetic_ = 0, start_potential_ = 0, start_elastic_ = 0;
+  double noise_ = 0;  // m, rounding of the depth: a contact ends that much behind zero
   Status last_status_ = Status::done;
-  bool ended_ = false;
+  bool ended_ = false, stiff_ = false;
   ContactRun run_;
 };
 

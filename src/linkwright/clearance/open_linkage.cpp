@@ -97,7 +97,7 @@ void guide(Linkage& l, int body, const math::Pose& pose) {
 }
 
 // Adds `count` drives at joints that have none, so that the linkage can be planned; the best of all choices.
-std::optional<LinkagePlan> choose_drives(Linkage& l, int count) {
+std::optional<LinkagePlan> choose_drives(Linkage& l, int count, std::string& problem) {
   constexpr int most_plans = 20'000;
   std::vector<int> candidates;
   for (std::size_t j = 0; j < l.joints.size(); ++j) {
@@ -119,6 +119,7 @@ std::optional<LinkagePlan> choose_drives(Linkage& l, int count) {
     for (std::size_t k = 0; k < candidates.size(); ++k)
       if (chosen[k]) l.driven.push_back(candidates[k]);
     planar::PlanResult result = planar::plan(l);
+    if (!result.problems.empty()) problem = result.problems.front().message;
     if (result.problems.empty()) {
       int score = 0;
       for (const planar::Group& g : result.plan.groups)
@@ -186,10 +187,12 @@ OpenLinkage open_linkage(const Linkage& linkage, std::span<const int> joints,
   const std::vector<int> loose = loose_bodies(l);
   for (const int body : loose) guide(l, body, *l.bodies[at(body)].start);
   const int added = static_cast<int>(2 * joints.size()) - static_cast<int>(3 * loose.size());
-  std::optional<LinkagePlan> plan = choose_drives(l, added);
+  std::string problem;
+  std::optional<LinkagePlan> plan = choose_drives(l, added, problem);
   if (!plan) {
     out.status = Status::infeasible;
-    out.message = "no joints are left whose coordinates tell where all bodies are once the pins are out";
+    out.message =
+        "once the pins are out no joints are left whose coordinates tell where all bodies are: " + problem;
     return out;
   }
   out.plan = std::move(*plan);
