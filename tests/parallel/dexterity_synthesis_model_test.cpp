@@ -16,15 +16,15 @@ DexterityTask everything(int mirror) {
   task.limits.output = 0.3;
   task.limits.size = 1.5;
   task.pi_joint = PiTravelTask{.mirror = mirror,
-                               .limits = {.telescoping = 2,
-                                          .stroke = 0.3,
-                                          .transmission = 0.1,
-                                          .torque = 10,
+                               .limits = {.torque = 10,
                                           .force_limit = 100,
                                           .speed = 2,
                                           .rate_limit = 0.3,
                                           .quantum = 1e-5,
-                                          .resolution = 1e-3}};
+                                          .resolution = 1e-3,
+                                          .transmission = 0.1,
+                                          .stroke = 0.3,
+                                          .telescoping = 2}};
   return task;
 }
 
