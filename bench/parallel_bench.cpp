@@ -1,92 +1,113 @@
 #include <benchmark/benchmark.h>
 
-#include <array>
-#include <numbers>
+#include <vector>
 
-#include "linkwright/parallel/assembly_modes.h"
-#include "linkwright/parallel/pi_design_synthesis.h"
-#include "linkwright/parallel/pi_samples.h"
-#include "linkwright/parallel/platform_paths.h"
+#include "linkwright/core/random.h"
+#include "linkwright/parallel/drives.h"
 
 namespace linkwright::parallel {
 namespace {
 
-// Angles of the prototype, -60 to 60 deg.
-constexpr int places = 256;
-std::array<double, places> angles_of_the_prototype() {
-  std::array<double, places> out;
-  for (int i = 0; i < places; ++i) out[i] = std::numbers::pi / 3 * (2.0 * i / (places - 1) - 1);
+// Poses in the middle of a robot's workspace with their arm angles.
+struct Places {
+  Robot robot;
+  std::vector<Pose> poses;
+  std::vector<std::array<double, most_legs>> angles;
+};
+
+Places places_of(const Robot& robot, const Vec3& middle, double size, double tilt) {
+  Places out{robot, {}, {}};
+  RandomStream random({.seed = 1});
+  const auto within = [&](double by) {
+    return Vec3{random.uniform(-by, by), random.uniform(-by, by), random.uniform(-by, by)};
+  };
+  while (out.poses.size() < 1024) {
+    Pose pose{middle + within(size)};
+    if (robot.freedom == Freedom::space) pose.rotation = math::turn_about(within(tilt));
+    if (robot.freedom == Freedom::plane_translation) pose.position.z = 0;
+    const ArmAngles angles = inverse(robot, pose);
+    if (angles.status != Status::done) continue;
+    out.poses.push_back(pose);
+    out.angles.push_back(angles.angle);
+  }
   return out;
 }
 
-void pi_joint_diagonal_and_jacobian(benchmark::State& state) {
-  const PiJoint joint = pi_prototype();
-  const auto angles = angles_of_the_prototype();
-  for (auto _ : state)
-    for (double at : angles) {
-      benchmark::DoNotOptimize(diagonal(joint, at));
-      benchmark::DoNotOptimize(jacobian(joint, at));
-    }
-  state.SetItemsProcessed(state.iterations() * places);
+Places delta_places() {
+  return places_of(delta({.base_radius = 0.2, .platform_radius = 0.045, .arm = 0.35, .rod = 0.8}),
+                   {0, 0, -0.85}, 0.2, 0);
 }
-BENCHMARK(pi_joint_diagonal_and_jacobian);
-
-void pi_joint_angle_of(benchmark::State& state) {
-  const PiJoint joint = pi_prototype();
-  auto diagonals = angles_of_the_prototype();
-  for (double& d : diagonals) d = diagonal(joint, d);
-  for (auto _ : state)
-    for (double d : diagonals) benchmark::DoNotOptimize(angle_of(joint, d));
-  state.SetItemsProcessed(state.iterations() * places);
+Places hexa_places() {
+  return places_of(hexa({.base_radius = 0.25,
+                         .base_offset = 0.06,
+                         .platform_radius = 0.09,
+                         .platform_angle = 0.785398163397448,
+                         .arm = 0.25,
+                         .rod = 0.55}),
+                   {0, 0, -0.5}, 0.1, 0.2);
 }
-BENCHMARK(pi_joint_angle_of);
-
-// Position, rates and back: what a control cycle asks for.
-void pi_joint_motion_there_and_back(benchmark::State& state) {
-  const PiJoint joint = pi_prototype();
-  const auto angles = angles_of_the_prototype();
-  for (auto _ : state)
-    for (double at : angles)
-      benchmark::DoNotOptimize(angle_motion(joint, diagonal_motion(joint, {at, 1.3, -4})));
-  state.SetItemsProcessed(state.iterations() * places);
+Places five_bar_places() {
+  return places_of(
+      planar({.base_x = -0.15, .arm = 0.25, .rod = 0.35}, {.base_x = 0.15, .arm = 0.25, .rod = 0.35}),
+      {0, 0.4, 0}, 0.1, 0);
 }
-BENCHMARK(pi_joint_motion_there_and_back);
 
-void pi_joint_design(benchmark::State& state) {
-  const PiRequirements requirements{.half_travel = std::numbers::pi / 3,
-                                    .torque = 4,
-                                    .force_limit = 130,
-                                    .speed = 0.7,
-                                    .rate_limit = 0.05,
-                                    .stroke = 0.12,
-                                    .telescoping = 2};
-  RunContext context;
-  for (auto _ : state) benchmark::DoNotOptimize(design_pi_joint(requirements, {}, {.seed = 1}, context));
-}
-BENCHMARK(pi_joint_design)->Unit(benchmark::kMicrosecond);
-
-// All 40 solutions for the arm angles of the reference, followed and proved; the generic platform they start
-// from is solved once, by the first call, in about five times as long.
-void hexa_assembly_modes(benchmark::State& state) {
-  const Robot robot = hexa({.base_radius = 0.25,
-                            .base_offset = 0.06,
-                            .platform_radius = 0.09,
-                            .platform_angle = std::numbers::pi / 4,
-                            .arm = 0.25,
-                            .rod = 0.55});
-  const std::array<double, 6> angles{0.32103887, 0.36944957, 0.60240363, 0.78082835, 0.57088078, 0.61648700};
+template <class Each>
+void over(benchmark::State& state, const Places& places, Each&& each) {
+  std::size_t i = 0;
   for (auto _ : state) {
-    const AssemblyModes found = assembly_modes(robot, angles);
-    if (found.real != 12 || !found.complete) state.SkipWithError("modes are missing");
-    benchmark::DoNotOptimize(found);
+    benchmark::DoNotOptimize(each(i));
+    i = (i + 1) % places.poses.size();
   }
 }
-BENCHMARK(hexa_assembly_modes)->Unit(benchmark::kMillisecond);
 
-void generic_platform_monodromy(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(monodromy(2));
+void delta_inverse(benchmark::State& state) {
+  const Places p = delta_places();
+  over(state, p, [&](std::size_t i) { return inverse(p.robot, p.poses[i]); });
 }
-BENCHMARK(generic_platform_monodromy)->Unit(benchmark::kMillisecond);
+void delta_direct(benchmark::State& state) {
+  const Places p = delta_places();
+  over(state, p, [&](std::size_t i) { return direct(p.robot, p.angles[i], -1); });
+}
+void delta_quality(benchmark::State& state) {
+  const Places p = delta_places();
+  over(state, p,
+       [&](std::size_t i) { return quality(p.robot, jacobians(p.robot, p.poses[i], p.angles[i]), 1); });
+}
+void five_bar_inverse(benchmark::State& state) {
+  const Places p = five_bar_places();
+  over(state, p, [&](std::size_t i) { return inverse(p.robot, p.poses[i]); });
+}
+void five_bar_direct(benchmark::State& state) {
+  const Places p = five_bar_places();
+  over(state, p, [&](std::size_t i) { return direct(p.robot, p.angles[i], 1); });
+}
+void hexa_inverse(benchmark::State& state) {
+  const Places p = hexa_places();
+  over(state, p, [&](std::size_t i) { return inverse(p.robot, p.poses[i]); });
+}
+// From a neighbour: 2 mm and about a degree away.
+void hexa_direct_near(benchmark::State& state) {
+  const Places p = hexa_places();
+  const Mat3 turn = math::turn_about(Vec3{0.01, -0.01, 0.01});
+  over(state, p, [&](std::size_t i) {
+    return direct_near(p.robot, p.angles[i],
+                       {p.poses[i].position + Vec3{0.001, -0.001, 0.0012}, turn * p.poses[i].rotation});
+  });
+}
+void hexa_quality(benchmark::State& state) {
+  const Places p = hexa_places();
+  over(state, p,
+       [&](std::size_t i) { return quality(p.robot, jacobians(p.robot, p.poses[i], p.angles[i]), 0.09); });
+}
+BENCHMARK(delta_inverse);
+BENCHMARK(delta_direct);
+BENCHMARK(delta_quality);
+BENCHMARK(five_bar_inverse);
+BENCHMARK(five_bar_direct);
+BENCHMARK(hexa_inverse);
+BENCHMARK(hexa_direct_near);
+BENCHMARK(hexa_quality);
 
 }  // namespace
 }  // namespace linkwright::parallel

@@ -15,7 +15,7 @@ import repository
 NO_TEST = {
     "core/field.h": "declarations; read, written and described by study/bind_test.cpp",
     "core/tolerance.h": "named constants",
-    "suspension/seeds_study.h": "the loop of both kinds of synthesis, run by their study tests",
+    "study/run_seeds.h": "the loop over seeds of every synthesis that has one, run by their study tests",
     "suspension/direct_synthesis_model.h": "part of direct_synthesis, tested in direct_synthesis_test.cpp",
     "suspension/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",
     "parallel/dexterity_kernel.h": "part of dexterity, compiled for numbers and for registers, compared by its test",
@@ -23,6 +23,9 @@ NO_TEST = {
     "parallel/legs_kernel.h": "formulas of a leg, run by every test of position and jacobians",
     "parallel/pi_kernel.h": "part of pi_joint, compiled for numbers and for dual numbers; both are tested",
     "parallel/pose_check_kernel.h": "part of pose_check, compiled once per instruction set and compared by its test",
+    "parallel/legs_kernel.h": "part of position, compiled for numbers and for batches; both are tested",
+    "flexible/joint_kernel.h": "part of chain and chain_equations, tested in both",
+    "flexible/vec2.h": "sums and products of pairs, used by every test of the room",
     "suspension/wheel_kernel.h": "part of wheel, likewise",
     "suspension/wheel_parameters_kernel.h": "part of wheel_parameters, likewise",
     "math/ode_pairs.h": "coefficients; their orders are measured in ode_test.cpp",

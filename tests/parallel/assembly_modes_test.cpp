@@ -153,6 +153,13 @@ TEST(AssemblyModes, AtTheHomePoseTwelveSolutionsAreAtInfinity) {
   }
 }
 
+TEST(AssemblyModes, AreNotCalledDoneAfterOneWayThatMissesSome) {
+  const std::array<double, 6> level{0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
+  const AssemblyModes found = assembly_modes(reference_hexa(), level, {.attempts = 1});
+  EXPECT_EQ(found.status, Status::not_converged);
+  EXPECT_EQ(found.note, "28 of 40 complex solutions were found; 12 paths went off to infinity (on way 1)");
+}
+
 TEST(AssemblyModes, AtATypeTwoSingularityTwoOfThemMeet) {
   const Robot robot = reference_hexa();
   const double yaw = testing::numbers(testing::at(computed("hexa-singular-yaw"), "yaw_rad")).back();

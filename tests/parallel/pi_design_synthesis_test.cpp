@@ -140,7 +140,7 @@ TEST(PiDesignSynthesis, PricesTellWhatALimitCosts) {
 // For a given ratio and centre the smallest arm is known, so a scan over these two finds the best design
 // without derivatives. The least size on the mesh.
 double scanned_size(const PiRequirements& r) {
-  constexpr int steps = 300;
+  constexpr int steps = 150;
   const double least = std::max(r.torque / r.force_limit, r.quantum / r.resolution);
   const double most = pi / 2 - r.half_travel - r.end_margin;
   double best = INFINITY;
@@ -245,7 +245,9 @@ TEST(PiDesignSynthesis, MovesTheRangeWhereTheBestCentreMeetsNoRequirements) {
   EXPECT_TRUE(report.closed_form.conflicts[0].of_ratio);
   EXPECT_EQ(report.status, Status::done);
   EXPECT_GT(report.best.centre, best_centre(report.best.joint, r.half_travel));
-  EXPECT_LE(report.best.size, scanned_size(r));
+  // Feasible to 1e-9; the mesh is some per cent wide.
+  EXPECT_LE(report.best.size, scanned_size(r) * (1 + 1e-8));
+  EXPECT_GT(report.best.size, scanned_size(r) * 0.95);
 }
 
 TEST(PiDesignSynthesis, SameBitsForTheSameSeedAndTheBestSoFarWhenCancelled) {

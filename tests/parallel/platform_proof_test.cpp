@@ -71,8 +71,7 @@ TEST(PlatformProof, ProvesNothingWhereThePlatformCanMove) {
   EXPECT_FALSE(prove(legs, {1, 0, 0, 0, 0, 0, 0, 1}).unique);
 }
 
-TEST(PlatformProof, KeepsPlacesApartFromInfinity) {
-  // n = 0 and h along e solve any platform but for the first rows: take one of them with e = 0.
+TEST(PlatformProof, TellsSolutionsOfAGenericPlatformApart) {
   const SolvedPlatform solved = monodromy(1);
   for (const PlatformPoint& x : solved.solutions) {
     const PlatformProof proof = prove(solved.legs, x);

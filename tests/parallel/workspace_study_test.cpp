@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <numbers>
+#include <set>
 
+#include "parallel/robots.h"
 #include "parallel/studies.h"
 
 namespace linkwright::parallel {
@@ -50,6 +53,33 @@ TEST(WorkspaceStudy, DrawsSlices) {
   for (const Table& t : result.tables) EXPECT_NE(t.name, "workspace");
 }
 
+TEST(WorkspaceStudy, TellsWhatCanBePromised) {
+  const auto result =
+      run_text(delta + box + "boundary = 36\n[workspace.inscribed]\naxis_mm = [0, 0]\nheight_mm = 200\n");
+  EXPECT_THAT(testing::fact(result, "joined to home without a singularity"), HasSubstr(" of 5530 nodes"));
+  EXPECT_THAT(testing::fact(result, "largest cylinder"), HasSubstr("height 200 mm at 0, 0, "));
+  // Every ray of every slice ends where a pose no longer passes.
+  const Table& boundary = testing::table(result, "workspace_boundary");
+  ASSERT_GE(boundary.rows(), 100u);
+  const Drive drive{.type = DriveType::pi_joint,
+                    .ratio = 0.4,
+                    .mounting = std::numbers::pi / 6,
+                    .lowest = -std::numbers::pi / 3,
+                    .highest = std::numbers::pi / 3};
+  PoseConditions conditions{.robot = reference_delta(), .assembly = -1, .least_transmission = 0.5};
+  conditions.drives.fill(drive);
+  const auto &z = column(result, "workspace_boundary", "z_m"),
+             &angle = column(result, "workspace_boundary", "direction_rad"),
+             &to = column(result, "workspace_boundary", "to_m");
+  for (std::size_t i = 0; i < boundary.rows(); ++i) {
+    const auto at = [&](double radius) {
+      return check_pose(conditions, {{radius * std::cos(angle[i]), radius * std::sin(angle[i]), z[i]}});
+    };
+    EXPECT_EQ(at(to[i] - 1e-6), Hurdle::none);
+    EXPECT_NE(at(to[i] + 1e-6), Hurdle::none);
+  }
+}
+
 TEST(WorkspaceStudy, TellsWhatIsWrongWithTheBox) {
   EXPECT_THAT(problems_of(delta + replaced(box, "step_mm = 40", "step_mm = 1")),
               HasSubstr("at most 2e+06 are allowed"));
@@ -59,6 +89,10 @@ TEST(WorkspaceStudy, TellsWhatIsWrongWithTheBox) {
               HasSubstr("the platform of this robot does not turn"));
   EXPECT_THAT(problems_of(delta + box + "indices = []\n"), HasSubstr("name at least one"));
   EXPECT_THAT(problems_of(delta + box + "indices = [\"rods\", \"rods\"]\n"), HasSubstr("one is named twice"));
+  EXPECT_THAT(problems_of(delta + box + "[workspace.inscribed]\nshape = \"box\"\nheight_mm = 20\n"),
+              HasSubstr("axis, height and ratio are those of a cylinder"));
+  EXPECT_THAT(problems_of(delta + box + "[workspace.inscribed]\nratio = 2\nheight_mm = 20\n"),
+              HasSubstr("keep one of them"));
 }
 
 }  // namespace

@@ -262,8 +262,13 @@ AssemblyModes assembly_modes(const Robot& hexa, std::span<const double> arm_angl
   out.singular = found.singular;
   out.conjugate_closed = found.conjugate_closed;
   prove_all(held, points, real.size(), out);
-  if (out.finite < static_cast<int>(most_solutions) && (found.singular > 0 || found.lost > 0))
-    out.status = found.lost > 0 ? Status::not_converged : Status::singular;
+  if (constexpr int all = most_solutions; out.finite < all) {
+    const bool explained = found.lost == 0 && out.finite + found.infinite + found.singular >= all;
+    if (!explained || found.ways < 2)
+      out.status = Status::not_converged;
+    else if (found.singular > 0)
+      out.status = Status::singular;
+  }
   out.note = note_on(out, found);
   return out;
 }

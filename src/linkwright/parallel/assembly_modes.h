@@ -54,8 +54,8 @@ struct AssemblyModes {
 /// numbers. They are followed from a generic complex platform, of which all 40 are known (platform_paths.h),
 /// found once in the life of the program.
 ///
-/// Arms' ends in one plane over a flat platform, as at the home pose of a symmetric hexa, leave 28 solutions;
-/// 12 are at infinity, none of them real. The modes do not depend on the seed. Angles without a mode give
+/// Equal arm angles of a symmetric hexa, as at its home pose, leave 28 solutions; 12 are at infinity, none of
+/// them real. The modes do not depend on the seed. Angles without a mode give
 /// none, with status `done`. Throws ContractError for another robot, an unsound one (problem), or angles that
 /// are not six finite numbers.
 AssemblyModes assembly_modes(const Robot& hexa, std::span<const double> arm_angles,

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/math/sincos.h"
 #include "linkwright/math/singular_values.h"
 #include "linkwright/math/small_lu.h"
 #include "linkwright/parallel/legs_kernel.h"
@@ -69,7 +70,9 @@ Jacobians jacobians(const Robot& robot, const Pose& pose, std::span<const double
   for (int i = 0; i < robot.legs(); ++i) {
     const Leg& leg = robot.leg[i];
     out.lever[i] = pose.rotation * leg.platform;
-    const auto at = leg_turned(leg, pose.position + out.lever[i], std::cos(angles[i]), std::sin(angles[i]));
+    double sine = 0, cosine = 0;
+    math::sincos_of_any(angles[i], sine, cosine);
+    const auto at = leg_turned(leg, pose.position + out.lever[i], cosine, sine);
     const Vec3& s = out.rod[i] = at.rod;
     out.arm[i] = at.arm;
     out.normal[i] = at.normal;

@@ -243,9 +243,8 @@ std::string limit_text(const PiActiveLimit& active) {
 
 }  // namespace
 
-PiRequirements requirements_of(const RequirementsForm& form) {
+PiRequirements requirements_of(const PiLimitsForm& form) {
   PiRequirements r;
-  r.half_travel = form.half_travel;
   const auto take = [](double& to, const std::optional<double>& from) {
     if (from) to = *from;
   };
@@ -507,7 +506,8 @@ transmission_deg   = 8.0
     auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
     if (target) target->read(form);
     if (!target || document.document().has_errors()) return prepared;
-    const PiRequirements requirements = requirements_of(form);
+    PiRequirements requirements = requirements_of(form);
+    requirements.half_travel = form.half_travel;
     if (const auto wrong = problem(requirements)) {
       target->error("half_travel", *wrong);
       return prepared;

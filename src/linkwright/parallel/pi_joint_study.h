@@ -141,14 +141,13 @@ struct PiAnalysis {
   std::optional<CalibrationForm> calibration;
 };
 
-/// `[target]` of a design.
-struct RequirementsForm {
-  double half_travel = 0;
+/// What a Pi-joint must do over its travel; what is left out is not required.
+struct PiLimitsForm {
   std::optional<double> torque, force_limit, speed, rate_limit, quantum, resolution, transmission, stroke,
       telescoping, end_margin;
 };
 template <class Visitor>
-void fields(Visitor&& visit, RequirementsForm& r) {
+void fields(Visitor&& visit, PiLimitsForm& r) {
   const auto number = [](std::string_view key, std::string_view summary, Dimension dimension,
                          double most = 1e12) {
     return Field{.key = key,
@@ -158,10 +157,7 @@ void fields(Visitor&& visit, RequirementsForm& r) {
                  .maximum = most,
                  .exclusive_minimum = true};
   };
-  Field travel = number("half_travel", "half of the range of the angle", Dimension::angle, 1.5707);
-  travel.required = true;
-  visit(travel, r.half_travel);
-  visit(number("torque", "at the output, everywhere in the range", Dimension::torque), r.torque);
+  visit(number("torque", "at the output, everywhere", Dimension::torque), r.torque);
   visit(number("force_limit", "largest force of the diagonal", Dimension::force), r.force_limit);
   visit(number("speed", "of the output", Dimension::speed_angular), r.speed);
   visit(number("rate_limit", "largest rate of the diagonal", Dimension::speed), r.rate_limit);
@@ -179,7 +175,24 @@ void fields(Visitor&& visit, RequirementsForm& r) {
   visit(number("end_margin", "between the range and +-90 deg; default 1 deg", Dimension::angle, 1.5),
         r.end_margin);
 }
-PiRequirements requirements_of(const RequirementsForm& form);
+PiRequirements requirements_of(const PiLimitsForm& form);
+
+/// `[target]` of a design.
+struct RequirementsForm : PiLimitsForm {
+  double half_travel = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, RequirementsForm& r) {
+  visit(Field{.key = "half_travel",
+              .summary = "half of the range of the angle",
+              .dimension = Dimension::angle,
+              .minimum = 0,
+              .maximum = 1.5707,
+              .exclusive_minimum = true,
+              .required = true},
+        r.half_travel);
+  fields(visit, static_cast<PiLimitsForm&>(r));
+}
 
 /// "analysis" of "parallel.pi_joint", and "synthesis" of it from "requirements".
 study::Kind pi_analysis_kind();

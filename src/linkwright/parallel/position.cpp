@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/math/sincos.h"
 #include "linkwright/math/small_lu.h"
 #include "linkwright/parallel/legs_kernel.h"
 
@@ -123,7 +124,9 @@ Vec3 platform_joint(const Robot& robot, int leg, const Pose& pose) {
 }
 
 Vec3 elbow(const Leg& leg, double angle) {
-  return leg.base + leg.arm * (std::cos(angle) * leg.ahead + std::sin(angle) * leg.aside);
+  double sine = 0, cosine = 0;
+  math::sincos_of_any(angle, sine, cosine);
+  return leg.base + leg.arm * (cosine * leg.ahead + sine * leg.aside);
 }
 
 ArmAngles inverse(const Robot& robot, const Pose& pose, const WorkingMode& mode) {

@@ -56,6 +56,8 @@ force_N     = [0, -20, 0]
 lower_mm = [-600, -100, 0]
 upper_mm = [600, 600, 0]
 step_mm  = 20.0
+[workspace.inscribed]
+shape = "box"
 )";
 
 constexpr std::string_view spatial_example = R"(
@@ -134,6 +136,9 @@ force_N     = [10, 5, -30]
 lower_mm = [-600, -600, -1100]
 upper_mm = [600, 600, -500]
 step_mm  = 30.0
+boundary = 72
+[workspace.inscribed]               # the largest cylinder about the robot's axis
+axis_mm = [0, 0]
 )";
   if (type == "parallel.hexa")
     return head("My HEXA") +

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "linkwright/core/units.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/parallel/workspace_parts.h"
+#include "linkwright/parallel/workspace_rays.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::parallel {
@@ -90,6 +94,46 @@ Table totals_table(const WorkspaceMap& map, const WorkspaceTotals& totals, int a
   return table;
 }
 
+/// Ends of what passes on rays around home, at each level.
+Table boundary_table(const WorkspaceTask& task, const WorkspaceMap& map,
+                     const std::vector<std::size_t>& levels, const WorkspaceForm& f, const Pose& home,
+                     bool planar, const RunContext& context) {
+  Table table{.name = "workspace_boundary"};
+  std::vector<double> z, angle, from, to;
+  const RaySearch search{.longest = std::hypot(f.upper[0] - f.lower[0], f.upper[1] - f.lower[1]),
+                         .step = f.step,
+                         .tolerance = 1e-7};
+  for (const std::size_t level : levels) {
+    const double height = map.position(level * map.nodes[0] * map.nodes[1]).z;
+    const Pose origin{{home.position.x, home.position.y, height}, task.rotation};
+    const Rays rays = position_rays(task.conditions, origin, directions_around(f.boundary), search, context);
+    for (std::size_t i = 0; i < rays.ray.size(); ++i)
+      for (const RayStretch& stretch : rays.ray[i].stretch) {
+        z.push_back(height);
+        angle.push_back(2 * std::numbers::pi * static_cast<double>(i) / f.boundary);
+        from.push_back(stretch.from);
+        to.push_back(stretch.to);
+        table.names.emplace_back(stretch.after == Hurdle::none ? "end of the ray" : name_of(stretch.after));
+      }
+  }
+  if (!planar) table.add("z_m", "z (m)", z);
+  table.add("direction_rad", "direction from home (rad)", angle);
+  table.add("from_m", "passes from this distance (m)", from);
+  table.add("to_m", "to this one (m)", to);
+  return table;
+}
+
+std::string body_text(const Inscribed& body, const InscribedForm& f, bool planar) {
+  const auto mm = [](double metres) { return fmt::format("{:.4g}", 1e3 * metres); };
+  const std::string at = fmt::format("at {}, {}{} mm", mm(body.centre.x), mm(body.centre.y),
+                                     planar ? "" : fmt::format(", {}", mm(body.centre.z)));
+  if (f.shape == InscribedShape::ball) return fmt::format("diameter {} mm {}", mm(2 * body.half.x), at);
+  if (f.shape == InscribedShape::cylinder)
+    return fmt::format("diameter {} mm, height {} mm {}", mm(2 * body.half.x), mm(2 * body.half.z), at);
+  return fmt::format("{} x {}{} mm {}", mm(2 * body.half.x), mm(2 * body.half.y),
+                     planar ? "" : fmt::format(" x {}", mm(2 * body.half.z)), at);
+}
+
 }  // namespace
 
 PoseConditions conditions_of(const RobotDescription& d, const QualityLimits& limits, const Pose& home) {
@@ -142,6 +186,29 @@ std::optional<WorkspaceStudy> read_workspace(study::ObjectReader& document, cons
     table->error("indices", "one is named twice");
     return std::nullopt;
   }
+  if (form.inscribed) {
+    auto inner = table->table("inscribed");
+    const bool planar = d.robot.freedom == Freedom::plane_translation;
+    if (planar && form.inscribed->shape == InscribedShape::cylinder) {
+      inner->error("shape", "a cylinder needs space", "take ball (a circle) or box (a rectangle)");
+      return std::nullopt;
+    }
+    if (form.inscribed->shape != InscribedShape::cylinder &&
+        (form.inscribed->axis || form.inscribed->height || form.inscribed->ratio)) {
+      inner->error("shape", "axis, height and ratio are those of a cylinder", "leave them out");
+      return std::nullopt;
+    }
+    if (form.inscribed->height && form.inscribed->ratio) {
+      inner->error("ratio", "is given, and the height, too", "keep one of them");
+      return std::nullopt;
+    }
+    for (const std::size_t i : {0u, 1u, 2u})
+      if (!(planar && i == 2) && form.upper[i] - form.lower[i] < form.step) {
+        inner->error("shape",
+                     fmt::format("the box has no extent along {}: nothing can be inscribed", "xyz"[i]));
+        return std::nullopt;
+      }
+  }
   canonical["workspace"] = study::write_fields(form);
   return out;
 }
@@ -176,6 +243,37 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
   if (lci.count > 0)
     fact("global conditioning index", fmt::format("{:.4f} (least {:.4f})", lci.mean, lci.least));
 
+  if (planar) fact("area within reach of the legs", fmt::format("{:.6g} m2", reachable_area(d.robot)));
+  if (f.parts && sums.passing > 0) {
+    const WorkspaceParts parts = workspace_parts(
+        map, passing(map), {.conditions = task.conditions, .rotation = task.rotation, .home = home.position},
+        context);
+    if (parts.status == Status::done)
+      fact("joined to home without a singularity",
+           parts.home < 0 ? std::string("none: home does not pass")
+                          : fmt::format("{} of {} nodes, {} part{}", parts.reachable(), parts.all(),
+                                        parts.size.size(), parts.size.size() == 1 ? "" : "s"));
+  }
+  if (f.inscribed) {
+    InscribedTask inner{
+        .conditions = task.conditions, .rotation = task.rotation, .shape = f.inscribed->shape};
+    if (f.inscribed->axis) inner.axis = Vec3{(*f.inscribed->axis)[0], (*f.inscribed->axis)[1], 0};
+    inner.height = f.inscribed->height.value_or(0);
+    inner.ratio = f.inscribed->ratio.value_or(0);
+    const Inscribed body = inscribed(map, passing(map), inner, context);
+    fact(fmt::format("largest {}", name_of(f.inscribed->shape)), body.status == Status::infeasible
+                                                                     ? std::string("none fits")
+                                                                     : body_text(body, *f.inscribed, planar));
+  }
+  if (d.tool_turns()) {
+    const RotationRange range = rotation_range(
+        task.conditions, home, 72, {.longest = std::numbers::pi, .step = 0.02, .tolerance = 1e-6}, context);
+    if (range.status == Status::done) {
+      fact("tilt at home, about any horizontal axis", fmt::format("{:.2f}°", math::degrees(range.tilt)));
+      fact("yaw at home",
+           fmt::format("{:.2f}° to {:.2f}°", math::degrees(range.least_yaw), math::degrees(range.most_yaw)));
+    }
+  }
   std::vector<std::size_t> reached;
   for (std::size_t i = 0; i < map.count(); ++i)
     if (map.hurdle[i] != Hurdle::leg && map.hurdle[i] != Hurdle::open) reached.push_back(i);
@@ -185,7 +283,9 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
     fact("table of nodes", fmt::format("left out: {} nodes are more than {}", reached.size(), most_rows));
   std::vector<std::size_t> sliced;
   const std::size_t layer = map.nodes[0] * map.nodes[1];
-  for (const std::size_t level : levels_of(map, f.slices))
+  const auto levels = levels_of(map, f.slices);
+  if (f.boundary > 0) result.tables.push_back(boundary_table(task, map, levels, f, home, planar, context));
+  for (const std::size_t level : levels)
     for (std::size_t i = 0; i < layer; ++i) sliced.push_back(level * layer + i);
   result.tables.push_back(node_table(map, s, planar, sliced, "workspace_slices"));
   for (const PoseIndex index : f.indices)

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "linkwright/parallel/robot_study.h"
-#include "linkwright/parallel/workspace.h"
+#include "linkwright/parallel/workspace_inscribed.h"
 
 // The workspace in studies of parallel robots: a grid of places, how much of it is of use and how good it is.
 namespace linkwright::parallel {
@@ -39,13 +39,35 @@ void fields(Visitor&& visit, QualityLimits& l) {
 PoseConditions conditions_of(const RobotDescription& description, const QualityLimits& limits,
                              const Pose& home);
 
+/// `[workspace.inscribed]`: the largest body of a shape within the workspace.
+struct InscribedForm {
+  InscribedShape shape = InscribedShape::cylinder;
+  std::optional<std::array<double, 2>> axis;
+  std::optional<double> height, ratio;
+};
+template <class Visitor>
+void fields(Visitor&& visit, InscribedForm& f) {
+  visit(Field{.key = "shape", .summary = "of the body"}, f.shape);
+  visit(robot_fields::place("axis", "x and y of the axis of a cylinder; default: anywhere"), f.axis);
+  Field height = robot_fields::length("height", "of a cylinder", false);
+  height.exclusive_minimum = true;
+  visit(height, f.height);
+  visit(Field{.key = "ratio",
+              .summary = "of a cylinder's height and diameter",
+              .minimum = 0,
+              .maximum = 1e6,
+              .exclusive_minimum = true},
+        f.ratio);
+}
+
 /// `[workspace]`: the nodes of a grid.
 struct WorkspaceForm {
   Coordinates lower{}, upper{}, rotation{};
   double step = 0;
   std::vector<PoseIndex> indices{PoseIndex::conditioning, PoseIndex::transmission};
-  bool nodes = true;
-  int slices = 4;
+  bool nodes = true, parts = true;
+  int slices = 4, boundary = 0;
+  std::optional<InscribedForm> inscribed;
 };
 template <class Visitor>
 void fields(Visitor&& visit, WorkspaceForm& w) {
@@ -57,8 +79,16 @@ void fields(Visitor&& visit, WorkspaceForm& w) {
   visit(robot_fields::angle("rotation", "of the platform, a rotation vector (HEXA)"), w.rotation);
   visit(Field{.key = "indices", .summary = "that are computed at each node and drawn"}, w.indices);
   visit(Field{.key = "nodes", .summary = "table of all nodes that the legs reach"}, w.nodes);
+  visit(Field{.key = "parts", .summary = "tell how much of it hangs together without a singularity"},
+        w.parts);
   visit(Field{.key = "slices", .summary = "levels of z that are drawn", .minimum = 1, .maximum = 50},
         w.slices);
+  visit(Field{.key = "boundary",
+              .summary = "rays around home on which the boundary of each slice is followed; 0 = none",
+              .minimum = 0,
+              .maximum = 10000},
+        w.boundary);
+  visit(Field{.key = "inscribed", .summary = "the largest body of a shape within it"}, w.inscribed);
 }
 
 struct WorkspaceStudy {
@@ -70,7 +100,7 @@ std::optional<WorkspaceStudy> read_workspace(study::ObjectReader& document,
                                              const RobotDescription& description, Value& canonical);
 void describe_workspace(study::SchemaWriter& document);
 
-/// Tables "workspace", "workspace_slices", "workspace_totals", facts and maps.
+/// Tables "workspace", "workspace_slices", "workspace_totals", "workspace_boundary", facts and maps.
 void add_workspace(study::Result& result, const RobotDescription& description, const QualityLimits& limits,
                    const WorkspaceStudy& study, const Pose& home, RunContext& context);
 
