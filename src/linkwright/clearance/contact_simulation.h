@@ -1,0 +1,117 @@
+#pragma once
+
+#include <complex>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "linkwright/clearance/contact_law.h"
+#include "linkwright/clearance/open_linkage.h"
+#include "linkwright/core/run_context.h"
+#include "linkwright/planar/linkage_simulation.h"
+
+// Joints with clearance in which pin and bush fly free, strike, press and slide: any pins of any planar
+// linkage of rigid bodies.
+namespace linkwright::clearance {
+
+enum class PinSide { first, second };
+constexpr std::array<EnumName<PinSide>, 2> names(PinSide) {
+  return {{{PinSide::first, "first", "the pin is on the first body of the joint, the bush on the second"},
+           {PinSide::second, "second", "the pin is on the second body, the bush on the first"}}};
+}
+
+/// How the pin lies in the bush at the start: J - B, from the centre of the bush to that of the pin (m,
+/// global frame), and how fast it changes (m/s). Zero: centred, with the velocities of the ideal linkage.
+struct PinStart {
+  std::complex<double> eccentricity{0, 0}, rate{0, 0};
+};
+
+/// A pin that has clearance.
+struct ContactJoint {
+  int joint = 0;           ///< of the linkage: a revolute joint without drive and friction
+  double clearance = 0;    ///< c, m, > 0: radius of the bush less radius of the pin
+  double bush_radius = 0;  ///< m, more than the clearance; arm of friction
+  ContactLaw law;
+  PinSide pin = PinSide::first;
+  PinStart start;
+};
+
+struct ContactOptions {
+  /// In flight and impacts; contacts that are pressed together for long, whose damping makes the equations
+  /// stiff, are integrated by bdf.
+  math::OdeMethod method = math::OdeMethod::explicit_runge_kutta_5;
+  /// Error of a step, relative; absolute: this times the clearance for the ways of the pin.
+  double tolerance = 1e-9;
+  /// Longest step in contact as a share of the time that the impact would last by itself.
+  double contact_step = 0.05;
+  long max_steps = 10'000'000;
+};
+
+/// One contact, from the touch to the separation.
+struct ContactEvent {
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  int joint = 0;            ///< index into the contact joints
+  double start = 0;         ///< s
+  double approach = 0;      ///< m/s, rate of the depth then
+  double angle = 0;         ///< rad: direction of the eccentricity then, global
+  double end = nan;         ///< s; NaN when it was still on at the end
+  double separation = nan;  ///< m/s, rate at which they part, positive
+  double depth = 0;         ///< m, largest
+  double force = 0;         ///< N, largest normal force
+};
+
+/// State of one joint in a row.
+struct ContactState {
+  std::complex<double> eccentricity, rate;  ///< J - B, m and m/s
+  double depth = 0;                         ///< |eccentricity| - c, m; negative in flight
+  double normal = 0;                        ///< N
+  double friction = 0;                      ///< N, on the pin against growing direction of the eccentricity
+  bool contact = false;
+};
+
+/// One row; valid during the call that receives it.
+struct ContactRow {
+  double time = 0;
+  std::span<const ContactState> joints;
+  std::span<const planar::InputMotion> inputs;    ///< of the open linkage
+  const planar::LinkageMotion* motion = nullptr;  ///< with velocities and accelerations, of the open linkage
+  double kinetic = 0, potential = 0;              ///< J; potential: weight and springs
+  double elastic = 0;                             ///< J, in the contacts
+  double dissipated = 0;  ///< J since the start, by damping and friction of the contacts
+  double work = 0;        ///< J since the start, of prescribed drives and of other loads that store no energy
+  double drift = 0;  ///< J: kinetic + potential + elastic + dissipated - work less its value at the start
+};
+/// false ends the simulation.
+using ContactOutput = std::function<bool(const ContactRow&)>;
+
+struct ContactRun {
+  /// done; infeasible, no_assembly, singular: the start does not work; limit_reached, not_converged: the
+  /// motion ends; cancelled, deadline. Rows and events so far are kept.
+  Status status = Status::done;
+  std::string message;               ///< why it is not `done`; else empty
+  double time = 0;                   ///< reached, s
+  std::vector<ContactEvent> events;  ///< in the order of their starts
+  double largest_drift = 0;          ///< J, over the rows
+  double peak_energy = 0;  ///< J: largest kinetic, elastic or dissipated energy, change of potential, or work
+  long steps = 0, evaluations = 0;
+};
+
+/// The motion. `courses` are those of the inputs of the linkage, laws or free; a law's joint keeps its drive.
+/// `times` (s, rising, two at least) are those of the rows: nothing else depends on them. Coordinates are
+/// those of the open linkage, so that joints without clearance cannot drift apart.
+///
+/// No impact is missed: in flight a step moves the pin by half the clearance at most, and within every step
+/// the depth is followed between its ends (see math::integrate); flights shorter than 1e-10 s are not told
+/// apart. A contact that begins more slowly than least_approach counts as begun with that. A start whose
+/// eccentricity is the clearance up to rounding is in contact when the bodies would press into each other.
+///
+/// Throws ContractError as open_linkage and require_valid do, for clearances and radii out of range, starts
+/// outside of the bush by more than half the clearance, and as planar::simulate does.
+ContactRun simulate_contact(const planar::Linkage& linkage, std::span<const ContactJoint> joints,
+                            std::span<const planar::InputCourse> courses, std::span<const double> times,
+                            const ContactOptions& options = {}, const ContactOutput& output = {},
+                            const RunContext* context = nullptr);
+
+}  // namespace linkwright::clearance

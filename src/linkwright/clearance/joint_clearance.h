@@ -1,0 +1,94 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/run_context.h"
+#include "linkwright/planar/linkage_plan.h"
+#include "linkwright/planar/linkage_simulation.h"
+
+// Continuous contact in any pins of any planar linkage: the model of four_bar_clearance.h, for all others. It
+// is the linkage of planar/ with a massless bar in the place of each pin that has clearance.
+namespace linkwright::clearance {
+
+/// A pin that has clearance, and how it starts.
+struct JointClearance {
+  int joint = 0;         ///< of the linkage: a revolute joint without drive and friction
+  double clearance = 0;  ///< m, > 0: radius of the bush less radius of the pin
+  /// Direction from the joint's point of its first body to that of its second (absolute, rad) and its rate.
+  double angle = 0;
+  double rate = 0;     ///< rad/s
+  double damping = 0;  ///< N m s, >= 0: viscous torque against the absolute rate
+};
+
+/// The bar in the place of a pin.
+struct ClearanceBar {
+  int body = 0;       ///< of the new linkage; its x axis points from the first body's point to the second's
+  int input = 0;      ///< that turns it: angle of the bar from its carrier
+  int carrier = 0;    ///< the body of the joint that the input counts from
+  int far_joint = 0;  ///< of the new linkage: the pin at the other end
+  double clearance = 0;
+};
+
+/// A linkage with bars in the place of pins.
+struct ClearedLinkage {
+  /// done; no_assembly and the like when the ideal linkage has no position at the start; infeasible when the
+  /// linkage cannot be planned.
+  Status status = Status::done;
+  std::string message;  ///< why it is not `done`; else empty
+  /// Bodies and joints of the original keep their numbers, but for the points of cleared joints; the inputs
+  /// of the original come first. Every body has a start pose.
+  planar::Linkage linkage;
+  planar::LinkagePlan plan;
+  std::vector<ClearanceBar> bars;  ///< one a clearance
+};
+
+/// Puts the bars in. `inputs` are the values of the drives at which the linkage of `plan` shows, in the modes
+/// of its plan, how it is assembled. Each bar is carried by that body of its joint which is placed first, so
+/// that a pin between groups of the plan keeps closed forms; between two bodies of one group a general group
+/// results. Throws ContractError for joints that are no free pins or are named twice, and clearances that are
+/// not positive or not less than half the size of the linkage.
+ClearedLinkage with_clearance(const planar::Linkage& linkage, std::span<const JointClearance> clearances,
+                              std::span<const double> inputs);
+
+/// State of one clearance in a row.
+struct ClearanceState {
+  double angle = 0, rate = 0, acceleration = 0;  ///< absolute, of the bar; the angle is not wrapped
+  /// N, in the bar. Positive: pin and bush are pressed together; else the model has left its range.
+  double tension = 0;
+};
+struct JointClearanceRow {
+  planar::SimulationInstant instant;       ///< of the cleared linkage
+  std::span<const ClearanceState> joints;  ///< one a clearance
+};
+/// false ends the simulation.
+using JointClearanceOutput = std::function<bool(const JointClearanceRow&)>;
+
+/// Where contact ends, seen at the rows and by straight lines between them.
+struct ContactValidity {
+  double first_separation = std::numeric_limits<double>::quiet_NaN();  ///< s; NaN: never
+  double separated = 0;                                            ///< share of the time with tension <= 0
+  double least_tension = std::numeric_limits<double>::infinity();  ///< N
+};
+
+struct JointClearanceRun {
+  Status status = Status::done;  ///< of the start or the simulation
+  std::string message;
+  planar::SimulationReport simulation;
+  std::vector<ContactValidity> joints;  ///< one a clearance
+};
+
+/// Motion under forces with clearance: `courses` are those of the inputs of the original linkage, laws or
+/// free. Times, options and the rest as in planar::simulate, whose contract errors it throws, too.
+JointClearanceRun simulate_joint_clearance(const planar::Linkage& linkage,
+                                           std::span<const JointClearance> clearances,
+                                           std::span<const planar::InputCourse> courses,
+                                           std::span<const double> times,
+                                           const planar::SimulationOptions& options,
+                                           const JointClearanceOutput& output = {},
+                                           const RunContext* context = nullptr);
+
+}  // namespace linkwright::clearance

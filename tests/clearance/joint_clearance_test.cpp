@@ -1,0 +1,192 @@
+#include "linkwright/clearance/joint_clearance.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "clearance/clearance_linkages.h"
+#include "clearance/published_four_bar.h"
+#include "linkwright/clearance/four_bar_clearance_motion.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage_coordinates.h"
+#include "linkwright/planar/linkage_samples.h"
+#include "support/message.h"
+
+namespace linkwright::clearance {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+struct Rows {
+  JointClearanceRun run;
+  std::vector<std::vector<ClearanceState>> joints;
+  std::vector<double> drift;
+};
+Rows simulated(const planar::Linkage& l, const std::vector<JointClearance>& clearances, double speed,
+               const std::vector<double>& times, double tolerance = 1e-11) {
+  Rows out;
+  const planar::InputCourse crank{planar::ConstantSpeed{0, speed}, 0, 0};
+  out.run = simulate_joint_clearance(l, clearances, std::span(&crank, 1), times,
+                                     {.relative_tolerance = tolerance, .absolute_tolerance = tolerance},
+                                     [&](const JointClearanceRow& row) {
+                                       out.joints.emplace_back(row.joints.begin(), row.joints.end());
+                                       out.drift.push_back(row.instant.drift);
+                                       return true;
+                                     });
+  return out;
+}
+
+// The general machinery knows nothing of the closed form of the four-bar: groups, Kane's equations and joint
+// forces against angles by hand.
+TEST(JointClearance, FourBarAgreesWithItsClosedForm) {
+  for (const char* id : {"gamma-design2-table3-g9.81-w20", "gamma-design2-damped"}) {
+    ClearanceFourBar model = published_four_bar(id);
+    if (std::string_view(id) == "gamma-design2-damped") {
+      model.coupler_damping = 1e-5;
+      model.rocker_damping = 2e-5;
+      model.link_damping = 1e-7;
+    }
+    const std::vector<double> times = evenly_spaced(0, turn / 20, 73);
+    const planar::Linkage l = as_linkage(model);
+    const Rows rows = simulated(l,
+                                {{.joint = planar::joint_index(l, "A"),
+                                  .clearance = model.clearance,
+                                  .angle = 0.1,
+                                  .rate = 20,
+                                  .damping = model.link_damping}},
+                                20, times);
+    ASSERT_EQ(rows.run.status, Status::done) << rows.run.message;
+    std::size_t k = 0;
+    const ClearanceRun run = simulate_clearance(
+        model, planar::ConstantSpeed{0, 20}, {0.1, 20}, times, {.relative = 1e-12, .absolute = 1e-13},
+        [&](const ClearanceRow& row) {
+          const ClearanceState& s = rows.joints.at(k++).at(0);
+          EXPECT_NEAR(s.angle, row.link.angle, 1e-9);
+          EXPECT_NEAR(s.rate, row.link.rate, 1e-9 * 400);  // rates of up to 200 rad/s
+          EXPECT_NEAR(s.acceleration / row.instant->link_acceleration, 1, 1e-7) << row.time;
+          EXPECT_NEAR(s.tension, row.instant->tension, 1e-8);
+          return true;
+        });
+    EXPECT_EQ(k, times.size());
+    EXPECT_TRUE(std::isnan(rows.run.joints[0].first_separation));
+    EXPECT_NEAR(rows.run.joints[0].least_tension, run.least_tension, 0.05);  // rows are 5 deg apart
+  }
+}
+
+// One instant, everything about it: position by position solver, tension by the joint forces.
+TEST(JointClearance, SeesSeparationAsTheClosedFormDoes) {
+  const ClearanceFourBar model = published_four_bar("gamma-design1-table2-g9.81-w50");
+  const planar::Linkage l = as_linkage(model);
+  const std::vector<double> times = evenly_spaced(0, 0.6 * turn / 50, 2001);
+  const double degree = turn / 360;
+  const Rows rows = simulated(
+      l, {{.joint = planar::joint_index(l, "A"), .clearance = 1e-3, .angle = 10 * degree, .rate = 50}}, 50,
+      times);
+  const ClearanceRun run = simulate_clearance(model, planar::ConstantSpeed{0, 50}, {10 * degree, 50},
+                                              std::vector{0.0, times.back()});
+  ASSERT_FALSE(std::isnan(run.first_separation));
+  // Rows are 38 us apart, and the tension is a smooth function between most of them.
+  EXPECT_NEAR(rows.run.joints[0].first_separation, run.first_separation, 4e-6);
+  EXPECT_NEAR(rows.run.joints[0].separated, run.separated, 0.01);
+}
+
+// Clearance within a dyad: no closed form. The other route is that in the places of all bodies.
+TEST(JointClearance, PinsWithinADyadAndSeveralAtOnce) {
+  ClearanceFourBar model = published_four_bar("gamma-design2-table3-g9.81-w20");
+  model.coupler.centre = {0.1, 0.01};
+  model.rocker.centre = {0.12, 0};
+  const planar::Linkage l = as_linkage(model);
+  const std::vector<double> times = evenly_spaced(0, 0.02, 5);
+  for (const std::vector<std::string>& names :
+       std::vector<std::vector<std::string>>{{"B"}, {"O4"}, {"A", "O4"}, {"A", "B", "O4"}}) {
+    std::vector<JointClearance> clearances;
+    for (const std::string& name : names)
+      clearances.push_back({.joint = planar::joint_index(l, name),
+                            .clearance = 0.01,
+                            .angle = 0.3 + static_cast<double>(clearances.size()),
+                            .rate = 5});
+    const Rows rows = simulated(l, clearances, 20, times, 1e-10);
+    ASSERT_EQ(rows.run.status, Status::done) << names[0] << ": " << rows.run.message;
+    EXPECT_NEAR(rows.joints[0][0].angle, 0.3, 1e-12);
+    EXPECT_NEAR(rows.joints[0][0].rate, 5, 1e-11);
+    EXPECT_LT(rows.run.simulation.largest_drift, 1e-8 * rows.run.simulation.peak_energy);
+
+    const ClearedLinkage cleared = with_clearance(l, clearances, std::vector{0.0});
+    ASSERT_EQ(cleared.status, Status::done);
+    EXPECT_EQ(cleared.plan.inputs(), 1 + names.size());
+    EXPECT_EQ(cleared.plan.closed_form(), names[0] != "B" && names.size() < 3) << names[0];
+    // The same start for the other route: the inputs at the first row.
+    std::vector<planar::InputCourse> courses{{planar::ConstantSpeed{0, 20}, 0, 0}};
+    const planar::InputCourse crank = courses[0];
+    simulate_joint_clearance(l, clearances, std::span(&crank, 1), times, {},
+                             [&](const JointClearanceRow& row) {
+                               for (const ClearanceBar& bar : cleared.bars) {
+                                 const auto input = row.instant.inputs[static_cast<std::size_t>(bar.input)];
+                                 courses.push_back({{}, input.value, input.rate});
+                               }
+                               return false;
+                             });
+    std::size_t k = 0;
+    planar::simulate_all_coordinates(
+        cleared.linkage, cleared.plan, courses, times, {.relative_tolerance = 1e-10},
+        [&](const planar::SimulationInstant& now) {
+          for (std::size_t j = 0; j < cleared.bars.size(); ++j) {
+            const auto& s = now.motion->parts[static_cast<std::size_t>(cleared.bars[j].body)];
+            EXPECT_NEAR(math::angle_difference(planar::angle_of(s.direction), rows.joints[k][j].angle), 0,
+                        1e-7)
+                << names[j] << " row " << k;
+          }
+          ++k;
+          return true;
+        });
+    EXPECT_EQ(k, times.size());
+  }
+}
+
+// Any linkage: a leg with seven bodies, clearance in a pin on the ground.
+TEST(JointClearance, AnyLinkage) {
+  planar::LinkageSample sample = planar::jansen_leg_sample();
+  planar::Linkage l = sample.linkage;
+  for (std::size_t b = 1; b < l.bodies.size(); ++b) ASSERT_TRUE(l.bodies[b].mass);
+  int joint = -1;
+  for (std::size_t j = 0; j < l.joints.size(); ++j)
+    if (l.joints[j].first.body != 0 && l.joints[j].second.body != 0) joint = static_cast<int>(j);
+  ASSERT_GE(joint, 0);
+  const double c = 1e-3 * planar::size_of(l);
+  const JointClearance clearance{.joint = joint, .clearance = c, .angle = -1.5};
+  const planar::InputCourse crank{planar::ConstantSpeed{sample.from[0], 2}, 0, 0};
+  const JointClearanceRun run =
+      simulate_joint_clearance(l, std::span(&clearance, 1), std::span(&crank, 1), std::vector{0.0, 0.01}, {});
+  ASSERT_EQ(run.status, Status::done) << run.message;
+  EXPECT_LT(run.simulation.largest_drift, 1e-7 * run.simulation.peak_energy);
+}
+
+TEST(JointClearance, RefusesWhatIsNoFreePin) {
+  const planar::Linkage l = as_linkage(published_four_bar("gamma-design2-table3-g9.81-w20"));
+  const auto text = [&](std::vector<JointClearance> c) {
+    return test::message([&] { with_clearance(l, c, std::vector{0.0}); });
+  };
+  EXPECT_THAT(text({{.joint = 0, .clearance = 1e-3}}),
+              ::testing::HasSubstr("joint 'O2' must be a revolute joint without drive and friction"));
+  EXPECT_THAT(text({{.joint = 7, .clearance = 1e-3}}), ::testing::HasSubstr("there is no joint 7 among 4"));
+  EXPECT_THAT(text({{.joint = 1, .clearance = 0}}),
+              ::testing::HasSubstr("joint 'A': clearance 0 m must be positive"));
+  EXPECT_THAT(text({{.joint = 1, .clearance = 1e-3}, {.joint = 1, .clearance = 1e-3}}),
+              ::testing::HasSubstr("joint 'A' is given twice"));
+}
+
+TEST(JointClearance, SaysWhenTheIdealLinkageHasNoStart) {
+  ClearanceFourBar model = published_four_bar("gamma-design2-table3-g9.81-w20");
+  model.linkage.coupler = 0.01;
+  const planar::Linkage l = as_linkage(model);
+  const JointClearance clearance{.joint = 1, .clearance = 1e-3};
+  const ClearedLinkage none = with_clearance(l, std::span(&clearance, 1), std::vector{0.0});
+  EXPECT_EQ(none.status, Status::no_assembly);
+  EXPECT_THAT(none.message, ::testing::HasSubstr("without clearance the start does not work"));
+}
+
+}  // namespace
+}  // namespace linkwright::clearance
