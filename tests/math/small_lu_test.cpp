@@ -54,5 +54,11 @@ TEST(SmallLu, ASingularMatrixHasNoSolution) {
   EXPECT_EQ(lu.determinant(), 0);
 }
 
+TEST(SmallLu, DeterminantOfAMatrixOfRankOneIsZero) {
+  math::SmallLu<3> lu;
+  lu.factor(std::array<std::array<double, 3>, 3>{{{1, 2, 3}, {2, 4, 6}, {-1, -2, -3}}});
+  EXPECT_EQ(lu.determinant(), 0);
+}
+
 }  // namespace
 }  // namespace linkwright::math

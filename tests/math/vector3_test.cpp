@@ -37,6 +37,24 @@ TEST(Vector3, TurnAboutAVectorAgreesWithTheAxes) {
   EXPECT_LT(largest(turn_about(turn) * turn_about(-turn), Mat3{}), 4e-16);
 }
 
+TEST(Vector3, TurnOfARotationIsTheVectorThatMadeIt) {
+  // Small, about each axis beyond a right angle, and just short of half a turn, where the sine vanishes.
+  for (const Vec3& turn : {Vec3{}, Vec3{1e-9, -2e-9, 3e-9}, Vec3{0.3, -0.5, 0.2}, Vec3{2.8, 0.3, -0.1},
+                           Vec3{-0.3, 2.9, 0.2}, Vec3{0.1, 0.2, -3.0}, Vec3{3.1415926, 0, 0}}) {
+    const Vec3 back = turn_of(turn_about(turn));
+    EXPECT_LT(norm(back - turn), 2e-15) << turn.x;
+  }
+  // Small turns keep their digits.
+  EXPECT_LT(norm(turn_of(turn_about({1e-12, 0, 0})) - Vec3{1e-12, 0, 0}), 1e-27);
+  // Of half a turn either vector may come.
+  const Vec3 half = turn_of(turn_about(4 * std::atan(1.0) * unit({1, -2, 2})));
+  EXPECT_LT(std::min(norm(half - 4 * std::atan(1.0) * unit({1, -2, 2})),
+                     norm(half + 4 * std::atan(1.0) * unit({1, -2, 2}))),
+            2e-15);
+  // Beyond it the turn the other way is less.
+  EXPECT_LT(norm(turn_of(turn_z(4)) - Vec3{0, 0, 4 - 8 * std::atan(1.0)}), 1e-15);
+}
+
 TEST(Vector3, RectifyingSquaresTheError) {
   const Mat3 exact = turn_about({0.3, -0.5, 0.2});
   Mat3 off = exact;

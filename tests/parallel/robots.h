@@ -1,6 +1,6 @@
 #pragma once
 
-#include "linkwright/parallel/robot.h"
+#include "linkwright/parallel/drives.h"
 #include "support/published.h"
 
 /// Robots of the reference figures, and those figures.
@@ -24,6 +24,26 @@ inline Robot reference_five_bar() {
 inline Robot reference_platform() {
   return planar({.base_x = -0.15, .arm = 0.25, .rod = 0.35, .platform_x = -0.05},
                 {.base_x = 0.15, .arm = 0.25, .rod = 0.35, .platform_x = 0.05});
+}
+
+/// Pi-joints of the reference DELTA and HEXA, within 60 deg to both sides.
+inline Drives reference_drives() {
+  Drives out;
+  out.fill({.type = DriveType::pi_joint,
+            .ratio = 0.4,
+            .mounting = 0.5235987755982988,
+            .lowest = -1.0471975511965976,
+            .highest = 1.0471975511965976,
+            .quantum = 1.27e-5});
+  return out;
+}
+/// Pi-joints of the planar robots: the second is a mirror image.
+inline Drives mirrored_drives() {
+  Drives out = reference_drives();
+  out[0].mounting = 2.0943951023931953;
+  out[1].mounting = 1.0471975511965976;
+  out[1].mirror = -1;
+  return out;
 }
 
 /// A case of tests/published/pi-joint-parallel-robots.json: what it computes, and what went in.

@@ -317,5 +317,17 @@ TEST(Bind, SchemaFollowsTheFieldList) {
   EXPECT_FALSE(schema.find("unevaluatedProperties")->as_bool());
 }
 
+TEST(Bind, AsksForAKeyByItsNameAloneWithTheUnitThatItWasReadWith) {
+  Diagnostics diagnostics;
+  const Value document = read_text("crank_mm = 5\n", Syntax::toml, "s.toml", diagnostics);
+  DocumentReader reader(document, "s.toml", diagnostics);
+  ObjectReader root = reader.root();
+  Sample sample;
+  root.read(sample);
+  EXPECT_TRUE(root.has("crank"));
+  EXPECT_FALSE(root.has("angle"));
+  EXPECT_FALSE(root.has("cran"));
+}
+
 }  // namespace
 }  // namespace linkwright::study

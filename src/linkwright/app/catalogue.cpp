@@ -6,6 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "linkwright/parallel/reproductions.h"
+#include "linkwright/parallel/studies.h"
 #include "linkwright/planar/reproductions.h"
 #include "linkwright/planar/studies.h"
 #include "linkwright/study/study.h"
@@ -27,7 +29,7 @@ Kinds join(std::initializer_list<Kinds> domains) {
 
 std::span<const study::Kind> catalogue() {
   // One line for each domain.
-  static const Kinds kinds = join({planar::studies(), suspension::studies()});
+  static const Kinds kinds = join({planar::studies(), suspension::studies(), parallel::studies()});
   return kinds;
 }
 
@@ -62,6 +64,7 @@ std::span<const study::Reproduction> reproductions() {
   static const auto all = [] {
     std::vector<study::Reproduction> joined = planar::reproductions();
     for (study::Reproduction& r : suspension::reproductions()) joined.push_back(std::move(r));
+    for (study::Reproduction& r : parallel::reproductions()) joined.push_back(std::move(r));
     return joined;
   }();
   return all;

@@ -31,7 +31,8 @@ class SmallLu {
         std::swap(order_[k], order_[pivot]);
         sign_ = -sign_;
       }
-      const double inverse = 1 / lu_[k][k];
+      // A column without a pivot has nothing to eliminate: the determinant is 0, not 0/0.
+      const double inverse = lu_[k][k] == 0 ? 0 : 1 / lu_[k][k];
       for (int i = k + 1; i < N; ++i) {
         const double factor = lu_[i][k] * inverse;
         lu_[i][k] = factor;

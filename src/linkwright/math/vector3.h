@@ -138,6 +138,10 @@ Matrix3<T> turn_about(const Vector3<T>& turn) {
            Vector3<T>{versed * x * z - sine * y, versed * y * z + sine * x, 1 - versed * (x * x + y * y)}}};
 }
 
+/// The vector that `turn_about` makes this rotation of, of length (rad) in [0, pi]; of the two for a half
+/// turn one.
+Vec3 turn_of(const Mat3& rotation);
+
 /// The rotation nearest to `m`, which is one but for rounding: an error e leaves e^2.
 Mat3 rectified(const Mat3& m);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "linkwright/math/scalar.h"
 #include "linkwright/parallel/robot.h"
@@ -18,16 +19,34 @@ struct LegAt {
   T reach;  ///< rho^2 - c^2 (m2): negative = the leg cannot reach the joint; 0 = arm and rod aligned
 };
 
+/// A place of the platform joint seen from the pivot of the arm, and how far the leg can reach.
+template <class T>
+struct JointSeen {
+  math::Vector3<T> v;  ///< from the pivot (m)
+  T along, aside;      ///< its parts along e and w (m)
+  T square;            ///< rho^2 = along^2 + aside^2 (m2)
+  T c;                 ///< part of it along the arm that reaches it: (v.v + l^2 - L^2) / (2 l) (m)
+};
+template <class T>
+LINKWRIGHT_KERNEL JointSeen<T> joint_seen(const Leg& leg, const math::Vector3<T>& g) {
+  JointSeen<T> out;
+  out.v = g - leg.base;
+  out.along = dot(out.v, leg.ahead);
+  out.aside = dot(out.v, leg.aside);
+  out.square = out.along * out.along + out.aside * out.aside;
+  out.c = (dot(out.v, out.v) + (leg.arm * leg.arm - leg.rod * leg.rod)) * (0.5 / leg.arm);
+  return out;
+}
+
 /// The arm that reaches the platform joint `g` with the working mode `sign` (of s . u', 1 or -1), without any
 /// trigonometry: the law of cosines turned by the direction of the joint seen from the pivot. Where it cannot
 /// reach, `reach` is negative (or NaN) and the rest is of no use.
 template <class T>
 LINKWRIGHT_KERNEL LegAt<T> leg_at(const Leg& leg, const math::Vector3<T>& g, double sign) {
   using std::sqrt;
-  const math::Vector3<T> v = g - leg.base;
-  const T x = dot(v, leg.ahead), w = dot(v, leg.aside);
-  const T square = x * x + w * w;
-  const T c = (dot(v, v) + (leg.arm * leg.arm - leg.rod * leg.rod)) * (0.5 / leg.arm);
+  const JointSeen<T> seen = joint_seen(leg, g);
+  const T &x = seen.along, &w = seen.aside, &square = seen.square, &c = seen.c;
+  const math::Vector3<T>& v = seen.v;
   LegAt<T> out;
   out.reach = square - c * c;
   const T root = sign * sqrt(out.reach), inverse = 1.0 / square;
@@ -58,6 +77,20 @@ LINKWRIGHT_KERNEL LegAt<T> leg_turned(const Leg& leg, const math::Vector3<T>& g,
              g.z - leg.base.z - leg.arm * out.arm.z};
   out.reach = T(0.0);
   return out;
+}
+
+/// f(integral constant of the number of legs).
+template <class F>
+auto sized(const Robot& robot, F&& f) {
+  switch (robot.freedom) {
+    case Freedom::plane_translation:
+      return f(std::integral_constant<int, 2>{});
+    case Freedom::space_translation:
+      return f(std::integral_constant<int, 3>{});
+    case Freedom::space:
+      break;
+  }
+  return f(std::integral_constant<int, 6>{});
 }
 
 }  // namespace linkwright::parallel

@@ -78,6 +78,8 @@ std::string_view style_name(study::Plot::Style style) {
       return "histogram";
     case study::Plot::Style::polar:
       return "polar";
+    case study::Plot::Style::map:
+      return "map";
   }
   return "line";
 }

@@ -249,7 +249,13 @@ std::optional<ObjectReader::Found> ObjectReader::find(const Field& field) {
 
 bool ObjectReader::has(const Field& field) {
   know(field);
-  return member_of(field) != nullptr;
+  if (member_of(field)) return true;
+  // Asked for by its name alone: with the unit that it was read with.
+  for (const auto& known : record_->known)
+    if (known.base == field.key && field.dimension == Dimension::none &&
+        member_of({.key = field.key, .summary = {}, .dimension = known.dimension}))
+      return true;
+  return false;
 }
 
 bool ObjectReader::is_table(const Field& field) {

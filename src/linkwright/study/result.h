@@ -41,7 +41,11 @@ struct Parameter {
 struct Plot {
   /// polar: y lists columns in pairs (x, y), each pair a curve such as the hodograph of a force or the path
   /// of a point; the axes are equal and the origin is marked.
-  enum class Style { line, points, histogram, polar };
+  ///
+  /// map: y lists two columns, the second coordinate and a value; each row is a place (x, y) of a regular grid
+  /// that is coloured by its value. Axes are equal; a group column gives one map for each of its values, all
+  /// with one scale of colours.
+  enum class Style { line, points, histogram, polar, map };
   std::string name;   ///< "transmission"
   std::string title;  ///< "Transmission angle over the turn"
   std::string table;  ///< name of the table

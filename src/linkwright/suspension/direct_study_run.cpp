@@ -6,10 +6,10 @@
 
 #include "linkwright/core/units.h"
 #include "linkwright/study/designed.h"
+#include "linkwright/study/run_seeds.h"
 #include "linkwright/suspension/direct_study.h"
 #include "linkwright/suspension/guide_scene.h"
 #include "linkwright/suspension/hard_points.h"
-#include "linkwright/suspension/seeds_study.h"
 #include "linkwright/suspension/structure.h"
 #include "linkwright/suspension/sweep_study.h"
 
@@ -57,7 +57,7 @@ bool better(const DirectSynthesis& a, const DirectSynthesis& b, const DirectOpti
   return cost_of(a, options) < cost_of(b, options);
 }
 
-using Runs = SeedRuns<DirectSynthesis>;
+using Runs = study::SeedRuns<DirectSynthesis>;
 
 std::string unit_suffix(const GuideColumn& c, TargetMeasure measure) {
   const auto parts = split_unit(c.key);
@@ -297,7 +297,7 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
   study::Result result;
   const DirectOptions& options = options_of(s);
   const DirectSynthesis before = assess(s.task, options, s.task.guide);
-  const Runs runs = run_seeds(
+  const Runs runs = study::run_seeds(
       common.seeds, context, "designs",
       [&](std::uint64_t seed) {
         return std::visit([&](const auto& method) { return search(method, s.task, seed, context); },

@@ -5,11 +5,11 @@
 #include <string>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/study/run_seeds.h"
 #include "linkwright/suspension/guide_deviations.h"
 #include "linkwright/suspension/guide_scene.h"
 #include "linkwright/suspension/hard_points.h"
 #include "linkwright/suspension/indirect_study.h"
-#include "linkwright/suspension/seeds_study.h"
 #include "linkwright/suspension/structure.h"
 #include "linkwright/suspension/sweep_study.h"
 
@@ -50,7 +50,7 @@ SeedRun run_seed(const IndirectStudy& s, std::uint64_t seed, bool only, RunConte
   return out;
 }
 
-using Runs = SeedRuns<SeedRun>;
+using Runs = study::SeedRuns<SeedRun>;
 
 /// Exact ones first, then by what the joints miss.
 bool better(const SeedRun& a, const SeedRun& b) {
@@ -244,7 +244,7 @@ std::string metres(double value) {
 
 study::Result run_indirect_study(const IndirectStudy& s, const study::Common& common, RunContext& context) {
   study::Result result;
-  const Runs runs = run_seeds(
+  const Runs runs = study::run_seeds(
       common.seeds, context, "links",
       [&](std::uint64_t seed) { return run_seed(s, seed, common.seeds.count == 1, context); },
       [](const SeedRun& run) { return run.answer.status; }, [](const SeedRun& run) { return run.error; });

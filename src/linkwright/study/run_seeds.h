@@ -8,7 +8,7 @@
 #include "linkwright/optimise/statistics.h"
 #include "linkwright/study/kind.h"
 
-namespace linkwright::suspension {
+namespace linkwright::study {
 
 /// What the seeds of a study came to; under an interruption perhaps not all of them.
 template <class Answer>
@@ -21,8 +21,8 @@ struct SeedRuns {
 /// Runs answer(seed) for each seed of a study on the threads of the context. `status` and `cost` (for the
 /// progress; infinite if none) of an answer are asked of it.
 template <class Run, class StatusOf, class CostOf>
-auto run_seeds(const study::Seeds& asked, RunContext& context, std::string_view stage, Run&& run,
-               StatusOf&& status, CostOf&& cost) {
+auto run_seeds(const Seeds& asked, RunContext& context, std::string_view stage, Run&& run, StatusOf&& status,
+               CostOf&& cost) {
   using Answer = decltype(run(std::uint64_t{}));
   const auto count = static_cast<std::size_t>(asked.count);
   const optimise::SeedRange seeds{static_cast<std::uint64_t>(asked.first), asked.count};
@@ -46,4 +46,4 @@ auto run_seeds(const study::Seeds& asked, RunContext& context, std::string_view 
   return out;
 }
 
-}  // namespace linkwright::suspension
+}  // namespace linkwright::study

@@ -1,0 +1,86 @@
+#include <benchmark/benchmark.h>
+
+#include "linkwright/flexible/modes.h"
+#include "linkwright/flexible/reference_beam.h"
+#include "linkwright/flexible/samples.h"
+#include "linkwright/flexible/simulation.h"
+#include "linkwright/flexible/statics.h"
+
+namespace linkwright::flexible {
+namespace {
+
+// The published examples: 20 s of spin-up at 16 rad/s with 5 ms, 5 s of a torque of 6 N m with 2 ms, one run
+// each. Time for each step: it has to grow with the number of cells and no more.
+void spin_up(benchmark::State& state) {
+  const Chain chain = discretise(spin_up_beam(), int(state.range(0)));
+  const double breaks[] = {15};
+  long steps = 0, iterations = 0;
+  for (auto _ : state) {
+    const Simulation run = simulate_motion(
+        chain, SpinUp{16, 15}, {.end = 20, .output_interval = 0.1, .step = 0.005, .breaks = breaks});
+    steps += run.steps;
+    iterations += run.iterations;
+    if (run.status != Status::done) state.SkipWithError(run.message.c_str());
+  }
+  state.counters["iterations_per_step"] = double(iterations) / double(steps);
+  state.counters["time_per_step"] =
+      benchmark::Counter(double(steps), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(spin_up)->Arg(2)->Arg(8)->Arg(25)->Arg(50)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);
+
+void torque(benchmark::State& state) {
+  const Chain chain = discretise(torque_beam(), int(state.range(0)));
+  const double breaks[] = {2};
+  long steps = 0, iterations = 0;
+  for (auto _ : state) {
+    const Simulation run = simulate_torque(
+        chain, SinePulse{6, 2}, {.end = 5, .output_interval = 0.1, .step = 0.002, .breaks = breaks});
+    steps += run.steps;
+    iterations += run.iterations;
+    if (run.status != Status::done) state.SkipWithError(run.message.c_str());
+  }
+  state.counters["iterations_per_step"] = double(iterations) / double(steps);
+  state.counters["time_per_step"] =
+      benchmark::Counter(double(steps), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(torque)->Arg(2)->Arg(8)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);
+
+// With half the step again and the limit of both: the tip to 1e-6 m.
+void extrapolated_spin_up(benchmark::State& state) {
+  const Chain chain = discretise(spin_up_beam(), int(state.range(0)));
+  const double breaks[] = {15};
+  for (auto _ : state)
+    benchmark::DoNotOptimize(simulate_motion(
+        chain, SpinUp{16, 15},
+        {.end = 20, .output_interval = 0.1, .step = 0.005, .breaks = breaks, .extrapolate = true}));
+}
+BENCHMARK(extrapolated_spin_up)->Arg(2)->Arg(8)->Unit(benchmark::kMillisecond);
+
+void reference_spin_up(benchmark::State& state) {
+  const double breaks[] = {15};
+  for (auto _ : state)
+    benchmark::DoNotOptimize(reference_motion(spin_up_beam(), SpinUp{4, 15},
+                                              {.end = 20,
+                                               .output_interval = 0.1,
+                                               .tolerance = 1e-7,
+                                               .breaks = breaks,
+                                               .beam = {.degree = 7, .points = 16}}));
+}
+BENCHMARK(reference_spin_up)->Unit(benchmark::kMillisecond);
+
+void first_three_frequencies(benchmark::State& state) {
+  const Chain chain = discretise(spin_up_beam(), int(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(modes(chain, 3, {.speed = 4}));
+}
+BENCHMARK(first_three_frequencies)->Arg(2)->Arg(8)->Arg(100)->Arg(200)->Unit(benchmark::kMicrosecond);
+
+void large_deflection(benchmark::State& state) {
+  const Beam beam = spin_up_beam();
+  const Chain chain = discretise(beam, int(state.range(0)));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(equilibrium(chain, {.force = {0, 10 * beam.bending_stiffness() / 64}}));
+}
+BENCHMARK(large_deflection)->Arg(4)->Arg(200)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace linkwright::flexible

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "linkwright/math/function_ref.h"
+
+/// What turns the hub.
+namespace linkwright::flexible {
+
+/// Angle of the hub and its derivatives (rad, rad/s, rad/s2).
+struct HubMotion {
+  double angle = 0, rate = 0, acceleration = 0;
+};
+
+/// Angle or torque (N m) as a function of time (s).
+using MotionLaw = math::FunctionRef<HubMotion(double)>;
+using TorqueLaw = math::FunctionRef<double(double)>;
+
+/// Spin-up (Boskovic 2018, (3.50)): from rest to a steady rate within a time, without a jump of the
+/// acceleration.
+struct SpinUp {
+  double rate = 0;      ///< omega_0 (rad/s), of either sign
+  double duration = 0;  ///< T > 0 (s)
+  HubMotion operator()(double time) const;
+};
+
+/// One period of a sine (Boskovic 2018, (3.51)), then none.
+struct SinePulse {
+  double torque = 0;    ///< tau_0 (N m)
+  double duration = 0;  ///< T > 0 (s): a break
+  double operator()(double time) const;
+};
+
+}  // namespace linkwright::flexible

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/run_context.h"
+#include "linkwright/core/status.h"
+#include "linkwright/flexible/chain.h"
+#include "linkwright/flexible/drive.h"
+#include "linkwright/flexible/response.h"
+
+/// Motion of hub and link in time.
+namespace linkwright::flexible {
+
+struct SimulationOptions {
+  double end = 0;              ///< s, from 0
+  double output_interval = 0;  ///< s: samples at 0, one interval, two, ... and at the end
+  double step = 0;             ///< s: longest step; steps end at samples and breaks
+  /// Times (s) at which the drive jumps or kinks: steps end there, and the drive is asked just before and
+  /// just after.
+  std::span<const double> breaks = {};
+
+  /// Runs with the step and with half of it, and takes the limit of both (Richardson): fourth order for
+  /// smooth drives, and an estimate of the error.
+  bool extrapolate = false;
+  /// With extrapolate: halves the step until the extrapolation moves the tip by no more than this (m); 0: the
+  /// step as it is.
+  double tolerance = 0;
+
+  double spectral_radius = 0.9;  ///< rho_inf in [0, 1): what is left of the stiffest vibrations after a step
+  double newton_tolerance =
+      1e-10;  ///< of the residuals, relative to the largest force and couple in the chain
+  int max_iterations = 20;
+  bool keep_states = false;
+  const RunContext* context = nullptr;  ///< looked at every few steps; receives the stage "simulation"
+};
+
+/// Where a motion starts; empty lists: undeformed, at rest.
+struct Start {
+  double angle = 0, rate = 0;  ///< of the hub, where it is free
+  std::vector<double> q, v;
+};
+
+struct Simulation {
+  /// done; not_converged: a step was too long for the motion, or the tolerance could not be met;
+  /// limit_reached: the chain folded (fold_limit); cancelled, deadline. Samples up to
+  /// there are kept.
+  Status status = Status::done;
+  std::string message;                ///< why it is not `done`
+  std::vector<std::string> warnings;  ///< what makes the result doubtful though it is `done`
+  /// The hub turned faster than the straight chain bears (critical_speed): what the samples show there is an
+  /// error of the cells, not of the link.
+  bool unstable = false;
+  std::vector<Sample> samples;
+  std::vector<ChainState> states;  ///< with keep_states, one a sample, of the finest run
+  ChainState last;                 ///< state at the end of the finest run
+  double error = 0;  ///< with extrapolate: largest change of the tip by the extrapolation (m); else 0
+  double step = 0;   ///< of the finest run (s)
+  long steps = 0, iterations = 0, factorisations = 0;  ///< of all runs
+  double largest_kink = 0;                             ///< rad
+  double fastest = 0;                                  ///< largest |rate| of the hub (rad/s)
+};
+
+/// Motion under a given turn of the hub. Generalised-alpha method (Arnold and Bruls 2007) on the residuals,
+/// of second order, without a condition on the step; it also takes chains with massless turns.
+///
+/// Throws ContractError for times that are not positive, a spectral radius outside [0, 1), a start of another
+/// size.
+Simulation simulate_motion(const Chain& chain, MotionLaw law, const SimulationOptions& options,
+                           const Start& start = {});
+
+/// Motion under a given torque on the hub.
+Simulation simulate_torque(const Chain& chain, TorqueLaw law, const SimulationOptions& options,
+                           const Start& start = {});
+
+}  // namespace linkwright::flexible

@@ -1,0 +1,314 @@
+#include "linkwright/parallel/poses_study.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "linkwright/math/angles.h"
+#include "linkwright/parallel/assembly_modes.h"
+#include "linkwright/parallel/pose_check.h"
+#include "linkwright/parallel/robot_scene.h"
+#include "linkwright/parallel/statics.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::parallel {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Vec3 vec(const Coordinates& c) { return {c[0], c[1], c[2]}; }
+
+/// Columns that are filled row by row.
+class Rows {
+ public:
+  explicit Rows(Table& table) : table_(table) {}
+  void operator()(std::string_view key, std::string_view label, double value) {
+    if (at_ == table_.columns.size()) {
+      Column& column = table_.add(std::string(key), std::string(label));
+      column.values.assign(rows_, nan);
+    }
+    table_.columns[at_++].values.push_back(value);
+  }
+  void next() {
+    ++rows_;
+    at_ = 0;
+  }
+
+ private:
+  Table& table_;
+  std::size_t at_ = 0, rows_ = 0;
+};
+
+void place(Rows& row, const RobotDescription& d, const Pose& pose, bool there) {
+  const Vec3 turn = there ? math::turn_of(pose.rotation) : Vec3{nan, nan, nan};
+  const Vec3 p = there ? pose.position : Vec3{nan, nan, nan};
+  row("x_m", "x (m)", p.x);
+  row("y_m", "y (m)", p.y);
+  if (d.robot.freedom != Freedom::plane_translation) row("z_m", "z (m)", p.z);
+  if (!d.tool_turns()) return;
+  row("rotation_x_rad", "rotation vector x (rad)", turn.x);
+  row("rotation_y_rad", "rotation vector y (rad)", turn.y);
+  row("rotation_z_rad", "rotation vector z (rad)", turn.z);
+}
+
+template <class Value>
+void by_leg(Rows& row, const RobotDescription& d, const char* key, const char* unit, const char* label,
+            const char* unit_text, Value&& value) {
+  for (int i = 0; i < d.robot.legs(); ++i)
+    row(fmt::format("{}_{}{}{}", key, i + 1, *unit ? "_" : "", unit),
+        fmt::format("{} {}{}", label, i + 1, *unit_text ? fmt::format(" ({})", unit_text) : ""), value(i));
+}
+
+/// One row of the table of poses.
+void measures(Rows& row, const RobotDescription& d, const AskedPose& asked, const SolvedPose& solved) {
+  const bool there = solved.status == Status::done || solved.status == Status::limit_reached ||
+                     solved.status == Status::singular;
+  const Jacobians at = jacobians(d.robot, solved.pose, solved.angles.angle);
+  const double length = platform_size(d.robot);
+  const Quality q = quality(d.robot, at, length);
+  const DrivesState drives = drives_at(d.robot, d.drives, solved.angles.angle);
+  const auto known = [there](double value) { return there ? value : nan; };
+  place(row, d, solved.pose, there);
+  by_leg(row, d, "arm_angle", "rad", "arm angle", "rad", [&](int i) { return solved.angles.angle[i]; });
+  const DriveWords words = words_of(d.drives[0].type);
+  if (d.drives[0].type == DriveType::pi_joint) {
+    by_leg(row, d, "pi_angle", "rad", "angle of Pi-joint", "rad",
+           [&](int i) { return known(drives.drive[i].angle); });
+    by_leg(row, d, "diagonal", "m", "diagonal", "m", [&](int i) { return known(drives.drive[i].value); });
+    by_leg(row, d, "pi_transmission", "", "sine of the transmission angle of Pi-joint", "",
+           [&](int i) { return known(drives.drive[i].transmission); });
+  }
+  row("transmission", "transmission index (least of all)", known(q.transmission));
+  by_leg(row, d, "input_transmission", "", "input transmission index", "",
+         [&](int i) { return known(std::abs(q.input[i])); });
+  by_leg(row, d, "output_transmission", "", "output transmission index", "",
+         [&](int i) { return known(q.output[i]); });
+  row("local_conditioning", "local conditioning index", known(1 / q.condition));
+  row("condition_number", "condition number", known(q.condition));
+  row("manipulability", "manipulability", known(q.manipulability));
+  row("rods_determinant", "determinant of the rods' directions", known(q.rods));
+  if (d.robot.freedom == Freedom::space_translation)
+    row("constraint_determinant", "determinant of the parallelograms' couples", known(q.constraint));
+  const Matrix6 total = total_jacobian(d.robot, jacobian(d.robot, at), drives.drive);
+  const bool stepped = d.drives[0].quantum > 0;
+  if (stepped) {
+    const Resolution step = resolution(d.robot, d.drives, total);
+    row("resolution_x_m", "resolution along x (m)", known(step.along.x));
+    row("resolution_y_m", "resolution along y (m)", known(step.along.y));
+    if (d.robot.freedom != Freedom::plane_translation)
+      row("resolution_z_m", "resolution along z (m)", known(step.along.z));
+    row("resolution_worst_m", "largest displacement by one step of each drive (m)", known(step.worst));
+  }
+  row("speed_factor", "speed along all axes for speed 1 of the drives",
+      known(speed_factor(d.robot, at, drives.drive)));
+  const StaticLoads loads = static_loads(d.robot, at, drives.drive, {vec(asked.force), vec(asked.moment)});
+  by_leg(row, d, "static_torque", "N_m", "static torque at arm", "N m",
+         [&](int i) { return known(loads.arm_torque[i]); });
+  by_leg(row, d, fmt::format("static_{}", words.effort_key).c_str(), std::string(words.effort_unit).c_str(),
+         fmt::format("static {}", words.effort).c_str(), words.effort_unit == "N" ? "N" : "N m",
+         [&](int i) { return known(loads.drive_effort[i]); });
+  by_leg(row, d, "rod_force", "N", "force in rod", "N", [&](int i) { return known(loads.rod_force[i]); });
+  if (!std::isfinite(d.drives[0].stiffness)) return;
+  const Stiffness k = stiffness(d.robot, d.drives, at, drives.drive, length);
+  const double least = k.eigenvalue[0], largest = k.eigenvalue[d.robot.legs() - 1];
+  const Displacement give =
+      displacement(d.robot, d.drives, at, drives.drive, {vec(asked.force), vec(asked.moment)});
+  row("least_stiffness_N_per_m", "least stiffness of the platform (N/m)", known(least));
+  row("largest_stiffness_N_per_m", "largest stiffness of the platform (N/m)", known(largest));
+  row("displacement_m", "displacement by the load (m)", known(norm(give.shift)));
+}
+
+Table poses_table(const RobotDescription& d, const PosesForm& form, const std::vector<SolvedPose>& solved) {
+  Table table{.name = "poses"};
+  Rows row(table);
+  for (std::size_t i = 0; i < solved.size(); ++i) {
+    table.names.push_back(form.poses[i].name);
+    table.status.emplace_back(to_string(solved[i].status));
+    measures(row, d, form.poses[i], solved[i]);
+    row.next();
+  }
+  return table;
+}
+
+Table working_table(const RobotDescription& d, const PosesForm& form, const std::vector<SolvedPose>& solved) {
+  Table table{.name = "working_modes"};
+  Rows row(table);
+  for (std::size_t i = 0; i < solved.size(); ++i) {
+    if (solved[i].angles.leg >= 0) continue;
+    for (const WorkingMode& mode : working_modes(d.robot)) {
+      const ArmAngles found = inverse(d.robot, solved[i].pose, mode);
+      const Jacobians at = jacobians(d.robot, solved[i].pose, found.angle);
+      const Quality q = quality(d.robot, at, platform_size(d.robot));
+      table.names.push_back(form.poses[i].name);
+      table.status.emplace_back(to_string(drives_at(d.robot, d.drives, found.angle).status));
+      by_leg(row, d, "sign", "", "sign of leg", "", [&](int k) { return static_cast<double>(mode[k]); });
+      by_leg(row, d, "arm_angle", "rad", "arm angle", "rad", [&](int k) { return found.angle[k]; });
+      row("assembly", "sign of the assembly", q.rods > 0 ? 1 : q.rods < 0 ? -1 : 0);
+      row("transmission", "transmission index", q.transmission);
+      row("local_conditioning", "local conditioning index", 1 / q.condition);
+      row.next();
+    }
+  }
+  return table;
+}
+
+/// Poses that the arm angles of a pose allow.
+struct Alternative {
+  Pose pose;
+  double residual = 0;
+};
+std::vector<Alternative> alternatives(const RobotDescription& d, const SolvedPose& solved,
+                                      std::string& note) {
+  std::vector<Alternative> out;
+  if (d.tool_turns()) {
+    const AssemblyModes found = assembly_modes(d.robot, solved.angles.angle);
+    note = found.note;
+    for (const AssemblyMode& m : found.modes) out.push_back({m.pose, m.residual});
+    return out;
+  }
+  for (const int sign : {-1, 1}) {
+    const Placed placed = direct(d.robot, solved.angles.angle, sign);
+    if (placed.status == Status::done) out.push_back({placed.pose, placed.residual});
+  }
+  return out;
+}
+
+Table assembly_table(study::Result& result, const RobotDescription& d, const PosesForm& form,
+                     const std::vector<SolvedPose>& solved) {
+  Table table{.name = "assembly_modes"};
+  Rows row(table);
+  for (std::size_t i = 0; i < solved.size(); ++i) {
+    if (solved[i].angles.leg >= 0) continue;
+    std::string note;
+    const auto found = alternatives(d, solved[i], note);
+    for (const Alternative& a : found) {
+      const Quality q =
+          quality(d.robot, jacobians(d.robot, a.pose, solved[i].angles.angle), platform_size(d.robot));
+      table.names.push_back(form.poses[i].name);
+      place(row, d, a.pose, true);
+      row("assembly", "sign of the assembly", q.rods > 0 ? 1 : q.rods < 0 ? -1 : 0);
+      row("transmission", "transmission index", q.transmission);
+      row("residual_m", "largest error of a rod's length (m)", a.residual);
+      row.next();
+    }
+    result.facts.push_back(
+        {fmt::format("{}: poses with its arm angles", form.poses[i].name), fmt::format("{}", found.size())});
+    if (!note.empty())
+      result.diagnostics.push_back(
+          {Diagnostic::Severity::warning, {}, {}, "modes", form.poses[i].name + ": " + note, {}});
+  }
+  return table;
+}
+
+}  // namespace
+
+PosesForm read_poses(study::ObjectReader& document, const RobotDescription& d, Value& canonical) {
+  PosesForm out;
+  document(Field{.key = "pose", .summary = {}}, out.poses);
+  document(Field{.key = "modes", .summary = {}}, out.modes);
+  const auto tables = document.tables("pose");
+  for (std::size_t i = 0; i < out.poses.size() && i < tables.size(); ++i) {
+    AskedPose& p = out.poses[i];
+    study::ObjectReader table = tables[i];
+    if (p.name.empty()) p.name = fmt::format("pose {}", i + 1);
+    if (p.position.has_value() == p.arm_angles.has_value())
+      table.error("position", p.position ? "and arm_angles are both given" : "is missing",
+                  "write position_mm = [x, y, z] or arm_angles_deg = [...], one of them");
+    if (p.arm_angles && static_cast<int>(p.arm_angles->size()) != d.robot.legs())
+      table.error("arm_angles", fmt::format("{} angles for {} legs", p.arm_angles->size(), d.robot.legs()));
+    if (!d.tool_turns() && p.rotation)
+      table.error("rotation", "the platform of this robot does not turn", "leave it out");
+    if (!d.tool_turns() && (p.moment[0] != 0 || p.moment[1] != 0 || p.moment[2] != 0))
+      table.error("moment", "the platform of this robot does not turn: no drive feels it", "leave it out");
+    if (d.robot.freedom == Freedom::plane_translation && p.position && (*p.position)[2] != 0)
+      table.error("position", "must have z = 0: the robot is planar", "write [x, y, 0]");
+  }
+  if (out.modes && out.poses.empty())
+    document.error("modes", "there is no pose whose modes could be listed", "add [[pose]]");
+  if (!out.poses.empty()) canonical["pose"] = study::ObjectWriter::to_value(out.poses);
+  if (out.modes) canonical["modes"] = study::write_fields(*out.modes);
+  return out;
+}
+
+void describe_poses(study::SchemaWriter& document) {
+  document.property(Field{.key = "pose", .summary = "poses to be looked at"},
+                    study::schema_array(study::schema_fields<AskedPose>()));
+  document.property(Field{.key = "modes", .summary = "tables of the other solutions of each pose"},
+                    study::schema_fields<ModesForm>());
+}
+
+SolvedPose solve_pose(const RobotDescription& d, const AskedPose& asked, const Pose& home) {
+  SolvedPose out;
+  if (asked.position) {
+    out.pose = {vec(*asked.position), math::turn_about(vec(asked.rotation.value_or(Coordinates{})))};
+    out.angles = inverse(d.robot, out.pose, d.mode);
+    out.status = out.angles.status;
+    out.reason = reason(out.angles);
+  } else {
+    std::copy(asked.arm_angles->begin(), asked.arm_angles->end(), out.angles.angle.begin());
+    const int side = assembly_at(d.robot, home, d.mode);
+    const Placed placed = d.tool_turns() ? direct_near(d.robot, out.angles.angle, home)
+                                         : direct(d.robot, out.angles.angle, side == 0 ? 1 : side);
+    out.pose = placed.pose;
+    out.status = placed.status;
+    if (out.status != Status::done) {
+      out.angles.leg = 0;
+      out.reason = out.status == Status::singular ? "its arm angles leave the platform's place open"
+                   : d.tool_turns() ? fmt::format("no pose was found from home: the rods miss by {:.3g} mm",
+                                                  1e3 * placed.residual)
+                                    : "the rods do not meet in one platform";
+    }
+  }
+  if (out.status != Status::done) return out;
+  const DrivesState drives = drives_at(d.robot, d.drives, out.angles.angle);
+  const Quality q = quality(d.robot, jacobians(d.robot, out.pose, out.angles.angle), platform_size(d.robot));
+  if (const Singularity s = singularity(d.robot, q); s != Singularity::none) {
+    out.status = Status::singular;
+    out.reason = fmt::format("singular ({})", name_of(s));
+    for (const auto& entry : names(Singularity{}))
+      if (entry.value == s) out.reason += fmt::format(": {}", entry.summary);
+  } else if (drives.status != Status::done) {
+    out.status = Status::limit_reached;
+    const double angle = math::degrees(drives.drive[drives.leg].angle);
+    out.reason = fmt::format("drive {} is at {:.2f} deg, beyond its travel", drives.leg + 1, angle);
+  }
+  return out;
+}
+
+void add_poses(study::Result& result, const RobotDescription& d, const PosesForm& form, const Pose& home) {
+  if (form.poses.empty()) return;
+  std::vector<SolvedPose> solved;
+  std::vector<RobotSample> samples;
+  std::vector<double> numbers;
+  int good = 0;
+  for (const AskedPose& asked : form.poses) {
+    solved.push_back(solve_pose(d, asked, home));
+    const SolvedPose& s = solved.back();
+    good += s.status == Status::done;
+    if (s.status != Status::done) {
+      result.diagnostics.push_back({Diagnostic::Severity::warning,
+                                    {},
+                                    {},
+                                    "pose",
+                                    fmt::format("{}: {}: {}", asked.name, to_string(s.status), s.reason),
+                                    {}});
+      if (result.status == Status::done) result.status = s.status;
+    }
+    const bool drawn = s.angles.leg < 0;
+    samples.push_back({drawn ? Status::done : s.status, s.pose, s.angles.angle});
+    numbers.push_back(static_cast<double>(numbers.size() + 1));
+  }
+  result.tables.push_back(poses_table(d, form, solved));
+  if (result.headline.empty())
+    result.headline = fmt::format("{} of {} poses are of use.", good, form.poses.size());
+  result.facts.push_back(
+      {"poses reached", fmt::format("{} of {}", good, form.poses.size()),
+       good == static_cast<int>(form.poses.size()) ? study::Fact::Verdict::good : study::Fact::Verdict::bad});
+  if (form.modes && form.modes->working) result.tables.push_back(working_table(d, form, solved));
+  if (form.modes && form.modes->assembly) result.tables.push_back(assembly_table(result, d, form, solved));
+  result.scenes.push_back(
+      robot_scene(d.robot, d.drives, {"poses", "poses", "pose", "pose"}, numbers, samples));
+}
+
+}  // namespace linkwright::parallel

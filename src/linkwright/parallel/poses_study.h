@@ -1,0 +1,74 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/parallel/robot_study.h"
+
+// Single poses in studies of parallel robots: everything that a pose has, and the other modes.
+namespace linkwright::parallel {
+
+/// `[[pose]]`: where the platform is, or the arm angles that put it there.
+struct AskedPose {
+  std::string name;
+  std::optional<Coordinates> position, rotation;
+  std::optional<std::vector<double>> arm_angles;
+  Coordinates force{}, moment{};
+};
+template <class Visitor>
+void fields(Visitor&& visit, AskedPose& p) {
+  visit(Field{.key = "name", .summary = "for tables"}, p.name);
+  visit(robot_fields::place("position", "of the platform point"), p.position);
+  visit(robot_fields::angle("rotation", "rotation vector seen from the base (HEXA)"), p.rotation);
+  visit(robot_fields::angle("arm_angles", "one a leg, in the place of position: direct kinematics"),
+        p.arm_angles);
+  visit(Field{.key = "force",
+              .summary = "that acts on the platform point",
+              .dimension = Dimension::force,
+              .minimum = -1e12,
+              .maximum = 1e12},
+        p.force);
+  visit(Field{.key = "moment",
+              .summary = "that acts on the platform (HEXA)",
+              .dimension = Dimension::torque,
+              .minimum = -1e12,
+              .maximum = 1e12},
+        p.moment);
+}
+
+/// `[modes]`: tables of the other solutions of each pose.
+struct ModesForm {
+  bool working = true, assembly = true;
+};
+template <class Visitor>
+void fields(Visitor&& visit, ModesForm& m) {
+  visit(Field{.key = "working", .summary = "all arm angles that put the platform there"}, m.working);
+  visit(Field{.key = "assembly", .summary = "all poses that the arm angles allow"}, m.assembly);
+}
+
+struct PosesForm {
+  std::vector<AskedPose> poses;
+  std::optional<ModesForm> modes;
+};
+
+/// Reads `[[pose]]` and `[modes]`.
+PosesForm read_poses(study::ObjectReader& document, const RobotDescription& description, Value& canonical);
+void describe_poses(study::SchemaWriter& document);
+
+/// A pose of the study as solved.
+struct SolvedPose {
+  Status status = Status::done;
+  std::string reason;  ///< why it is not done
+  Pose pose;
+  ArmAngles angles;
+};
+/// Arm angles of the pose, or the pose of the arm angles: for robots that turn the one that Newton's method
+/// finds from `home`, for others the assembly that `home` has.
+SolvedPose solve_pose(const RobotDescription& description, const AskedPose& asked, const Pose& home);
+
+/// Tables "poses", "working_modes", "assembly_modes", facts, warnings and a scene.
+void add_poses(study::Result& result, const RobotDescription& description, const PosesForm& form,
+               const Pose& home);
+
+}  // namespace linkwright::parallel

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <vector>
+
+#include "linkwright/study/reproduction.h"
+
+namespace linkwright::parallel {
+
+/// The published numbers about the Pi-joint.
+std::vector<study::Reproduction> reproductions();
+
+}  // namespace linkwright::parallel

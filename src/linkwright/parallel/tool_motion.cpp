@@ -1,0 +1,246 @@
+#include "linkwright/parallel/tool_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "linkwright/core/check.h"
+#include "linkwright/math/dual.h"
+#include "linkwright/parallel/tool_layout.h"
+#include "linkwright/parallel/tool_timing.h"
+
+namespace linkwright::parallel {
+namespace {
+
+using math::Vector3;
+
+// Index of the last of the `count` items that begins at or before x; 0 if there is none.
+template <class Begin>
+std::size_t last_from(std::size_t count, double x, Begin&& begin) {
+  std::size_t low = 0;
+  while (count > 1) {
+    const std::size_t half = count / 2;
+    if (begin(low + half) <= x) low += half;
+    count -= half;
+  }
+  return low;
+}
+
+// Angular velocity (seen from the base) of the rotation with the vector r that changes at the rate v.
+template <class T>
+Vector3<T> angular_velocity(const Vector3<T>& r, const Vector3<T>& v) {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  const T square = dot(r, r);
+  // (1 - cos a) / a^2 and (a - sin a) / a^3; below 1e-2 their series to the last digit.
+  T versed, rest;
+  if (square < 1e-4) {
+    versed = 0.5 * (1 - square / 12 * (1 - square / 30 * (1 - square / 56)));
+    rest = (1 - square / 20 * (1 - square / 42 * (1 - square / 72))) / 6;
+  } else {
+    const T angle = sqrt(square), half = sin(angle / 2);
+    versed = 2 * half * half / square;
+    rest = (angle - sin(angle)) / (square * angle);
+  }
+  const Vector3<T> once = cross(r, v);
+  return v + versed * once + rest * cross(r, once);
+}
+
+// The rotation vectors of a table, each the one of its rotation that is nearest to that before it: a turn may
+// go on beyond half a turn.
+std::vector<Vec3> unwound(const std::vector<Coordinates>& rotations) {
+  constexpr double whole = 2 * std::numbers::pi;
+  std::vector<Vec3> out;
+  for (const Coordinates& c : rotations) {
+    Vec3 r{c[0], c[1], c[2]};
+    if (!out.empty()) {
+      const Vec3 before = out.back();
+      const double size = norm(r), size_before = norm(before);
+      if (size > 1e-12 || size_before > 1e-12) {
+        const Vec3 axis = size > 1e-12 ? (1 / size) * r : (1 / size_before) * before;
+        r = r + whole * std::round((dot(before, axis) - dot(r, axis)) / whole) * axis;
+      }
+    }
+    out.push_back(r);
+  }
+  return out;
+}
+
+std::array<math::PiecewisePolynomial, 3> splines(const std::vector<double>& times,
+                                                 const std::vector<Vec3>& points) {
+  std::array<math::PiecewisePolynomial, 3> out;
+  std::vector<double> values(points.size());
+  for (int k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      values[i] = k == 0 ? points[i].x : k == 1 ? points[i].y : points[i].z;
+    out[k] = math::interpolating_spline(times, values, math::SplineDegree::quintic, math::SplineEnds::rest);
+  }
+  return out;
+}
+
+// Value and derivatives of three splines.
+std::array<Vec3, 4> at(const std::array<math::PiecewisePolynomial, 3>& s, double t) {
+  const auto x = evaluate(s[0], t), y = evaluate(s[1], t), z = evaluate(s[2], t);
+  std::array<Vec3, 4> out;
+  for (int k = 0; k < 4; ++k) out[k] = {x[k], y[k], z[k]};
+  return out;
+}
+
+}  // namespace
+
+std::optional<ToolProblem> problem(const ToolPath& path, const ToolLimits& limits, const Pose& start) {
+  if (auto bad = problem(limits)) return bad;
+  return lay_out(path, start).problem;
+}
+
+ToolMotion::ToolMotion(const ToolPath& path, const ToolLimits& limits, const Pose& start) {
+  const auto bad_limits = problem(limits);
+  LINKWRIGHT_REQUIRE(!bad_limits, "{}", bad_limits->message);
+  const ToolLayout layout = lay_out(path, start);
+  LINKWRIGHT_REQUIRE(!layout.problem, "{}", layout.problem->message);
+  for (std::size_t i = 0; i < path.steps.size(); ++i) names_.push_back(step_name(path, static_cast<int>(i)));
+
+  for (const ToolRun& from : layout.runs) {
+    Run run{.step = from.step,
+            .start = duration_,
+            .duration = from.dwell,
+            .first_piece = pieces_.size(),
+            .first_phase = phases_.size(),
+            .law = path.law,
+            .position = from.start.position,
+            .rotation = from.start.rotation,
+            .turn = from.turn};
+    for (const ToolPart& part : from.parts) {
+      pieces_.push_back({part.curve, part.step, run.length});
+      run.length += part.curve.length;
+    }
+    run.end_piece = pieces_.size();
+    if (!from.parts.empty()) {
+      const ToolTiming timing = timed(from, path.law, limits);
+      phases_.insert(phases_.end(), timing.phases.begin(), timing.phases.end());
+      run.duration = timing.duration;
+    } else if (from.table) {
+      Spline spline;
+      std::vector<double> times;
+      for (double t : from.table->times) times.push_back(t - from.table->times.front());
+      std::vector<Vec3> points;
+      for (const Coordinates& c : from.table->points) points.push_back({c[0], c[1], c[2]});
+      // The same up to the tolerance of the check; so the motion is continuous to the last digit.
+      points.front() = from.start.position;
+      spline.position = splines(times, points);
+      spline.turns = !from.table->rotations.empty();
+      if (spline.turns) spline.rotation = splines(times, unwound(from.table->rotations));
+      run.duration = times.back();
+      run.spline = static_cast<int>(splines_.size());
+      splines_.push_back(std::move(spline));
+    }
+    run.end_phase = phases_.size();
+    duration_ += run.duration;
+    runs_.push_back(run);
+  }
+  end_ = {.position = layout.end.position, .rotation = layout.end.rotation};
+}
+
+const ToolMotion::Run& ToolMotion::run_at(double t) const {
+  return runs_[last_from(runs_.size(), t, [&](std::size_t i) { return runs_[i].start; })];
+}
+
+const ToolMotion::Piece& ToolMotion::piece_at(const Run& run, double length) const {
+  const Piece* pieces = pieces_.data() + run.first_piece;
+  return pieces[last_from(run.end_piece - run.first_piece, length,
+                          [&](std::size_t i) { return pieces[i].offset; })];
+}
+
+Progress ToolMotion::progress(const Run& run, double time) const {
+  if (run.law == TimeLaw::double_s) {
+    const JerkPhase* phases = phases_.data() + run.first_phase;
+    const JerkPhase& phase = phases[last_from(run.end_phase - run.first_phase, time,
+                                              [&](std::size_t i) { return phases[i].start; })];
+    return after(phase, time - phase.start);
+  }
+  const double T = run.duration, rate = run.length / T;
+  const Progress x = shape(run.law, time / T);
+  return {run.length * x.length, rate * x.speed, rate / T * x.acceleration, rate / (T * T) * x.jerk};
+}
+
+ToolState ToolMotion::along(const Run& run, double time) const {
+  const Progress p = progress(run, time);
+  const double s = std::clamp(p.length, 0.0, run.length);
+  const Piece& piece = piece_at(run, s);
+  const CurvePoint point = point_at(piece.curve, std::min(s - piece.offset, piece.curve.length));
+  const auto [velocity, acceleration, jerk] = moved(point, p);
+  ToolState out{.position = point.position,
+                .velocity = velocity,
+                .acceleration = acceleration,
+                .jerk = jerk,
+                .rotation = run.rotation};
+  if (run.turn != Vec3{}) {
+    out.rotation = math::turn_about((s / run.length) * run.turn) * run.rotation;
+    out.angular_velocity = (p.speed / run.length) * run.turn;
+    out.angular_acceleration = (p.acceleration / run.length) * run.turn;
+  }
+  return out;
+}
+
+ToolState ToolMotion::on(const Spline& spline, const Run& run, double time) const {
+  const auto p = at(spline.position, time);
+  ToolState out{
+      .position = p[0], .velocity = p[1], .acceleration = p[2], .jerk = p[3], .rotation = run.rotation};
+  if (spline.turns) {
+    const auto r = at(spline.rotation, time);
+    // The angular acceleration is the derivative by time, in one direction of dual numbers.
+    const auto moving = [](const Vec3& a, const Vec3& rate) {
+      using Dual = math::Dual<1>;
+      return Vector3<Dual>{{Dual(a.x) + rate.x * Dual::variable(0, 0)},
+                           {Dual(a.y) + rate.y * Dual::variable(0, 0)},
+                           {Dual(a.z) + rate.z * Dual::variable(0, 0)}};
+    };
+    const auto w = angular_velocity(moving(r[0], r[1]), moving(r[1], r[2]));
+    out.rotation = math::turn_about(r[0]);
+    out.angular_velocity = {w.x.value, w.y.value, w.z.value};
+    out.angular_acceleration = {w.x.by[0], w.y.by[0], w.z.by[0]};
+  }
+  return out;
+}
+
+ToolState ToolMotion::operator()(double t) const {
+  if (t < 0) return {.position = runs_.front().position, .rotation = runs_.front().rotation};
+  if (t >= duration_) return end_;
+  const Run& run = run_at(t);
+  const double time = std::clamp(t - run.start, 0.0, run.duration);
+  if (run.end_piece > run.first_piece) return along(run, time);
+  if (run.spline >= 0) return on(splines_[run.spline], run, time);
+  return {.position = run.position, .rotation = run.rotation};
+}
+
+int ToolMotion::piece_at(double t) const {
+  const Run& run = run_at(std::min(t, duration_));
+  if (run.end_piece == run.first_piece) return run.step;
+  const double time = std::clamp(t - run.start, 0.0, run.duration);
+  return piece_at(run, std::clamp(progress(run, time).length, 0.0, run.length)).step;
+}
+
+std::string ToolMotion::where(double t) const {
+  return fmt::format("{} at {:.6g} s", names_[piece_at(t)], t);
+}
+
+std::vector<ToolMotion::Sample> ToolMotion::samples(double dt) const {
+  LINKWRIGHT_REQUIRE(dt > 0, "the interval is {} s, must be more than 0 s", dt);
+  constexpr double most = 1e7;
+  LINKWRIGHT_REQUIRE(duration_ / dt < most, "{} s in intervals of {} s are too many samples", duration_, dt);
+  std::vector<Sample> out;
+  // An interval that divides the duration up to rounding does so.
+  const auto whole = static_cast<std::size_t>(std::ceil(duration_ / dt * (1 - 1e-12)));
+  for (std::size_t i = 0; i < whole; ++i) {
+    const double t = static_cast<double>(i) * dt;
+    out.push_back({t, (*this)(t)});
+  }
+  out.push_back({duration_, end_});
+  return out;
+}
+
+}  // namespace linkwright::parallel

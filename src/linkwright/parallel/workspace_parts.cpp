@@ -1,0 +1,197 @@
+#include "linkwright/parallel/workspace_parts.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+#include "linkwright/core/check.h"
+#include "linkwright/optimise/parallel.h"
+
+namespace linkwright::parallel {
+
+namespace {
+
+// What the bounds need of a place.
+struct Measure {
+  double rods = 0;   // determinant of the rods' directions; NaN where the legs do not reach
+  double input = 0;  // least input transmission
+};
+
+// How far the indices of a place hold.
+class Bounds {
+ public:
+  explicit Bounds(const WorkspacePartsTask& task) {
+    const Robot& robot = task.conditions.robot;
+    double rows = 1;
+    for (int i = 0; i < robot.legs(); ++i) {
+      const Leg& leg = robot.leg[i];
+      by_rods_ += 1 / leg.rod;
+      shortest_ = std::min(shortest_, leg.rod);
+      slope_ = std::max(slope_, 1 + leg.rod / leg.arm);
+      if (robot.freedom == Freedom::space)
+        rows *= std::hypot(1, norm(leg.platform) / task.conditions.characteristic_length);
+    }
+    by_rods_ *= rows;
+  }
+
+  /// Whether no pose within `radius` of a place is singular.
+  bool regular(const Measure& at, double radius) const {
+    // q >= b on the way as long as radius (1 + slope/b)/L <= q - b; b = q/2 is near the best choice.
+    const double least = 0.5 * at.input;
+    if (!(radius * (1 + slope_ / least) <= (at.input - least) * shortest_)) return false;
+    return std::abs(at.rods) > radius * by_rods_ * (1 + 1 / least);
+  }
+
+ private:
+  double by_rods_ = 0, slope_ = 0, shortest_ = std::numeric_limits<double>::infinity();
+};
+
+class Edges {
+ public:
+  Edges(const WorkspacePartsTask& task) : task_(task), bounds_(task) {}
+
+  bool open(const Vec3& a, const Measure& at_a, const Vec3& b, const Measure& at_b) const {
+    return open(a, at_a, b, at_b, task_.most_halvings);
+  }
+
+ private:
+  bool open(const Vec3& a, const Measure& at_a, const Vec3& b, const Measure& at_b, int halvings) const {
+    // Also false where the legs do not reach.
+    if (!(at_a.rods * at_b.rods > 0)) return false;
+    const double half = 0.5 * norm(b - a);
+    if (bounds_.regular(at_a, half) && bounds_.regular(at_b, half)) return true;
+    // One end alone may vouch for the whole edge.
+    if (bounds_.regular(at_a, 2 * half) || bounds_.regular(at_b, 2 * half)) return true;
+    if (halvings == 0) return false;
+    const Vec3 middle = 0.5 * (a + b);
+    const Measure at = measure(middle);
+    return open(a, at_a, middle, at, halvings - 1) && open(middle, at, b, at_b, halvings - 1);
+  }
+
+  Measure measure(const Vec3& place) const {
+    Measure out;
+    PoseFindings findings;
+    findings.index[slot(PoseIndex::rods)] = {&out.rods, 1};
+    findings.index[slot(PoseIndex::input_transmission)] = {&out.input, 1};
+    check_poses(task_.conditions, {&place, 1}, task_.rotation, findings);
+    return out;
+  }
+
+  const WorkspacePartsTask& task_;
+  Bounds bounds_;
+};
+
+// Half of the neighbours: the other half are the same edges.
+std::vector<std::array<int, 3>> directions(const WorkspacePartsTask& task) {
+  if (task.neighbours == Neighbours::along_axes) return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::vector<std::array<int, 3>> out;
+  for (int k = -1; k <= 1; ++k)
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i)
+        if (i + 3 * j + 9 * k > 0) out.push_back({i, j, k});
+  return out;
+}
+
+std::size_t root_of(std::vector<std::size_t>& parent, std::size_t n) {
+  while (parent[n] != n) n = parent[n] = parent[parent[n]];
+  return n;
+}
+
+std::size_t nearest_node(const WorkspaceMap& map, const Vec3& place) {
+  const auto along = [&](double low, double value, std::size_t nodes) {
+    const double steps = std::round((value - low) / map.grid.step);
+    return static_cast<std::size_t>(std::clamp(steps, 0.0, static_cast<double>(nodes - 1)));
+  };
+  return map.number(along(map.grid.low.x, place.x, map.nodes[0]),
+                    along(map.grid.low.y, place.y, map.nodes[1]),
+                    along(map.grid.low.z, place.z, map.nodes[2]));
+}
+
+}  // namespace
+
+std::size_t WorkspaceParts::all() const { return std::accumulate(size.begin(), size.end(), std::size_t{0}); }
+
+WorkspaceParts workspace_parts(const WorkspaceMap& map, const NodeSet& set, const WorkspacePartsTask& task,
+                               const RunContext& context) {
+  LINKWRIGHT_REQUIRE(set.size() == map.count(), "a set of {} nodes for a map of {}", set.size(), map.count());
+  LINKWRIGHT_REQUIRE(task.most_halvings >= 0, "{} halvings", task.most_halvings);
+  WorkspaceParts out;
+  WorkspaceTask indices{.conditions = task.conditions, .grid = map.grid, .rotation = task.rotation};
+  indices.wanted[slot(PoseIndex::rods)] = indices.wanted[slot(PoseIndex::input_transmission)] = true;
+  const WorkspaceMap at = workspace(indices, context);
+  const auto stopped = [&](Status status) {
+    out.status = status;
+    return status != Status::done;
+  };
+  if (stopped(at.status)) return out;
+  const auto& rods = at.index[slot(PoseIndex::rods)];
+  const auto& input = at.index[slot(PoseIndex::input_transmission)];
+
+  // Every layer looks at the edges that begin in it.
+  const auto ways = directions(task);
+  const Edges edges(task);
+  const auto [nx, ny, nz] = map.nodes;
+  std::vector<std::uint32_t> open(map.count());  // bit w: the edge along ways[w]
+  std::vector<std::size_t> edge_count(ny * nz), closed_count(ny * nz);
+  optimise::parallel_for(ny * nz, context.threads(), [&, nx = nx, ny = ny, nz = nz](std::size_t row) {
+    if (context.interrupted()) return;
+    const std::size_t j = row % ny, k = row / ny;
+    for (std::size_t i = 0; i < nx; ++i) {
+      const std::size_t n = map.number(i, j, k);
+      if (!set[n]) continue;
+      for (std::size_t w = 0; w < ways.size(); ++w) {
+        const std::size_t to_i = i + ways[w][0], to_j = j + ways[w][1], to_k = k + ways[w][2];
+        if (to_i >= nx || to_j >= ny || to_k >= nz) continue;  // also below 0
+        const std::size_t m = map.number(to_i, to_j, to_k);
+        if (!set[m]) continue;
+        ++edge_count[row];
+        if (edges.open(map.position(n), {rods[n], input[n]}, map.position(m), {rods[m], input[m]}))
+          open[n] |= 1u << w;
+        else
+          ++closed_count[row];
+      }
+    }
+  });
+  if (stopped(context.interruption())) return out;
+
+  std::vector<std::size_t> parent(map.count());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto reach = [&](std::size_t w) {
+    return static_cast<std::ptrdiff_t>(ways[w][0]) +
+           static_cast<std::ptrdiff_t>(nx) * (ways[w][1] + static_cast<std::ptrdiff_t>(ny) * ways[w][2]);
+  };
+  for (std::size_t n = 0; n < map.count(); ++n)
+    for (std::size_t w = 0; w < ways.size(); ++w) {
+      if (!(open[n] >> w & 1)) continue;
+      // The smaller number is the root, so that roots are first nodes.
+      const std::size_t a = root_of(parent, n),
+                        b = root_of(parent,
+                                    static_cast<std::size_t>(static_cast<std::ptrdiff_t>(n) + reach(w)));
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  out.edges = std::accumulate(edge_count.begin(), edge_count.end(), std::size_t{0});
+  out.closed = std::accumulate(closed_count.begin(), closed_count.end(), std::size_t{0});
+  out.part.assign(map.count(), -1);
+  for (std::size_t n = 0; n < map.count(); ++n) {
+    if (!set[n]) continue;
+    const std::size_t root = root_of(parent, n);
+    if (root == n) {
+      out.part[n] = static_cast<std::int32_t>(out.size.size());
+      out.size.push_back(0);
+    }
+    out.part[n] = out.part[root];
+    ++out.size[static_cast<std::size_t>(out.part[n])];
+  }
+  out.home_node = nearest_node(map, task.home);
+  out.home = out.part[out.home_node];
+  return out;
+}
+
+NodeSet nodes_of(const WorkspaceParts& parts, int part) {
+  NodeSet out(parts.part.size());
+  for (std::size_t n = 0; n < out.size(); ++n) out[n] = parts.part[n] == part;
+  return out;
+}
+
+}  // namespace linkwright::parallel

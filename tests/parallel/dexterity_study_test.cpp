@@ -1,0 +1,63 @@
+#include "linkwright/parallel/dexterity_study.h"
+
+#include <gmock/gmock.h>
+
+#include "parallel/studies.h"
+
+namespace linkwright::parallel {
+namespace {
+
+using testing::example;
+using testing::fact;
+using ::testing::HasSubstr;
+using testing::problems_of;
+using testing::replaced;
+using testing::run_text;
+
+const std::string head =
+    "schema = 1\nkind = \"synthesis\"\n[mechanism]\ntype = \"parallel.delta\"\nradius_difference_mm = { min "
+    "= 0, max = 600 }\n"
+    "arm_mm = { min = 100, max = 1000 }\nrod_mm = { min = 200, max = 1600 }\noffset_mm = { min = 50, max = "
+    "1500 }\n"
+    "[target]\ntype = \"region\"\nshape = \"cylinder\"\nwidth_mm = 800\nheight_mm = 250\n";
+const std::string smallest = head +
+                             "goal = \"size\"\n[target.limits]\nconditioning = 0.4\ninput = "
+                             "0.5\narm_travel_deg = 120\nside_swing_deg = 40\n";
+
+TEST(DexterityStudy, FindsTheSmallestDelta) {
+  const auto result = run_text(smallest);
+  EXPECT_EQ(result.status, Status::done);
+  EXPECT_LE(result.solutions.at(0).objectives.find("size_m")->as_number(), 1.03386556);
+  EXPECT_THAT(fact(result, "held back by"), HasSubstr("side_swing"));
+  // All of the rim is reached.
+  ASSERT_EQ(result.scenes.size(), 1u);
+  for (const std::string& status : result.scenes[0].status) EXPECT_EQ(status, "done");
+}
+
+TEST(DexterityStudy, PopulationMethodsWorkOnTheSameTask) {
+  const auto result = run_text(
+      smallest + "[optimiser]\nmethod = \"differential_evolution\"\npopulation = 30\ngenerations = 60\n");
+  EXPECT_EQ(result.status, Status::done);
+  const double size = result.solutions.at(0).objectives.find("size_m")->as_number();
+  EXPECT_GT(size, 1.0338);
+  EXPECT_LT(size, 1.3);
+  EXPECT_EQ(result.statistics.find("method")->as_string(), "differential_evolution");
+}
+
+TEST(DexterityStudy, SaysWhatCannotBe) {
+  const auto result = run_text(replaced(smallest, "conditioning = 0.4", "conditioning = 0.99"));
+  EXPECT_EQ(result.status, Status::infeasible);
+  EXPECT_THAT(result.headline, HasSubstr("No design meets every limit"));
+}
+
+TEST(DexterityStudy, TellsWhatIsWrong) {
+  EXPECT_THAT(problems_of(replaced(smallest, "arm_mm = { min = 100, max = 1000 }\n", "")), HasSubstr("arm"));
+  EXPECT_THAT(problems_of(replaced(smallest, "height_mm = 250\n", "height_mm = 0\n")), HasSubstr("height"));
+  EXPECT_THAT(problems_of(replaced(smallest, "height_mm = 250\n", "height_mm = 250\nnodes = [5]\n")),
+              HasSubstr("1 numbers for 3 coordinates"));
+  EXPECT_THAT(problems_of(replaced(smallest, "width_mm = 800", "width_mm = 800\nlenght_mm = 3")),
+              HasSubstr("length"));
+}
+
+}  // namespace
+}  // namespace linkwright::parallel

@@ -1,0 +1,104 @@
+#include "linkwright/parallel/poses_study.h"
+
+#include <gmock/gmock.h>
+
+#include "parallel/robots.h"
+#include "parallel/studies.h"
+
+namespace linkwright::parallel {
+namespace {
+
+using testing::column;
+using ::testing::HasSubstr;
+using testing::problems_of;
+using testing::run_text;
+
+const std::string delta =
+    "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"parallel.delta\"\nbase_radius_mm = "
+    "200\nplatform_radius_mm = 45\n"
+    "arm_mm = 350\nrod_mm = 800\n[mechanism.drive]\ntype = \"pi_joint\"\nmounting_deg = 30\ntravel_deg = "
+    "[-60, 60]\n"
+    "step_mm = 0.0127\nstiffness_N_per_m = 1.1e7\n";
+const std::string hexa =
+    "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"parallel.hexa\"\nbase_radius_mm = "
+    "250\nbase_offset_mm = 60\n"
+    "platform_radius_mm = 90\nplatform_angle_deg = 45\narm_mm = 250\nrod_mm = 550\n";
+
+TEST(PosesStudy, TellsEverythingOfAPose) {
+  const auto result = run_text(delta + "[[pose]]\nposition_mm = [200, -100, -850]\nforce_N = [10, 5, -30]\n");
+  const Value &pose = computed("delta-pose-0.2_-0.1_-0.85"), &statics = computed("delta-statics");
+  EXPECT_NEAR(column(result, "poses", "diagonal_2_m").at(0),
+              linkwright::testing::numbers(linkwright::testing::at(pose, "d_m"))[1], 1e-12);
+  EXPECT_NEAR(column(result, "poses", "condition_number").at(0),
+              linkwright::testing::number_at(pose, "condition_number"), 1e-10);
+  EXPECT_NEAR(column(result, "poses", "transmission").at(0), linkwright::testing::number_at(pose, "lti"),
+              1e-11);
+  EXPECT_NEAR(column(result, "poses", "resolution_worst_m").at(0),
+              linkwright::testing::number_at(pose, "resolution_worst_m"), 1e-14);
+  EXPECT_NEAR(column(result, "poses", "static_screw_force_3_N").at(0),
+              linkwright::testing::numbers(linkwright::testing::at(statics, "screw_force_N"))[2], 1e-9);
+  EXPECT_NEAR(column(result, "poses", "least_stiffness_N_per_m").at(0),
+              linkwright::testing::numbers(linkwright::testing::at(statics, "stiffness_eigenvalues_N_m"))[0],
+              1e-3);
+  EXPECT_EQ(testing::fact(result, "poses reached"), "1 of 1");
+}
+
+TEST(PosesStudy, ArmAnglesGiveThePoseBack) {
+  const auto result =
+      run_text(delta +
+               "[home]\nposition_mm = [0, 0, -800]\n[[pose]]\narm_angles_rad = [0.3199224731453132, "
+               "0.9352387010280818, 0.6813143205259129]\n");
+  EXPECT_NEAR(column(result, "poses", "x_m").at(0), 0.2, 1e-12);
+  EXPECT_NEAR(column(result, "poses", "z_m").at(0), -0.85, 1e-12);
+  EXPECT_THAT(problems_of(delta + "[[pose]]\narm_angles_deg = [1, 2]\n"), HasSubstr("2 angles for 3 legs"));
+}
+
+TEST(PosesStudy, ListsModes) {
+  const auto result =
+      run_text(delta + "[[pose]]\nname = \"corner\"\nposition_mm = [200, -100, -850]\n[modes]\n");
+  EXPECT_EQ(testing::table(result, "working_modes").rows(), 8u);
+  EXPECT_EQ(testing::table(result, "assembly_modes").rows(), 2u);
+  // The other assembly is in the table.
+  const Vec3 other =
+      point(linkwright::testing::at(computed("delta-pose-0.2_-0.1_-0.85"), "other_assembly_p_m"));
+  EXPECT_THAT(column(result, "assembly_modes", "x_m"),
+              ::testing::Contains(::testing::DoubleNear(other.x, 1e-12)));
+  const auto all = run_text(hexa +
+                            "[[pose]]\nposition_mm = [50, -30, -500]\nrotation_rad = [0.15, -0.2, "
+                            "0.25]\n[modes]\nworking = false\n");
+  EXPECT_EQ(testing::table(all, "assembly_modes").rows(), 12u);
+  EXPECT_THAT(
+      problems_of(delta + "[modes]\n[workspace]\nlower_mm=[0,0,-800]\nupper_mm=[0,0,-700]\nstep_mm=50\n"),
+      HasSubstr("there is no pose whose modes could be listed"));
+}
+
+TEST(PosesStudy, SaysWhyAPoseIsNoUse) {
+  const auto far =
+      run_text(delta + "[home]\nposition_mm = [0, 0, -800]\n[[pose]]\nposition_mm = [0, 0, -1500]\n");
+  EXPECT_EQ(far.status, Status::no_assembly);
+  ASSERT_EQ(far.diagnostics.size(), 1u);
+  EXPECT_THAT(to_string(far.diagnostics[0]), HasSubstr("pose 1: no_assembly: leg 1 is 358 mm too short"));
+  EXPECT_TRUE(std::isnan(column(far, "poses", "arm_angle_1_rad").at(0)));
+  const auto beyond = run_text(testing::replaced(delta, "[-60, 60]", "[-20, 20]") +
+                               "[[pose]]\nposition_mm = [550, 0, -700]\n");
+  EXPECT_EQ(beyond.status, Status::limit_reached);
+  EXPECT_THAT(to_string(beyond.diagnostics.at(0)), HasSubstr("beyond its travel"));
+  // A platform that has turned by the angle where its rods hold it no longer.
+  const auto singular = run_text(hexa +
+                                 "[home]\nposition_mm = [0, 0, -500]\n[[pose]]\nposition_mm = [0, 0, "
+                                 "-500]\nrotation_rad = [0, 0, 1.6147137688767497]\n");
+  EXPECT_EQ(singular.status, Status::singular);
+  EXPECT_THAT(to_string(singular.diagnostics.at(0)),
+              HasSubstr("singular (type_2): the rods do not hold the platform"));
+}
+
+TEST(PosesStudy, TellsWhatDoesNotFitTogether) {
+  EXPECT_THAT(problems_of(delta + "[[pose]]\nname = \"a\"\n"), HasSubstr("position: is missing"));
+  EXPECT_THAT(problems_of(delta + "[[pose]]\nposition_mm = [0, 0, -800]\nrotation_deg = [0, 0, 5]\n"),
+              HasSubstr("the platform of this robot does not turn"));
+  EXPECT_THAT(problems_of(delta + "[[pose]]\nposition_mm = [0, 0, -800]\nmoment_N_m = [0, 0, 5]\n"),
+              HasSubstr("no drive feels it"));
+}
+
+}  // namespace
+}  // namespace linkwright::parallel

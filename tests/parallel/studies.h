@@ -1,0 +1,51 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "linkwright/parallel/studies.h"
+#include "support/study_text.h"
+
+// Studies of this room as texts.
+namespace linkwright::parallel::testing {
+
+using linkwright::testing::fact;
+using linkwright::testing::replaced;
+
+inline const std::vector<study::Kind>& kinds() {
+  static const std::vector<study::Kind> all = studies();
+  return all;
+}
+inline std::string problems_of(const std::string& text, const std::filesystem::path& folder = ".") {
+  return linkwright::testing::problems_of(kinds(), text, folder);
+}
+inline study::Result run_text(const std::string& text, const std::filesystem::path& folder = ".") {
+  return linkwright::testing::run_text(kinds(), text, folder);
+}
+
+/// The table of this name; a failure and an empty one if there is none.
+inline const Table& table(const study::Result& result, std::string_view name) {
+  for (const Table& t : result.tables)
+    if (t.name == name) return t;
+  ADD_FAILURE() << "no table " << name;
+  static const Table none;
+  return none;
+}
+/// A column of a table; a failure and an empty one if there is none.
+inline const std::vector<double>& column(const study::Result& result, std::string_view name,
+                                         std::string_view key) {
+  const Column* found = table(result, name).find(key);
+  EXPECT_NE(found, nullptr) << key;
+  static const std::vector<double> none;
+  return found ? found->values : none;
+}
+
+/// The example of a kind: "analysis/parallel.delta".
+inline const std::string& example(std::string_view name) {
+  for (const study::Kind& kind : kinds())
+    if (study::name_of(kind) == name) return kind.example;
+  throw std::logic_error("no such kind");
+}
+
+}  // namespace linkwright::parallel::testing
