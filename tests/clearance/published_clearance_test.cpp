@@ -1,0 +1,38 @@
+#include "linkwright/clearance/published_clearance.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "clearance/published_four_bar.h"
+
+namespace linkwright::clearance {
+namespace {
+
+TEST(PublishedClearance, DesignsAreThoseOfTheReference) {
+  for (const auto& [ours, id] : {std::pair{published_design_1(), "gamma-design1-table2-g0-w10"},
+                                 std::pair{published_design_2(), "gamma-design2-table3-g0-w10"}}) {
+    const ClearanceFourBar wanted = published_four_bar(id);
+    const ClearanceInstant a = clearance_instant(ours, 1, 10, 0, {1.2, 15}),
+                           b = clearance_instant(wanted, 1, 10, 0, {1.2, 15});
+    EXPECT_NEAR(std::abs(a.position.point - b.position.point), 0, 1e-16);
+    EXPECT_NEAR(a.link_acceleration / b.link_acceleration, 1, 1e-11);
+    EXPECT_NEAR(a.tension / b.tension, 1, 1e-11);
+  }
+}
+
+TEST(PublishedClearance, ComparisonsComeOut) {
+  const auto rows = compare_with_published_clearance();
+  ASSERT_EQ(rows.size(), 7u);
+  EXPECT_NEAR(rows[0].ours, 0.06548915, 1e-8);
+  EXPECT_NEAR(rows[1].ours, 0.0152133, 1e-7);
+  EXPECT_NEAR(rows[2].ours, 0.6319, 1e-3);
+  EXPECT_NEAR(rows[3].ours, 3.5485, 5e-3);
+  EXPECT_GT(rows[4].ours, 30);
+  EXPECT_GE(rows[5].ours, 10);
+  EXPECT_GT(rows[6].ours, 10);
+  for (const ClearanceComparison& row : rows)
+    EXPECT_THAT(row.verdict, ::testing::AnyOf("reproduced", "corrected", "not reproduced"));
+}
+
+}  // namespace
+}  // namespace linkwright::clearance
