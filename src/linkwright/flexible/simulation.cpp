@@ -18,7 +18,7 @@ namespace linkwright::flexible {
 namespace {
 
 constexpr std::size_t per = coordinates_per_cell;
-constexpr int most_refinements = 12;
+constexpr int most_refinements = 12, most_halvings = 6;
 
 // The drive: exactly one of both laws.
 struct Drive {
@@ -189,7 +189,21 @@ class Run {
     options_.context->report({.stage = "simulation", .fraction = t / options_.end});
   }
 
-  void step(double h, double t) {
+  // A step that does not converge is made in two halves, down to a 64th.
+  void step(double h, double t, int halvings = 0) {
+    if (attempt(h, t)) return;
+    factored_ = false;
+    if (halvings == most_halvings) {
+      out_.status = Status::not_converged;
+      out_.message = fmt::format("the step of {:.4g} s to {:.6g} s does not converge", h, t);
+      return;
+    }
+    step(h / 2, t - h / 2, halvings + 1);
+    if (going()) step(h / 2, t, halvings + 1);
+    factored_ = false;
+  }
+
+  bool attempt(double h, double t) {
     const TangentScale scale = method_.scale(h);
     // The old acceleration as a guess of the new one; everything else of the new state follows from it.
     const auto predict = [&](double q, double v, double a, double aux, double& q1, double& v1, double& rest) {
@@ -247,11 +261,7 @@ class Run {
         break;
       }
     }
-    if (!met) {
-      out_.status = Status::not_converged;
-      out_.message = fmt::format("the step of {:.4g} s to {:.6g} s does not converge", h, t);
-      return;
-    }
+    if (!met) return false;
     ++out_.steps;
     for (std::size_t i = 0; i < change_.size(); ++i) auxiliary_[i] = rest_[i] + method_.share * next_.a[i];
     auxiliary_.back() = rest_.back() + method_.share * next_.acceleration;
@@ -273,6 +283,7 @@ class Run {
       out_.message = fmt::format("two bars at {:.1f} deg at {:.6g} s: the chain folded",
                                  kink * 180 / std::numbers::pi, t);
     }
+    return true;
   }
 
   void sample(double t) {

@@ -24,7 +24,7 @@ struct HingeDrive {
 struct SimulationOptions {
   double end = 0;              ///< s, from 0
   double output_interval = 0;  ///< s: samples at 0, one interval, two, ... and at the end
-  double step = 0;             ///< s: longest step; steps end at samples and breaks
+  double step = 0;  ///< s: longest step; steps end at samples and breaks, and are halved where they fail
   /// Times (s) at which the drive jumps or kinks: steps end there, and the drive is asked just before and
   /// just after.
   std::span<const double> breaks = {};
