@@ -308,6 +308,8 @@ TEST(Simulation, HalvesStepsThatDoNotConverge) {
   const Simulation run = simulate_torque(
       chain, SinePulse{6, 2}, {.end = 2, .output_interval = 0.5, .step = 0.05, .max_iterations = 5});
   ASSERT_EQ(run.status, Status::done) << run.message;
+  ASSERT_EQ(run.warnings.size(), 1);
+  EXPECT_NE(run.warnings[0].find("did not converge and were halved: take a shorter step"), std::string::npos);
   EXPECT_GT(run.steps, 40);
   EXPECT_NEAR(run.samples.back().angular_momentum, 0, 0.05);
 }
