@@ -34,7 +34,7 @@ TEST(Catalogue, FindsKindsByNameAndUnambiguousBeginning) {
 
 TEST(Catalogue, EveryExampleReadsAndThoseOfSuspensionsPassTheirChecks) {
   int read = 0, ran = 0;
-  for (const char* name : {"studies", "suspension"}) {
+  for (const char* name : {"robots", "studies", "suspension"}) {
     const std::filesystem::path folder = std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples" / name;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       if (entry.path().extension() != ".toml") continue;

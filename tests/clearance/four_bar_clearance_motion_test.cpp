@@ -238,6 +238,23 @@ TEST(FourBarClearanceMotion, SettlesWithDamping) {
   EXPECT_LT(mean, -1e-3);
 }
 
+TEST(FourBarClearanceMotion, FollowsAnOrbitToANeighbour) {
+  ClearanceFourBar model = published_four_bar("gamma-design2-table3-g0-w10");
+  const ClearanceOrbit known = find_orbit(model, {0, 10}, 0.15, -0.3);
+  model.coupler.mass *= 1.01;
+  const ClearanceOrbit near = follow_orbit(model, {0, 10}, known),
+                       anew = find_orbit(model, {0, 10}, 0.15, -0.3);
+  ASSERT_EQ(near.status, Status::done);
+  EXPECT_NEAR(near.lead, anew.lead, 1e-8);
+  EXPECT_NEAR(near.slope, anew.slope, 1e-8);
+  EXPECT_GT(std::abs(near.lead - known.lead), 1e-5);
+  // Too far for that: a search of its own.
+  model.coupler.centre = {0.02, 0.01};
+  const ClearanceOrbit far = follow_orbit(model, {0, 10}, known);
+  ASSERT_EQ(far.status, Status::done);
+  EXPECT_LT(far.residual, 1e-9);
+}
+
 TEST(FourBarClearanceMotion, SaysThatItHasNotSettled) {
   const ClearanceFourBar model = published_four_bar("gamma-design2-table3-g0-w10");
   const ClearanceOrbit orbit = settle(model, {0, 10}, {0.1, 10}, 5);

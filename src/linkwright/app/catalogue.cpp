@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "linkwright/flexible/studies.h"
 #include "linkwright/parallel/reproductions.h"
 #include "linkwright/parallel/studies.h"
 #include "linkwright/planar/reproductions.h"
@@ -29,7 +30,7 @@ Kinds join(std::initializer_list<Kinds> domains) {
 
 std::span<const study::Kind> catalogue() {
   // One line for each domain.
-  static const Kinds kinds = join({planar::studies(), suspension::studies(), parallel::studies()});
+  static const Kinds kinds = join({planar::studies(), suspension::studies(), parallel::studies(), flexible::studies()});
   return kinds;
 }
 

@@ -280,6 +280,7 @@ ClearanceOrbit find_orbit(const ClearanceFourBar& model, const EvenCrank& crank,
       by[k] = (more[0] - less[0]) / (2 * difference);
       by[2 + k] = (more[1] - less[1]) / (2 * difference);
     }
+    orbit.derivative = by;
     const double trace = by[0] + by[3], determinant = by[0] * by[3] - by[1] * by[2];
     const std::complex<double> root = std::sqrt(std::complex<double>(trace * trace / 4 - determinant));
     orbit.multipliers = {trace / 2 + root, trace / 2 - root};
@@ -299,6 +300,31 @@ ClearanceOrbit find_orbit(const ClearanceFourBar& model, const EvenCrank& crank,
     orbit.lead += part * step[0];
     orbit.slope += part * step[1];
   }
+}
+
+ClearanceOrbit follow_orbit(const ClearanceFourBar& model, const EvenCrank& crank,
+                            const ClearanceOrbit& known, const ClearanceTolerances& tolerances) {
+  constexpr int most = 8;
+  TurnMap map(model, crank, tolerances);
+  ClearanceOrbit orbit = known;
+  const std::array<double, 4>& by = known.derivative;
+  const double d = (by[0] - 1) * (by[3] - 1) - by[1] * by[2];
+  for (orbit.iterations = 0; orbit.iterations < most; ++orbit.iterations) {
+    std::array<double, 2> end{orbit.lead, orbit.slope};
+    if (!map(end)) break;
+    const std::array<double, 2> gap{math::angle_difference(end[0], orbit.lead), end[1] - orbit.slope};
+    const double residual = std::max(std::abs(gap[0]), std::abs(gap[1]));
+    if (residual <= 1e-10) {
+      orbit.residual = residual;
+      return orbit;
+    }
+    const std::array<double, 2> step{-(gap[0] * (by[3] - 1) - gap[1] * by[1]) / d,
+                                     -((by[0] - 1) * gap[1] - by[2] * gap[0]) / d};
+    if (!(std::hypot(step[0], step[1]) < 0.1)) break;
+    orbit.lead += step[0];
+    orbit.slope += step[1];
+  }
+  return find_orbit(model, crank, known.lead, known.slope, tolerances);
 }
 
 ClearanceOrbit settle(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start,

@@ -74,6 +74,9 @@ struct ClearanceOrbit {
   /// Floquet multipliers: what becomes of small departures over one turn. On the unit circle for a stable
   /// orbit without damping, within it with damping.
   std::array<std::complex<double>, 2> multipliers{};
+  /// Derivative of lead and slope after a turn by those before it, row by row: where the multipliers come
+  /// from.
+  std::array<double, 4> derivative{};
   int iterations = 0;  ///< of Newton's method, or turns
 
   LinkState start(const EvenCrank& crank) const { return {crank.angle + lead, crank.speed * (1 + slope)}; }
@@ -83,6 +86,12 @@ struct ClearanceOrbit {
 /// 0.5, from a guess. There may be several orbits, or none.
 ClearanceOrbit find_orbit(const ClearanceFourBar& model, const EvenCrank& crank, double lead = 0,
                           double slope = 0, const ClearanceTolerances& tolerances = {});
+
+/// The orbit of a model that differs a little from one whose orbit is known: as find_orbit, with the
+/// derivative of the known orbit as long as that converges, so that most steps cost one turn. Derivative and
+/// multipliers may be those of the known orbit.
+ClearanceOrbit follow_orbit(const ClearanceFourBar& model, const EvenCrank& crank,
+                            const ClearanceOrbit& known, const ClearanceTolerances& tolerances = {});
 
 /// Lets the motion run from `start` until two turns differ by at most `tolerance` in lead and slope, as
 /// motions with damping do; not_converged when it has not within so many turns. No multipliers.

@@ -182,7 +182,7 @@ JointClearanceRun simulate_joint_clearance(const Linkage& linkage, std::span<con
 
   planar::LinkageForces forces;
   std::vector<ClearanceState> now(clearances.size()), before;
-  double time_before = 0, apart_time = 0;
+  double time_before = 0;
   std::vector<double> apart(clearances.size(), 0.0);
   for (std::size_t k = 0; k < now.size(); ++k) now[k].angle = clearances[k].angle;
   const auto watch = [&](double t, std::size_t k) {
@@ -216,9 +216,9 @@ JointClearanceRun simulate_joint_clearance(const Linkage& linkage, std::span<con
         return !output || output({instant, now});
       },
       context);
-  apart_time = run.simulation.time - times.front();
+  const double duration = run.simulation.time - times.front();
   for (std::size_t k = 0; k < now.size(); ++k)
-    run.joints[k].separated = apart_time > 0 ? apart[k] / apart_time : 0;
+    run.joints[k].separated = duration > 0 ? apart[k] / duration : 0;
   run.status = run.simulation.status;
   run.message = run.simulation.message;
   return run;

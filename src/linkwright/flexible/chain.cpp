@@ -81,7 +81,7 @@ ChainShape shape(const Chain& chain, std::span<const double> q) {
 double largest_kink(const Chain& chain, std::span<const double> q) {
   double most = 0;
   for (std::size_t s = 0; s < chain.cells.size(); ++s)
-    most = std::max(most, std::abs(q[coordinates_per_cell * s + turn]));
+    if (!chain.cells[s].hinge) most = std::max(most, std::abs(q[coordinates_per_cell * s + turn]));
   return most;
 }
 

@@ -43,6 +43,9 @@ struct Cell {
   double axial = 0;       ///< k_A: force for each metre of extension (N/m); of use if the chain is extensible
   double mass = 0;        ///< of node s (kg)
   double inertia = 0;     ///< of node s (kg m2)
+  double damping = 0;     ///< of the turn, beside that of the link's material (N m s)
+  /// A joint between two links: of no length, turns only, about `bending` and `damping` (links.h).
+  bool hinge = false;
 };
 
 /// A hub with a chain. Node 0 sits at O1, at (hub_radius, 0).
@@ -89,7 +92,7 @@ struct ChainShape {
 };
 ChainShape shape(const Chain& chain, std::span<const double> q);
 
-/// Largest |delta| between two bars (rad): beyond 0.5 the cells are too long for what they bend.
+/// Largest |delta| between two bars of a link (rad): beyond 0.5 the cells are too long for what they bend.
 double largest_kink(const Chain& chain, std::span<const double> q);
 inline constexpr double kink_limit = 0.5;
 /// Beyond it the chain folds and shows nothing of the link any more.

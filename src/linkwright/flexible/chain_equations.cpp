@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t per = coordinates_per_cell;
 
 double stiffness(const Chain& chain, const Cell& cell, std::size_t coordinate) {
+  if (cell.hinge && coordinate != turn) return 0;
   if (coordinate == slide) return cell.shear;
   if (coordinate == turn) return cell.bending;
   return chain.extensible ? cell.axial : 0;
@@ -24,14 +25,19 @@ ChainEquations::ChainEquations(const Chain& chain)
       linearised_(chain.kinematics == Kinematics::source_linearised),
       node_(chain.cells.size() + 1),
       joint_(chain.cells.size()),
+      motor_(chain.cells.size()),
+      locked_(chain.cells.size()),
       residual_(per * chain.cells.size()),
       border_column_(residual_.size()),
       border_row_(residual_.size()),
       border_change_(residual_.size()) {
   LINKWRIGHT_REQUIRE(!chain.cells.empty(), "a chain without cells");
-  const Cell& first = chain.cells.front();
-  natural_force_ = first.bending * first.length / (chain.length() * chain.length());
-  natural_moment_ = first.bending * first.length / chain.length();
+  const Cell& first =
+      *std::find_if(chain.cells.begin(), chain.cells.end(), [](const Cell& c) { return !c.hinge; });
+  // What bends the link by 1e-8 of its length, so that a link at rest has a scale too. No more: in a stiff
+  // link that would be more than the forces that move it.
+  natural_moment_ = 1e-8 * first.bending * first.length / chain.length();
+  natural_force_ = natural_moment_ / chain.length();
 }
 
 void ChainEquations::move(const ChainState& state) {
@@ -126,8 +132,9 @@ void ChainEquations::project(const ChainState& state) {
     const double* v = &state.v[per * s];
     double* r = &residual_[per * s];
     const double damped = chain_->stiffness_damping;
-    const double elastic = cell.shear * (q[slide] + damped * v[slide]);
-    const double bending = cell.bending * (q[turn] + damped * v[turn]);
+    const double elastic = cell.hinge ? 0 : cell.shear * (q[slide] + damped * v[slide]);
+    const double bending = cell.hinge ? cell.bending * q[turn] + cell.damping * v[turn]
+                                      : cell.bending * (q[turn] + damped * v[turn]) + cell.damping * v[turn];
     r[slide] = dot(outer, j.by[slide]) + elastic;
     r[turn] = dot(outer, j.by[turn]) + couple + bending;
     r[extension] = chain_->extensible
@@ -135,6 +142,15 @@ void ChainEquations::project(const ChainState& state) {
                        : 0;
     most_force = std::max({most_force, std::abs(outer.x) + std::abs(outer.y), std::abs(elastic)});
     most_moment = std::max({most_moment, std::abs(bending), std::abs(couple)});
+    if (cell.hinge) {
+      r[slide] = r[extension] = 0;
+      if (locked_[s]) {
+        motor_[s] = r[turn];
+        r[turn] = 0;
+      } else {
+        r[turn] -= motor_[s];
+      }
+    }
     couple += dot(outer, j.by_angle);
   }
   force_scale_ = natural_force_ + most_force;
@@ -252,7 +268,8 @@ ChainEnergy ChainEquations::energy(const ChainState& state) const {
     for (std::size_t i = 0; i < per; ++i) {
       const double k = stiffness(c, cell, i), q = state.q[per * s + i], v = state.v[per * s + i];
       out.potential += k * q * q / 2;
-      out.loss += c.stiffness_damping * k * v * v;
+      if (!cell.hinge) out.loss += c.stiffness_damping * k * v * v;
+      if (i == turn) out.loss += cell.damping * v * v;
     }
   }
   out.kinetic = twice / 2;

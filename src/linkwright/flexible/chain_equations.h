@@ -73,6 +73,13 @@ class ChainEquations {
   Vec2 tip() const;
   double tip_angle() const { return node_.back().angle; }
 
+  /// A motor in joint s = 0, 1, ...: its torque on the outer bar (N m), or a turn that is given, whose row
+  /// then has no residual and whose change is 0.
+  void set_motor(std::size_t s, double torque) { motor_[s] = torque; }
+  void lock_turn(std::size_t s) { locked_[s] = 1; }
+  /// Of a locked turn: the torque (N m) that the motion evaluated last needs.
+  double motor_torque(std::size_t s) const { return motor_[s]; }
+
   /// Of the state evaluated last.
   ChainEnergy energy(const ChainState& state) const;
   /// Of the state evaluated last: cuts at the weld, at all joints and at the tip. Not of source_linearised
@@ -134,6 +141,8 @@ class ChainEquations {
   std::vector<Node> node_;
   std::vector<Joint> joint_;
   std::vector<Eliminated> eliminated_;
+  std::vector<double> motor_;
+  std::vector<char> locked_;
   std::vector<double> residual_, border_column_, border_row_, border_change_;
   bool free_hub_ = false;
   double corner_ = 1;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "linkwright/core/check.h"
 #include "linkwright/flexible/chain_equations.h"
@@ -73,9 +74,11 @@ bool ChainEquations::eliminate(const TangentScale& scale) {
       state[c][1] = sy;
       state[c][2] = sx * a0 + sy * a1 + sa + geo.angle_by[c];
     }
-    block[0][0] += damped * cell.shear;
-    block[1][1] += damped * cell.bending;
-    if constexpr (C == 3) block[2][2] += damped * cell.axial;
+    // What a joint does not do is held by an infinite stiffness, whose inverse is 0.
+    constexpr double held = std::numeric_limits<double>::infinity();
+    block[0][0] += cell.hinge ? held : damped * cell.shear;
+    block[1][1] += locked_[s] ? held : (cell.hinge ? 1 : damped) * cell.bending + scale.rate * cell.damping;
+    if constexpr (C == 3) block[2][2] += cell.hinge ? held : damped * cell.axial;
 
     Eliminated& e = eliminated_[s];
     e.by_angle = j.by_angle;

@@ -50,7 +50,7 @@ inline JointStep joint_step(Kinematics kinematics, const Cell& cell, const doubl
     out.across = {u, w};
     return out;
   }
-  const double per_length = cell.shortening / l;
+  const double per_length = l > 0 ? cell.shortening / l : 0;
   out.along = {l * c + l / 12 * delta * delta - per_length * w * w + u, w};
   out.by_turn += l / 6 * delta;
   out.by_turn_twice += l / 6;

@@ -46,7 +46,8 @@ class Straight {
   }
 
   int below(double square) {
-    factor(square);
+    // A free hinge has a mode at 0, where its pivot vanishes: it is not below.
+    if (!factor(square) && square == 0) factor(-1e-18 * unit_);
     return equations_.negative();
   }
   bool factor(double square) {
@@ -87,7 +88,7 @@ int coordinates(const Chain& chain, bool free_hub) {
 void require_count(const Chain& chain, int count, bool free_hub) {
   // Nodes without rotary inertia have fewer frequencies than coordinates.
   int massless = 0;
-  for (const Cell& cell : chain.cells) massless += cell.inertia == 0;
+  for (const Cell& cell : chain.cells) massless += cell.hinge || cell.inertia == 0;
   const int most = coordinates(chain, free_hub) - massless;
   LINKWRIGHT_REQUIRE(count >= 1 && count <= most, "mode {} of a chain that has {}", count, most);
 }

@@ -10,6 +10,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/flexible/chain_equations.h"
+#include "linkwright/flexible/links.h"
 #include "linkwright/flexible/modes.h"
 
 namespace linkwright::flexible {
@@ -17,7 +18,7 @@ namespace linkwright::flexible {
 namespace {
 
 constexpr std::size_t per = coordinates_per_cell;
-constexpr int most_refinements = 12;
+constexpr int most_refinements = 12, most_halvings = 6;
 
 // The drive: exactly one of both laws.
 struct Drive {
@@ -57,6 +58,11 @@ class Run {
     if (!start.v.empty()) now_.v = start.v;
     now_.angle = start.angle;
     now_.rate = start.rate;
+    const std::vector<std::size_t> joints = hinges(chain);
+    for (const HingeDrive& d : options.hinges) {
+      motors_.push_back(joints.at(d.hinge));
+      if (d.motion) equations_.lock_turn(motors_.back());
+    }
   }
 
   Simulation go() {
@@ -82,6 +88,9 @@ class Run {
       t = until;
       if (going()) sample(t);
     }
+    if (halved_ > 0)
+      out_.warnings.push_back(
+          fmt::format("{} steps did not converge and were halved: take a shorter step", halved_));
     out_.last = now_;
     return std::move(out_);
   }
@@ -89,7 +98,29 @@ class Run {
  private:
   bool going() const { return out_.status == Status::done; }
 
+  // Turns of the hinges, or torques in them, at a time.
+  void take_hinges(double t, ChainState& state) {
+    for (std::size_t k = 0; k < motors_.size(); ++k) {
+      const HingeDrive& d = options_.hinges[k];
+      const std::size_t i = per * motors_[k] + turn;
+      if (d.torque) {
+        equations_.set_motor(motors_[k], (*d.torque)(t));
+      } else {
+        const HubMotion m = (*d.motion)(t);
+        state.q[i] = m.angle;
+        state.v[i] = m.rate;
+        state.a[i] = m.acceleration;
+      }
+    }
+  }
+  double motor_power() const {
+    double out = 0;
+    for (const std::size_t s : motors_) out += equations_.motor_torque(s) * now_.v[per * s + turn];
+    return out;
+  }
+
   void take_hub(double t) {
+    take_hinges(t, now_);
     if (!drive_.motion) return;
     const HubMotion m = (*drive_.motion)(t);
     now_.angle = m.angle;
@@ -121,12 +152,14 @@ class Run {
     }
     factored_ = false;
     equations_.evaluate(now_);
-    power_ = torque(t) * now_.rate;
+    power_ = torque(t) * now_.rate + motor_power();
     loss_ = lossy() ? equations_.energy(now_).loss : 0;
   }
 
   bool lossy() const {
-    return chain_.mass_damping > 0 || chain_.stiffness_damping > 0 || chain_.hub_damping > 0;
+    bool joints = false;
+    for (const Cell& cell : chain_.cells) joints = joints || cell.damping > 0;
+    return joints || chain_.mass_damping > 0 || chain_.stiffness_damping > 0 || chain_.hub_damping > 0;
   }
   double torque(double t) const { return drive_.torque ? (*drive_.torque)(t) : equations_.forces().torque; }
 
@@ -159,7 +192,22 @@ class Run {
     options_.context->report({.stage = "simulation", .fraction = t / options_.end});
   }
 
-  void step(double h, double t) {
+  // A step that does not converge is made in two halves, down to a 64th.
+  void step(double h, double t, int halvings = 0) {
+    if (attempt(h, t)) return;
+    factored_ = false;
+    if (halvings == most_halvings) {
+      out_.status = Status::not_converged;
+      out_.message = fmt::format("the step of {:.4g} s to {:.6g} s does not converge", h, t);
+      return;
+    }
+    ++halved_;
+    step(h / 2, t - h / 2, halvings + 1);
+    if (going()) step(h / 2, t, halvings + 1);
+    factored_ = false;
+  }
+
+  bool attempt(double h, double t) {
     const TangentScale scale = method_.scale(h);
     // The old acceleration as a guess of the new one; everything else of the new state follows from it.
     const auto predict = [&](double q, double v, double a, double aux, double& q1, double& v1, double& rest) {
@@ -172,6 +220,7 @@ class Run {
     for (std::size_t i = 0; i < change_.size(); ++i)
       predict(now_.q[i], now_.v[i], now_.a[i], auxiliary_[i], next_.q[i], next_.v[i], rest_[i]);
     next_.a = now_.a;
+    take_hinges(t, next_);
     if (drive_.motion) {
       const HubMotion m = (*drive_.motion)(t);
       next_.angle = m.angle;
@@ -216,17 +265,13 @@ class Run {
         break;
       }
     }
-    if (!met) {
-      out_.status = Status::not_converged;
-      out_.message = fmt::format("the step of {:.4g} s to {:.6g} s does not converge", h, t);
-      return;
-    }
+    if (!met) return false;
     ++out_.steps;
     for (std::size_t i = 0; i < change_.size(); ++i) auxiliary_[i] = rest_[i] + method_.share * next_.a[i];
     auxiliary_.back() = rest_.back() + method_.share * next_.acceleration;
     std::swap(now_, next_);
 
-    const double power = torque(t) * now_.rate;
+    const double power = torque(t) * now_.rate + motor_power();
     work_ += h / 2 * (power_ + power);
     power_ = power;
     if (lossy()) {
@@ -242,6 +287,7 @@ class Run {
       out_.message = fmt::format("two bars at {:.1f} deg at {:.6g} s: the chain folded",
                                  kink * 180 / std::numbers::pi, t);
     }
+    return true;
   }
 
   void sample(double t) {
@@ -271,6 +317,10 @@ class Run {
                             .dissipated = dissipated_,
                             .angular_momentum = e.angular_momentum});
     if (options_.keep_states) out_.states.push_back(now_);
+    if (!motors_.empty()) {
+      std::vector<double>& torques = out_.hinge_torques.emplace_back();
+      for (const std::size_t s : motors_) torques.push_back(equations_.motor_torque(s));
+    }
   }
 
   const Chain& chain_;
@@ -281,8 +331,10 @@ class Run {
   ChainEquations equations_;
   ChainState now_, next_;
   std::vector<double> auxiliary_, rest_, change_;  // the hub's last
+  std::vector<std::size_t> motors_;                // cells of the driven hinges
   const double chain_length_ = chain_.length();
   bool factored_ = false;
+  long halved_ = 0;
   double step_ = 0, power_ = 0, work_ = 0, loss_ = 0, dissipated_ = 0;
   Simulation out_;
 };
@@ -313,11 +365,13 @@ void doubt(const Chain& chain, Simulation& out) {
   if (out.fastest > 0)
     if (const auto critical = critical_speed(rigid, out.fastest)) {
       out.unstable = true;
-      out.warnings.push_back(fmt::format(
-          "the hub turned at {:.6g} rad/s, but the straight chain of {} cells with {} kinematics is unstable "
-          "beyond {:.6g} rad/s: take more divisions{}",
-          out.fastest, chain.cells.size(), name_of(chain.kinematics), *critical,
-          chain.kinematics == Kinematics::chord_consistent ? "" : " or chord_consistent"));
+      out.warnings.insert(
+          out.warnings.begin(),
+          fmt::format("the hub turned at {:.6g} rad/s, but the straight chain of {} cells with {} kinematics "
+                      "is unstable "
+                      "beyond {:.6g} rad/s: take more divisions{}",
+                      out.fastest, chain.cells.size(), name_of(chain.kinematics), *critical,
+                      chain.kinematics == Kinematics::chord_consistent ? "" : " or chord_consistent"));
     }
   if (out.largest_kink > kink_limit)
     out.warnings.push_back(
@@ -336,6 +390,11 @@ Simulation simulate(const Chain& chain, const Drive& drive, const SimulationOpti
   const std::size_t n = per * chain.cells.size();
   LINKWRIGHT_REQUIRE((start.q.empty() || start.q.size() == n) && (start.v.empty() || start.v.size() == n),
                      "a start of {} coordinates and {} rates for {}", start.q.size(), start.v.size(), n);
+  const std::size_t joints = hinges(chain).size();
+  for (const HingeDrive& d : o.hinges)
+    LINKWRIGHT_REQUIRE(d.hinge < joints && d.motion.has_value() != d.torque.has_value(),
+                       "a drive of hinge {} of {} with {} laws", d.hinge, joints,
+                       int(d.motion.has_value()) + int(d.torque.has_value()));
   for (const double b : o.breaks) LINKWRIGHT_REQUIRE(std::isfinite(b), "a break at {} s", b);
 
   Simulation out = Run(chain, drive, o, start, 0).go();
@@ -349,7 +408,13 @@ Simulation simulate(const Chain& chain, const Drive& drive, const SimulationOpti
       const bool stopped = out.status == Status::cancelled || out.status == Status::deadline;
       const bool both = coarse.status == Status::done && out.status == Status::done;
       Simulation limit = out;
-      limit.error = extrapolate(coarse, limit);
+      if (coarse.status == Status::done) {
+        limit.error = extrapolate(coarse, limit);
+      } else {
+        limit.error = std::numeric_limits<double>::quiet_NaN();
+        limit.warnings.push_back(
+            "the run with twice the step failed, so there is no estimate of the error: " + coarse.message);
+      }
       const bool good = both && (o.tolerance <= 0 || limit.error <= o.tolerance);
       const bool last = stopped || o.tolerance <= 0 || halvings == most_refinements;
       if (good || last) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,10 +14,17 @@
 /// Motion of hub and link in time.
 namespace linkwright::flexible {
 
+/// A motor in a hinge: turns the outer link against the inner one by a given angle, or with a given torque.
+struct HingeDrive {
+  std::size_t hinge = 0;                 ///< 0, 1, ... from the hub outwards (links.h)
+  std::optional<MotionLaw> motion = {};  ///< exactly one of both
+  std::optional<TorqueLaw> torque = {};
+};
+
 struct SimulationOptions {
   double end = 0;              ///< s, from 0
   double output_interval = 0;  ///< s: samples at 0, one interval, two, ... and at the end
-  double step = 0;             ///< s: longest step; steps end at samples and breaks
+  double step = 0;  ///< s: longest step; steps end at samples and breaks, and are halved where they fail
   /// Times (s) at which the drive jumps or kinks: steps end there, and the drive is asked just before and
   /// just after.
   std::span<const double> breaks = {};
@@ -31,7 +39,8 @@ struct SimulationOptions {
   double spectral_radius = 0.9;  ///< rho_inf in [0, 1): what is left of the stiffest vibrations after a step
   double newton_tolerance =
       1e-10;  ///< of the residuals, relative to the largest force and couple in the chain
-  int max_iterations = 20;
+  int max_iterations = 50;
+  std::span<const HingeDrive> hinges = {};  ///< hinges without one turn freely about their springs
   bool keep_states = false;
   const RunContext* context = nullptr;  ///< looked at every few steps; receives the stage "simulation"
 };
@@ -54,8 +63,12 @@ struct Simulation {
   bool unstable = false;
   std::vector<Sample> samples;
   std::vector<ChainState> states;  ///< with keep_states, one a sample, of the finest run
-  ChainState last;                 ///< state at the end of the finest run
-  double error = 0;  ///< with extrapolate: largest change of the tip by the extrapolation (m); else 0
+  /// Torque of each drive of a hinge (N m), given or needed: hinge_torques[i][k] of sample i, drive k, finest
+  /// run.
+  std::vector<std::vector<double>> hinge_torques;
+  ChainState last;   ///< state at the end of the finest run
+  double error = 0;  ///< with extrapolate: largest change of the tip by the extrapolation (m), NaN if the
+                     ///< coarser run failed; else 0
   double step = 0;   ///< of the finest run (s)
   long steps = 0, iterations = 0, factorisations = 0;  ///< of all runs
   double largest_kink = 0;                             ///< rad
@@ -66,7 +79,7 @@ struct Simulation {
 /// of second order, without a condition on the step; it also takes chains with massless turns.
 ///
 /// Throws ContractError for times that are not positive, a spectral radius outside [0, 1), a start of another
-/// size.
+/// size, drives of hinges that are not there or not of one law each.
 Simulation simulate_motion(const Chain& chain, MotionLaw law, const SimulationOptions& options,
                            const Start& start = {});
 

@@ -121,6 +121,10 @@ template <int N>
 constexpr bool operator>(const Dual<N>& a, double b) {
   return a.value > b;
 }
+template <int N>
+constexpr bool operator>(const Dual<N>& a, const Dual<N>& b) {
+  return a.value > b.value;
+}
 
 template <int N>
 Dual<N> sqrt(const Dual<N>& a) {

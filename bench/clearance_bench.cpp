@@ -1,0 +1,125 @@
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "linkwright/clearance/clearance_mass_synthesis.h"
+#include "linkwright/clearance/clearance_sensitivity.h"
+#include "linkwright/clearance/contact_simulation.h"
+#include "linkwright/clearance/joint_clearance.h"
+#include "linkwright/clearance/published_clearance.h"
+#include "linkwright/planar/linkage_build.h"
+#include "linkwright/planar/linkage_samples.h"
+
+namespace linkwright::clearance {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+// Position, rates and forces at one instant.
+void clearance_four_bar_instant(benchmark::State& state) {
+  const ClearanceFourBar model = published_design_2();
+  double angle = 0;
+  for (auto _ : state) {
+    angle += 1e-3;
+    benchmark::DoNotOptimize(clearance_instant(model, angle, 10, 0, {angle + 0.1, 12}));
+  }
+}
+BENCHMARK(clearance_four_bar_instant);
+
+// One turn of the crank at tolerances of 10^-range.
+void clearance_four_bar_turn(benchmark::State& state) {
+  const ClearanceFourBar model = published_design_2();
+  const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(lead_error(model, {0, 10}, {0.17, 10}, 0.17, 72, {tolerance, tolerance / 100}));
+}
+BENCHMARK(clearance_four_bar_turn)->Arg(8)->Arg(10)->Unit(benchmark::kMicrosecond);
+
+void clearance_four_bar_orbit(benchmark::State& state) {
+  const ClearanceFourBar model = published_design_2();
+  for (auto _ : state) benchmark::DoNotOptimize(find_orbit(model, {0, 10}, 0.15, -0.3));
+}
+BENCHMARK(clearance_four_bar_orbit)->Unit(benchmark::kMillisecond);
+
+// Slider-crank of the literature, one turn at 5000 rpm: some 28 contacts.
+planar::Linkage slider_crank() {
+  using namespace planar;
+  Linkage l = grounded({{"O", {0, 0}}});
+  add_bar(l, "crank", "O", "A", 0.05);
+  add_bar(l, "rod", "A", "B", 0.12);
+  add_body(l, "slider", {{"B", {0, 0}}});
+  add_pin(l, "O", "ground.O", "crank.O");
+  add_pin(l, "A", "crank.A", "rod.A");
+  add_pin(l, "B", "rod.B", "slider.B");
+  add_slide(l, "guide", "ground.O", "slider.B");
+  add_drive(l, "O");
+  set_start(l, "rod", {0.05, 0}, 0);
+  set_start(l, "slider", {0.17, 0}, 0);
+  l.bodies[1].mass = BodyMass{0.3, 1e-4, {0.025, 0}};
+  l.bodies[2].mass = BodyMass{0.21, 2.5e-4, {0.06, 0}};
+  l.bodies[3].mass = BodyMass{0.14, 0, {0, 0}};
+  l.gravity = 0;
+  return l;
+}
+void clearance_contact_slider_crank(benchmark::State& state) {
+  const planar::Linkage l = slider_crank();
+  const ContactJoint joint{.joint = planar::joint_index(l, "B"),
+                           .clearance = 5e-4,
+                           .bush_radius = 0.01,
+                           .law = {.stiffness = pin_stiffness(0.01, 0.0095),
+                                   .restitution = 0.9,
+                                   .damping = ContactDamping::lankarani_nikravesh}};
+  const planar::InputCourse crank{planar::ConstantSpeed{0, 5000 * turn / 60}, 0, 0};
+  const std::vector<double> times{0, 0.012};
+  const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
+  std::size_t contacts = 0;
+  long steps = 0;
+  for (auto _ : state) {
+    const ContactRun run =
+        simulate_contact(l, std::span(&joint, 1), std::span(&crank, 1), times, {.tolerance = tolerance});
+    contacts = run.events.size();
+    steps = run.steps;
+  }
+  state.counters["contacts"] = static_cast<double>(contacts);
+  state.counters["steps"] = static_cast<double>(steps);
+}
+BENCHMARK(clearance_contact_slider_crank)->Arg(7)->Arg(9)->Unit(benchmark::kMillisecond);
+
+void clearance_path_synthesis(benchmark::State& state) {
+  const ClearancePathProblem p = published_path_problem();
+  RunContext context;
+  double objective = 0;
+  for (auto _ : state) objective = synthesise_clearance_path(p, 12, {.seed = 1}, context).design.objective;
+  state.counters["objective_mm"] = objective * 1e3;
+}
+BENCHMARK(clearance_path_synthesis)->Unit(benchmark::kMillisecond);
+
+void clearance_mass_synthesis(benchmark::State& state) {
+  ClearanceMassProblem p = published_mass_problem();
+  p.lead = 0;
+  RunContext context;
+  ClearanceMassDesign design;
+  for (auto _ : state) design = synthesise_clearance_masses(p, 6, {.seed = 1}, context);
+  state.counters["objective_rad"] = design.transient_error;
+  state.counters["orbit_error_rad"] = design.orbit_error;
+}
+BENCHMARK(clearance_mass_synthesis)->Unit(benchmark::kMillisecond);
+
+// All pins of a walking leg, 72 positions.
+void clearance_sensitivity_leg(benchmark::State& state) {
+  const planar::LinkageSample leg = planar::jansen_leg_sample();
+  LinkageTolerances tolerances;
+  for (std::size_t j = 0; j < leg.linkage.joints.size(); ++j)
+    tolerances.pins.push_back({static_cast<int>(j), 1e-4});
+  std::vector<planar::InputMotion> samples;
+  for (int k = 0; k < 72; ++k) samples.push_back({leg.from[0] + turn * k / 72, 0, 0});
+  for (auto _ : state)
+    benchmark::DoNotOptimize(
+        clearance_sensitivity(leg.linkage, tolerances, {.points = {leg.traces[0]}}, samples));
+}
+BENCHMARK(clearance_sensitivity_leg)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace linkwright::clearance

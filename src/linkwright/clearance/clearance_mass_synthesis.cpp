@@ -1,0 +1,390 @@
+#include "linkwright/clearance/clearance_mass_synthesis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "linkwright/core/check.h"
+#include "linkwright/math/differences.h"
+
+namespace linkwright::clearance {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
+using Complex = std::complex<double>;
+
+void limits(const ClearanceMassProblem& p, std::vector<double>& lower, std::vector<double>& upper) {
+  for (const Range& r : p.bounds) lower.push_back(r.lower), upper.push_back(r.upper);
+}
+double sample_angle(const ClearanceMassProblem& p, std::size_t k) {
+  return p.crank.angle + std::copysign(turn, p.crank.speed) * static_cast<double>(k) / p.samples;
+}
+
+// Forces of the ideal pin over a turn against the wanted directions: components across, over the mean of
+// those along. Masses that press the pin the wrong way are no answer.
+bool force_residuals(const ClearanceMassProblem& p, std::span<const double> x, std::span<double> r) {
+  ClearanceFourBar model = with_masses(p.model, x);
+  model.clearance = 0;
+  double along = 0;
+  for (std::size_t k = 0; k < r.size(); ++k) {
+    const double angle = sample_angle(p, k);
+    const ClearanceInstant now = clearance_instant(model, angle, p.crank.speed, 0, {});
+    if (now.status != Status::done) return false;
+    const Complex seen = now.pin_force * std::polar(1.0, -(angle + p.lead));
+    along -= seen.real();
+    r[k] = seen.imag();
+  }
+  along /= static_cast<double>(r.size());
+  if (!(along > 0)) return false;
+  for (double& value : r) value /= along;
+  return true;
+}
+
+// An orbit that is followed from trial to trial.
+class OrbitFollower {
+ public:
+  OrbitFollower(const EvenCrank& crank, const ClearanceTolerances& tolerances)
+      : crank_(crank), tolerances_(tolerances) {}
+  bool begin(const ClearanceFourBar& model) {
+    const double direction = force_direction(model, crank_.angle, crank_.speed, 0);
+    if (!std::isfinite(direction)) return false;
+    const double lead = std::remainder(direction - crank_.angle, turn);
+    return find(model, lead, 0) || find(model, 0, 0);
+  }
+  bool follow(const ClearanceFourBar& model) {
+    const ClearanceOrbit found = follow_orbit(model, crank_, orbit_, tolerances_);
+    if (found.status != Status::done) return false;
+    orbit_ = found;
+    return true;
+  }
+  const ClearanceOrbit& orbit() const { return orbit_; }
+
+ private:
+  bool find(const ClearanceFourBar& model, double lead, double slope) {
+    const ClearanceOrbit found = find_orbit(model, crank_, lead, slope, tolerances_);
+    if (found.status != Status::done) return false;
+    orbit_ = found;
+    return true;
+  }
+  EvenCrank crank_;
+  ClearanceTolerances tolerances_;
+  ClearanceOrbit orbit_;
+};
+
+// Rows of one turn of a motion; false when it does not go round.
+template <class Row>
+bool over_a_turn(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start,
+                 std::span<const double> crank_angles, const ClearanceTolerances& tolerances, Row&& row) {
+  // Rows in the order of time, each angle within the turn that begins with the orbit.
+  const double sense = std::copysign(1.0, crank.speed);
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t k = 0; k < crank_angles.size(); ++k) {
+    double way = std::fmod(sense * (crank_angles[k] - crank.angle), turn);
+    if (way < 0) way += turn;
+    order.push_back({way / std::abs(crank.speed), k});
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<double> times{0};
+  for (const auto& [time, k] : order) times.push_back(time);
+  if (!(times.back() > 0)) times.push_back(1e-3 * turn / std::abs(crank.speed));
+  std::size_t next = 0;
+  const ClearanceRun run = simulate_clearance(model, planar::ConstantSpeed{crank.angle, crank.speed}, start,
+                                              times, tolerances, [&](const ClearanceRow& now) {
+                                                if (next > 0 && next <= order.size())
+                                                  row(order[next - 1].second, now);
+                                                ++next;
+                                                return true;
+                                              });
+  return run.status == Status::done;
+}
+
+std::vector<double> even_angles(const EvenCrank& crank, int samples) {
+  std::vector<double> out;
+  for (int k = 0; k < samples; ++k)
+    out.push_back(crank.angle + std::copysign(turn, crank.speed) * k / samples);
+  return out;
+}
+
+math::LeastSquaresOptions local_options() {
+  return {.max_iterations = 60,
+          .decrease_tolerance = 0,
+          .relative_decrease_tolerance = 1e-9,
+          .step_tolerance = 1e-10};
+}
+// Scales of difference quotients; longer ones where an integration leaves its own errors in what is
+// differenced.
+constexpr double smooth = 0.1, integrated = 10;
+std::vector<double> widths(std::span<const double> lower, std::span<const double> upper, double share) {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < lower.size(); ++k) out.push_back(std::max(share * (upper[k] - lower[k]), 1e-9));
+  return out;
+}
+
+}  // namespace
+
+void require_valid(const ClearanceMassProblem& p) {
+  require_valid(p.model);
+  LINKWRIGHT_REQUIRE(p.model.clearance > 0, "clearance {} m must be positive", p.model.clearance);
+  LINKWRIGHT_REQUIRE(p.samples >= 8, "needs 8 samples of a turn at least, got {}", p.samples);
+  LINKWRIGHT_REQUIRE(p.crank.speed != 0 && std::isfinite(p.crank.speed) && std::isfinite(p.lead),
+                     "crank at {} rad/s, lead {} rad", p.crank.speed, p.lead);
+  for (std::size_t k = 0; k < p.bounds.size(); ++k) {
+    const bool positive = k == 0 || k == 3 || k == 4 || k == 7;
+    LINKWRIGHT_REQUIRE(p.bounds[k].lower <= p.bounds[k].upper && (!positive || p.bounds[k].lower > 0),
+                       "variable {} of the masses lies between {} and {}", k, p.bounds[k].lower,
+                       p.bounds[k].upper);
+  }
+}
+
+ClearanceFourBar with_masses(const ClearanceFourBar& model, std::span<const double> x) {
+  LINKWRIGHT_REQUIRE(x.size() == clearance_mass_count, "needs {} numbers, got {}", clearance_mass_count,
+                     x.size());
+  ClearanceFourBar out = model;
+  out.coupler = {x[0], x[3], {x[1], x[2]}};
+  out.rocker = {x[4], x[7], {x[5], x[6]}};
+  return out;
+}
+
+double transient_lead_error(const ClearanceMassProblem& p, std::span<const double> x) {
+  return lead_error(with_masses(p.model, x), p.crank, {p.crank.angle + p.lead, p.crank.speed}, p.lead,
+                    p.samples, p.tolerances);
+}
+
+optimise::Problem clearance_mass_problem(const ClearanceMassProblem& p) {
+  require_valid(p);
+  static constexpr const char* names[] = {
+      "coupler_mass_kg", "coupler_u_m", "coupler_v_m", "coupler_inertia_kg_m2",
+      "rocker_mass_kg",  "rocker_u_m",  "rocker_v_m",  "rocker_inertia_kg_m2"};
+  optimise::Problem out;
+  for (std::size_t k = 0; k < clearance_mass_count; ++k)
+    out.variables.push_back({names[k], p.bounds[k].lower, p.bounds[k].upper});
+  out.evaluate = [p](const optimise::PopulationView& c, std::span<double> cost, std::span<double> violation) {
+    std::array<double, clearance_mass_count> x;
+    for (std::size_t i = 0; i < c.size; ++i) {
+      for (std::size_t k = 0; k < x.size(); ++k) x[k] = c(k, i);
+      cost[i] = transient_lead_error(p, x);
+      violation[i] = std::isfinite(cost[i]) ? 0 : 1;
+    }
+  };
+  out.explain = [p](std::span<const double> x) {
+    std::vector<optimise::Violation> found;
+    if (!std::isfinite(transient_lead_error(p, x))) found.push_back({"goes_round", 1});
+    return found;
+  };
+  return out;
+}
+
+std::vector<double> force_lead_errors(const ClearanceMassProblem& p, std::span<const double> x) {
+  const ClearanceFourBar model = with_masses(p.model, x);
+  std::vector<double> out;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(p.samples); ++k) {
+    const double angle = sample_angle(p, k);
+    out.push_back(std::remainder(force_direction(model, angle, p.crank.speed, 0) - angle - p.lead, turn));
+  }
+  return out;
+}
+
+ClearanceMassDesign clearance_mass_design(const ClearanceMassProblem& p, std::vector<double> x) {
+  require_valid(p);
+  ClearanceMassDesign out;
+  const ClearanceFourBar model = with_masses(p.model, x);
+  out.transient_error = transient_lead_error(p, x);
+  out.x = std::move(x);
+  OrbitFollower follower(p.crank, p.tolerances);
+  if (!follower.begin(model)) {
+    out.status = Status::not_converged;
+    out.orbit_error = infinity;
+    return out;
+  }
+  out.orbit = follower.orbit();
+  double sum = 0;
+  out.least_tension = infinity;
+  const std::vector<double> angles = even_angles(p.crank, p.samples);
+  const bool round = over_a_turn(model, p.crank, out.orbit.start(p.crank), angles, p.tolerances,
+                                 [&](std::size_t, const ClearanceRow& row) {
+                                   const double off =
+                                       std::remainder(row.link.angle - row.crank.value - p.lead, turn);
+                                   sum += off * off;
+                                   out.least_tension = std::min(out.least_tension, row.instant->tension);
+                                 });
+  out.orbit_error = round ? std::sqrt(sum) / p.samples : infinity;
+  return out;
+}
+
+ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, int starts,
+                                                const optimise::Seed& seed, RunContext& context) {
+  require_valid(p);
+  std::vector<double> lower, upper;
+  limits(p, lower, upper);
+  const std::vector<double> scale = widths(lower, upper, smooth),
+                            orbit_scale = widths(lower, upper, integrated);
+  const auto m = static_cast<std::size_t>(p.samples);
+
+  const auto by_force = [&](std::span<const double> x, std::span<double> r, std::span<double> jacobian) {
+    if (!force_residuals(p, x, r)) return false;
+    if (jacobian.empty()) return true;
+    const auto inner = [&](std::span<const double> at, std::span<double> out, std::span<double>) {
+      return force_residuals(p, at, out);
+    };
+    return math::central_jacobian(inner, m, x, jacobian, scale) == Status::done;
+  };
+  const optimise::MultistartReport seeds = optimise::multistart_least_squares(
+      by_force, m, lower.size(), lower, upper,
+      [&](std::size_t, RandomStream& random, std::span<double> x) {
+        for (std::size_t k = 0; k < x.size(); ++k) x[k] = random.uniform(lower[k], upper[k]);
+        return true;
+      },
+      {.starts = starts, .local = local_options()}, seed, context);
+  if (seeds.reached_best == 0)
+    return {.status = seeds.status == Status::done ? Status::infeasible : seeds.status};
+  std::vector<double> x = seeds.ends[seeds.best].x;
+  std::int64_t evaluations = seeds.evaluations;
+
+  OrbitFollower follower(p.crank, p.tolerances);
+  Status interrupted = context.interruption();
+  if (interrupted == Status::done && follower.begin(with_masses(p.model, x))) {
+    const std::vector<double> angles = even_angles(p.crank, p.samples);
+    const auto on_orbit = [&](std::span<const double> at, std::span<double> r) {
+      ++evaluations;
+      if (context.interrupted()) return false;
+      const ClearanceFourBar model = with_masses(p.model, at);
+      if (!follower.follow(model)) return false;
+      return over_a_turn(model, p.crank, follower.orbit().start(p.crank), angles, p.tolerances,
+                         [&](std::size_t k, const ClearanceRow& row) {
+                           r[k] = std::remainder(row.link.angle - row.crank.value - p.lead, turn);
+                         });
+    };
+    const auto residuals = [&](std::span<const double> at, std::span<double> r, std::span<double> jacobian) {
+      if (!on_orbit(at, r)) return false;
+      if (jacobian.empty()) return true;
+      const auto inner = [&](std::span<const double> there, std::span<double> out, std::span<double>) {
+        return on_orbit(there, out);
+      };
+      return math::central_jacobian(inner, m, at, jacobian, orbit_scale) == Status::done;
+    };
+    math::LeastSquaresOptions options = local_options();
+    options.max_iterations = 20;
+    options.jacobian_at_trials = false;
+    options.relative_decrease_tolerance = 1e-3;
+    math::LeastSquaresWorkspace workspace;
+    std::vector<double> refined = x;
+    const math::LeastSquaresReport report =
+        math::minimise_least_squares(residuals, m, refined, lower, upper, options, workspace);
+    if (report.status != Status::infeasible) x = refined;
+    interrupted = context.interruption();
+  }
+  ClearanceMassDesign out = clearance_mass_design(p, x);
+  out.evaluations = evaluations;
+  if (interrupted != Status::done) out.status = interrupted;
+  return out;
+}
+
+ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const ClearanceMassProblem& mass,
+                                         std::span<const double> path_x, std::span<const double> mass_x,
+                                         RunContext& context) {
+  require_valid(path);
+  require_valid(mass);
+  LINKWRIGHT_REQUIRE(!path.free_timing, "both stages at once need prescribed crank angles, got {} free ones",
+                     path.x.size());
+  LINKWRIGHT_REQUIRE(path_x.size() == clearance_length_count && mass_x.size() == clearance_mass_count,
+                     "{} lengths and {} masses", path_x.size(), mass_x.size());
+  std::vector<double> lower, upper, x(path_x.begin(), path_x.end());
+  for (const Range& r : path.bounds) lower.push_back(r.lower), upper.push_back(r.upper);
+  limits(mass, lower, upper);
+  x.insert(x.end(), mass_x.begin(), mass_x.end());
+  const std::size_t m = 2 * path.x.size();
+  ClearanceDesign out;
+
+  const auto model_of = [&](std::span<const double> at) {
+    ClearanceFourBar model = with_masses(mass.model, at.subspan(clearance_length_count));
+    model.linkage = clearance_path_design(path, at.first(clearance_length_count)).model.linkage;
+    return model;
+  };
+  const auto misses = [&](std::size_t k, const Complex& point, std::span<double> r) {
+    r[2 * k] = point.real() - path.x[k];
+    r[2 * k + 1] = point.imag() - path.y[k];
+  };
+  // The clearance link along the force of the ideal joint: no integration.
+  const auto in_the_limit = [&](std::span<const double> at, std::span<double> r) {
+    ++out.evaluations;
+    const ClearanceFourBar model = model_of(at);
+    for (std::size_t k = 0; k < path.x.size(); ++k) {
+      const double direction = force_direction(model, path.crank_angles[k], mass.crank.speed, 0);
+      const ClearancePosition p = clearance_position(model, path.crank_angles[k], direction);
+      if (!std::isfinite(direction) || p.status != Status::done) return false;
+      misses(k, p.point, r);
+    }
+    return true;
+  };
+  OrbitFollower follower(mass.crank, mass.tolerances);
+  const auto on_orbit = [&](std::span<const double> at, std::span<double> r) {
+    ++out.evaluations;
+    if (context.interrupted()) return false;
+    const ClearanceFourBar model = model_of(at);
+    if (!turns_fully(model) || !follower.follow(model)) return false;
+    return over_a_turn(
+        model, mass.crank, follower.orbit().start(mass.crank), path.crank_angles, mass.tolerances,
+        [&](std::size_t k, const ClearanceRow& row) { misses(k, row.instant->position.point, r); });
+  };
+  const auto minimise = [&](auto&& misfit, double share, double decrease, int iterations) {
+    const std::vector<double> scale = widths(lower, upper, share);
+    const auto residuals = [&](std::span<const double> at, std::span<double> r, std::span<double> jacobian) {
+      if (!misfit(at, r)) return false;
+      if (jacobian.empty()) return true;
+      const auto inner = [&](std::span<const double> there, std::span<double> rows, std::span<double>) {
+        return misfit(there, rows);
+      };
+      return math::central_jacobian(inner, m, at, jacobian, scale) == Status::done;
+    };
+    math::LeastSquaresOptions options = local_options();
+    options.max_iterations = iterations;
+    options.jacobian_at_trials = false;
+    options.relative_decrease_tolerance = decrease;
+    options.cost_tolerance = 1e-20;
+    math::LeastSquaresWorkspace workspace;
+    std::vector<double> end = x;
+    const math::LeastSquaresReport report =
+        math::minimise_least_squares(residuals, m, end, lower, upper, options, workspace);
+    if (report.status == Status::infeasible) return false;
+    x = end;
+    return true;
+  };
+  const auto rms = [&](std::span<const double> r) {
+    double sum = 0;
+    for (const double value : r) sum += value * value;
+    return std::sqrt(sum / static_cast<double>(path.x.size()));
+  };
+  minimise(in_the_limit, smooth, 1e-6, 200);
+  std::vector<double> r(m);
+  if (follower.begin(model_of(x))) {
+    minimise(on_orbit, integrated, 1e-2, 10);
+  } else {
+    out.status = Status::not_converged;
+  }
+  out.x = x;
+  out.model = model_of(x);
+  out.limit_rms = in_the_limit(x, r) ? rms(r) : infinity;
+  out.path_rms = infinity;
+  out.least_tension = -infinity;
+  if (out.status != Status::done || !follower.follow(out.model)) {
+    out.status = Status::not_converged;
+    return out;
+  }
+  out.orbit =
+      find_orbit(out.model, mass.crank, follower.orbit().lead, follower.orbit().slope, mass.tolerances);
+  double least = infinity;
+  if (over_a_turn(out.model, mass.crank, out.orbit.start(mass.crank), path.crank_angles, mass.tolerances,
+                  [&](std::size_t k, const ClearanceRow& row) {
+                    misses(k, row.instant->position.point, r);
+                    least = std::min(least, row.instant->tension);
+                  })) {
+    out.path_rms = rms(r);
+    out.least_tension = least;
+  }
+  if (const Status interrupted = context.interruption(); interrupted != Status::done)
+    out.status = interrupted;
+  return out;
+}
+
+}  // namespace linkwright::clearance

@@ -1,0 +1,309 @@
+#include "linkwright/clearance/clearance_sensitivity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "linkwright/core/check.h"
+#include "linkwright/core/random.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/math/differences.h"
+#include "linkwright/planar/linkage_quality.h"
+#include "linkwright/planar/linkage_reactions.h"
+
+namespace linkwright::clearance {
+namespace {
+
+using planar::InputMotion, planar::JointType, planar::Linkage, planar::LinkageMotion, planar::LinkagePlan;
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+void require_valid(const Linkage& l, const LinkageTolerances& t, const ToleranceOutputs& o,
+                   std::size_t samples) {
+  const auto joint = [&](int j) -> const planar::LinkageJoint& {
+    LINKWRIGHT_REQUIRE(j >= 0 && at(j) < l.joints.size(), "there is no joint {} among {}", j,
+                       l.joints.size());
+    return l.joints[at(j)];
+  };
+  for (const PinTolerance& p : t.pins) {
+    LINKWRIGHT_REQUIRE(joint(p.joint).type == JointType::revolute, "joint '{}' is no revolute joint",
+                       joint(p.joint).name);
+    LINKWRIGHT_REQUIRE(p.clearance >= 0 && std::isfinite(p.clearance), "joint '{}': clearance {} m",
+                       joint(p.joint).name, p.clearance);
+  }
+  for (const LengthTolerance& e : t.lengths) {
+    LINKWRIGHT_REQUIRE(e.body >= 0 && at(e.body) < l.bodies.size(), "there is no body {} among {}", e.body,
+                       l.bodies.size());
+    const planar::LinkageBody& b = l.bodies[at(e.body)];
+    LINKWRIGHT_REQUIRE(e.from >= 0 && e.to >= 0 && at(std::max(e.from, e.to)) < b.points.size() &&
+                           b.points[at(e.from)].at != b.points[at(e.to)].at,
+                       "body '{}': points {} and {} have no distance", b.name, e.from, e.to);
+    LINKWRIGHT_REQUIRE(e.tolerance >= 0 && std::isfinite(e.tolerance), "body '{}': tolerance {} m", b.name,
+                       e.tolerance);
+  }
+  for (const planar::BodyPoint& p : o.points)
+    LINKWRIGHT_REQUIRE(p.body >= 0 && at(p.body) < l.bodies.size() && p.point >= 0 &&
+                           at(p.point) < l.bodies[at(p.body)].points.size(),
+                       "there is no point {} of body {}", p.point, p.body);
+  for (const int j : o.coordinates)
+    LINKWRIGHT_REQUIRE(joint(j).type == JointType::revolute || joint(j).type == JointType::prismatic,
+                       "joint '{}' has no coordinate", joint(j).name);
+  for (const int j : o.forces) joint(j);
+  LINKWRIGHT_REQUIRE(!l.driven.empty() && samples % l.driven.size() == 0, "{} motions for {} inputs", samples,
+                     l.driven.size());
+}
+
+// The linkage with offsets of its pins, in the frames of their first bodies, and errors of its lengths: pairs
+// of numbers for pins, then one a length.
+Linkage changed(const Linkage& l, const LinkageTolerances& t, std::span<const double> by) {
+  Linkage out = l;
+  for (std::size_t k = 0; k < t.lengths.size(); ++k) {
+    const LengthTolerance& e = t.lengths[k];
+    std::vector<planar::LinkagePoint>& points = out.bodies[at(e.body)].points;
+    const std::complex<double> way =
+        l.bodies[at(e.body)].points[at(e.to)].at - l.bodies[at(e.body)].points[at(e.from)].at;
+    points[at(e.to)].at += by[2 * t.pins.size() + k] * way / std::abs(way);
+  }
+  for (std::size_t k = 0; k < t.pins.size(); ++k) {
+    planar::LinkageJoint& j = out.joints[at(t.pins[k].joint)];
+    planar::LinkageBody& body = out.bodies[at(j.first.body)];
+    // A point of its own: other joints may use the same one.
+    planar::LinkagePoint moved = body.points[at(j.first.point)];
+    moved.name += " of " + j.name + " " + std::to_string(k);
+    moved.at += std::complex<double>(by[2 * k], by[2 * k + 1]);
+    j.first.point = static_cast<int>(body.points.size());
+    body.points.push_back(moved);
+  }
+  return out;
+}
+
+// Solves a linkage at all samples, each from the nominal motion there, so that it stays in its assembly mode.
+class Solver {
+ public:
+  Solver(const Linkage& l, const ToleranceOutputs& o, std::span<const InputMotion> samples)
+      : outputs_(o), samples_(samples), forces_wanted_(!o.forces.empty() || o.drives) {
+    planar::PlanResult result = planar::plan(l);
+    LINKWRIGHT_REQUIRE(result.problems.empty(), "the linkage cannot be planned: {}",
+                       result.problems.front().message);
+    plan_ = std::move(result.plan);
+    const std::size_t inputs = plan_.inputs();
+    LinkageMotion motion(plan_);
+    std::vector<double> before;
+    for (std::size_t s = 0; s * inputs < samples.size(); ++s) {
+      const auto now = samples.subspan(s * inputs, inputs);
+      std::vector<double> values;
+      for (const InputMotion& m : now) values.push_back(m.value);
+      if (!plan_.closed_form() && s > 0) planar::follow(plan_, before, values, motion);
+      planar::solve_motion(plan_, now, motion);
+      before = values;
+      status_.push_back(motion.status);
+      parts_.push_back(motion.parts);
+      modes_ = motion.modes;
+      values_.emplace_back();
+      if (motion.status == Status::done) values_.back() = read(l, plan_, motion, now, {});
+    }
+  }
+
+  std::size_t samples() const { return status_.size(); }
+  Status status(std::size_t s) const { return status_[s]; }
+  const std::vector<double>& values(std::size_t s) const { return values_[s]; }
+  /// Direction of the frame of a body in the nominal motion.
+  planar::Vec<double> direction(std::size_t s, int body) const {
+    const planar::BodyOnPart& on = plan_.bodies[at(body)];
+    return planar::turn(parts_[s][at(on.part)].direction, on.turn);
+  }
+  double size() const { return plan_.size; }
+
+  /// Values of another linkage of the same structure at every sample, empty where there are none.
+  std::vector<std::vector<double>> of(const Linkage& l) const {
+    const planar::PlanResult other = planar::plan(l);
+    std::vector<std::vector<double>> out(samples());
+    if (!other.problems.empty()) return out;
+    LinkageMotion motion(other.plan);
+    motion.modes = modes_;
+    const std::size_t inputs = plan_.inputs();
+    for (std::size_t s = 0; s < samples(); ++s) {
+      if (status_[s] != Status::done) continue;
+      motion.parts = parts_[s];
+      const auto now = samples_.subspan(s * inputs, inputs);
+      planar::solve_motion(other.plan, now, motion);
+      if (motion.status == Status::done) out[s] = read(l, other.plan, motion, now, values_[s]);
+    }
+    return out;
+  }
+
+ private:
+  std::vector<double> read(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
+                           std::span<const InputMotion> now, std::span<const double> near) const {
+    std::vector<double> out;
+    for (const planar::BodyPoint& p : outputs_.points) {
+      const auto place =
+          planar::point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at).position;
+      out.push_back(place.x);
+      out.push_back(place.y);
+    }
+    for (const int j : outputs_.coordinates) {
+      const double value = planar::joint_motion(l, plan, motion, j).value;
+      const bool turns = l.joints[at(j)].type == JointType::revolute;
+      out.push_back(turns && !near.empty()
+                        ? near[out.size()] + math::angle_difference(value, near[out.size()])
+                        : value);
+    }
+    if (forces_wanted_) {
+      planar::LinkageForces forces;
+      planar::solve_forces(l, plan, motion, 0, now[0].value, forces);
+      for (const int j : outputs_.forces) {
+        out.push_back(forces.joints[at(j)].force.x);
+        out.push_back(forces.joints[at(j)].force.y);
+      }
+      if (outputs_.drives) out.insert(out.end(), forces.drives.begin(), forces.drives.end());
+    }
+    return out;
+  }
+
+  const ToleranceOutputs& outputs_;
+  std::span<const InputMotion> samples_;
+  bool forces_wanted_;
+  LinkagePlan plan_;
+  std::vector<Status> status_;
+  std::vector<std::vector<planar::PartState<double>>> parts_;
+  std::vector<double> modes_;
+  std::vector<std::vector<double>> values_;
+};
+
+// Largest singular value of ((a, b), (c, d)).
+double stretch(double a, double b, double c, double d) {
+  return (std::hypot(a + d, c - b) + std::hypot(a - d, b + c)) / 2;
+}
+
+}  // namespace
+
+std::size_t value_count(const Linkage& l, const ToleranceOutputs& o) {
+  return 2 * o.points.size() + o.coordinates.size() + 2 * o.forces.size() + (o.drives ? l.driven.size() : 0);
+}
+
+std::vector<SensitivitySample> clearance_sensitivity(const Linkage& l, const LinkageTolerances& t,
+                                                     const ToleranceOutputs& o,
+                                                     std::span<const InputMotion> samples) {
+  require_valid(l, t, o, samples.size());
+  const Solver solver(l, o, samples);
+  const std::size_t pins = t.pins.size(), parameters = 2 * pins + t.lengths.size(),
+                    values = value_count(l, o);
+  std::vector<SensitivitySample> out(solver.samples());
+  for (std::size_t s = 0; s < out.size(); ++s) {
+    out[s].status = solver.status(s);
+    out[s].values = solver.values(s);
+    out[s].values.resize(values, std::numeric_limits<double>::quiet_NaN());
+    out[s].derivatives.assign(values * parameters, std::numeric_limits<double>::quiet_NaN());
+  }
+  const double h = math::difference_step(solver.size());
+  std::vector<double> by(parameters, 0.0);
+  for (std::size_t j = 0; j < parameters; ++j) {
+    by[j] = h;
+    const auto more = solver.of(changed(l, t, by));
+    by[j] = -h;
+    const auto less = solver.of(changed(l, t, by));
+    by[j] = 0;
+    for (std::size_t s = 0; s < out.size(); ++s) {
+      if (out[s].status != Status::done) continue;
+      if (more[s].empty() || less[s].empty()) {
+        out[s].status = Status::infeasible;
+        continue;
+      }
+      for (std::size_t i = 0; i < values; ++i)
+        out[s].derivatives[i * parameters + j] = (more[s][i] - less[s][i]) / (2 * h);
+    }
+  }
+  for (std::size_t s = 0; s < out.size(); ++s) {
+    SensitivitySample& now = out[s];
+    // From the frames of the first bodies to the global one.
+    for (std::size_t k = 0; k < pins && now.status == Status::done; ++k) {
+      const planar::Vec<double> d = solver.direction(s, l.joints[at(t.pins[k].joint)].first.body);
+      for (std::size_t i = 0; i < values; ++i) {
+        double* pair = &now.derivatives[i * parameters + 2 * k];
+        const planar::Vec<double> global = planar::turn(d, planar::Vec<double>{pair[0], pair[1]});
+        pair[0] = global.x, pair[1] = global.y;
+      }
+    }
+    for (std::size_t i = 0; i < values; ++i) {
+      const double* row = &now.derivatives[i * parameters];
+      double worst = 0, variance = 0;
+      for (std::size_t k = 0; k < pins; ++k) {
+        const double change = t.pins[k].clearance * std::hypot(row[2 * k], row[2 * k + 1]);
+        worst += change;
+        variance += change * change / 2;
+      }
+      for (std::size_t k = 0; k < t.lengths.size(); ++k) {
+        const double change = t.lengths[k].tolerance * std::abs(row[2 * pins + k]);
+        worst += change;
+        variance += change * change / 3;
+      }
+      now.worst.push_back(worst);
+      now.deviation.push_back(std::sqrt(variance));
+    }
+    for (std::size_t p = 0; p < o.points.size(); ++p) {
+      const double *x = &now.derivatives[2 * p * parameters], *y = x + parameters;
+      double worst = 0;
+      for (std::size_t k = 0; k < pins; ++k)
+        worst += t.pins[k].clearance * stretch(x[2 * k], x[2 * k + 1], y[2 * k], y[2 * k + 1]);
+      for (std::size_t k = 0; k < t.lengths.size(); ++k)
+        worst += t.lengths[k].tolerance * std::hypot(x[2 * pins + k], y[2 * pins + k]);
+      now.worst_distance.push_back(worst);
+    }
+  }
+  return out;
+}
+
+MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances& t,
+                                       const ToleranceOutputs& o, std::span<const InputMotion> samples,
+                                       int draws, std::uint64_t seed, const RunContext& context) {
+  require_valid(l, t, o, samples.size());
+  LINKWRIGHT_REQUIRE(draws >= 1, "needs 1 draw at least, got {}", draws);
+  const Solver solver(l, o, samples);
+  const std::size_t pins = t.pins.size(), values = value_count(l, o);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  MonteCarloResult out;
+  out.samples.resize(solver.samples());
+  for (MonteCarloSample& s : out.samples) {
+    s.mean.assign(values, 0);
+    s.deviation.assign(values, 0);
+    s.least.assign(values, infinity);
+    s.most.assign(values, -infinity);
+    s.worst_distance.assign(o.points.size(), 0);
+  }
+  std::vector<double> by(2 * pins + t.lengths.size());
+  while (out.draws < draws) {
+    if (out.status = context.interruption(); out.status != Status::done) break;
+    RandomStream random({.seed = seed, .individual = static_cast<std::uint32_t>(out.draws)});
+    for (std::size_t k = 0; k < pins; ++k) {
+      const double angle = random.uniform(0, 2 * std::numbers::pi);
+      by[2 * k] = t.pins[k].clearance * std::cos(angle);
+      by[2 * k + 1] = t.pins[k].clearance * std::sin(angle);
+    }
+    for (std::size_t k = 0; k < t.lengths.size(); ++k)
+      by[2 * pins + k] = t.lengths[k].tolerance * random.uniform(-1, 1);
+    const auto drawn = solver.of(changed(l, t, by));
+    ++out.draws;
+    for (std::size_t s = 0; s < drawn.size(); ++s) {
+      if (drawn[s].empty()) continue;
+      MonteCarloSample& now = out.samples[s];
+      ++now.assembled;
+      for (std::size_t i = 0; i < values; ++i) {  // Welford's sums
+        const double value = drawn[s][i], off = value - now.mean[i];
+        now.mean[i] += off / now.assembled;
+        now.deviation[i] += off * (value - now.mean[i]);
+        now.least[i] = std::min(now.least[i], value);
+        now.most[i] = std::max(now.most[i], value);
+      }
+      for (std::size_t p = 0; p < o.points.size(); ++p)
+        now.worst_distance[p] =
+            std::max(now.worst_distance[p], std::hypot(drawn[s][2 * p] - solver.values(s)[2 * p],
+                                                       drawn[s][2 * p + 1] - solver.values(s)[2 * p + 1]));
+    }
+  }
+  for (MonteCarloSample& s : out.samples)
+    for (double& d : s.deviation) d = s.assembled > 1 ? std::sqrt(d / (s.assembled - 1)) : 0;
+  return out;
+}
+
+}  // namespace linkwright::clearance

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/run_context.h"
+#include "linkwright/planar/linkage.h"
+#include "linkwright/planar/linkage_plan.h"
+
+// What clearances of pins and errors of lengths do to path, function and forces of any planar linkage.
+namespace linkwright::clearance {
+
+/// A pin that can lie anywhere within its clearance. The offset, from the joint's point of the first body to
+/// that of the second, is held in the frame of the first body.
+struct PinTolerance {
+  int joint = 0;         ///< of the linkage, revolute
+  double clearance = 0;  ///< m, >= 0, radial
+};
+/// A length of a body: its second point may lie nearer to the first one or farther away.
+struct LengthTolerance {
+  int body = 0;
+  int from = 0, to = 0;  ///< points of the body
+  double tolerance = 0;  ///< m, >= 0: the length errs by at most this
+};
+struct LinkageTolerances {
+  std::vector<PinTolerance> pins;
+  std::vector<LengthTolerance> lengths;
+};
+
+/// What is looked at. The values of a sample come in this order: x and y of every point (m), the coordinate
+/// of every joint (rad or m, near its nominal value), x and y of the force of every joint (N), and the drives
+/// (N m or N).
+struct ToleranceOutputs {
+  std::vector<planar::BodyPoint> points;
+  std::vector<int> coordinates;  ///< joints, revolute or prismatic
+  std::vector<int> forces;       ///< joints; the linkage must have its masses
+  bool drives = false;           ///< likewise
+};
+std::size_t value_count(const planar::Linkage& linkage, const ToleranceOutputs& outputs);
+
+/// First derivatives at one sample.
+struct SensitivitySample {
+  Status status = Status::done;  ///< of the nominal motion, or infeasible where a neighbour does not assemble
+  std::vector<double> values;    ///< nominal
+  /// Of value i by parameter j at derivatives[i * parameters + j]: two a pin, by the offset along the global
+  /// x and y axes, then one a length.
+  std::vector<double> derivatives;
+  /// Largest change of each value to first order: sum of clearance times gradient and tolerance times
+  /// derivative.
+  std::vector<double> worst;
+  /// Standard deviation of each value to first order, pins touching their bushes in directions that are even
+  /// over the circle, lengths even within their tolerance, all independent.
+  std::vector<double> deviation;
+  /// Of every point: largest distance from its nominal place to first order; of a pin clearance times the
+  /// largest singular value of the derivative (m).
+  std::vector<double> worst_distance;
+};
+/// By central differences of whole solutions; the step is 6e-6 of the size of the linkage, the error about
+/// 1e-10 of a value's size, more near dead points. `samples` holds the motion of all inputs, sample after
+/// sample; forces take their rates and accelerations. Throws ContractError for tolerances, outputs and
+/// samples that do not fit, or a linkage that cannot be planned.
+std::vector<SensitivitySample> clearance_sensitivity(const planar::Linkage& linkage,
+                                                     const LinkageTolerances& tolerances,
+                                                     const ToleranceOutputs& outputs,
+                                                     std::span<const planar::InputMotion> samples);
+
+/// What random linkages do at one sample.
+struct MonteCarloSample {
+  int assembled = 0;  ///< draws that have a position there; the rest is about these
+  std::vector<double> mean, deviation, least, most;  ///< of each value
+  std::vector<double> worst_distance;                ///< of every point from its nominal place, m
+};
+/// Draws linkages: pins touching their bushes in even directions, lengths even within their tolerance; every
+/// draw keeps its numbers over all samples and is solved exactly. Deterministic for a seed.
+struct MonteCarloResult {
+  Status status = Status::done;  ///< done, deadline or cancelled
+  int draws = 0;                 ///< made
+  std::vector<MonteCarloSample> samples;
+};
+MonteCarloResult clearance_monte_carlo(const planar::Linkage& linkage, const LinkageTolerances& tolerances,
+                                       const ToleranceOutputs& outputs,
+                                       std::span<const planar::InputMotion> samples, int draws,
+                                       std::uint64_t seed, const RunContext& context);
+
+}  // namespace linkwright::clearance
