@@ -6,6 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "linkwright/clearance/reproductions.h"
+#include "linkwright/clearance/studies.h"
 #include "linkwright/flexible/studies.h"
 #include "linkwright/parallel/reproductions.h"
 #include "linkwright/parallel/studies.h"
@@ -30,7 +32,8 @@ Kinds join(std::initializer_list<Kinds> domains) {
 
 std::span<const study::Kind> catalogue() {
   // One line for each domain.
-  static const Kinds kinds = join({planar::studies(), suspension::studies(), parallel::studies(), flexible::studies()});
+  static const Kinds kinds = join({planar::studies(), suspension::studies(), parallel::studies(),
+                                   flexible::studies(), clearance::studies()});
   return kinds;
 }
 
@@ -66,6 +69,7 @@ std::span<const study::Reproduction> reproductions() {
     std::vector<study::Reproduction> joined = planar::reproductions();
     for (study::Reproduction& r : suspension::reproductions()) joined.push_back(std::move(r));
     for (study::Reproduction& r : parallel::reproductions()) joined.push_back(std::move(r));
+    for (study::Reproduction& r : clearance::reproductions()) joined.push_back(std::move(r));
     return joined;
   }();
   return all;

@@ -22,6 +22,8 @@ LinkageRecord record_of(const Linkage& linkage, const LinkagePlan& plan, const L
 
 /// Drawing of a linkage in motion, named "motion": bodies as bars and plates, sliders as blocks on their
 /// guides, springs, traces, and arrows of joint forces, shaking force and velocities of the traced points.
+/// Its points begin with those of the bodies, body after body, and its joints go by the names of the
+/// linkage's.
 study::Scene linkage_scene(const Linkage& linkage, const LinkagePlan& plan,
                            const std::vector<LinkageRecord>& records, const std::vector<BodyPoint>& traces,
                            std::string input_key, std::string input_label);

@@ -39,4 +39,14 @@ study::Kind slider_crank_simulation_kind();
 /// Integrates and reports. Rows up to where the motion ends are kept, whatever ends it.
 study::Result run_linkage_simulation(const LinkageSimulationStudy& study, RunContext& context);
 
+// ---- shared with other simulations of linkages
+// ------------------------------------------------------------------
+
+/// `[[drive]]` of a simulation, one course an input: a law, or free with what it starts from. Inputs of
+/// samples and shorthands that the file does not name are free. The tables are written into `canonical`;
+/// problems go to the reader.
+std::vector<InputCourse> read_courses(study::ObjectReader& document, const LinkageDescription& description,
+                                      Value::Array& canonical);
+void describe_courses(study::SchemaWriter& document);
+
 }  // namespace linkwright::planar

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "linkwright/planar/linkage_simulation_study.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
@@ -45,24 +47,24 @@ namespace {
 
 constexpr Field free_field{.key = "free", .summary = "no drive: forces move the joint"};
 
-void read_courses(study::ObjectReader& document, const LinkageDescription& d, LinkageSimulationStudy& s,
-                  Value::Array& canonical) {
+}  // namespace
+
+std::vector<InputCourse> read_courses(study::ObjectReader& document, const LinkageDescription& d,
+                                      Value::Array& canonical) {
   const Linkage& l = d.linkage;
-  s.courses.resize(l.driven.size());
+  std::vector<InputCourse> courses(l.driven.size());
   canonical.assign(l.driven.size(), Value::object());
   std::vector<bool> told(l.driven.size(), false);
-  bool any_free = false;
   const auto write_start = [&](std::size_t i) {
     const bool rotary = d.plan.rotary[i];
     study::ObjectWriter writer(canonical[i]);
     writer(free_field, true);
-    writer(drive_field(rotary, 0, "start", {}), s.courses[i].value);
-    writer(drive_field(rotary, 1, "start_speed", {}), s.courses[i].rate);
-    any_free = true;
+    writer(drive_field(rotary, 0, "start", {}), courses[i].value);
+    writer(drive_field(rotary, 1, "start_speed", {}), courses[i].rate);
   };
   for (std::size_t i = 0; i < l.driven.size(); ++i) {
     canonical[i]["joint"] = input_joint(l, i).name;
-    if (i < d.sample_from.size()) s.courses[i].value = d.sample_from[i];
+    if (i < d.sample_from.size()) courses[i].value = d.sample_from[i];
   }
   for (study::ObjectReader& drive : document.tables("drive")) {
     std::string joint = l.driven.size() == 1 ? input_joint(l, 0).name : std::string();
@@ -75,25 +77,37 @@ void read_courses(study::ObjectReader& document, const LinkageDescription& d, Li
     bool free = false;
     drive(free_field, free);
     if (free) {
-      drive(drive_field(rotary, 0, "start", "position at the start"), s.courses[i].value);
-      drive(drive_field(rotary, 1, "start_speed", "rate at the start"), s.courses[i].rate);
+      drive(drive_field(rotary, 0, "start", "position at the start"), courses[i].value);
+      drive(drive_field(rotary, 1, "start_speed", "rate at the start"), courses[i].rate);
       if (drive.has("law"))
         drive.error("law", fmt::format("joint '{}' is free and has a motion law", joint),
                     "remove one of them");
       write_start(i);
       continue;
     }
-    s.courses[i].law = read_law(drive, rotary, false, canonical[i]);
-    if (!s.courses[i].law && !drive.has("law"))
+    courses[i].law = read_law(drive, rotary, false, canonical[i]);
+    if (!courses[i].law && !drive.has("law"))
       drive.error("law", fmt::format("joint '{}' has neither a motion law nor free = true", joint),
                   "free = true lets forces move it; law = \"constant_speed\" drives it");
   }
   for (std::size_t i = 0; i < told.size(); ++i)
     if (!told[i]) write_start(i);  // of samples and shorthands: free
-  if (!any_free && !document.document().has_errors())
-    document.error("drive", "every drive has a motion law: nothing is left for forces to move",
-                   "write free = true in a [[drive]], or take kind = \"analysis\" with a sweep over time");
+  return courses;
 }
+
+void describe_courses(study::SchemaWriter& document) {
+  study::SchemaWriter drive;
+  drive(Field{.key = "joint", .summary = "joint whose coordinate it is"}, std::string());
+  drive(free_field, false);
+  for (bool rotary : {true, false})
+    for (const auto& [order, key] : {std::pair{0, "start"}, std::pair{1, "start_speed"}})
+      drive.property(drive_field(rotary, order, key, "of a free joint"), study::schema_number());
+  drive(Field{.key = "law", .summary = "motion law of a joint that is not free"}, RotaryLaw{});
+  document.property(Field{.key = "drive", .summary = "joints that are free, or move as a law says"},
+                    study::schema_array(std::move(drive).finish()));
+}
+
+namespace {
 
 study::Prepared prepare(study::ObjectReader& document, const study::Common& common, LinkageType type) {
   study::Prepared prepared;
@@ -119,7 +133,12 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
                        fmt::format("joint '{}' has friction, which all_coordinates do not take", j.name),
                        "route = \"free_joints\" does");
   Value::Array drives;
-  read_courses(document, *description, s, drives);
+  s.courses = read_courses(document, *description, drives);
+  const bool any_free =
+      std::any_of(s.courses.begin(), s.courses.end(), [](const InputCourse& c) { return !c.law; });
+  if (!any_free && !document.document().has_errors())
+    document.error("drive", "every drive has a motion law: nothing is left for forces to move",
+                   "write free = true in a [[drive]], or take kind = \"analysis\" with a sweep over time");
   write_linkage(*description, prepared.canonical);
   prepared.canonical["drive"] = Value(std::move(drives));
   prepared.canonical["simulation"] = study::write_fields(s);
@@ -136,15 +155,7 @@ study::Kind kind_of(LinkageType type) {
   kind.quantities = linkage_quantity_words();
   kind.schema = [type](study::SchemaWriter& document) {
     describe_linkage(document, type);
-    study::SchemaWriter drive;
-    drive(Field{.key = "joint", .summary = "joint whose coordinate it is"}, std::string());
-    drive(free_field, false);
-    for (bool rotary : {true, false})
-      for (const auto& [order, key] : {std::pair{0, "start"}, std::pair{1, "start_speed"}})
-        drive.property(drive_field(rotary, order, key, "of a free joint"), study::schema_number());
-    drive(Field{.key = "law", .summary = "motion law of a joint that is not free"}, RotaryLaw{});
-    document.property(Field{.key = "drive", .summary = "joints that are free, or move as a law says"},
-                      study::schema_array(std::move(drive).finish()));
+    describe_courses(document);
     document.property(Field{.key = "simulation", .summary = "time and tolerances", .required = true},
                       study::schema_fields<LinkageSimulationStudy>());
   };

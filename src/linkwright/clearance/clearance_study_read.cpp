@@ -1,0 +1,408 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <variant>
+
+#include "linkwright/clearance/clearance_study.h"
+#include "linkwright/planar/linkage_simulation_study.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::clearance {
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr Field number(std::string_view key, std::string_view summary, Dimension dimension, double minimum,
+                       bool more_than = false, bool required = false) {
+  return {.key = key,
+          .summary = summary,
+          .dimension = dimension,
+          .minimum = minimum,
+          .maximum = 1e18,
+          .exclusive_minimum = more_than,
+          .required = required};
+}
+constexpr Field any_number(std::string_view key, std::string_view summary, Dimension dimension) {
+  return number(key, summary, dimension, -1e9);
+}
+
+// ---- [[clearance]]
+// ---------------------------------------------------------------------------------------------
+
+struct ContactForm {
+  double bush_radius = 0;
+  ContactDamping law = ContactDamping::flores_2011;
+  double restitution = 0.9;
+  std::optional<double> stiffness;
+  double modulus = 207, poisson = 0.3;
+  double friction = 0, friction_from = 1e-4, friction_whole = 1e-3;
+  PinSide pin = PinSide::first;
+  std::array<double, 2> start{}, start_speed{};
+};
+constexpr Word choice_word(const ContactForm&) {
+  return {"contact", "pin and bush fly free, strike, press and slide"};
+}
+template <class Visitor>
+void fields(Visitor&& visit, ContactForm& c) {
+  visit(number("bush_radius", "radius of the bush", Dimension::length, 0, true, true), c.bush_radius);
+  visit(Field{.key = "law", .summary = "how energy is lost in a contact"}, c.law);
+  visit(Field{.key = "restitution",
+              .summary = "coefficient of restitution of the law",
+              .minimum = 0,
+              .maximum = 1,
+              .exclusive_minimum = true},
+        c.restitution);
+  visit(number("stiffness_N_per_m1_5",
+               "K of the force K depth^1.5; if absent that of a pin in a bush of the material",
+               Dimension::none, 0, true),
+        c.stiffness);
+  visit(number("modulus_GPa", "Young's modulus of pin and bush", Dimension::none, 0, true), c.modulus);
+  visit(Field{.key = "poisson", .summary = "Poisson's ratio of both", .minimum = 0, .maximum = 0.5},
+        c.poisson);
+  visit(number("friction", "coefficient of friction", Dimension::none, 0), c.friction);
+  visit(number("friction_from", "speed of sliding below which there is no friction", Dimension::speed, 0),
+        c.friction_from);
+  visit(number("friction_whole", "speed of sliding above which friction is whole", Dimension::speed, 0, true),
+        c.friction_whole);
+  visit(Field{.key = "pin", .summary = "which body carries the pin"}, c.pin);
+  visit(any_number("start", "from the middle of the bush to that of the pin at the start, along x and y",
+                   Dimension::length),
+        c.start);
+  visit(any_number("start_speed", "how fast that changes then", Dimension::speed), c.start_speed);
+}
+
+struct ContinuousForm {
+  std::optional<double> angle, rate;
+  double damping = 0;
+};
+constexpr Word choice_word(const ContinuousForm&) {
+  return {"continuous", "pin and bush always touch: a massless link as long as the clearance"};
+}
+template <class Visitor>
+void fields(Visitor&& visit, ContinuousForm& c) {
+  visit(any_number("start_angle",
+                   "direction from the point of the first body to that of the second at the start; if absent "
+                   "where the force of the ideal joint presses it",
+                   Dimension::angle),
+        c.angle);
+  visit(any_number("start_rate", "how fast that turns then; if absent as that force does",
+                   Dimension::speed_angular),
+        c.rate);
+  visit(number("damping", "viscous torque against the turning of the link", Dimension::damping_angular, 0),
+        c.damping);
+}
+
+struct PinForm {
+  std::string joint;
+  double clearance = 0;
+  std::variant<ContactForm, ContinuousForm> model;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PinForm& p) {
+  visit(Field{.key = "joint", .summary = "revolute joint that has clearance", .required = true}, p.joint);
+  visit(number("clearance", "radius of the bush less radius of the pin", Dimension::length, 0, true, true),
+        p.clearance);
+  visit(Field{.key = "model", .summary = "how pin and bush touch"}, p.model);
+}
+
+// The shortest link at a joint: name and length from it to another joint.
+struct ShortLink {
+  std::string name;
+  double length = std::numeric_limits<double>::infinity();
+};
+ShortLink shortest_link(const planar::Linkage& l, int joint) {
+  ShortLink out;
+  const planar::LinkageJoint& pin = l.joints[at(joint)];
+  for (const planar::BodyPoint& here : {pin.first, pin.second})
+    for (const planar::LinkageJoint& j : l.joints) {
+      if (j.type == planar::JointType::gear) continue;
+      for (const planar::BodyPoint& other : {j.first, j.second}) {
+        if (other.body != here.body) continue;
+        const planar::LinkageBody& body = l.bodies[at(here.body)];
+        const double length = std::abs(body.points[at(here.point)].at - body.points[at(other.point)].at);
+        if (length > 0 && length < out.length) out = {body.name, length};
+      }
+    }
+  return out;
+}
+
+// The joint of a table, if it can have clearance.
+std::optional<int> joint_of(study::ObjectReader& table, const PinForm& form, const planar::Linkage& l) {
+  const int j = planar::joint_index(l, form.joint);
+  if (j < 0) {
+    std::vector<std::string_view> known;
+    for (const planar::LinkageJoint& k : l.joints) known.push_back(k.name);
+    const std::string_view nearest = nearest_word(form.joint, known);
+    table.error("joint", fmt::format("there is no joint '{}'", form.joint),
+                nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+    return std::nullopt;
+  }
+  const planar::LinkageJoint& joint = l.joints[at(j)];
+  if (joint.type != planar::JointType::revolute) {
+    table.error("joint", fmt::format("joint '{}' is {}; only revolute joints have clearance", form.joint,
+                                     name_of(joint.type)));
+    return std::nullopt;
+  }
+  if (std::find(l.driven.begin(), l.driven.end(), j) != l.driven.end()) {
+    table.error("joint",
+                fmt::format("joint '{}' is driven: a drive needs a pin without clearance", form.joint),
+                "put the [[drive]] at another joint");
+    return std::nullopt;
+  }
+  if (joint.friction > 0) {
+    table.error("joint", fmt::format("joint '{}' has friction of its own", form.joint),
+                "write friction in this table instead, for the contact");
+    return std::nullopt;
+  }
+  if (const ShortLink link = shortest_link(l, j); form.clearance > link.length / 2) {
+    table.error("clearance", fmt::format("{:.6g} mm is more than half of the link '{}', {:.6g} mm",
+                                         1e3 * form.clearance, link.name, 1e3 * link.length));
+    return std::nullopt;
+  }
+  return j;
+}
+
+std::optional<ContactJoint> contact_of(study::ObjectReader& table, const PinForm& form, int joint) {
+  const ContactForm& c = std::get<ContactForm>(form.model);
+  if (!(c.bush_radius > form.clearance)) {
+    table.error("bush_radius", fmt::format("{:.6g} mm is not more than the clearance, {:.6g} mm",
+                                           1e3 * c.bush_radius, 1e3 * form.clearance));
+    return std::nullopt;
+  }
+  if (!(c.friction_whole > c.friction_from))
+    table.error("friction_whole", fmt::format("{:.6g} m/s is not more than friction_from, {:.6g} m/s",
+                                              c.friction_whole, c.friction_from));
+  ContactJoint out{.joint = joint,
+                   .clearance = form.clearance,
+                   .bush_radius = c.bush_radius,
+                   .law = {.restitution = c.restitution,
+                           .damping = c.law,
+                           .friction = c.friction,
+                           .friction_from = c.friction_from,
+                           .friction_whole = c.friction_whole},
+                   .pin = c.pin,
+                   .start = {{c.start[0], c.start[1]}, {c.start_speed[0], c.start_speed[1]}}};
+  if (const double off = std::abs(out.start.eccentricity); off > form.clearance)
+    table.error("start",
+                fmt::format("the pin starts {:.6g} mm off the middle of its bush, which leaves {:.6g} mm",
+                            1e3 * off, 1e3 * form.clearance));
+  const Elasticity material{1e9 * c.modulus, c.poisson};
+  out.law.stiffness =
+      c.stiffness.value_or(pin_stiffness(c.bush_radius, c.bush_radius - form.clearance, material, material));
+  return out;
+}
+
+void read_clearances(study::ObjectReader& document, ClearanceStudy& s, Value::Array& canonical) {
+  auto tables = document.tables(Field{.key = "clearance", .summary = {}});
+  if (tables.empty())
+    document.error("clearance", "no joint has clearance",
+                   "add a [[clearance]] table, or take mechanism.type = \"planar.linkage\"");
+  std::vector<std::pair<int, std::string_view>> told;
+  for (study::ObjectReader& table : tables) {
+    PinForm form;
+    table.read(form);
+    canonical.push_back(study::write_fields(form));
+    if (form.joint.empty() || !(form.clearance > 0)) continue;
+    const auto joint = joint_of(table, form, s.linkage);
+    if (!joint) continue;
+    const std::string_view model =
+        std::visit([](const auto& options) { return choice_word(options).name; }, form.model);
+    if (!told.empty() && told.front().second != model) {
+      table.error("model",
+                  fmt::format("is {}, but joint '{}' has {}", model,
+                              s.linkage.joints[at(told.front().first)].name, told.front().second),
+                  "all clearances of a study take the same model");
+      continue;
+    }
+    if (std::any_of(told.begin(), told.end(), [&](const auto& t) { return t.first == *joint; })) {
+      table.error("joint", fmt::format("joint '{}' is given twice", form.joint));
+      continue;
+    }
+    told.emplace_back(*joint, model);
+    if (const auto* c = std::get_if<ContinuousForm>(&form.model)) {
+      s.continuous.push_back({.clearance = {.joint = *joint,
+                                            .clearance = form.clearance,
+                                            .angle = c->angle.value_or(0),
+                                            .rate = c->rate.value_or(0),
+                                            .damping = c->damping},
+                              .angle_given = c->angle.has_value(),
+                              .rate_given = c->rate.has_value()});
+    } else if (const auto contact = contact_of(table, form, *joint)) {
+      s.contacts.push_back(*contact);
+    }
+  }
+}
+
+}  // namespace
+
+// ---- [simulation]
+// ----------------------------------------------------------------------------------------------
+
+template <class Visitor>
+void fields(Visitor&& visit, ClearanceStudy& s) {
+  const auto time = [&](std::string_view key, std::string_view summary, bool required, double& value) {
+    visit(Field{.key = key,
+                .summary = summary,
+                .dimension = Dimension::time,
+                .minimum = -1e9,
+                .maximum = 1e9,
+                .required = required},
+          value);
+  };
+  time("from", "when the motion starts", false, s.from);
+  time("to", "when it ends", true, s.to);
+  visit(Field{.key = "samples",
+              .summary = "rows of the tables, both ends included",
+              .minimum = 2,
+              .maximum = 1e6},
+        s.samples);
+  visit(Field{.key = "rtol", .summary = "relative tolerance of a step", .minimum = 1e-13, .maximum = 1e-3},
+        s.relative_tolerance);
+  visit(
+      Field{.key = "max_steps", .summary = "steps after which it is given up", .minimum = 1, .maximum = 1e9},
+      s.max_steps);
+}
+
+namespace {
+
+study::Prepared prepare(study::ObjectReader& document, const study::Common& common) {
+  study::Prepared prepared;
+  ClearanceStudy s;
+  s.quantities = planar::chosen_quantities(common.output.quantities);
+  s.scene_samples = common.output.samples;
+  auto description = planar::read_linkage(document, planar::LinkageType::linkage, true);
+  if (auto table = document.table(Field{.key = "simulation", .summary = {}, .required = true})) {
+    table->read(s);
+    if (!(s.to > s.from) && !document.document().has_errors())
+      table->error("to", fmt::format("the simulation ends at {} s, but starts at {} s", s.to, s.from), {});
+  }
+  if (!description) {
+    for (study::ObjectReader& drive : document.tables("drive")) drive.members();
+    for (study::ObjectReader& table : document.tables("clearance")) table.members();
+    return prepared;
+  }
+  Value::Array drives, clearances;
+  s.courses = planar::read_courses(document, *description, drives);
+  planar::write_linkage(*description, prepared.canonical);
+  s.linkage = std::move(description->linkage);
+  s.plan = std::move(description->plan);
+  s.traces = std::move(description->traces);
+  read_clearances(document, s, clearances);
+  prepared.canonical["drive"] = Value(std::move(drives));
+  prepared.canonical["clearance"] = Value(std::move(clearances));
+  prepared.canonical["simulation"] = study::write_fields(s);
+  prepared.run = [s = std::move(s)](RunContext& context) { return run_clearance_study(s, context); };
+  return prepared;
+}
+
+}  // namespace
+
+study::Kind clearance_kind() {
+  study::Kind kind;
+  kind.kind = "simulation";
+  kind.mechanism = "clearance.linkage";
+  kind.summary = "motion of any planar linkage whose pins have clearance: impacts, friction, lost contact";
+  kind.quantities = planar::linkage_quantity_words();
+  kind.schema = [](study::SchemaWriter& document) {
+    planar::describe_linkage(document, planar::LinkageType::linkage);
+    planar::describe_courses(document);
+    document.property(Field{.key = "clearance", .summary = "pins that have clearance", .required = true},
+                      study::schema_array(study::schema_fields<PinForm>()));
+    document.property(Field{.key = "simulation", .summary = "time and tolerances", .required = true},
+                      study::schema_fields<ClearanceStudy>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    return prepare(document, common);
+  };
+  kind.example = R"(# linkwright study: a linkage whose pins have clearance
+schema = 1
+kind   = "simulation"
+title  = "A loose pin between rod and slider"
+source = "Flores, Ambrosio, Claro 2004"
+
+[mechanism]
+type = "clearance.linkage"
+
+# The first body is the ground. Points are in the frame of the body.
+[[mechanism.body]]
+name      = "ground"
+points_mm = { O = [0, 0] }
+
+[[mechanism.body]]
+name          = "crank"
+points_mm     = { O = [0, 0], A = [50, 0] }
+mass_kg       = 0.3
+inertia_kg_m2 = 1e-4
+
+[[mechanism.body]]
+name          = "rod"
+points_mm     = { A = [0, 0], B = [120, 0] }
+mass_kg       = 0.21
+inertia_kg_m2 = 2.5e-4
+start         = { x_mm = 50.0, angle_deg = 0.0 }   # about where it stands at the start: crank and rod in line
+
+[[mechanism.body]]
+name          = "slider"
+points_mm     = { B = [0, 0] }
+mass_kg       = 0.14
+inertia_kg_m2 = 0.0
+start         = { x_mm = 170.0 }
+
+[[mechanism.joint]]
+name   = "O"
+first  = "ground.O"
+second = "crank.O"
+
+[[mechanism.joint]]
+name   = "A"
+first  = "crank.A"
+second = "rod.A"
+
+[[mechanism.joint]]
+name   = "B"
+first  = "rod.B"
+second = "slider.B"
+
+[[mechanism.joint]]
+name   = "guide"
+type   = "prismatic"
+first  = "ground.O"
+second = "slider.B"
+
+[[drive]]
+joint     = "O"
+law       = "constant_speed"
+speed_rpm = 5000.0
+
+# One table for each loose pin. model = "continuous" takes pin and bush to touch always.
+[[clearance]]
+joint          = "B"
+clearance_mm   = 0.5                # radius of the bush less radius of the pin
+model          = "contact"          # contact | continuous
+bush_radius_mm = 10.0
+law            = "lankarani_nikravesh"   # lankarani_nikravesh | flores_2011
+restitution    = 0.9
+modulus_GPa    = 207.0
+poisson        = 0.3
+friction       = 0.03
+
+[environment]
+gravity_m_per_s2 = 0.0
+
+[simulation]
+to_s    = 0.036                     # three turns
+samples = 3601
+
+[[trace]]
+point = "slider.B"
+)";
+  return kind;
+}
+
+}  // namespace linkwright::clearance

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <vector>
+
+#include "linkwright/study/reproduction.h"
+
+namespace linkwright::clearance {
+
+/// The published tables about joints with clearance.
+std::vector<study::Reproduction> reproductions();
+
+}  // namespace linkwright::clearance

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <vector>
+
+#include "linkwright/study/kind.h"
+
+namespace linkwright::clearance {
+
+/// The kinds of study of this room.
+std::vector<study::Kind> studies();
+
+}  // namespace linkwright::clearance

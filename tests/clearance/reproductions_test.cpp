@@ -1,0 +1,58 @@
+#include "linkwright/clearance/reproductions.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+
+namespace linkwright::clearance {
+namespace {
+
+std::vector<study::Comparison> rows(std::string_view id) {
+  for (const study::Reproduction& r : reproductions())
+    if (r.id == id) {
+      RunContext context;
+      return r.run(context);
+    }
+  ADD_FAILURE() << "no table " << id;
+  return {};
+}
+
+TEST(ClearanceReproductions, HaveIdsTitlesSourcesAndNotes) {
+  std::set<std::string> ids;
+  for (const study::Reproduction& r : reproductions()) {
+    EXPECT_TRUE(ids.insert(r.id).second) << r.id;
+    EXPECT_FALSE(r.title.empty() || r.source.empty() || r.notes.empty()) << r.id;
+  }
+}
+
+TEST(ClearanceReproductions, Tables) {
+  const auto table = rows("varedi-2014-tables");
+  std::map<std::string, int> verdicts;
+  for (const study::Comparison& r : table) ++verdicts[r.verdict];
+  EXPECT_EQ(verdicts, (std::map<std::string, int>{
+                          {"corrected", 2}, {"improved", 1}, {"not printed", 2}, {"reproduced", 2}}));
+  EXPECT_NEAR(table[2].published, 99.4677, 1e-12);
+  EXPECT_NEAR(table[2].ours, 99.015041478, 1e-9);
+  // Root mean square of 36 points: 3.929349e-4 m in the reference figures.
+  EXPECT_NEAR(table[3].ours, 0.3929349, 1e-7);
+  EXPECT_GT(table[4].ours, 2 * table[3].ours);
+  // Uniform bars of 0.18 and 0.12 m.
+  EXPECT_NEAR(table[5].ours, 0.0737 * 0.18 * 0.18 / 12, 1e-15);
+  EXPECT_NEAR(table[6].ours, 0.049 * 0.12 * 0.12 / 12, 1e-15);
+}
+
+TEST(ClearanceReproductions, Claims) {
+  const auto table = rows("varedi-2014-claims");
+  ASSERT_EQ(table.size(), 7u);
+  for (const study::Comparison& r : table) {
+    EXPECT_TRUE(std::isnan(r.published)) << "figures have no numbers";
+    EXPECT_FALSE(r.note.empty()) << r.item;
+    EXPECT_THAT(r.verdict, ::testing::AnyOf("reproduced", "corrected", "not reproduced")) << r.item;
+  }
+}
+
+}  // namespace
+}  // namespace linkwright::clearance

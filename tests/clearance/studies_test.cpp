@@ -1,0 +1,25 @@
+#include "clearance/studies.h"
+
+#include <gmock/gmock.h>
+
+namespace linkwright::clearance {
+namespace {
+
+TEST(ClearanceStudies, AreThoseOfLinkagesWithClearance) {
+  std::vector<std::string> names;
+  for (const study::Kind& kind : studies()) names.push_back(study::name_of(kind));
+  EXPECT_THAT(names, ::testing::ElementsAre("simulation/clearance.linkage"));
+}
+
+TEST(ClearanceStudies, ExamplesRun) {
+  for (const study::Kind& kind : studies()) {
+    SCOPED_TRACE(study::name_of(kind));
+    const study::Result result = testing::run_text(kind.example);
+    EXPECT_EQ(result.status, Status::done) << result.headline;
+    EXPECT_FALSE(result.scenes.empty());
+    for (const Diagnostic& d : result.diagnostics) ADD_FAILURE() << to_string(d);
+  }
+}
+
+}  // namespace
+}  // namespace linkwright::clearance
