@@ -4,10 +4,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <utility>
 
-#include "linkwright/planar/linkage_build.h"
-#include "linkwright/planar/linkage_dynamics.h"
+#include "elastic_bodies.h"
+#include "linkwright/planar/linkage_coordinates.h"
 #include "support/message.h"
 
 namespace linkwright::planar {
@@ -15,130 +14,8 @@ namespace {
 
 using linkwright::test::message;
 using ::testing::HasSubstr;
+using namespace testing;
 constexpr double pi = std::numbers::pi;
-
-// A steel strip of 20 mm x 4 mm that bends about its thin side.
-constexpr double modulus = 2.1e11, area = 8e-5, second_moment = 0.02 * 4e-3 * 4e-3 * 4e-3 / 12,
-                 density = 7850, stiffness = modulus * second_moment;
-ElasticBody strip(int body, int segments) {
-  return {.body = body,
-          .elastic_modulus = modulus,
-          .second_moment = second_moment,
-          .area = area,
-          .density = density,
-          .segments = segments,
-          .fibre_distance = 2e-3};
-}
-
-ElasticLinkage made(const Linkage& l, const std::vector<ElasticBody>& bodies,
-                    const std::vector<InputMotion>& inputs) {
-  ElasticLinkage e = with_elastic_bodies(l, bodies, inputs);
-  for (const Diagnostic& d : e.problems) ADD_FAILURE() << to_string(d);
-  EXPECT_EQ(e.status, Status::done);
-  return e;
-}
-
-// x of a x = b, by Gauss's elimination with row pivots.
-std::vector<double> solved(std::vector<std::vector<double>> a, std::vector<double> b) {
-  const std::size_t n = b.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k; i < n; ++i)
-      if (std::abs(a[i][k]) > std::abs(a[pivot][k])) pivot = i;
-    std::swap(a[k], a[pivot]);
-    std::swap(b[k], b[pivot]);
-    for (std::size_t i = k + 1; i < n; ++i) {
-      const double f = a[i][k] / a[k][k];
-      for (std::size_t j = k; j < n; ++j) a[i][j] -= f * a[k][j];
-      b[i] -= f * b[k];
-    }
-  }
-  for (std::size_t k = n; k-- > 0;) {
-    for (std::size_t j = k + 1; j < n; ++j) b[k] -= a[k][j] * b[j];
-    b[k] /= a[k][k];
-  }
-  return b;
-}
-
-// A linkage held at rest by its drives, in its free inputs about where it is not bent: forces, and masses and
-// stiffnesses by central differences.
-class AtRest {
- public:
-  AtRest(const ElasticLinkage& e, const std::vector<InputMotion>& drives)
-      : e_(e), inputs_(drives), dynamics_(e.linkage, e.plan, mask(drives.size(), e.free.size())) {
-    for (const InputCourse& c : e.free) inputs_.push_back({c.value, 0, 0});
-  }
-  std::size_t free() const { return e_.free.size(); }
-  LinkageMotion& motion() { return dynamics_.motion; }
-  double& value(std::size_t k) { return inputs_[inputs_.size() - free() + k].value; }
-
-  std::vector<double> forces() {
-    EXPECT_EQ(dynamics_.solve(0, inputs_), Status::done);
-    mass.assign(free(), std::vector<double>(free()));
-    std::vector<double> out(free());
-    for (std::size_t i = 0; i < free(); ++i)
-      for (std::size_t j = 0; j < free(); ++j) {
-        mass[i][j] = dynamics_.inertia()[i * free() + j];
-        out[i] += mass[i][j] * inputs_[inputs_.size() - free() + j].acceleration;
-      }
-    return out;
-  }
-  std::vector<std::vector<double>> stiffnesses() {
-    std::vector<std::vector<double>> k(free(), std::vector<double>(free()));
-    const double h = 1e-5;  // the error of the differences is of order h^2 = 1e-10
-    for (std::size_t j = 0; j < free(); ++j) {
-      value(j) += h;
-      const std::vector<double> above = forces();
-      value(j) -= 2 * h;
-      const std::vector<double> below = forces();
-      value(j) += h;
-      for (std::size_t i = 0; i < free(); ++i) k[i][j] = (below[i] - above[i]) / (2 * h);
-    }
-    return k;
-  }
-  // Two steps of Newton's method: loads of these tests bend little.
-  void settle() {
-    for (int step = 0; step < 2; ++step) {
-      const auto k = stiffnesses();
-      const std::vector<double> by = solved(k, forces());
-      for (std::size_t i = 0; i < free(); ++i) value(i) += by[i];
-    }
-    forces();
-  }
-  // First frequency (rad/s), by inverse iteration.
-  double first_frequency() {
-    const auto k = stiffnesses();
-    forces();
-    std::vector<double> x(free());
-    for (std::size_t i = 0; i < free(); ++i) x[i] = 1.0 + 0.1 * static_cast<double>(i);
-    double square = 0;
-    for (int step = 0; step < 40; ++step) {
-      std::vector<double> mx(free());
-      for (std::size_t i = 0; i < free(); ++i)
-        for (std::size_t j = 0; j < free(); ++j) mx[i] += mass[i][j] * x[j];
-      const std::vector<double> y = solved(k, mx);
-      double above = 0, below = 0;  // Rayleigh's quotient of y: y.M x / y.M y
-      for (std::size_t i = 0; i < free(); ++i) {
-        above += y[i] * mx[i];
-        for (std::size_t j = 0; j < free(); ++j) below += y[i] * mass[i][j] * y[j];
-      }
-      square = above / below;
-      for (std::size_t i = 0; i < free(); ++i) x[i] = y[i] / std::sqrt(below);
-    }
-    return std::sqrt(square);
-  }
-  std::vector<std::vector<double>> mass;
-
- private:
-  static std::vector<bool> mask(std::size_t drives, std::size_t free) {
-    std::vector<bool> out(drives, false);
-    out.resize(drives + free, true);
-    return out;
-  }
-  const ElasticLinkage& e_;
-  std::vector<InputMotion> inputs_;
-  LinkageDynamics dynamics_;
-};
 
 // A beam of 1 m from the origin along x, with a force of 0.01 N down at a point.
 Linkage loaded_beam(const char* point) {
@@ -196,23 +73,6 @@ TEST(ElasticBody, BendsOnTwoPinsWithAnErrorOfOneOverSquares) {
   }
 }
 
-// Four-bar with coupler A-B of 0.4 m.
-Linkage four_bar() {
-  Linkage l = grounded({{"O", {0, 0}}, {"C", {0.45, 0}}});
-  add_bar(l, "crank", "O", "A", 0.1);
-  add_bar(l, "coupler", "A", "B", 0.4);
-  add_bar(l, "rocker", "C", "B", 0.25);
-  add_pin(l, "O", "ground.O", "crank.O");
-  add_pin(l, "A", "crank.A", "coupler.A");
-  add_pin(l, "B", "coupler.B", "rocker.B");
-  add_pin(l, "C", "ground.C", "rocker.C");
-  add_drive(l, "O");
-  set_mode(l, "coupler", "rocker", AssemblyMode::plus);
-  set_uniform_all(l, 1);
-  l.gravity = 0;
-  return l;
-}
-
 TEST(ElasticBody, CouplerHeldByItsDriveSoundsAsABeamOnTwoPins) {
   const Linkage l = four_bar();
   const double exact = pi * pi * std::sqrt(stiffness / (density * area)) / (0.4 * 0.4);
@@ -233,36 +93,6 @@ TEST(ElasticBody, CouplerHeldByItsDriveSoundsAsABeamOnTwoPins) {
     }
     last = off;
   }
-}
-
-// Crank of 50 mm, rod of 300 mm, slider of 0.2 kg; no weight.
-Linkage slider_crank() {
-  Linkage l = grounded({{"O", {0, 0}}});
-  add_bar(l, "crank", "O", "A", 0.05);
-  add_bar(l, "rod", "A", "B", 0.3);
-  add_body(l, "slider", {{"B", {0, 0}}});
-  add_pin(l, "O", "ground.O", "crank.O");
-  add_pin(l, "A", "crank.A", "rod.A");
-  add_pin(l, "B", "rod.B", "slider.B");
-  add_slide(l, "guide", "ground.O", "slider.B");
-  add_drive(l, "O");
-  set_mode(l, "rod", "slider", AssemblyMode::plus);
-  set_uniform(l, "crank", 0.1);
-  set_uniform(l, "rod", density * area * 0.3);
-  l.bodies[3].mass = BodyMass{0.2, 0, 0};
-  l.gravity = 0;
-  return l;
-}
-
-std::vector<InputCourse> courses(const ElasticLinkage& e, double speed) {
-  std::vector<InputCourse> out{{ConstantSpeed{0, speed}, 0, 0}};
-  out.insert(out.end(), e.free.begin(), e.free.end());
-  return out;
-}
-std::vector<double> times_to(double end, int rows) {
-  std::vector<double> out;
-  for (int i = 0; i <= rows; ++i) out.push_back(end * i / rows);
-  return out;
 }
 
 TEST(ElasticBody, RodOfASliderCrankKeepsItsAccountOfEnergy) {
@@ -314,6 +144,72 @@ TEST(ElasticBody, GoesToTheRigidLinkageAsItGetsStiff) {
     EXPECT_NEAR(apart[i - 1] / apart[i], 16, 6);
   }
   EXPECT_LT(apart.back(), 1e-7 * 0.05);  // of the crank
+}
+
+// One spring in the middle is an oscillator with damping ratio w time / 2.
+TEST(ElasticBody, DampingDecaysAsKelvinAndVoigtHaveIt) {
+  ElasticBody coupler = strip(2, 1);
+  coupler.damping = 1e-4;
+  const ElasticLinkage e = made(four_bar(), {coupler}, {{0.7, 0, 0}});
+  const double natural = AtRest(e, {{0.7, 0, 0}}).first_frequency();
+  const double ratio = natural * coupler.damping / 2, damped = natural * std::sqrt(1 - ratio * ratio);
+  std::vector<InputCourse> free = courses(e, 0);
+  free[0].law = ConstantSpeed{0.7, 0};
+  const double start = 1e-5;
+  free[1].value += start;
+  double first = 0;
+  const SimulationReport r = simulate(
+      e.linkage, e.plan, free, times_to(5 * 2 * pi / natural, 40), {}, [&](const SimulationInstant& now) {
+        const BentBody bent = bent_body(e, e.pieces[0], *now.motion);
+        if (now.time == 0) first = bent.moments[0];
+        const double t = now.time, phase = damped * t;
+        const double fall = std::exp(-ratio * natural * t);
+        const double way = fall * (std::cos(phase) + ratio * natural / damped * std::sin(phase));
+        const double rate = -fall * natural * natural / damped * std::sin(phase);
+        // The square of the deflection turns the other bodies: 1e-5 of it.
+        EXPECT_NEAR(bent.moments[0] / first, way + coupler.damping * rate, 1e-4) << t;
+        return true;
+      });
+  ASSERT_EQ(r.status, Status::done) << r.message;
+  EXPECT_GT(ratio, 0.01);
+  EXPECT_NEAR(std::abs(first), stiffness / 0.4 * 2 * start, 0.01 * std::abs(first));
+}
+
+// Both bodies of the dyad, and the rocker held at its far end; against the other route, which knows no
+// inputs.
+TEST(ElasticBody, CouplerAndRockerBendTogether) {
+  Linkage l = four_bar();
+  std::swap(l.joints[3].first, l.joints[3].second);
+  ElasticBody rocker = strip(3, 3);
+  rocker.from = 1, rocker.to = 0;  // from B to C
+  const ElasticLinkage e = made(l, {strip(2, 2), rocker}, {{0.7, 20, 0}});
+  EXPECT_TRUE(e.plan.closed_form());
+  ASSERT_EQ(e.free.size(), 5u);
+  std::vector<InputCourse> free = courses(e, 20);
+  free[0].law = ConstantSpeed{0.7, 20};
+  std::vector<double> deflections[2];
+  const auto run = [&](auto route, std::vector<double>& out) {
+    const SimulationReport r = route(
+        e.linkage, e.plan, free, times_to(0.1, 20), {},
+        [&](const SimulationInstant& now) {
+          out.push_back(bent_body(e, e.pieces[0], *now.motion).deflections[1]);
+          out.push_back(bent_body(e, e.pieces[1], *now.motion).deflections[1]);
+          return true;
+        },
+        nullptr);
+    EXPECT_EQ(r.status, Status::done) << r.message;
+    EXPECT_LE(r.largest_drift, 1e-6 * r.peak_energy);
+  };
+  run(simulate, deflections[0]);
+  run(simulate_all_coordinates, deflections[1]);
+  ASSERT_EQ(deflections[0].size(), deflections[1].size());
+  double most = 0;
+  for (std::size_t i = 0; i < deflections[0].size(); ++i) {
+    EXPECT_NEAR(deflections[0][i], deflections[1][i],
+                1e-8);  // tolerances of 1e-9, over hundreds of vibrations
+    most = std::max(most, std::abs(deflections[0][i]));
+  }
+  EXPECT_GT(most, 1e-6);
 }
 
 // Slow against its first frequency (1 to 40), and damped so that the start dies out: the moments are those of
@@ -474,6 +370,19 @@ TEST(ElasticBody, SaysWhatIsWrong) {
   Linkage turned = l;
   turned.torques.push_back({"load", 2, 0, 1, {}});
   EXPECT_THAT(refusal(turned, {strip(2, 4)}), HasSubstr("torque 'load' acts on it, but not at a joint"));
+  Linkage sprung = l;
+  sprung.torsion_springs.push_back({"stay", 0, 2, 5, 0, 0});
+  EXPECT_THAT(refusal(sprung, {strip(2, 4)}),
+              HasSubstr("torsion spring 'stay' acts on it, but not at a joint"));
+  Linkage guided = grounded({{"O", {0, 0}}});
+  add_bar(guided, "crank", "O", "A", 0.1);
+  add_bar(guided, "rod", "A", "B", 0.3);
+  add_pin(guided, "O", "ground.O", "crank.O");
+  add_pin(guided, "A", "crank.A", "rod.A");
+  add_slot(guided, "slot", "ground.O", "rod.B");
+  add_drive(guided, "O");
+  set_start(guided, "rod", {0.08, 0.06}, -0.2);
+  EXPECT_THAT(refusal(guided, {strip(2, 4)}), HasSubstr("joint 'slot' is neither a pin nor a weld"));
   Linkage wrong = l;
   wrong.driven.clear();
   EXPECT_NE(refusal(wrong, {strip(2, 4)}), "no problem");  // the words of `plan`
