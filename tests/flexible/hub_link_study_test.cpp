@@ -94,7 +94,7 @@ TEST(HubLinkStudy, SwingsFreelyUnderGravity) {
 TEST(HubLinkStudy, TellsWhatIsWrong) {
   EXPECT_THAT(problems(replaced(spin_up, "elastic_modulus_Pa = 6.8952e10", "elastic_modulus_Pa = 0")),
               HasSubstr("elastic_modulus_Pa"));
-  EXPECT_THAT(problems(replaced(spin_up, "length_m = 8", "length_m = -8")), HasSubstr("length_m"));
+  EXPECT_THAT(problems(replaced(spin_up, "length_m = 8", "length_m = -8")), HasSubstr("length_m: is -8 m, must be at least 1e-06 m"));
   EXPECT_THAT(problems(replaced(spin_up, "tip_mass_kg", "theory = \"timoshenko\"\ntip_mass_kg")),
               HasSubstr("shear"));
   EXPECT_THAT(problems(replaced(spin_up, "[simulation]", "[simulation]\nstep_s = 1e-7")),

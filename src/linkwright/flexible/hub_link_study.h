@@ -27,6 +27,17 @@ constexpr Field number(std::string_view key, std::string_view summary, Dimension
           .required = required};
 }
 
+/// Of the link: what a body can have, so that all that follows from it are numbers.
+constexpr Field of_link(std::string_view key, std::string_view summary, Dimension dimension, double least,
+                        double most) {
+  return {.key = key,
+          .summary = summary,
+          .dimension = dimension,
+          .minimum = least,
+          .maximum = most,
+          .required = true};
+}
+
 }  // namespace beam_fields
 
 /// `[mechanism]`.
@@ -39,13 +50,14 @@ void fields(Visitor&& visit, HubLinkForm& form) {
   using beam_fields::number;
   using enum Dimension;
   Beam& b = form.beam;
-  visit(number("length", "of the link", length, true, true), b.length);
-  visit(number("density", "of its material", density, true, true), b.density);
-  visit(number("area", "of its cross-section", area, true, true), b.area);
-  visit(number("second_moment", "of its cross-section, for bending in the plane", second_moment_of_area, true,
-               true),
+  using beam_fields::of_link;
+  visit(of_link("length", "of the link", length, 1e-6, 1e5), b.length);
+  visit(of_link("density", "of its material", density, 1e-3, 1e6), b.density);
+  visit(of_link("area", "of its cross-section", area, 1e-15, 1e4), b.area);
+  visit(of_link("second_moment", "of its cross-section, for bending in the plane", second_moment_of_area,
+                1e-30, 1e8),
         b.second_moment);
-  visit(number("elastic_modulus", "of its material", pressure, true, true), b.elastic_modulus);
+  visit(of_link("elastic_modulus", "of its material", pressure, 1, 1e15), b.elastic_modulus);
   visit(Field{.key = "theory", .summary = "what the cross-sections do"}, b.theory);
   visit(number("shear_modulus", "of its material (timoshenko)", pressure), b.shear_modulus);
   visit(Field{.key = "shear_coefficient",
