@@ -106,6 +106,11 @@ class Builder {
     for (const int p : {b.from, b.to})
       if (p < -1 || p >= static_cast<int>(points.size()))
         return error(b, fmt::format("point number {} does not exist", p), {});
+    for (const LinkageJoint& j : rigid_.joints)
+      if (j.type == JointType::gear &&
+          (j.first.body == b.body || j.second.body == b.body || j.carrier == b.body))
+        return error(b, fmt::format("gear '{}' sits on it", j.name),
+                     "put a rigid body between it and the beam");
     const auto joint_ends = ends_at_joints(b.body);
     if (b.from < 0 || b.to < 0) {
       for (const auto& [joint, p] : joint_ends)
@@ -129,7 +134,7 @@ class Builder {
               "a beam is held at its two ends: make it of two bodies that are welded there");
     }
   }
-  // Joints of a body, with its point; of a gear none that counts as its own.
+  // Joints of a body that is on no gear, each with its point.
   std::vector<std::pair<int, int>> ends_at_joints(int body) const {
     std::vector<std::pair<int, int>> found;
     for (std::size_t k = 0; k < rigid_.joints.size(); ++k)
