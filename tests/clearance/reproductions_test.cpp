@@ -46,7 +46,7 @@ TEST(ClearanceReproductions, Tables) {
 
 TEST(ClearanceReproductions, Claims) {
   const auto table = rows("varedi-2014-claims");
-  ASSERT_EQ(table.size(), 7u);
+  ASSERT_EQ(table.size(), 8u);
   for (const study::Comparison& r : table) {
     EXPECT_TRUE(std::isnan(r.published)) << "figures have no numbers";
     EXPECT_FALSE(r.note.empty()) << r.item;
