@@ -3,7 +3,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
+#include "linkwright/planar/elastic_body.h"
+#include "linkwright/planar/linkage_build.h"
 #include "linkwright/planar/linkage_coordinates.h"
 #include "linkwright/planar/linkage_dynamics.h"
 #include "linkwright/planar/linkage_samples.h"
@@ -23,6 +26,37 @@ void linkage_dynamics_andrews(benchmark::State& state) {
   }
 }
 BENCHMARK(linkage_dynamics_andrews);
+
+// The same of a slider-crank whose rod bends in `range` segments: as many equations, in closed form.
+void linkage_dynamics_elastic_rod(benchmark::State& state) {
+  Linkage l = grounded({{"O", {0, 0}}});
+  add_bar(l, "crank", "O", "A", 0.05);
+  add_bar(l, "rod", "A", "B", 0.3);
+  add_body(l, "slider", {{"B", {0, 0}}});
+  add_pin(l, "O", "ground.O", "crank.O");
+  add_pin(l, "A", "crank.A", "rod.A");
+  add_pin(l, "B", "rod.B", "slider.B");
+  add_slide(l, "guide", "ground.O", "slider.B");
+  add_drive(l, "O");
+  set_mode(l, "rod", "slider", AssemblyMode::plus);
+  set_uniform_all(l, 1);
+  const ElasticBody rod{.body = 2,
+                        .elastic_modulus = 2.1e11,
+                        .second_moment = 1e-10,
+                        .area = 8e-5,
+                        .density = 7850,
+                        .segments = static_cast<int>(state.range(0))};
+  std::vector<InputMotion> inputs{{0.5, 100, 0}};
+  const ElasticLinkage e = with_elastic_bodies(l, std::span(&rod, 1), inputs);
+  std::vector<bool> free(1, false);
+  for (const InputCourse& c : e.free) {
+    inputs.push_back({c.value, c.rate, 0});
+    free.push_back(true);
+  }
+  LinkageDynamics dynamics(e.linkage, e.plan, free);
+  for (auto _ : state) benchmark::DoNotOptimize(dynamics.solve(0, inputs));
+}
+BENCHMARK(linkage_dynamics_elastic_rod)->Arg(4)->Arg(8)->Arg(16)->Arg(32)->Arg(64);
 
 // Andrews' squeezer over 0.03 s at a relative tolerance of 10^-range, search for change points included;
 // `digits` against the published angle of the crank.

@@ -126,6 +126,24 @@ TEST_P(SpinUps, AFineChainAgainstTheContinuum) {
   EXPECT_NEAR(mean / double(count), steady, 2e-3 * std::abs(steady));
 }
 
+TEST(PublishedMotions, ConvergeWithTheNumberOfDivisions) {
+  // Fourth order: 16 times nearer to the beam with twice the divisions, as the lag is midway in the fastest
+  // spin-up.
+  const auto times = figures("spinup-omega0-16", "continuum.t_s"),
+             eta = figures("spinup-omega0-16", "continuum.tip_eta_m");
+  ASSERT_EQ(times[2], 7.5);
+  const auto error = [&](int n) {
+    const Simulation run =
+        simulate_motion(discretise(spin_up_beam(), n), SpinUp{16, 15},
+                        {.end = 7.5, .output_interval = 7.5, .step = 0.0025, .extrapolate = true});
+    return std::abs(run.samples.back().tip_eta - eta[2]);
+  };
+  const double two = error(2), four = error(4), eight = error(8);
+  EXPECT_LT(two, 8e-3);
+  EXPECT_LT(four, two / 10);
+  EXPECT_LT(eight, four / 10);
+}
+
 INSTANTIATE_TEST_SUITE_P(Published, SpinUps, ::testing::Values("0.6", "2", "4", "8", "12", "16"));
 
 class Torques : public ::testing::TestWithParam<const char*> {};

@@ -133,6 +133,12 @@ TEST(MotionStudy, TellsWhatIsWrongWithThePath) {
               HasSubstr("step 1"));
   EXPECT_THAT(problems_of(replaced(whole, "interval_s = 0.002", "interval_s = 1e-6")),
               HasSubstr("at most 200000 are allowed"));
+  EXPECT_THAT(problems_of("schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"parallel.five_bar\"\n"
+                          "[[mechanism.leg]]\nbase_mm = [-150, 0]\narm_mm = 250\nrod_mm = 350\n"
+                          "[[mechanism.leg]]\nbase_mm = [150, 0]\narm_mm = 250\nrod_mm = 350\n"
+                          "[home]\nposition_mm = [0, 400, 0]\n[motion]\n[[motion.step]]\n"
+                          "type = \"pick_and_place\"\nto_mm = [50, 400, 0]\nheight_mm = 20\n"),
+              HasSubstr("leaves the plane z = 0 of the robot"));
 }
 
 }  // namespace

@@ -185,6 +185,25 @@ TEST(Position, NewtonNeverReturnsAPoseThatDoesNotFit) {
   }
 }
 
+TEST(Position, NewtonTellsWhenItLeapsIntoAnotherAssembly) {
+  const Robot robot = reference_hexa();
+  const ArmAngles angles = inverse(robot, {{0.05, -0.03, -0.5}});
+  // Turned by more than where the rods no longer hold the platform: det Jx has the other sign there.
+  const Placed leapt = direct_near(robot, angles.angle, {{0.05, -0.03, -0.5}, math::turn_z(1.8)});
+  if (leapt.status == Status::done)
+    EXPECT_GT(norm(leapt.pose.rotation.row[0] - Vec3{1, 0, 0}), 0.5);
+  else
+    EXPECT_EQ(leapt.status, Status::branch_lost);
+  // The same for a five-bar, from beyond the line of its elbows.
+  const Robot five_bar = reference_five_bar();
+  const ArmAngles arms = inverse(five_bar, {{0.05, 0.45, 0}}, {-1, 1});
+  const Placed below = direct_near(five_bar, arms.angle, {{0.05, 0.17, 0}});
+  const Placed above = direct_near(five_bar, arms.angle, {{0.05, 0.4, 0}});
+  EXPECT_EQ(above.status, Status::done);
+  EXPECT_NEAR(above.pose.position.y, 0.45, 1e-12);
+  EXPECT_NEAR(below.pose.position.y, -0.010376338, 1e-8);
+}
+
 TEST(Position, TellsWhichLegCannotReach) {
   const Robot robot = reference_delta();
   const ArmAngles far = inverse(robot, {{0, 0, -1.5}});

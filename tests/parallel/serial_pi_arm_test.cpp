@@ -176,6 +176,40 @@ TEST(SerialPiArm, JacobianStaticsAndQuality) {
   EXPECT_NEAR(quality(equal, {0.2, 0.2 + std::numbers::pi / 2}).condition, 1, 1e-7);
 }
 
+TEST(SerialPiArm, StepsAndSpringsOfTheDrives) {
+  SerialPiArm arm = reference_arm();
+  const Vector2 q{0.3, 1.1};
+  EXPECT_EQ(compliance(arm, q)[0][0], 0);  // rigid
+  arm.drive[0].quantum = 1e-6;
+  arm.drive[1].quantum = 2e-6;
+  arm.drive[0].stiffness = 2e6;
+  arm.drive[1].stiffness = 5e6;
+  const SerialDrives drives = drives_at(arm, q);
+  const Vector2 start = direct(arm, q);
+  const auto moved = [&](double first, double second) {
+    const SerialAngles at = arm_angles(arm, {drives.drive[0].value + first, drives.drive[1].value + second});
+    const Vector2 there = direct(arm, at.angle);
+    return Vector2{there[0] - start[0], there[1] - start[1]};
+  };
+  // By moves of the tool itself: over turns of some 3e-5 rad curvature is as much of them.
+  const Vector2 one = moved(1e-6, 2e-6), other = moved(1e-6, -2e-6);
+  const SerialResolution steps = resolution(arm, q);
+  EXPECT_NEAR(steps.worst, std::max(std::hypot(one[0], one[1]), std::hypot(other[0], other[1])), 1e-9);
+  for (int i = 0; i < 2; ++i)
+    EXPECT_NEAR(steps.along[i], std::max(std::abs(one[i]), std::abs(other[i])), 1e-9);
+  // What the screws yield under the forces that hold a load moves the tool by the compliance.
+  const Vector2 force{7, -20};
+  const SerialLoads loads = static_loads(arm, q, force);
+  const Vector2 shift = moved(-loads.drive_effort[0] / 2e6, -loads.drive_effort[1] / 5e6);
+  const Matrix2 c = compliance(arm, q);
+  EXPECT_EQ(c[0][1], c[1][0]);
+  for (int i = 0; i < 2; ++i) {
+    const double give = c[i][0] * force[0] + c[i][1] * force[1];
+    EXPECT_GT(std::abs(give), 1e-6);
+    EXPECT_NEAR(shift[i], give, 1e-3 * std::abs(give));
+  }
+}
+
 TEST(SerialPiArm, ReachableArea) {
   SerialPiArm arm = reference_arm();
   arm.offset = {};

@@ -10,11 +10,12 @@ namespace {
 TEST(RobotStudies, AreThoseOfRobotsAndPiJoints) {
   std::vector<std::string> names;
   for (const study::Kind& kind : studies()) names.push_back(study::name_of(kind));
-  EXPECT_THAT(names, ::testing::ElementsAre(
-                         "analysis/parallel.pi_joint", "synthesis/parallel.pi_joint/requirements",
-                         "analysis/parallel.delta", "analysis/parallel.hexa", "analysis/parallel.five_bar",
-                         "analysis/parallel.constant_orientation", "synthesis/parallel.delta/region",
-                         "synthesis/parallel.hexa/region", "synthesis/parallel.five_bar/region"));
+  EXPECT_THAT(names,
+              ::testing::ElementsAre("analysis/parallel.pi_joint", "synthesis/parallel.pi_joint/requirements",
+                                     "analysis/parallel.delta", "analysis/parallel.hexa",
+                                     "analysis/parallel.five_bar", "analysis/parallel.constant_orientation",
+                                     "analysis/parallel.serial_pi_arm", "synthesis/parallel.delta/region",
+                                     "synthesis/parallel.hexa/region", "synthesis/parallel.five_bar/region"));
 }
 
 TEST(RobotStudies, ExamplesRun) {

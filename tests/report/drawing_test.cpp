@@ -93,6 +93,12 @@ TEST(Drawing, NiceSteps) {
   EXPECT_EQ(nice_step(nan, 5), 1);
 }
 
+TEST(Drawing, TicksAreMultiplesOfTheStep) {
+  EXPECT_EQ(ticks(-0.5, 1.2, 0.5), (std::vector<double>{-0.5, 0, 0.5, 1}));
+  EXPECT_TRUE(ticks(0.1, 0.4, 0.5).empty());
+  EXPECT_EQ(ticks(1, std::nextafter(1.0, 2.0), 1e-300).size(), 40u);
+}
+
 TEST(Drawing, UnitsFollowTheSize) {
   EXPECT_EQ(length_unit(0.3).symbol, "mm");
   EXPECT_EQ(length_unit(2).symbol, "m");

@@ -315,6 +315,41 @@ study::Result sample_simulation() {
   return result;
 }
 
+study::Result sample_maps() {
+  study::Result result;
+  result.headline = "The workspace is a ball.";
+  const auto slices = [&result](const char* name, const std::vector<double>& levels) {
+    std::vector<double> x, y, z, index;
+    for (const double level : levels)
+      for (int j = -10; j <= 10; ++j)
+        for (int i = -10; i <= 10; ++i) {
+          x.push_back(0.05 * i);
+          y.push_back(0.05 * j);
+          z.push_back(level);
+          const double share = std::hypot(x.back(), y.back(), level + 0.7) / 0.4;
+          index.push_back(share <= 1 ? 1 - share : nan);
+        }
+    Table table;
+    table.name = name;
+    table.add("x_m", "x (m)", x);
+    table.add("y_m", "y (m)", y);
+    table.add("z_m", "z (m)", z);
+    table.add("transmission", "transmission index", index);
+    result.tables.push_back(table);
+    study::Plot plot;
+    plot.name = plot.table = name;
+    plot.title = "Workspace: transmission index";
+    plot.x = "x_m";
+    plot.y = {"y_m", "transmission"};
+    plot.style = study::Plot::Style::map;
+    plot.group = levels.size() > 1 ? "z_m" : "";
+    result.plots.push_back(plot);
+  };
+  slices("slices", {-0.9, -0.8, -0.7, -0.5});
+  slices("slice", {-0.7});
+  return result;
+}
+
 std::string sample_json(const study::Result& result) {
   Value doc;
   doc["schema"] = 1;

@@ -11,9 +11,14 @@ namespace linkwright::report::test {
 /// computed here.
 study::Result sample_result();
 
-/// A simulation over two seconds as a domain would give it: a slider-crank that turns once a second, with a spring,
-/// a guide, a wheel, forces, velocities, a couple and a polar diagram; and a chain of 81 bars.
+/// A simulation over two seconds as a domain would give it: a slider-crank that turns once a second, with a
+/// spring, a guide, a wheel, forces, velocities, a couple and a polar diagram; and a chain of 81 bars.
 study::Result sample_simulation();
+
+/// Slices of a workspace as a domain would give them: a ball of 0.4 m about (0, 0, -0.7 m) in four slices, on
+/// a grid of 21 by 21 places, with a value that falls from 1 in the middle to 0 at the rim, and one slice
+/// alone.
+study::Result sample_maps();
 
 /// The parts of result.json that a report reads.
 std::string sample_json(const study::Result& result);

@@ -1,5 +1,6 @@
 // Writes what the report tests outside C++ look at: write_samples DIR makes DIR/report.html,
-// DIR/simulation.html, DIR/spatial.html, DIR/hostile.html, DIR/empty.html, DIR/scene.dxf and DIR/scene.svg.
+// DIR/simulation.html, DIR/spatial.html, DIR/maps.html, DIR/hostile.html, DIR/empty.html, DIR/scene.dxf and
+// DIR/scene.svg.
 
 #include <filesystem>
 #include <fstream>
@@ -46,6 +47,15 @@ int main(int count, char** arguments) {
                                           .tool = "linkwright 0.1.0",
                                           .command = {},
                                           .result_json = test::sample_json(simulation)}));
+
+  const study::Result maps = test::sample_maps();
+  write(folder / "maps.html", html({.result = maps,
+                                    .study_toml = {},
+                                    .title = "Workspace of a robot",
+                                    .source = {},
+                                    .tool = "linkwright 0.1.0",
+                                    .command = {},
+                                    .result_json = test::sample_json(maps)}));
 
   const study::Result spatial = test::sample_spatial();
   write(folder / "spatial.html", html({.result = spatial,

@@ -79,7 +79,7 @@ export interface Plot {
   table: string;
   x: string;
   y: string[];
-  style: "line" | "points" | "histogram" | "polar";
+  style: "line" | "points" | "histogram" | "polar" | "map";
   logarithmic_y: boolean;
   scene: string;
   group?: string; // column whose values split the rows into curves

@@ -10,7 +10,7 @@ import { isAssembled, isFixed, nearestSample, placeAt, placeNear, speeds, type P
 import { beyond } from "./space_view";
 import * as state from "./state";
 import { format, lengthUnit } from "./units";
-import { bounds, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, type Camera } from "./view";
+import { bodyColours, bounds, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, type Camera } from "./view";
 
 /** How many times larger the whiskers are drawn. */
 export const whiskerFactor = computed(() => {
@@ -162,12 +162,11 @@ const symbolWidth = 18; // px
 
 /** Bodies of one kind: plates lie under the traces, bars above them. */
 function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boolean }) {
-  let colour = -1;
+  const colours = bodyColours(scene.bodies);
   return (
     <>
-      {scene.bodies.map((body) => {
-        if (body.style !== "ground" && body.style !== "axis") colour = (colour + 1) % 6;
-        const fill = `var(--c${Math.max(0, colour)})`;
+      {scene.bodies.map((body, number) => {
+        const fill = `var(--c${colours[number]})`;
         const places = body.points.map((p) => screen(placeNear(scene, p, at)));
         if (isSymbol(body.style)) {
           const lines = places.slice(1).flatMap((q, i) => (places[i] && q ? symbolLines(body.style, places[i]!, q, -symbolWidth) : []));

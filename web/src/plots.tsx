@@ -6,6 +6,7 @@ import "uplot/dist/uPlot.min.css";
 import type { Num, Plot, Table } from "./data";
 import { histogram, stackDots, type Run } from "./log";
 import { aligned, groupsOf, inputOf, linesOf, presentGroup } from "./groups";
+import { MapPlot } from "./map";
 import { inputAt, positionOf, positionOfTurn } from "./motion";
 import { Polar } from "./polar";
 import { nearestRow, sortedRows } from "./rows";
@@ -350,7 +351,7 @@ const Cards = ({ plots }: { plots: Plot[] }) => (
     {withTable(plots).map(({ plot, table }) => (
       <div class="card plot" key={`${plot.name}/${plot.scene}`} data-plot={plot.name}>
         <h3>{plot.title}</h3>
-        {plot.style === "histogram" ? <Histogram plot={plot} table={table} /> : plot.style === "polar" ? <Polar plot={plot} table={table} /> : plot.group || plot.bands?.length || plot.baseline ? <GroupPlot plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />}
+        {plot.style === "histogram" ? <Histogram plot={plot} table={table} /> : plot.style === "polar" ? <Polar plot={plot} table={table} /> : plot.style === "map" ? <MapPlot plot={plot} table={table} /> : plot.group || plot.bands?.length || plot.baseline ? <GroupPlot plot={plot} table={table} /> : <TablePlot plot={plot} table={table} />}
       </div>
     ))}
   </>

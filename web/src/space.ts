@@ -6,7 +6,7 @@ import type { Quantity, Scene } from "./data";
 import { placeAt, placeNear } from "./motion";
 import { arrowPart, bodyPart, discPart, jointPart, lines, Palette, type Part, type Places } from "./space_parts";
 import { bounds3, cloudOf, fit3, lowestTyre, middleOf, sizeOf, viewpoints, type V3, type ViewName } from "./space_view";
-import { niceStep } from "./view";
+import { bodyColours, niceStep } from "./view";
 
 /** What is to be seen beside the mechanism itself. */
 export interface Shown {
@@ -76,11 +76,10 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
 
   // The mechanism.
   const parts: { part: Part; pick: string }[] = [];
-  let colour = -1;
+  const colours = bodyColours(whole.bodies);
   const thin = thickness(whole, size);
   whole.bodies.forEach((body, i) => {
-    if (body.style !== "ground" && body.style !== "axis") colour = (colour + 1) % 6;
-    parts.push({ part: bodyPart(palette, body, `--c${Math.max(0, colour)}`, size, thin), pick: `body ${i}` });
+    parts.push({ part: bodyPart(palette, body, `--c${colours[i]}`, size, thin), pick: `body ${i}` });
   });
   (whole.discs ?? []).forEach((disc, i) => parts.push({ part: discPart(palette, disc), pick: `disc ${i}` }));
   const joints = whole.joints.map((joint) => jointPart(palette, joint, size, thin));

@@ -28,6 +28,7 @@ const suffixes: [string, Unit][] = [
   ["_m_per_s2", { factor: 1, symbol: "m/s²" }],
   ["_m_per_s", { factor: 1, symbol: "m/s" }],
   ["_kg_m2", { factor: 1, symbol: "kg m²" }],
+  ["_m3", { factor: 1, symbol: "m³" }],
   ["_m2", { factor: 1, symbol: "m²" }],
   ["_mm", { factor: 1, symbol: "mm" }],
   ["_deg", { factor: 1, symbol: "°" }],

@@ -129,3 +129,17 @@ export function whiskerScale(worst: number, size: number): number {
   if (!(worst > 0) || !(size > 0)) return 1;
   return Math.max(1, niceStep((0.06 * size) / worst));
 }
+
+/** Colour of each body, 0 to 5 in turn: bodies of one name are one body and have one colour; ground and axes have none. */
+export function bodyColours(bodies: readonly { name: string; style: string }[]): number[] {
+  const known = new Map<string, number>();
+  let used = 0;
+  return bodies.map(({ name, style }) => {
+    if (style === "ground" || style === "axis") return 0;
+    const before = name === "" ? undefined : known.get(name);
+    if (before !== undefined) return before;
+    const colour = used++ % 6;
+    known.set(name, colour);
+    return colour;
+  });
+}

@@ -314,6 +314,33 @@ test("polar diagrams have equal axes and follow the animation both ways", async 
   await close();
 });
 
+test("maps have equal axes and are read by pointer and by keys", async () => {
+  const { page, errors, close } = await open("maps.html");
+  const card = page.locator('[data-plot="slices"]');
+  assert.deepEqual(await card.locator("figcaption").allInnerTexts(), ["z −900 mm", "z −800 mm", "z −700 mm", "z −500 mm"]);
+  const box = await card.locator(".cells").nth(2).evaluate((e) => ({ width: e.getBBox().width, height: e.getBBox().height }));
+  assert.ok(Math.abs(box.width - box.height) < 0.1, "a square grid is a square");
+  const cells = await card.locator(".cells").nth(2).boundingBox();
+  await page.mouse.move(cells.x + cells.width / 2, cells.y + cells.height / 2);
+  // In the middle of every slice: 1 - distance / 0.4 m.
+  await until(async () => (await card.locator("figcaption b").allInnerTexts()).join() === "0.5,0.75,1,0.5");
+  assert.match(await card.locator(".read").innerText(), /^x 0 mm, y 0 mm: /);
+  assert.equal(await card.locator(".mark-at").count(), 4);
+  await page.mouse.move(0, 0);
+  await until(async () => (await card.locator(".at").count()) === 0);
+  const alone = page.locator('[data-plot="slice"]');
+  await alone.locator(".map").focus();
+  for (const key of ["ArrowLeft", "ArrowLeft", "ArrowUp"]) await page.keyboard.press(key);
+  assert.equal(await alone.locator(".read").innerText(), `x −50 mm, y 50 mm: ${(1 - Math.hypot(0.05, 0.05) / 0.4).toFixed(4)}`);
+  await page.keyboard.press("Shift+ArrowRight");
+  await page.keyboard.press("Shift+ArrowRight");
+  assert.equal(await alone.locator(".read").innerText(), "x 500 mm, y 50 mm: no value");
+  await page.keyboard.press("Escape");
+  assert.equal(await alone.locator(".at").count(), 0);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("time runs as it does", async () => {
   const { page, close } = await open("simulation.html");
   await pause(page);
@@ -485,7 +512,8 @@ test("without WebGL, and in print, there are three fixed views", async () => {
 test("no accessibility violations", async () => {
   const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
   for (const [name, options] of [["report.html", {}], ["simulation.html", {}], ["simulation.html", { colorScheme: "dark" }], ["simulation.html", { viewport: { width: 390, height: 844 } }],
-    ["spatial.html", {}], ["spatial.html", { colorScheme: "dark" }], ["spatial.html", { viewport: { width: 390, height: 844 } }]]) {
+    ["spatial.html", {}], ["spatial.html", { colorScheme: "dark" }], ["spatial.html", { viewport: { width: 390, height: 844 } }],
+    ["maps.html", {}], ["maps.html", { colorScheme: "dark" }], ["maps.html", { viewport: { width: 390, height: 844 } }]]) {
     const { page, close } = await open(name, { reducedMotion: "reduce", ...options });
     if (name === "simulation.html") {
       await page.locator("body").press("w");
@@ -518,6 +546,8 @@ test("without scripts there are drawings and tables", async () => {
   assert.equal(await page.locator("#static .arrow.force").count(), 3); // two and the key
   assert.equal(await page.locator("#static .diagrams svg").count(), 2);
   assert.equal(await page.locator("#static .diagrams .origin").count(), 1);
+  await page.goto(url("maps.html"));
+  assert.equal(await page.locator("#static .diagrams .map .cells").count(), 5);
   await close();
 });
 

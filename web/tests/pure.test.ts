@@ -4,7 +4,7 @@ import { csv, dxf, slug } from "../src/exports";
 import { histogram, readLog, stackDots } from "../src/log";
 import { nearestRow, sortedRows } from "../src/rows";
 import { format, labelWith, nameOf, quantity, unitOf } from "../src/units";
-import { fit, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, zoom } from "../src/view";
+import { bodyColours, fit, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, zoom } from "../src/view";
 
 describe("units", () => {
   it("writes numbers for people", () => {
@@ -122,5 +122,12 @@ describe("exports", () => {
   it("writes DXF for an empty scene", () => {
     const scene: Scene = { name: "", title: "", input_key: "", input_label: "", input: [], status: [], points: [], bodies: [], joints: [], traces: [], targets: [], circles: [], vectors: [], moments: [] };
     expect(dxf(scene, 0)).toMatch(/ENTITIES\n0\nENDSEC\n0\nEOF\n$/);
+  });
+});
+
+describe("colours of bodies", () => {
+  it("go by their names", () => {
+    const bodies = ["base", "arm", "rod", "rod", "", "", "arm"].map((name) => ({ name, style: name === "base" ? "ground" : "bar" }));
+    expect(bodyColours(bodies)).toEqual([0, 0, 1, 1, 2, 3, 0]);
   });
 });

@@ -8,6 +8,7 @@
 
 #include "linkwright/clearance/reproductions.h"
 #include "linkwright/clearance/studies.h"
+#include "linkwright/flexible/studies.h"
 #include "linkwright/parallel/reproductions.h"
 #include "linkwright/parallel/studies.h"
 #include "linkwright/planar/reproductions.h"
@@ -31,8 +32,8 @@ Kinds join(std::initializer_list<Kinds> domains) {
 
 std::span<const study::Kind> catalogue() {
   // One line for each domain.
-  static const Kinds kinds =
-      join({planar::studies(), suspension::studies(), parallel::studies(), clearance::studies()});
+  static const Kinds kinds = join({planar::studies(), suspension::studies(), parallel::studies(),
+                                   flexible::studies(), clearance::studies()});
   return kinds;
 }
 

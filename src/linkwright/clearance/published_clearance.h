@@ -17,6 +17,10 @@ ClearanceFourBar published_design_1();
 /// Table 1, made with clearance, with the masses of Table 3.
 ClearanceFourBar published_design_2();
 
+/// The clearance (m) with which design 2, its clearance link 10 degrees ahead of the crank, comes closest to
+/// the path of design 1 without clearance, at equal crank angles: what the 1 mm is inferred from.
+double inferred_clearance();
+
 /// First stage: the path of design 1 without clearance at even steps of its crank (36, from 0), a lead of 10
 /// degrees, and bounds of our own.
 ClearancePathProblem published_path_problem();

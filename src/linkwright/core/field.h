@@ -30,7 +30,10 @@ enum class Dimension {
   stiffness_angular,
   damping,
   damping_angular,
-  angle_by_length
+  angle_by_length,
+  density,
+  pressure,
+  second_moment_of_area
 };
 
 /// What a member of a struct means to a person and to a file. A struct that appears in files has one field

@@ -35,6 +35,11 @@ constexpr std::array damping_angular_units{Unit{"N_m_s_per_rad"}};
 constexpr std::array angle_by_length_units{Unit{"rad_per_m"}, Unit{"deg_per_m", pi, 180},
                                            Unit{"deg_per_mm", 1e3 * pi, 180}};
 
+constexpr std::array density_units{Unit{"kg_per_m3"}, Unit{"g_per_cm3", 1e3, 1}};
+constexpr std::array pressure_units{Unit{"Pa"}, Unit{"kPa", 1e3, 1}, Unit{"MPa", 1e6, 1},
+                                    Unit{"GPa", 1e9, 1}};
+constexpr std::array second_moment_of_area_units{Unit{"m4"}, Unit{"cm4", 1, 1e8}, Unit{"mm4", 1, 1e12}};
+
 constexpr std::array all_dimensions{Dimension::length,
                                     Dimension::angle,
                                     Dimension::time,
@@ -56,7 +61,10 @@ constexpr std::array all_dimensions{Dimension::length,
                                     Dimension::stiffness_angular,
                                     Dimension::damping,
                                     Dimension::damping_angular,
-                                    Dimension::angle_by_length};
+                                    Dimension::angle_by_length,
+                                    Dimension::density,
+                                    Dimension::pressure,
+                                    Dimension::second_moment_of_area};
 
 }  // namespace
 
@@ -108,6 +116,12 @@ std::span<const Unit> units(Dimension dimension) {
       return damping_angular_units;
     case Dimension::angle_by_length:
       return angle_by_length_units;
+    case Dimension::density:
+      return density_units;
+    case Dimension::pressure:
+      return pressure_units;
+    case Dimension::second_moment_of_area:
+      return second_moment_of_area_units;
   }
   return {};
 }
@@ -185,6 +199,12 @@ std::string_view describe(Dimension dimension) {
       return "a torsional damping";
     case Dimension::angle_by_length:
       return "an angle by length";
+    case Dimension::density:
+      return "a density";
+    case Dimension::pressure:
+      return "a stress or modulus";
+    case Dimension::second_moment_of_area:
+      return "a second moment of area";
   }
   return "a number";
 }

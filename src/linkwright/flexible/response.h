@@ -17,7 +17,7 @@ struct Sample {
   double reaction_xi = 0, reaction_eta = 0, moment = 0;  ///< of the hub on the link at O1 (N, N m)
   double bending_moment = 0;          ///< largest |M| along the link (N m); NaN for source_linearised
   double kinetic = 0, potential = 0;  ///< J
-  double work = 0;                    ///< of the drive since the start (J)
+  double work = 0;                    ///< of all drives since the start (J)
   double dissipated = 0;              ///< by all dampers (J)
   double angular_momentum = 0;        ///< about O (N m s)
 

@@ -18,7 +18,7 @@ namespace linkwright::flexible {
 namespace {
 
 constexpr std::size_t per = coordinates_per_cell;
-constexpr int most_refinements = 12;
+constexpr int most_refinements = 12, most_halvings = 6;
 
 // The drive: exactly one of both laws.
 struct Drive {
@@ -88,6 +88,9 @@ class Run {
       t = until;
       if (going()) sample(t);
     }
+    if (halved_ > 0)
+      out_.warnings.push_back(
+          fmt::format("{} steps did not converge and were halved: take a shorter step", halved_));
     out_.last = now_;
     return std::move(out_);
   }
@@ -189,7 +192,22 @@ class Run {
     options_.context->report({.stage = "simulation", .fraction = t / options_.end});
   }
 
-  void step(double h, double t) {
+  // A step that does not converge is made in two halves, down to a 64th.
+  void step(double h, double t, int halvings = 0) {
+    if (attempt(h, t)) return;
+    factored_ = false;
+    if (halvings == most_halvings) {
+      out_.status = Status::not_converged;
+      out_.message = fmt::format("the step of {:.4g} s to {:.6g} s does not converge", h, t);
+      return;
+    }
+    ++halved_;
+    step(h / 2, t - h / 2, halvings + 1);
+    if (going()) step(h / 2, t, halvings + 1);
+    factored_ = false;
+  }
+
+  bool attempt(double h, double t) {
     const TangentScale scale = method_.scale(h);
     // The old acceleration as a guess of the new one; everything else of the new state follows from it.
     const auto predict = [&](double q, double v, double a, double aux, double& q1, double& v1, double& rest) {
@@ -247,11 +265,7 @@ class Run {
         break;
       }
     }
-    if (!met) {
-      out_.status = Status::not_converged;
-      out_.message = fmt::format("the step of {:.4g} s to {:.6g} s does not converge", h, t);
-      return;
-    }
+    if (!met) return false;
     ++out_.steps;
     for (std::size_t i = 0; i < change_.size(); ++i) auxiliary_[i] = rest_[i] + method_.share * next_.a[i];
     auxiliary_.back() = rest_.back() + method_.share * next_.acceleration;
@@ -273,6 +287,7 @@ class Run {
       out_.message = fmt::format("two bars at {:.1f} deg at {:.6g} s: the chain folded",
                                  kink * 180 / std::numbers::pi, t);
     }
+    return true;
   }
 
   void sample(double t) {
@@ -319,6 +334,7 @@ class Run {
   std::vector<std::size_t> motors_;                // cells of the driven hinges
   const double chain_length_ = chain_.length();
   bool factored_ = false;
+  long halved_ = 0;
   double step_ = 0, power_ = 0, work_ = 0, loss_ = 0, dissipated_ = 0;
   Simulation out_;
 };
@@ -349,11 +365,13 @@ void doubt(const Chain& chain, Simulation& out) {
   if (out.fastest > 0)
     if (const auto critical = critical_speed(rigid, out.fastest)) {
       out.unstable = true;
-      out.warnings.push_back(fmt::format(
-          "the hub turned at {:.6g} rad/s, but the straight chain of {} cells with {} kinematics is unstable "
-          "beyond {:.6g} rad/s: take more divisions{}",
-          out.fastest, chain.cells.size(), name_of(chain.kinematics), *critical,
-          chain.kinematics == Kinematics::chord_consistent ? "" : " or chord_consistent"));
+      out.warnings.insert(
+          out.warnings.begin(),
+          fmt::format("the hub turned at {:.6g} rad/s, but the straight chain of {} cells with {} kinematics "
+                      "is unstable "
+                      "beyond {:.6g} rad/s: take more divisions{}",
+                      out.fastest, chain.cells.size(), name_of(chain.kinematics), *critical,
+                      chain.kinematics == Kinematics::chord_consistent ? "" : " or chord_consistent"));
     }
   if (out.largest_kink > kink_limit)
     out.warnings.push_back(
@@ -390,7 +408,13 @@ Simulation simulate(const Chain& chain, const Drive& drive, const SimulationOpti
       const bool stopped = out.status == Status::cancelled || out.status == Status::deadline;
       const bool both = coarse.status == Status::done && out.status == Status::done;
       Simulation limit = out;
-      limit.error = extrapolate(coarse, limit);
+      if (coarse.status == Status::done) {
+        limit.error = extrapolate(coarse, limit);
+      } else {
+        limit.error = std::numeric_limits<double>::quiet_NaN();
+        limit.warnings.push_back(
+            "the run with twice the step failed, so there is no estimate of the error: " + coarse.message);
+      }
       const bool good = both && (o.tolerance <= 0 || limit.error <= o.tolerance);
       const bool last = stopped || o.tolerance <= 0 || halvings == most_refinements;
       if (good || last) {

@@ -24,7 +24,7 @@ struct HingeDrive {
 struct SimulationOptions {
   double end = 0;              ///< s, from 0
   double output_interval = 0;  ///< s: samples at 0, one interval, two, ... and at the end
-  double step = 0;             ///< s: longest step; steps end at samples and breaks
+  double step = 0;  ///< s: longest step; steps end at samples and breaks, and are halved where they fail
   /// Times (s) at which the drive jumps or kinks: steps end there, and the drive is asked just before and
   /// just after.
   std::span<const double> breaks = {};
@@ -39,7 +39,7 @@ struct SimulationOptions {
   double spectral_radius = 0.9;  ///< rho_inf in [0, 1): what is left of the stiffest vibrations after a step
   double newton_tolerance =
       1e-10;  ///< of the residuals, relative to the largest force and couple in the chain
-  int max_iterations = 20;
+  int max_iterations = 50;
   std::span<const HingeDrive> hinges = {};  ///< hinges without one turn freely about their springs
   bool keep_states = false;
   const RunContext* context = nullptr;  ///< looked at every few steps; receives the stage "simulation"
@@ -67,7 +67,8 @@ struct Simulation {
   /// run.
   std::vector<std::vector<double>> hinge_torques;
   ChainState last;   ///< state at the end of the finest run
-  double error = 0;  ///< with extrapolate: largest change of the tip by the extrapolation (m); else 0
+  double error = 0;  ///< with extrapolate: largest change of the tip by the extrapolation (m), NaN if the
+                     ///< coarser run failed; else 0
   double step = 0;   ///< of the finest run (s)
   long steps = 0, iterations = 0, factorisations = 0;  ///< of all runs
   double largest_kink = 0;                             ///< rad

@@ -48,11 +48,10 @@ struct MotionStudy {
   ToolMotion motion;
 };
 
-/// Reads `[motion]` (and the files of its tables); nothing when it is absent or has problems, which go to the
-/// reader.
+/// Reads `[motion]` (and the files of its tables) for a robot of this freedom; nothing when it is absent or
+/// has problems, which go to the reader.
 std::optional<MotionStudy> read_motion(study::ObjectReader& document, const study::Common& common,
-                                       const RobotDescription& description, const Pose& home,
-                                       Value& canonical);
+                                       Freedom freedom, const Pose& home, Value& canonical);
 void describe_motion(study::SchemaWriter& document);
 
 /// Tables "motion" and "drive_limits", the verdict with its reasons, diagrams and a scene. Interrupted: the

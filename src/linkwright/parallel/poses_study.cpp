@@ -19,27 +19,6 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Vec3 vec(const Coordinates& c) { return {c[0], c[1], c[2]}; }
 
-/// Columns that are filled row by row.
-class Rows {
- public:
-  explicit Rows(Table& table) : table_(table) {}
-  void operator()(std::string_view key, std::string_view label, double value) {
-    if (at_ == table_.columns.size()) {
-      Column& column = table_.add(std::string(key), std::string(label));
-      column.values.assign(rows_, nan);
-    }
-    table_.columns[at_++].values.push_back(value);
-  }
-  void next() {
-    ++rows_;
-    at_ = 0;
-  }
-
- private:
-  Table& table_;
-  std::size_t at_ = 0, rows_ = 0;
-};
-
 void place(Rows& row, const RobotDescription& d, const Pose& pose, bool there) {
   const Vec3 turn = there ? math::turn_of(pose.rotation) : Vec3{nan, nan, nan};
   const Vec3 p = there ? pose.position : Vec3{nan, nan, nan};
@@ -71,7 +50,6 @@ void measures(Rows& row, const RobotDescription& d, const AskedPose& asked, cons
   const auto known = [there](double value) { return there ? value : nan; };
   place(row, d, solved.pose, there);
   by_leg(row, d, "arm_angle", "rad", "arm angle", "rad", [&](int i) { return solved.angles.angle[i]; });
-  const DriveWords words = words_of(d.drives[0].type);
   if (d.drives[0].type == DriveType::pi_joint) {
     by_leg(row, d, "pi_angle", "rad", "angle of Pi-joint", "rad",
            [&](int i) { return known(drives.drive[i].angle); });
@@ -105,9 +83,10 @@ void measures(Rows& row, const RobotDescription& d, const AskedPose& asked, cons
   const StaticLoads loads = static_loads(d.robot, at, drives.drive, {vec(asked.force), vec(asked.moment)});
   by_leg(row, d, "static_torque", "N_m", "static torque at arm", "N m",
          [&](int i) { return known(loads.arm_torque[i]); });
-  by_leg(row, d, fmt::format("static_{}", words.effort_key).c_str(), std::string(words.effort_unit).c_str(),
-         fmt::format("static {}", words.effort).c_str(), words.effort_unit == "N" ? "N" : "N m",
-         [&](int i) { return known(loads.drive_effort[i]); });
+  // A motor's effort is the torque of its arm.
+  if (d.drives[0].type == DriveType::pi_joint)
+    by_leg(row, d, "static_screw_force", "N", "static screw force", "N",
+           [&](int i) { return known(loads.drive_effort[i]); });
   by_leg(row, d, "rod_force", "N", "force in rod", "N", [&](int i) { return known(loads.rod_force[i]); });
   if (!std::isfinite(d.drives[0].stiffness)) return;
   const Stiffness k = stiffness(d.robot, d.drives, at, drives.drive, length);
@@ -203,30 +182,51 @@ Table assembly_table(study::Result& result, const RobotDescription& d, const Pos
 
 }  // namespace
 
-PosesForm read_poses(study::ObjectReader& document, const RobotDescription& d, Value& canonical) {
-  PosesForm out;
-  document(Field{.key = "pose", .summary = {}}, out.poses);
-  document(Field{.key = "modes", .summary = {}}, out.modes);
+void Rows::operator()(std::string_view key, std::string_view label, double value) {
+  if (at_ == table_.columns.size()) {
+    Column& column = table_.add(std::string(key), std::string(label));
+    column.values.assign(rows_, nan);
+  }
+  table_.columns[at_++].values.push_back(value);
+}
+
+void Rows::next() {
+  ++rows_;
+  at_ = 0;
+}
+
+std::vector<AskedPose> read_asked_poses(study::ObjectReader& document, Freedom freedom, int arms,
+                                        std::string_view owners, Value& canonical) {
+  std::vector<AskedPose> out;
+  document(Field{.key = "pose", .summary = {}}, out);
+  const bool turns = freedom == Freedom::space;
   const auto tables = document.tables("pose");
-  for (std::size_t i = 0; i < out.poses.size() && i < tables.size(); ++i) {
-    AskedPose& p = out.poses[i];
+  for (std::size_t i = 0; i < out.size() && i < tables.size(); ++i) {
+    AskedPose& p = out[i];
     study::ObjectReader table = tables[i];
     if (p.name.empty()) p.name = fmt::format("pose {}", i + 1);
     if (p.position.has_value() == p.arm_angles.has_value())
       table.error("position", p.position ? "and arm_angles are both given" : "is missing",
                   "write position_mm = [x, y, z] or arm_angles_deg = [...], one of them");
-    if (p.arm_angles && static_cast<int>(p.arm_angles->size()) != d.robot.legs())
-      table.error("arm_angles", fmt::format("{} angles for {} legs", p.arm_angles->size(), d.robot.legs()));
-    if (!d.tool_turns() && p.rotation)
+    if (p.arm_angles && static_cast<int>(p.arm_angles->size()) != arms)
+      table.error("arm_angles", fmt::format("{} angles for {} {}", p.arm_angles->size(), arms, owners));
+    if (!turns && p.rotation)
       table.error("rotation", "the platform of this robot does not turn", "leave it out");
-    if (!d.tool_turns() && (p.moment[0] != 0 || p.moment[1] != 0 || p.moment[2] != 0))
+    if (!turns && (p.moment[0] != 0 || p.moment[1] != 0 || p.moment[2] != 0))
       table.error("moment", "the platform of this robot does not turn: no drive feels it", "leave it out");
-    if (d.robot.freedom == Freedom::plane_translation && p.position && (*p.position)[2] != 0)
+    if (freedom == Freedom::plane_translation && p.position && (*p.position)[2] != 0)
       table.error("position", "must have z = 0: the robot is planar", "write [x, y, 0]");
   }
+  if (!out.empty()) canonical["pose"] = study::ObjectWriter::to_value(out);
+  return out;
+}
+
+PosesForm read_poses(study::ObjectReader& document, const RobotDescription& d, Value& canonical) {
+  PosesForm out;
+  out.poses = read_asked_poses(document, d.robot.freedom, d.robot.legs(), "legs", canonical);
+  document(Field{.key = "modes", .summary = {}}, out.modes);
   if (out.modes && out.poses.empty())
     document.error("modes", "there is no pose whose modes could be listed", "add [[pose]]");
-  if (!out.poses.empty()) canonical["pose"] = study::ObjectWriter::to_value(out.poses);
   if (out.modes) canonical["modes"] = study::write_fields(*out.modes);
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/parallel/robot_study.h"
@@ -52,6 +53,9 @@ struct PosesForm {
   std::optional<ModesForm> modes;
 };
 
+/// Reads `[[pose]]` of a robot of this freedom with so many arms, each of one of the `owners` ("legs").
+std::vector<AskedPose> read_asked_poses(study::ObjectReader& document, Freedom freedom, int arms,
+                                        std::string_view owners, Value& canonical);
 /// Reads `[[pose]]` and `[modes]`.
 PosesForm read_poses(study::ObjectReader& document, const RobotDescription& description, Value& canonical);
 void describe_poses(study::SchemaWriter& document);
@@ -66,6 +70,18 @@ struct SolvedPose {
 /// Arm angles of the pose, or the pose of the arm angles: for robots that turn the one that Newton's method
 /// finds from `home`, for others the assembly that `home` has.
 SolvedPose solve_pose(const RobotDescription& description, const AskedPose& asked, const Pose& home);
+
+/// Columns of a table that are filled row by row: each row gives the same keys in the same order.
+class Rows {
+ public:
+  explicit Rows(Table& table) : table_(table) {}
+  void operator()(std::string_view key, std::string_view label, double value);
+  void next();
+
+ private:
+  Table& table_;
+  std::size_t at_ = 0, rows_ = 0;
+};
 
 /// Tables "poses", "working_modes", "assembly_modes", facts, warnings and a scene.
 void add_poses(study::Result& result, const RobotDescription& description, const PosesForm& form,

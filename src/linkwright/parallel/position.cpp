@@ -48,41 +48,61 @@ Residuals residuals(const Robot& robot, const std::array<Vec3, most_legs>& elbow
   return out;
 }
 
-// x of Jx x = -value, as a shift and a turn.
-struct Step {
-  Vec3 shift{}, turn{};
-};
+template <int N>
+using Rows = std::array<std::array<double, N>, N>;
 
-template <int N, class Row>
-Step newton_step(const Residuals& at, const Row& row) {
-  std::array<std::array<double, N>, N> matrix;
-  std::array<double, N> right;
-  for (int i = 0; i < N; ++i) {
-    matrix[i] = row(i);
-    right[i] = -at.value[i];
-  }
-  math::SmallLu<N> lu;
-  lu.factor(matrix);
-  const auto x = lu.solve(right);
-  Step out{.shift = {x[0], x[1], 0}};
-  if constexpr (N > 2) out.shift.z = x[2];
-  if constexpr (N == 6) out.turn = {x[3], x[4], x[5]};
-  return out;
-}
-
-Step newton_step(const Robot& robot, const Residuals& at) {
+/// f(Jx) of the robot's size.
+template <class F>
+auto with_rows(const Robot& robot, const Residuals& at, F&& f) {
   const auto& s = at.rod;
   switch (robot.freedom) {
-    case Freedom::plane_translation:
-      return newton_step<2>(at, [&](int i) { return std::array{s[i].x, s[i].y}; });
-    case Freedom::space_translation:
-      return newton_step<3>(at, [&](int i) { return std::array{s[i].x, s[i].y, s[i].z}; });
+    case Freedom::plane_translation: {
+      Rows<2> rows;
+      for (int i = 0; i < 2; ++i) rows[i] = {s[i].x, s[i].y};
+      return f(std::integral_constant<int, 2>{}, rows);
+    }
+    case Freedom::space_translation: {
+      Rows<3> rows;
+      for (int i = 0; i < 3; ++i) rows[i] = {s[i].x, s[i].y, s[i].z};
+      return f(std::integral_constant<int, 3>{}, rows);
+    }
     case Freedom::space:
       break;
   }
-  return newton_step<6>(at, [&](int i) {
+  Rows<6> rows;
+  for (int i = 0; i < 6; ++i) {
     const Vec3 m = cross(at.lever[i], s[i]);
-    return std::array{s[i].x, s[i].y, s[i].z, m.x, m.y, m.z};
+    rows[i] = {s[i].x, s[i].y, s[i].z, m.x, m.y, m.z};
+  }
+  return f(std::integral_constant<int, 6>{}, rows);
+}
+
+// x of Jx x = -value, as a shift and a turn, and the sign of det Jx.
+struct Step {
+  Vec3 shift{}, turn{};
+  bool positive = false;
+};
+
+Step newton_step(const Robot& robot, const Residuals& at) {
+  return with_rows(robot, at, [&](auto size, const auto& rows) {
+    constexpr int N = size;
+    std::array<double, N> right;
+    for (int i = 0; i < N; ++i) right[i] = -at.value[i];
+    math::SmallLu<N> lu;
+    lu.factor(rows);
+    const auto x = lu.solve(right);
+    Step out{.shift = {x[0], x[1], 0}, .positive = lu.determinant() > 0};
+    if constexpr (N > 2) out.shift.z = x[2];
+    if constexpr (N == 6) out.turn = {x[3], x[4], x[5]};
+    return out;
+  });
+}
+
+bool positive_determinant(const Robot& robot, const Residuals& at) {
+  return with_rows(robot, at, [](auto size, const auto& rows) {
+    math::SmallLu<size> lu;
+    lu.factor(rows);
+    return lu.determinant() > 0;
   });
 }
 
@@ -224,9 +244,11 @@ Placed direct_near(const Robot& robot, std::span<const double> angles, const Pos
   Placed out{.pose = start};
   Residuals at = residuals(robot, elbows, out.pose);
   constexpr int most_iterations = 50;
+  bool positive = false;  // det Jx at the start
   while (at.largest > goal && out.iterations < most_iterations) {
     ++out.iterations;
     const Step step = newton_step(robot, at);
+    if (out.iterations == 1) positive = step.positive;
     bool better = false;
     for (double part = 1; part > 1e-3 && !better; part /= 2) {
       Pose next{out.pose.position + part * step.shift, out.pose.rotation};
@@ -241,7 +263,10 @@ Placed direct_near(const Robot& robot, std::span<const double> angles, const Pos
     if (!better) break;
   }
   out.residual = length_error(robot, at);
-  if (!(at.largest <= enough)) out.status = Status::not_converged;
+  if (!(at.largest <= enough))
+    out.status = Status::not_converged;
+  else if (out.iterations > 0 && positive_determinant(robot, at) != positive)
+    out.status = Status::branch_lost;
   return out;
 }
 

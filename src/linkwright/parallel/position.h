@@ -35,7 +35,9 @@ ArmAngles inverse(const Robot& robot, const Pose& pose, const WorkingMode& mode 
 WorkingMode working_mode(const Robot& robot, const Pose& pose, std::span<const double> angles);
 
 struct Placed {
-  Status status = Status::done;  ///< no_assembly, singular (centres coincide or lie on a line), not_converged
+  /// no_assembly, singular (centres coincide or lie on a line), not_converged; branch_lost: a pose of another
+  /// assembly than that of the start, beyond a singularity
+  Status status = Status::done;
   Pose pose;
   double residual = 0;  ///< largest error of a rod's length (m)
   int iterations = 0;   ///< of Newton's method; 0 = closed form
@@ -51,7 +53,8 @@ struct Placed {
 Placed direct(const Robot& robot, std::span<const double> angles, int assembly);
 
 /// Direct position of any robot from a pose nearby, by Newton's method with the exact Jacobian Jx and halved
-/// steps: the assembly that it leads to. Never returns a pose that does not fit: not_converged instead.
+/// steps. A pose that does not fit is not_converged, one whose det Jx has another sign than at the start
+/// branch_lost: Newton's method has leapt across a singularity.
 /// Allocates nothing.
 Placed direct_near(const Robot& robot, std::span<const double> angles, const Pose& start);
 

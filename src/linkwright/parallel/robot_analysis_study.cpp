@@ -335,7 +335,7 @@ std::optional<RobotAnalysis> read_robot_analysis(study::ObjectReader& document, 
     return std::nullopt;
   }
   s.home = *home;
-  s.motion = read_motion(document, common, *description, s.home, canonical);
+  s.motion = read_motion(document, common, description->robot.freedom, s.home, canonical);
   s.workspace = read_workspace(document, *description, canonical);
   if (document.document().has_errors()) return std::nullopt;
   if (s.poses.poses.empty() && !s.motion && !s.workspace) {

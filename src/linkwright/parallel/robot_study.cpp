@@ -138,12 +138,6 @@ bool check_keys(study::ObjectReader& table, DriveType type) {
   return good;
 }
 
-struct DriveRead {
-  Drive drive;
-  PiDrive motor;
-  bool known = false;  ///< any limit or motor
-};
-
 std::optional<DriveRead> drive_of(study::ObjectReader& table, const DriveForm& form) {
   if (!check_keys(table, form.type)) return std::nullopt;
   const bool pi = form.type == DriveType::pi_joint;
@@ -198,40 +192,6 @@ std::optional<DriveRead> drive_of(study::ObjectReader& table, const DriveForm& f
   return out;
 }
 
-/// One table for all legs, one a leg, or none: motors at the pivots without limits.
-bool read_drives(study::ObjectReader& mechanism, RobotDescription& out, Value& canonical) {
-  std::vector<study::ObjectReader> tables;
-  std::vector<DriveForm> forms;
-  if (mechanism.is_table(Field{.key = "drive", .summary = {}})) {
-    forms.emplace_back();
-    mechanism(Field{.key = "drive", .summary = {}}, forms.front());
-    if (auto table = mechanism.table("drive")) tables.push_back(*table);
-  } else if (mechanism.has("drive")) {
-    if (!mechanism(Field{.key = "drive", .summary = {}}, forms)) return false;
-    tables = mechanism.tables("drive");
-    if (static_cast<int>(forms.size()) != out.robot.legs()) {
-      mechanism.error("drive", fmt::format("{} drives for {} legs", forms.size(), out.robot.legs()),
-                      "write one table [mechanism.drive] for all, or one [[mechanism.drive]] for each leg");
-      return false;
-    }
-  }
-  if (tables.size() != forms.size()) return false;
-  std::vector<DriveRead> read;
-  for (std::size_t i = 0; i < forms.size(); ++i) {
-    const auto one = drive_of(tables[i], forms[i]);
-    if (!one) return false;
-    read.push_back(*one);
-  }
-  for (int i = 0; i < out.robot.legs() && !read.empty(); ++i) {
-    const DriveRead& one = read[read.size() > 1 ? static_cast<std::size_t>(i) : 0];
-    out.drives[i] = one.drive;
-    out.motors[i] = one.motor;
-    out.motors_known = out.motors_known || one.known;
-  }
-  if (!forms.empty()) canonical["drive"] = study::ObjectWriter::to_value(forms);
-  return true;
-}
-
 template <class Form>
 Value canonical_form(const Form& form) {
   return study::write_fields(form);
@@ -257,6 +217,46 @@ std::optional<PiMotor> motor_of(study::ObjectReader& table, const MotorForm& for
   for (std::size_t i = 0; i < form.speeds.size(); ++i)
     out.torque.push_back({form.speeds[i], form.torques[i]});
   return out;
+}
+
+std::optional<std::vector<DriveRead>> read_drives(study::ObjectReader& mechanism, int count,
+                                                  std::string_view owners, Value& canonical) {
+  const auto wanted = static_cast<std::size_t>(count);
+  std::vector<study::ObjectReader> tables;
+  std::vector<DriveForm> forms;
+  if (mechanism.is_table(Field{.key = "drive", .summary = {}})) {
+    forms.emplace_back();
+    mechanism(Field{.key = "drive", .summary = {}}, forms.front());
+    if (auto table = mechanism.table("drive")) tables.push_back(*table);
+  } else if (mechanism.has("drive")) {
+    if (!mechanism(Field{.key = "drive", .summary = {}}, forms)) return std::nullopt;
+    tables = mechanism.tables("drive");
+    if (forms.size() != wanted) {
+      mechanism.error("drive", fmt::format("{} drives for {} {}", forms.size(), count, owners),
+                      fmt::format("write one table [mechanism.drive] for all, or {} tables "
+                                  "[[mechanism.drive]], one for each",
+                                  count));
+      return std::nullopt;
+    }
+  }
+  if (tables.size() != forms.size()) return std::nullopt;
+  std::vector<DriveRead> out;
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    const auto one = drive_of(tables[i], forms[i]);
+    if (!one) return std::nullopt;
+    out.push_back(*one);
+  }
+  const DriveRead usual = out.empty() ? DriveRead{} : out.front();
+  out.resize(wanted, usual);
+  if (!forms.empty()) canonical["drive"] = study::ObjectWriter::to_value(forms);
+  return out;
+}
+
+void describe_drives(study::SchemaWriter& mechanism) {
+  mechanism.property(
+      Field{.key = "drive", .summary = "what turns the arms: one for all, or one for each arm"},
+      study::schema_any_of(
+          {study::schema_fields<DriveForm>(), study::schema_array(study::schema_fields<DriveForm>())}));
 }
 
 Pose pose_of(const PoseForm& form) { return {vec(form.position), math::turn_about(vec(form.rotation))}; }
@@ -291,7 +291,14 @@ std::optional<RobotDescription> read_robot(study::ObjectReader& document, std::s
     return std::nullopt;
   }
   const auto mode = read_mode(*mechanism, out.robot);
-  if (!mode || !read_drives(*mechanism, out, written)) return std::nullopt;
+  const auto drives = read_drives(*mechanism, out.robot.legs(), "legs", written);
+  if (!mode || !drives) return std::nullopt;
+  for (std::size_t i = 0; i < drives->size(); ++i) {
+    const DriveRead& one = (*drives)[i];
+    out.drives[i] = one.drive;
+    out.motors[i] = one.motor;
+    out.motors_known = out.motors_known || one.known;
+  }
   out.mode = *mode;
   Value::Array signs;
   for (int i = 0; i < out.robot.legs(); ++i) signs.emplace_back(static_cast<std::int64_t>(out.mode[i]));
@@ -306,9 +313,7 @@ void describe_robot(study::SchemaWriter& document, std::string_view type) {
     fields(mechanism, form);
     ModeForm mode;
     fields(mechanism, mode);
-    mechanism.property(Field{.key = "drive", .summary = "what turns the arms: one for all, or one a leg"},
-                       study::schema_any_of({study::schema_fields<DriveForm>(),
-                                             study::schema_array(study::schema_fields<DriveForm>())}));
+    describe_drives(mechanism);
   };
   if (type == "parallel.delta")
     describe(DeltaForm{});
@@ -318,12 +323,6 @@ void describe_robot(study::SchemaWriter& document, std::string_view type) {
     describe(PlanarForm{});
   document.property(Field{.key = "mechanism", .summary = "the robot", .required = true},
                     std::move(mechanism).finish());
-}
-
-DriveWords words_of(DriveType type) {
-  if (type == DriveType::pi_joint)
-    return {"diagonal", "screw force", "m", "N", "diagonal", "screw_force", "diagonal_rate", "m_per_s"};
-  return {"motor angle", "torque", "rad", "N_m", "motor_angle", "torque", "motor_speed", "rad_per_s"};
 }
 
 }  // namespace linkwright::parallel

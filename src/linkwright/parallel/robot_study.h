@@ -215,6 +215,19 @@ void fields(Visitor&& visit, DriveForm& d) {
   visit(Field{.key = "motor", .summary = "torque, speed and steps of the motor"}, d.motor);
 }
 
+/// A drive as read, with what its screw or gear and its motor can do.
+struct DriveRead {
+  Drive drive;
+  PiDrive motor;
+  bool known = false;  ///< a limit, or a motor, is given
+};
+/// Reads `[mechanism.drive]`, the same for all, or as many `[[mechanism.drive]]` as there are `owners`
+/// ("legs"). Without them drives are motors at the pivots without limits. Nothing when there are problems,
+/// which go to the reader.
+std::optional<std::vector<DriveRead>> read_drives(study::ObjectReader& mechanism, int count,
+                                                  std::string_view owners, Value& canonical);
+void describe_drives(study::SchemaWriter& mechanism);
+
 /// Where the platform is: place of its point, and rotation vector seen from the base.
 struct PoseForm {
   std::string name;
@@ -248,11 +261,5 @@ inline constexpr std::array robot_types{"parallel.delta", "parallel.hexa", "para
 std::optional<RobotDescription> read_robot(study::ObjectReader& document, std::string_view type,
                                            Value& canonical);
 void describe_robot(study::SchemaWriter& document, std::string_view type);
-
-/// Word of a drive's value: "diagonal" or "arm angle", and of its effort; units "m", "N" or "rad", "N m".
-struct DriveWords {
-  std::string_view value, effort, value_unit, effort_unit, value_key, effort_key, rate_key, rate_unit;
-};
-DriveWords words_of(DriveType type);
 
 }  // namespace linkwright::parallel

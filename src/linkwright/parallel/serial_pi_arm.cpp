@@ -199,6 +199,29 @@ Matrix2 total_jacobian(const SerialPiArm& arm, const Vector2& angles) {
   return out;
 }
 
+SerialResolution resolution(const SerialPiArm& arm, const Vector2& angles) {
+  const Matrix2 total = total_jacobian(arm, angles);
+  SerialResolution out;
+  Vector2 same{}, opposite{};
+  for (int r = 0; r < 2; ++r) {
+    const double first = total[r][0] * arm.drive[0].quantum, second = total[r][1] * arm.drive[1].quantum;
+    out.along[r] = std::abs(first) + std::abs(second);
+    same[r] = first + second;
+    opposite[r] = first - second;
+  }
+  out.worst = std::max(std::hypot(same[0], same[1]), std::hypot(opposite[0], opposite[1]));
+  return out;
+}
+
+Matrix2 compliance(const SerialPiArm& arm, const Vector2& angles) {
+  const Matrix2 total = total_jacobian(arm, angles);
+  Matrix2 out{};
+  for (int r = 0; r < 2; ++r)
+    for (int c = 0; c < 2; ++c)
+      for (int k = 0; k < 2; ++k) out[r][c] += total[r][k] * total[c][k] / arm.drive[k].stiffness;
+  return out;
+}
+
 SerialQuality quality(const SerialPiArm& arm, const Vector2& angles, double limit) {
   SerialQuality out{.sine = std::sin(angles[1] - angles[0])};
   out.manipulability = std::abs(determinant(arm, angles));

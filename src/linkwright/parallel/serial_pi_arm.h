@@ -65,6 +65,17 @@ SerialAngles arm_angles(const SerialPiArm& arm, const Vector2& values);
 /// J diag(1/j): velocity by rates of the drives' values; not finite where a Pi-joint is singular.
 Matrix2 total_jacobian(const SerialPiArm& arm, const Vector2& angles);
 
+/// What one step of each drive does to the tool point; NaN or infinite where a Pi-joint is singular.
+struct SerialResolution {
+  Vector2 along{};   ///< bound along each axis (m)
+  double worst = 0;  ///< largest displacement over all combinations of signs (m)
+};
+SerialResolution resolution(const SerialPiArm& arm, const Vector2& angles);
+
+/// Symmetric compliance of the tool point by the stiffnesses of the drives (m/N): a force moves it by this
+/// times the force. 0 with rigid drives; not finite where a Pi-joint is singular.
+Matrix2 compliance(const SerialPiArm& arm, const Vector2& angles);
+
 struct SerialQuality {
   double sine = 0;            ///< sin(q2 - q1), 0 = arms in line: the tool cannot move along them
   Vector2 singular_value{};   ///< of J, descending (m)

@@ -124,7 +124,7 @@ Table boundary_table(const WorkspaceTask& task, const WorkspaceMap& map,
 }
 
 std::string body_text(const Inscribed& body, const InscribedForm& f, bool planar) {
-  const auto mm = [](double metres) { return fmt::format("{:.4g}", 1e3 * metres); };
+  const auto mm = [](double metres) { return fmt::format("{:g}", std::round(1e5 * metres) / 100 + 0.0); };
   const std::string at = fmt::format("at {}, {}{} mm", mm(body.centre.x), mm(body.centre.y),
                                      planar ? "" : fmt::format(", {}", mm(body.centre.z)));
   if (f.shape == InscribedShape::ball) return fmt::format("diameter {} mm {}", mm(2 * body.half.x), at);

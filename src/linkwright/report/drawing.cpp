@@ -174,6 +174,18 @@ double nice_step(double span, double divisions) {
   return (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1) * decade;
 }
 
+std::vector<double> ticks(double low, double high, double step) {
+  constexpr int most = 40;
+  std::vector<double> out;
+  const double first = std::ceil(low / step);
+  for (int k = 0; k < most; ++k) {
+    const double i = first + k;
+    if (!(i * step <= high)) break;
+    out.push_back(i == 0 ? 0 : i * step);
+  }
+  return out;
+}
+
 LengthUnit length_unit(double size) {
   if (size < 1) return {1000, "mm"};
   return {1, "m"};

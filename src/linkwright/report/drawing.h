@@ -60,6 +60,9 @@ std::size_t reference_sample(const study::Scene& scene);
 /// NaN.
 double nice_step(double span, double divisions);
 
+/// Multiples of the step (> 0) from low to high, 40 at most: far from zero neighbours can be the same number.
+std::vector<double> ticks(double low, double high, double step);
+
 /// Length unit for drawings of this size: factor from metres and its symbol.
 struct LengthUnit {
   double per_metre = 1;

@@ -8,12 +8,13 @@
 #include <initializer_list>
 #include <iterator>
 #include <limits>
-#include <numeric>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "linkwright/report/drawing.h"
+#include "linkwright/report/groups.h"
+#include "linkwright/report/map_svg.h"
 #include "linkwright/report/markup.h"
 
 namespace linkwright::report {
@@ -23,7 +24,6 @@ using Style = study::Plot::Style;
 
 constexpr double width = 640, left = 74, right = 16, top = 14, foot = 46;  // px
 constexpr double line_height = 20;                                         // px, of the legend
-constexpr int most_ticks = 40;                                             // of an axis
 constexpr std::size_t most_points = 3000;                                  // a curve; more cannot be seen
 constexpr std::size_t most_named = 7;                                      // more curves are one bundle
 // Okabe and Ito's colours; dashes tell the curves apart without them.
@@ -43,8 +43,6 @@ void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
 }
 
-std::string label_of(const Column& column) { return column.label.empty() ? column.key : column.label; }
-
 // "O1 x, ground on crank (N)" names the pair "O1, ground on crank".
 std::string name_of_pair(const Column& column) {
   std::string label = column.label.empty() ? column.key.substr(0, column.key.rfind("_x_")) : column.label;
@@ -54,44 +52,6 @@ std::string name_of_pair(const Column& column) {
     if (const std::size_t at = label.find(mark); at != std::string::npos) return label.erase(at, 2);
   if (label.size() > 2 && label.ends_with(" x")) label.resize(label.size() - 2);
   return label;
-}
-
-// "(N)" of "O1 x (N)"; empty = none.
-std::string unit_of(const Column& column) {
-  const std::size_t at = column.label.rfind(" (");
-  return at != std::string::npos && column.label.back() == ')' ? column.label.substr(at + 1) : "";
-}
-
-// The rows of one curve.
-struct Group {
-  std::string label;  ///< "rack -30 mm"; empty = all rows
-  std::vector<std::size_t> rows;
-};
-
-std::vector<Group> groups_of(const study::Plot& plot, const Table& table) {
-  const Column* column = plot.group.empty() ? nullptr : table.find(plot.group);
-  if (!column) {
-    std::vector<std::size_t> rows(table.rows());
-    std::iota(rows.begin(), rows.end(), std::size_t{0});
-    return {{"", std::move(rows)}};
-  }
-  std::vector<double> values;
-  for (const double v : column->values)
-    if (std::isfinite(v)) values.push_back(v);
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  const std::string unit = unit_of(*column);
-  std::string name = label_of(*column);
-  if (!unit.empty()) name.resize(name.size() - unit.size() - 1);
-  const std::string_view symbol = unit.empty() ? "" : std::string_view(unit).substr(1, unit.size() - 2);
-  std::vector<Group> out;
-  for (const double value : values) {
-    Group group{fmt::format("{} {}{}{}", name, number(value), symbol.empty() ? "" : " ", symbol), {}};
-    for (std::size_t i = 0; i < column->values.size(); ++i)
-      if (column->values[i] == value) group.rows.push_back(i);
-    out.push_back(std::move(group));
-  }
-  return out;
 }
 
 std::vector<Curve> curves_of(const study::Plot& plot, const Table& table) {
@@ -216,26 +176,17 @@ void draw_axes(std::string& out, const Axes& axes, const std::string& x_label, c
                bool logarithmic, bool origin) {
   const double bottom = axes.height - foot;
   std::string lines, texts;
-  // As few as there are, and never more than fit: far from zero neighbouring ticks can be the same number.
-  const auto ticks = [](double low, double high, double step, auto&& use) {
-    const double first = std::ceil(low / step);
-    for (int k = 0; k < most_ticks; ++k) {
-      const double i = first + k;
-      if (!(i * step <= high)) break;
-      use(i == 0 ? 0 : i * step);
-    }
-  };
-  ticks(axes.box.x_min, axes.box.x_max, nice_step(axes.box.width(), 6), [&](double v) {
+  for (const double v : ticks(axes.box.x_min, axes.box.x_max, nice_step(axes.box.width(), 6))) {
     put(lines, "M{:.1f} {:.0f}V{:.0f}", axes.x(v), top, bottom);
     put(texts, "<text x=\"{:.1f}\" y=\"{:.0f}\" text-anchor=\"middle\">{}</text>", axes.x(v), bottom + 16,
         number(v));
-  });
+  }
   const double step = nice_step(axes.box.height(), 5);
-  ticks(axes.box.y_min, axes.box.y_max, logarithmic ? std::max(1.0, step) : step, [&](double v) {
+  for (const double v : ticks(axes.box.y_min, axes.box.y_max, logarithmic ? std::max(1.0, step) : step)) {
     put(lines, "M{:.0f} {:.1f}H{:.0f}", left, axes.y(v), width - right);
     put(texts, "<text x=\"{:.0f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", left - 6, axes.y(v) + 4,
         number(logarithmic ? std::pow(10, v) : v));
-  });
+  }
   put(out, "<path d=\"{}\" stroke=\"#dfe5ea\" fill=\"none\"/><g fill=\"#526170\" font-size=\"11\">{}\n",
       lines, texts);
   put(out, "<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\" font-size=\"12\">{}</text>",
@@ -310,6 +261,7 @@ void draw_curve(std::string& out, const Axes& axes, const Curve& curve, std::siz
 }  // namespace
 
 std::string plot_svg(const study::Plot& plot, const Table& table, const Table* baseline) {
+  if (plot.style == Style::map) return map_svg(plot, table);
   const bool counts = plot.style == Style::histogram, polar = plot.style == Style::polar;
   const std::vector<Curve> curves =
       counts ? std::vector<Curve>{histogram(plot, table)} : curves_of(plot, table);

@@ -1,0 +1,108 @@
+#include "linkwright/flexible/hub_link_study.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "linkwright/flexible/studies.h"
+#include "support/published.h"
+#include "support/study_text.h"
+
+namespace linkwright::flexible {
+namespace {
+
+using linkwright::testing::fact;
+using linkwright::testing::replaced;
+using ::testing::HasSubstr;
+
+const std::vector<study::Kind>& kinds() {
+  static const auto all = studies();
+  return all;
+}
+study::Result run(const std::string& text) { return linkwright::testing::run_text(kinds(), text); }
+std::string problems(const std::string& text) { return linkwright::testing::problems_of(kinds(), text); }
+const std::vector<double>& column(const study::Result& result, std::string_view key) {
+  const Column* found = result.tables.at(0).find(key);
+  EXPECT_NE(found, nullptr) << key;
+  static const std::vector<double> none;
+  return found ? found->values : none;
+}
+
+// Table 3.1 of Boskovic 2018, spun up to 4 rad/s.
+const std::string spin_up =
+    "schema = 1\nkind = \"simulation\"\n[mechanism]\ntype = \"flexible.hub_link\"\nlength_m = "
+    "8\ndensity_kg_per_m3 = 2766.7\n"
+    "area_m2 = 7.2968e-5\nsecond_moment_m4 = 8.2189e-9\nelastic_modulus_Pa = 6.8952e10\ntip_mass_kg = 0.085\n"
+    "[drive]\nlaw = \"spin_up\"\nspeed_rad_per_s = 4\nduration_s = 15\n"
+    "[simulation]\nend_s = 20\ndivisions = 4\ncompare_divisions = false\n[output]\nsamples = 9\n";
+
+TEST(HubLinkStudy, SpinsUpAsComputedElsewhere) {
+  const auto result = run(spin_up);
+  ASSERT_EQ(result.status, Status::done) << result.headline;
+  // Every 2.5 s; the tip as computed by generalised-alpha elsewhere, to its 1e-5 m and half of the last
+  // digit.
+  const std::vector<double> expected{0,         -0.173840, -0.512840, -0.620824, -0.396378,
+                                     -0.112029, 0.003235,  -0.007508, -0.004467};
+  const auto& tip = column(result, "tip_eta_m");
+  ASSERT_EQ(tip.size(), expected.size());
+  for (std::size_t i = 0; i < tip.size(); ++i) EXPECT_NEAR(tip[i], expected[i], 2e-5) << i;
+  const auto& balance = column(result, "energy_balance_J");
+  EXPECT_NEAR(balance.back(), balance.front(), 1e-3);
+  EXPECT_THAT(fact(result, "frequencies at rest"), HasSubstr("0.4209, "));
+}
+
+TEST(HubLinkStudy, TellsWhatTheDivisionsChange) {
+  const auto result =
+      run(replaced(replaced(spin_up, "compare_divisions = false\n", ""), "divisions = 4", "divisions = 2"));
+  EXPECT_THAT(fact(result, "change of the tip with 4 divisions"), HasSubstr("mm"));
+}
+
+TEST(HubLinkStudy, ShapingLeavesLessVibration) {
+  const std::string& example = kinds()[0].example;
+  const auto amplitude = [](const study::Result& result) {
+    return std::stod(fact(result, "vibration of the tip after the drive"));
+  };
+  const double shaped = amplitude(run(example));
+  const double plain = amplitude(run(replaced(
+      example,
+      "[drive.shaping]                        # leave it out to see the vibration\nshaper = \"zv\"\n", "")));
+  EXPECT_LT(shaped, 0.2 * plain);
+  // And with damping of the material it dies away.
+  const auto damped =
+      run(replaced(example, "fibre_distance_mm", "stiffness_damping_s = 0.01\nfibre_distance_mm"));
+  EXPECT_EQ(damped.status, Status::done);
+  EXPECT_GT(column(damped, "dissipated_J").back(), 0);
+}
+
+TEST(HubLinkStudy, SwingsFreelyUnderGravity) {
+  const auto result =
+      run("schema = 1\nkind = \"simulation\"\n[mechanism]\ntype = \"flexible.hub_link\"\nlength_m = "
+          "1\ndensity_kg_per_m3 = 7800\n"
+          "area_mm2 = 100\nsecond_moment_mm4 = 833\nelastic_modulus_GPa = 210\nhub_inertia_kg_m2 = "
+          "0.01\ngravity_m_per_s2 = 9.80665\n"
+          "[drive]\nlaw = \"none\"\nangle_deg = -80\n[simulation]\nend_s = 2\nstep_s = 0.002\n");
+  ASSERT_EQ(result.status, Status::done) << result.headline;
+  // As a rigid pendulum of m L^2/3 + J_H it takes 2 pi sqrt(I / (m g L / 2)) = 1.657 s for small swings.
+  const auto &angle = column(result, "hub_angle_rad"), &time = column(result, "time_s");
+  double crossing = 0;
+  for (std::size_t i = 1; i < time.size() && crossing == 0; ++i)
+    if (angle[i - 1] > -M_PI / 2 && angle[i] <= -M_PI / 2) crossing = time[i];
+  EXPECT_NEAR(4 * crossing, 1.657 * 1.002, 0.03);
+  EXPECT_THAT(fact(result, "drift of the energy audit"), HasSubstr("e-"));
+}
+
+TEST(HubLinkStudy, TellsWhatIsWrong) {
+  EXPECT_THAT(problems(replaced(spin_up, "elastic_modulus_Pa = 6.8952e10", "elastic_modulus_Pa = 0")),
+              HasSubstr("elastic_modulus_Pa"));
+  EXPECT_THAT(problems(replaced(spin_up, "length_m = 8", "length_m = -8")), HasSubstr("length_m: is -8 m, must be at least 1e-06 m"));
+  EXPECT_THAT(problems(replaced(spin_up, "tip_mass_kg", "theory = \"timoshenko\"\ntip_mass_kg")),
+              HasSubstr("shear"));
+  EXPECT_THAT(problems(replaced(spin_up, "[simulation]", "[simulation]\nstep_s = 1e-7")),
+              HasSubstr("at most 1e7 are allowed"));
+  EXPECT_THAT(problems(replaced(replaced(spin_up, "tip_mass_kg", "gravity_m_per_s2 = 9\ntip_mass_kg"),
+                                "[simulation]", "[simulation]\nkinematics = \"source_linearised\"")),
+              HasSubstr("the printed equations know neither gravity nor damping"));
+}
+
+}  // namespace
+}  // namespace linkwright::flexible

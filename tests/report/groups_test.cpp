@@ -1,0 +1,47 @@
+#include "linkwright/report/groups.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace linkwright::report {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Groups, NamesAndUnitsOfColumns) {
+  EXPECT_EQ(label_of({"toe_deg", "toe (deg)", {}}), "toe (deg)");
+  EXPECT_EQ(label_of({"toe_deg", "", {}}), "toe_deg");
+  EXPECT_EQ(unit_of({"x", "O1 x, ground on crank (N)", {}}), "(N)");
+  EXPECT_EQ(unit_of({"x", "share", {}}), "");
+  EXPECT_EQ(unit_of({"x", "angle (of the crank) mean", {}}), "");
+}
+
+TEST(Groups, ValuesInRisingOrderWithTheirRows) {
+  Table table;
+  table.add("z_m", "z (m)", {-0.5, -0.7, nan, -0.5});
+  study::Plot plot;
+  plot.group = "z_m";
+  const auto groups = groups_of(plot, table);
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_EQ(groups[0].label, "z -0.7 m");
+  EXPECT_EQ(groups[0].rows, (std::vector<std::size_t>{1}));
+  EXPECT_EQ(groups[1].label, "z -0.5 m");
+  EXPECT_EQ(groups[1].rows, (std::vector<std::size_t>{0, 3}));
+}
+
+TEST(Groups, WithoutTheColumnAllRowsAreOne) {
+  Table table;
+  table.add("z_m", "z (m)", {-0.5, nan});
+  for (const char* column : {"", "gone"}) {
+    study::Plot plot;
+    plot.group = column;
+    const auto groups = groups_of(plot, table);
+    ASSERT_EQ(groups.size(), 1u);
+    EXPECT_EQ(groups[0].label, "");
+    EXPECT_EQ(groups[0].rows, (std::vector<std::size_t>{0, 1}));
+  }
+}
+
+}  // namespace
+}  // namespace linkwright::report
