@@ -196,8 +196,8 @@ class Reporter {
       for (const char* end : {"_eccentricity_x_m", "_eccentricity_y_m"})
         hodograph.columns.push_back(*table.find(key(k) + end));
       const std::string circle = fmt::format("{} clearance circle, {:.4g} mm", j, 1e3 * s_.clearance_of(k));
-      hodograph.add(key(k) + "_clearance_x_m", circle + ", x (m)", std::move(circle_x));
-      hodograph.add(key(k) + "_clearance_y_m", circle + ", y (m)", std::move(circle_y));
+      hodograph.add(key(k) + "_clearance_x_m", circle + " x (m)", std::move(circle_x));
+      hodograph.add(key(k) + "_clearance_y_m", circle + " y (m)", std::move(circle_y));
     }
     add_status(table, r_.rows);
     result_.tables.push_back(std::move(table));
