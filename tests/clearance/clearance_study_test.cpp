@@ -115,7 +115,7 @@ TEST(ClearanceStudy, TheGroundFeelsItsContacts) {
   ASSERT_NE(from, std::string::npos) << text;
   const auto to = text.find("[", text.find("start_rate_rad_per_s", from));
   text.replace(from, to - from,
-               "model = \"contact\"\nbush_radius_mm = 5.0\nmodulus_GPa = 0.01\nfriction = 0.1\n\n");
+               "model = \"contact\"\nbush_radius_mm = 5.0\nmodulus_MPa = 10.0\nfriction = 0.1\n\n");
   text = replaced(text, "to_s    = 0.628318530717959", "to_s = 0.2");
   text.erase(text.find("[[check]]"));
   const study::Result r = run_text(text);

@@ -40,7 +40,7 @@ struct ContactForm {
   ContactDamping law = ContactDamping::flores_2011;
   double restitution = 0.9;
   std::optional<double> stiffness;
-  double modulus = 207, poisson = 0.3;
+  double modulus = 207e9, poisson = 0.3;
   double friction = 0, friction_from = 1e-4, friction_whole = 1e-3;
   PinSide pin = PinSide::first;
   std::array<double, 2> start{}, start_speed{};
@@ -62,7 +62,7 @@ void fields(Visitor&& visit, ContactForm& c) {
                "K of the force K depth^1.5; if absent that of a pin in a bush of the material",
                Dimension::none, 0, true),
         c.stiffness);
-  visit(number("modulus_GPa", "Young's modulus of pin and bush", Dimension::none, 0, true), c.modulus);
+  visit(number("modulus", "Young's modulus of pin and bush", Dimension::pressure, 0, true), c.modulus);
   visit(Field{.key = "poisson", .summary = "Poisson's ratio of both", .minimum = 0, .maximum = 0.5},
         c.poisson);
   visit(number("friction", "coefficient of friction", Dimension::none, 0), c.friction);
@@ -192,7 +192,7 @@ std::optional<ContactJoint> contact_of(study::ObjectReader& table, const PinForm
     table.error("start",
                 fmt::format("the pin starts {:.6g} mm off the middle of its bush, which leaves {:.6g} mm",
                             1e3 * off, 1e3 * form.clearance));
-  const Elasticity material{1e9 * c.modulus, c.poisson};
+  const Elasticity material{c.modulus, c.poisson};
   out.law.stiffness =
       c.stiffness.value_or(pin_stiffness(c.bush_radius, c.bush_radius - form.clearance, material, material));
   return out;

@@ -25,8 +25,7 @@ std::optional<RobotMasses> read_masses(study::ObjectReader& document, const Robo
   if (!form.gravity)
     form.gravity = d.robot.freedom == Freedom::plane_translation ? Coordinates{0, -standard_gravity, 0}
                                                                  : Coordinates{0, 0, -standard_gravity};
-  const Coordinates& g = *form.gravity;
-  RobotMasses out = equal_legs(form.platform, form.leg, {g[0], g[1], g[2]});
+  RobotMasses out = equal_legs(form.platform, form.leg, vec(*form.gravity));
   for (int i = 0; i < d.robot.legs(); ++i)
     if (out.leg[i].pi) out.leg[i].pi->lead = d.motors[i].screw.lead;
   if (const auto wrong = problem(d.robot, d.drives, out)) {

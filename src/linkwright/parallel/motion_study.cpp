@@ -26,8 +26,6 @@ constexpr std::size_t most_scene_samples = 1200;
 constexpr double plane_samples = 1000;
 constexpr double rounding = 1e-12;  // m, of arcs in the plane
 
-Vec3 vec(const Coordinates& c) { return {c[0], c[1], c[2]}; }
-
 /// One instant of the motion.
 struct Instant {
   double time = 0;

@@ -17,8 +17,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-Vec3 vec(const Coordinates& c) { return {c[0], c[1], c[2]}; }
-
 void place(Rows& row, const RobotDescription& d, const Pose& pose, bool there) {
   const Vec3 turn = there ? math::turn_of(pose.rotation) : Vec3{nan, nan, nan};
   const Vec3 p = there ? pose.position : Vec3{nan, nan, nan};

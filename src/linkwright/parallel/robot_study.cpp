@@ -23,8 +23,6 @@ void fields(Visitor&& visit, ModeForm& m) {
         m.working_mode);
 }
 
-Vec3 vec(const Coordinates& c) { return {c[0], c[1], c[2]}; }
-
 Robot robot_of(const HexaForm& form) { return hexa(form.dimensions); }
 
 /// The four lengths, or three tables of legs.
@@ -192,11 +190,6 @@ std::optional<DriveRead> drive_of(study::ObjectReader& table, const DriveForm& f
   return out;
 }
 
-template <class Form>
-Value canonical_form(const Form& form) {
-  return study::write_fields(form);
-}
-
 }  // namespace
 
 std::optional<PiMotor> motor_of(study::ObjectReader& table, const MotorForm& form) {
@@ -271,7 +264,7 @@ std::optional<RobotDescription> read_robot(study::ObjectReader& document, std::s
   const auto take = [&](auto form, auto&& make) {
     mechanism->read(form);
     robot = make(form);
-    written = canonical_form(form);
+    written = study::write_fields(form);
   };
   if (type == "parallel.delta")
     take(DeltaForm{}, [&](const DeltaForm& f) { return robot_of(*mechanism, f); });

@@ -9,12 +9,14 @@
 
 #include "linkwright/parallel/drives.h"
 #include "linkwright/parallel/pi_screw.h"
+#include "linkwright/parallel/tool_path.h"
 #include "linkwright/study/kind.h"
 
 // `[mechanism]` of studies of parallel robots: what their files hold, and how it is read.
 namespace linkwright::parallel {
 
-using Coordinates = std::array<double, 3>;
+/// Coordinates of a file as a vector.
+inline Vec3 vec(const Coordinates& c) { return {c[0], c[1], c[2]}; }
 
 namespace robot_fields {
 

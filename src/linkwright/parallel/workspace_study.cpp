@@ -221,10 +221,9 @@ void describe_workspace(study::SchemaWriter& document) {
 void add_workspace(study::Result& result, const RobotDescription& d, const QualityLimits& limits,
                    const WorkspaceStudy& s, const Pose& home, RunContext& context) {
   const WorkspaceForm& f = s.form;
-  WorkspaceTask task{
-      .conditions = conditions_of(d, limits, home),
-      .grid = {{f.lower[0], f.lower[1], f.lower[2]}, {f.upper[0], f.upper[1], f.upper[2]}, f.step},
-      .rotation = math::turn_about(Vec3{f.rotation[0], f.rotation[1], f.rotation[2]})};
+  WorkspaceTask task{.conditions = conditions_of(d, limits, home),
+                     .grid = {vec(f.lower), vec(f.upper), f.step},
+                     .rotation = math::turn_about(vec(f.rotation))};
   task.wanted[slot(PoseIndex::conditioning)] = true;
   for (const PoseIndex index : f.indices) task.wanted[slot(index)] = true;
   const WorkspaceMap map = workspace(task, context);
