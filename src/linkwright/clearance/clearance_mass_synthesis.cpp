@@ -112,13 +112,47 @@ math::LeastSquaresOptions local_options() {
           .relative_decrease_tolerance = 1e-9,
           .step_tolerance = 1e-10};
 }
-// Scales of difference quotients; longer ones where an integration leaves its own errors in what is
-// differenced.
-constexpr double smooth = 0.1, integrated = 10;
+// Scales of difference quotients, as shares of the ranges; longer ones where an integration leaves its own
+// errors in what is differenced.
+constexpr double smooth = 0.1, integrated = 1;
 std::vector<double> widths(std::span<const double> lower, std::span<const double> upper, double share) {
   std::vector<double> out;
   for (std::size_t k = 0; k < lower.size(); ++k) out.push_back(std::max(share * (upper[k] - lower[k]), 1e-9));
   return out;
+}
+
+// Least squares whose variables are shares of their ranges, all damped alike. Mass centres of the rocker
+// hardly matter to the clearance link; a damping by the diagonal would let them run until the orbit is lost.
+template <class Misfit>
+math::LeastSquaresReport minimise_shares(Misfit&& misfit, std::size_t m, std::span<double> x,
+                                         std::span<const double> lower, std::span<const double> upper,
+                                         double difference, math::LeastSquaresOptions options) {
+  const std::size_t n = x.size();
+  std::vector<double> there(n), shares(n), zeros(n, 0.0), ones(n, 1.0), scale(n, difference);
+  const auto place = [&](std::span<const double> share) {
+    for (std::size_t k = 0; k < n; ++k) there[k] = lower[k] + (upper[k] - lower[k]) * share[k];
+  };
+  for (std::size_t k = 0; k < n; ++k)
+    shares[k] = upper[k] > lower[k] ? (x[k] - lower[k]) / (upper[k] - lower[k]) : 0;
+  const auto at_shares = [&](std::span<const double> share, std::span<double> r, std::span<double>) {
+    place(share);
+    return misfit(there, r);
+  };
+  const auto residuals = [&](std::span<const double> share, std::span<double> r, std::span<double> jacobian) {
+    return at_shares(share, r, {}) &&
+           (jacobian.empty() || math::central_jacobian(at_shares, m, share, jacobian, scale) == Status::done);
+  };
+  options.damping = math::Damping::identity;
+  options.lambda0 = 1;
+  options.jacobian_at_trials = false;
+  math::LeastSquaresWorkspace workspace;
+  const math::LeastSquaresReport report =
+      math::minimise_least_squares(residuals, m, shares, zeros, ones, options, workspace);
+  if (report.status != Status::infeasible) {
+    place(shares);
+    std::copy(there.begin(), there.end(), x.begin());
+  }
+  return report;
 }
 
 }  // namespace
@@ -217,8 +251,7 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
   require_valid(p);
   std::vector<double> lower, upper;
   limits(p, lower, upper);
-  const std::vector<double> scale = widths(lower, upper, smooth),
-                            orbit_scale = widths(lower, upper, integrated);
+  const std::vector<double> scale = widths(lower, upper, smooth);
   const auto m = static_cast<std::size_t>(p.samples);
 
   const auto by_force = [&](std::span<const double> x, std::span<double> r, std::span<double> jacobian) {
@@ -255,23 +288,10 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
                            r[k] = std::remainder(row.link.angle - row.crank.value - p.lead, turn);
                          });
     };
-    const auto residuals = [&](std::span<const double> at, std::span<double> r, std::span<double> jacobian) {
-      if (!on_orbit(at, r)) return false;
-      if (jacobian.empty()) return true;
-      const auto inner = [&](std::span<const double> there, std::span<double> out, std::span<double>) {
-        return on_orbit(there, out);
-      };
-      return math::central_jacobian(inner, m, at, jacobian, orbit_scale) == Status::done;
-    };
     math::LeastSquaresOptions options = local_options();
-    options.max_iterations = 20;
-    options.jacobian_at_trials = false;
-    options.relative_decrease_tolerance = 1e-3;
-    math::LeastSquaresWorkspace workspace;
-    std::vector<double> refined = x;
-    const math::LeastSquaresReport report =
-        math::minimise_least_squares(residuals, m, refined, lower, upper, options, workspace);
-    if (report.status != Status::infeasible) x = refined;
+    options.max_iterations = 40;
+    options.relative_decrease_tolerance = 1e-4;
+    minimise_shares(on_orbit, m, x, lower, upper, integrated, options);
     interrupted = context.interruption();
   }
   ClearanceMassDesign out = clearance_mass_design(p, x);
