@@ -45,10 +45,10 @@ BENCHMARK(redistribute_masses)
 
 ArmTask arm(bool polynomials) {
   ArmTask task{.arm = serial_arm(two_link_arm()), .laws = {}, .duration = 10, .weights = {0.5, 0.5}};
-  for (const MotionLaw& law : two_link_motion()) {
-    const auto& c = std::get<CycloidalMotion>(law);
+  for (const math::MotionLaw& law : two_link_motion()) {
+    const auto& c = std::get<math::CycloidalMotion>(law);
     if (polynomials)
-      task.laws.push_back(Polynomial345{c.from, c.to, c.start, c.duration, {}});
+      task.laws.push_back(math::Polynomial345{c.from, c.to, c.start, c.duration, {}});
     else
       task.laws.push_back(law);
   }

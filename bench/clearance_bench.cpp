@@ -71,7 +71,7 @@ void clearance_contact_slider_crank(benchmark::State& state) {
                            .law = {.stiffness = pin_stiffness(0.01, 0.0095),
                                    .restitution = 0.9,
                                    .damping = ContactDamping::lankarani_nikravesh}};
-  const planar::InputCourse crank{planar::ConstantSpeed{0, 5000 * turn / 60}, 0, 0};
+  const planar::InputCourse crank{math::ConstantSpeed{0, 5000 * turn / 60}, 0, 0};
   const std::vector<double> times{0, 0.012};
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
   std::size_t contacts = 0;

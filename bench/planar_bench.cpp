@@ -181,7 +181,7 @@ void serial_arm_reactions(benchmark::State& state) {
   SerialArm arm;
   for (std::size_t k = 0; k < n; ++k) arm.links.push_back({0.5, {6, 0.125, 0.25, 0.1}, {{1, -0.2, 0}}});
   const std::vector<ArmElement> e = elements(arm);
-  std::vector<Motion> motion(n, Motion{0.3, 2, -5, 0});
+  std::vector<math::Motion> motion(n, math::Motion{0.3, 2, -5, 0});
   std::vector<ArmLinkRates> r(n);
   std::vector<ArmJointLoads> loads(n);
   for (auto _ : state) {
@@ -197,7 +197,7 @@ BENCHMARK(serial_arm_reactions)->Arg(2)->Arg(10);
 
 void two_rods_redundant_coordinates(benchmark::State& state) {
   const TwoRods arm{{TwoRods::Rod{0.5, 12, 0.25}, {0.5, 6, 0.125}}, 4};
-  std::array<Motion, 2> motion = {Motion{0.3, 2, -5, 0}, Motion{0.8, -1, 3, 0}};
+  std::array<math::Motion, 2> motion = {math::Motion{0.3, 2, -5, 0}, math::Motion{0.8, -1, 3, 0}};
   for (auto _ : state) {
     motion[0].value += 0.01, motion[1].value += 0.02;
     benchmark::DoNotOptimize(reactions_redundant(arm, motion));

@@ -44,6 +44,6 @@ inline ContactJoint slider_crank_joint(const planar::Linkage& l, double friction
 }
 
 /// Even crank from angle 0.
-inline planar::InputCourse even_crank(double speed) { return {planar::ConstantSpeed{0, speed}, 0, 0}; }
+inline planar::InputCourse even_crank(double speed) { return {math::ConstantSpeed{0, speed}, 0, 0}; }
 
 }  // namespace linkwright::clearance

@@ -62,7 +62,7 @@ TEST(ContactSimulation, RestitutionAndFlightOfASlider) {
     joint.law.restitution = 0.7;
     joint.law.damping = damping;
     joint.start.rate = -0.5;  // the pin on the rod seen from the bush on the slider
-    const planar::InputCourse crank{planar::ConstantSpeed{0, 0}, 0, 0};
+    const planar::InputCourse crank{math::ConstantSpeed{0, 0}, 0, 0};
     const ContactRun run =
         simulate_contact(l, std::span(&joint, 1), std::span(&crank, 1), std::vector{0.0, 9e-3});
     ASSERT_EQ(run.status, Status::done) << run.message;
@@ -86,7 +86,7 @@ TEST(ContactSimulation, AnImpactAsComputedElsewhere) {
   ContactJoint joint = slider_crank_joint(l);
   joint.law.stiffness = testing::number_at(example, "K");
   joint.start.rate = -testing::number_at(example, "v_m_s");
-  const planar::InputCourse crank{planar::ConstantSpeed{0, 0}, 0, 0};
+  const planar::InputCourse crank{math::ConstantSpeed{0, 0}, 0, 0};
   const ContactRun run =
       simulate_contact(l, std::span(&joint, 1), std::span(&crank, 1), std::vector{0.0, 2e-3});
   ASSERT_GE(run.events.size(), 1u);
@@ -172,12 +172,11 @@ TEST(ContactSimulation, PressedContactIsContinuousContact) {
   const planar::InputCourse crank = even_crank(10);
   const std::vector<double> times = evenly_spaced(0, turn / 10, 121);
   std::vector<double> link, tension;
-  simulate_clearance(model, planar::ConstantSpeed{0, 10}, {angle, 10}, times, {},
-                     [&](const ClearanceRow& row) {
-                       link.push_back(row.link.angle);
-                       tension.push_back(row.instant->tension);
-                       return true;
-                     });
+  simulate_clearance(model, math::ConstantSpeed{0, 10}, {angle, 10}, times, {}, [&](const ClearanceRow& row) {
+    link.push_back(row.link.angle);
+    tension.push_back(row.instant->tension);
+    return true;
+  });
   std::size_t k = 0;
   double off = 0, depth = 0, force = 0;
   const ContactRun run =

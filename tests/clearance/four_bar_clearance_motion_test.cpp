@@ -26,7 +26,7 @@ Trajectory simulated(const ClearanceFourBar& model, double speed, const LinkStat
   Trajectory out;
   std::vector<double> times;
   for (const double angle : crank_angles) times.push_back(angle / speed);
-  out.run = simulate_clearance(model, planar::ConstantSpeed{0, speed}, start, times, tolerances,
+  out.run = simulate_clearance(model, math::ConstantSpeed{0, speed}, start, times, tolerances,
                                [&](const ClearanceRow& row) {
                                  out.link.push_back(row.link.angle);
                                  out.tension.push_back(row.instant->tension);
@@ -162,7 +162,7 @@ TEST(FourBarClearanceMotion, Design1LosesContact) {
     // The tension is positive before the first separation and negative behind it.
     const double t0 = whole.first_separation;
     std::vector<double> near;
-    simulate_clearance(model, planar::ConstantSpeed{0, speed}, {10 * degree, speed},
+    simulate_clearance(model, math::ConstantSpeed{0, speed}, {10 * degree, speed},
                        std::vector{0.0, t0 * (1 - 1e-5), t0 * (1 + 1e-5)}, {}, [&](const ClearanceRow& row) {
                          near.push_back(row.instant->tension);
                          return true;
@@ -206,8 +206,8 @@ TEST(FourBarClearanceMotion, TheForceOfTheIdealJointIsTheLimit) {
     const ClearanceOrbit orbit = find_orbit(model, {0, 50}, direction, 0);
     ASSERT_EQ(orbit.status, Status::done) << orbit.message;
     double worst = 0;
-    simulate_clearance(model, planar::ConstantSpeed{0, 50}, orbit.start({0, 50}), evenly(0, turn / 50, 73),
-                       {}, [&](const ClearanceRow& row) {
+    simulate_clearance(model, math::ConstantSpeed{0, 50}, orbit.start({0, 50}), evenly(0, turn / 50, 73), {},
+                       [&](const ClearanceRow& row) {
                          const double limit = force_direction(model, row.crank.value, 50, 0);
                          worst = std::max(worst, std::abs(math::angle_difference(row.link.angle, limit)));
                          return true;
@@ -267,7 +267,7 @@ TEST(FourBarClearanceMotion, EndsWhereTheLinksDoNotMeet) {
   ClearanceFourBar model = published_four_bar("gamma-design2-table3-g0-w10");
   model.linkage.coupler = 0.1;  // turns no more
   const ClearanceRun run =
-      simulate_clearance(model, planar::ConstantSpeed{1.8, 10}, {1.8, 10}, std::vector{0.0, 0.6});
+      simulate_clearance(model, math::ConstantSpeed{1.8, 10}, {1.8, 10}, std::vector{0.0, 0.6});
   EXPECT_EQ(run.status, Status::limit_reached);
   EXPECT_THAT(run.message, ::testing::HasSubstr("the crank cannot go on at 0.370"));
   // There the crank is so near to O4 that coupler and rocker, 150.6 mm less 100 mm, cannot be laid between.
@@ -280,7 +280,7 @@ TEST(FourBarClearanceMotion, EndsWhereTheLinksDoNotMeet) {
   model.linkage.coupler = 0.01;
   model.clearance = 1e-3;
   const ClearanceRun none =
-      simulate_clearance(model, planar::ConstantSpeed{4, 10}, {4, 10}, std::vector{0.0, 0.3});
+      simulate_clearance(model, math::ConstantSpeed{4, 10}, {4, 10}, std::vector{0.0, 0.3});
   EXPECT_EQ(none.status, Status::no_assembly);
   EXPECT_THAT(none.message,
               ::testing::HasSubstr("no assembly at 0 s, crank at -130.8169 deg: the links miss"));
@@ -299,7 +299,7 @@ TEST(FourBarClearanceMotion, RefusesTheIdealJointAndCranksThatStand) {
               ::testing::HasSubstr("needs 1 turn at least"));
   model.clearance = 0;
   EXPECT_THAT(test::message([&] {
-                simulate_clearance(model, planar::ConstantSpeed{}, {}, std::vector{0.0, 1.0});
+                simulate_clearance(model, math::ConstantSpeed{}, {}, std::vector{0.0, 1.0});
               }),
               ::testing::HasSubstr("clearance 0 m: the ideal joint has no motion of its own"));
 }

@@ -28,7 +28,7 @@ struct Rows {
 Rows simulated(const planar::Linkage& l, const std::vector<JointClearance>& clearances, double speed,
                const std::vector<double>& times, double tolerance = 1e-11) {
   Rows out;
-  const planar::InputCourse crank{planar::ConstantSpeed{0, speed}, 0, 0};
+  const planar::InputCourse crank{math::ConstantSpeed{0, speed}, 0, 0};
   out.run = simulate_joint_clearance(l, clearances, std::span(&crank, 1), times,
                                      {.relative_tolerance = tolerance, .absolute_tolerance = tolerance},
                                      [&](const JointClearanceRow& row) {
@@ -61,7 +61,7 @@ TEST(JointClearance, FourBarAgreesWithItsClosedForm) {
     ASSERT_EQ(rows.run.status, Status::done) << rows.run.message;
     std::size_t k = 0;
     const ClearanceRun run = simulate_clearance(
-        model, planar::ConstantSpeed{0, 20}, {0.1, 20}, times, {.relative = 1e-12, .absolute = 1e-13},
+        model, math::ConstantSpeed{0, 20}, {0.1, 20}, times, {.relative = 1e-12, .absolute = 1e-13},
         [&](const ClearanceRow& row) {
           const ClearanceState& s = rows.joints.at(k++).at(0);
           EXPECT_NEAR(s.angle, row.link.angle, 1e-9);
@@ -85,7 +85,7 @@ TEST(JointClearance, SeesSeparationAsTheClosedFormDoes) {
   const Rows rows = simulated(
       l, {{.joint = planar::joint_index(l, "A"), .clearance = 1e-3, .angle = 10 * degree, .rate = 50}}, 50,
       times);
-  const ClearanceRun run = simulate_clearance(model, planar::ConstantSpeed{0, 50}, {10 * degree, 50},
+  const ClearanceRun run = simulate_clearance(model, math::ConstantSpeed{0, 50}, {10 * degree, 50},
                                               std::vector{0.0, times.back()});
   ASSERT_FALSE(std::isnan(run.first_separation));
   // Rows are 38 us apart, and the tension is a smooth function between most of them.
@@ -119,7 +119,7 @@ TEST(JointClearance, PinsWithinADyadAndSeveralAtOnce) {
     EXPECT_EQ(cleared.plan.inputs(), 1 + names.size());
     EXPECT_EQ(cleared.plan.closed_form(), names[0] != "B" && names.size() < 3) << names[0];
     // The same start for the other route: the inputs at the first row.
-    std::vector<planar::InputCourse> courses{{planar::ConstantSpeed{0, 20}, 0, 0}};
+    std::vector<planar::InputCourse> courses{{math::ConstantSpeed{0, 20}, 0, 0}};
     const planar::InputCourse crank = courses[0];
     simulate_joint_clearance(l, clearances, std::span(&crank, 1), times, {},
                              [&](const JointClearanceRow& row) {
@@ -157,7 +157,7 @@ TEST(JointClearance, AnyLinkage) {
   ASSERT_GE(joint, 0);
   const double c = 1e-3 * planar::size_of(l);
   const JointClearance clearance{.joint = joint, .clearance = c, .angle = -1.5};
-  const planar::InputCourse crank{planar::ConstantSpeed{sample.from[0], 2}, 0, 0};
+  const planar::InputCourse crank{math::ConstantSpeed{sample.from[0], 2}, 0, 0};
   const JointClearanceRun run =
       simulate_joint_clearance(l, std::span(&clearance, 1), std::span(&crank, 1), std::vector{0.0, 0.01}, {});
   ASSERT_EQ(run.status, Status::done) << run.message;

@@ -172,7 +172,7 @@ inline Linkage slider_crank() {
 }
 
 inline std::vector<InputCourse> courses(const ElasticLinkage& e, double speed) {
-  std::vector<InputCourse> out{{ConstantSpeed{0, speed}, 0, 0}};
+  std::vector<InputCourse> out{{math::ConstantSpeed{0, speed}, 0, 0}};
   out.insert(out.end(), e.free.begin(), e.free.end());
   return out;
 }

@@ -154,7 +154,7 @@ TEST(ElasticBody, DampingDecaysAsKelvinAndVoigtHaveIt) {
   const double natural = AtRest(e, {{0.7, 0, 0}}).first_frequency();
   const double ratio = natural * coupler.damping / 2, damped = natural * std::sqrt(1 - ratio * ratio);
   std::vector<InputCourse> free = courses(e, 0);
-  free[0].law = ConstantSpeed{0.7, 0};
+  free[0].law = math::ConstantSpeed{0.7, 0};
   const double start = 1e-5;
   free[1].value += start;
   double first = 0;
@@ -186,7 +186,7 @@ TEST(ElasticBody, CouplerAndRockerBendTogether) {
   EXPECT_TRUE(e.plan.closed_form());
   ASSERT_EQ(e.free.size(), 5u);
   std::vector<InputCourse> free = courses(e, 20);
-  free[0].law = ConstantSpeed{0.7, 20};
+  free[0].law = math::ConstantSpeed{0.7, 20};
   std::vector<double> deflections[2];
   const auto run = [&](auto route, std::vector<double>& out) {
     const SimulationReport r = route(
@@ -282,7 +282,7 @@ TEST(ElasticBody, BendsInGroupsWithoutClosedFormAndInDrivenBodies) {
   EXPECT_EQ(e.free.size(), 5u);
   EXPECT_FALSE(e.plan.closed_form());
   std::vector<InputCourse> free = courses(e, 10);
-  free[0].law = ConstantSpeed{1, 10};
+  free[0].law = math::ConstantSpeed{1, 10};
   const SimulationReport r = simulate(e.linkage, e.plan, free, times_to(0.02, 10), {},
                                       [](const SimulationInstant&) { return true; });
   ASSERT_EQ(r.status, Status::done) << r.message;

@@ -64,8 +64,8 @@ TEST(LinearForces, OfAFourBarSuperpose) {
 RC_GTEST_PROP(LinearForcesProperty, OfAnArmEqualItsReactions, ()) {
   const std::size_t n = *rc::gen::inRange<std::size_t>(1, 5);
   const SerialArm arm = testing::any_arm(n);
-  std::vector<Motion> motion = testing::any_motion(n);
-  const std::vector<Motion> second = testing::any_motion(n);
+  std::vector<math::Motion> motion = testing::any_motion(n);
+  const std::vector<math::Motion> second = testing::any_motion(n);
   motion.insert(motion.end(), second.begin(), second.end());
   const LinearForces forces = linear_forces(arm, motion, 9.81);
   const auto all = elements(arm);

@@ -305,7 +305,7 @@ TEST(Simulate, BalancesTheEnergyOfLoadsAndDrives) {
   l.springs.push_back({"s", point_named(l, "bar 2.to"), point_named(l, "ground.base"), 20, 0.7, 1.5});
   l.torques.push_back({.name = "t", .body = 2, .from = 0, .torque = 1.5});
   const LinkagePlan p = planned(l);
-  const InputCourse driven{HarmonicMotion{0.2, 0.7, 0.8, 0}, 0, 0}, free{{}, 0.9, 0};
+  const InputCourse driven{math::HarmonicMotion{0.2, 0.7, 0.8, 0}, 0, 0}, free{{}, 0.9, 0};
   const SimulationRun run = simulated(l, p, {driven, free}, evenly(0, 4, 41));
   ASSERT_EQ(run.report.status, Status::done) << run.report.message;
   EXPECT_GT(run.report.peak_energy, 5);
@@ -347,7 +347,7 @@ TEST(Simulate, WantsAFreeInput) {
   const Linkage l = pendulum(1);
   const LinkagePlan p = planned(l);
   EXPECT_THAT(test::message([&] {
-                simulated(l, p, {{ConstantSpeed{0, 1}, 0, 0}}, evenly(0, 1, 2));
+                simulated(l, p, {{math::ConstantSpeed{0, 1}, 0, 0}}, evenly(0, 1, 2));
               }),
               ::testing::HasSubstr("1 inputs, and none of them is free"));
   EXPECT_THAT(test::message([&] { simulated(l, p, {{}}, {1.0}); }),

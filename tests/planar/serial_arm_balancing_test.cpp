@@ -27,10 +27,10 @@ constexpr double pi = std::numbers::pi;
 // The published arm (Boskovic 2018, Table 2.1), with its cycloidal laws or with polynomials in their place.
 ArmTask published(bool polynomials) {
   ArmTask task{.arm = serial_arm(two_link_arm()), .laws = {}, .duration = 10, .weights = {0.5, 0.5}};
-  for (const MotionLaw& law : two_link_motion()) {
-    const auto& c = std::get<CycloidalMotion>(law);
+  for (const math::MotionLaw& law : two_link_motion()) {
+    const auto& c = std::get<math::CycloidalMotion>(law);
     if (polynomials)
-      task.laws.push_back(Polynomial345{c.from, c.to, c.start, c.duration, {}});
+      task.laws.push_back(math::Polynomial345{c.from, c.to, c.start, c.duration, {}});
     else
       task.laws.push_back(law);
   }
@@ -182,8 +182,8 @@ TEST(SerialArmBalancing, LawsOfDegreeEight) {
   EXPECT_NEAR(r.minima[0].cost, 0.1130690988, 1e-9);
   const ArmTask best = designed(published(true), design, r.minima[0].x);
   double largest = 0;
-  for (const MotionLaw& law : best.laws)
-    for (const double a : coefficients(std::get<Polynomial345>(law)))
+  for (const math::MotionLaw& law : best.laws)
+    for (const double a : coefficients(std::get<math::Polynomial345>(law)))
       largest = std::max(largest, std::abs(a));
   EXPECT_NEAR(largest, 100, 1e-6);
   const std::vector<ArmPeaks> peaks = arm_peaks(best);

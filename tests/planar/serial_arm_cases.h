@@ -21,8 +21,8 @@ inline SerialArm any_arm(std::size_t n) {
   return arm;
 }
 
-inline std::vector<Motion> any_motion(std::size_t n) {
-  std::vector<Motion> out;
+inline std::vector<math::Motion> any_motion(std::size_t n) {
+  std::vector<math::Motion> out;
   for (std::size_t k = 0; k < n; ++k) out.push_back({*any_angle(), *between(-8, 8), *between(-40, 40), 0});
   return out;
 }

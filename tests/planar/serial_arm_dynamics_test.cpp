@@ -26,7 +26,7 @@ RC_GTEST_PROP(SerialArmDynamicsProperty, AccelerationsAreThoseOfTheTorques, ()) 
   const std::size_t n = static_cast<std::size_t>(*rc::gen::inRange(1, 6));
   const SerialArm arm = heavy_arm(n);
   const std::vector<ArmElement> e = elements(arm);
-  const std::vector<Motion> motion = testing::any_motion(n);
+  const std::vector<math::Motion> motion = testing::any_motion(n);
   const double gravity = *testing::between(0, 20);
   std::vector<ArmLinkRates> r(n);
   std::vector<ArmJointLoads> loads(n);
@@ -36,8 +36,8 @@ RC_GTEST_PROP(SerialArmDynamicsProperty, AccelerationsAreThoseOfTheTorques, ()) 
   double largest = 1;
   for (const ArmJointLoads& l : loads) torques.push_back(l.absolute_torque);
   for (double t : torques) largest = std::max(largest, std::abs(t));
-  std::vector<Motion> found = motion;
-  for (Motion& m : found) m.acceleration = 1e6;  // not read
+  std::vector<math::Motion> found = motion;
+  for (math::Motion& m : found) m.acceleration = 1e6;  // not read
   RC_ASSERT(accelerate(e, torques, gravity, found) == Status::done);
   // Rounding of torques up to some thousand over a least inertia of 0.5.
   for (std::size_t k = 0; k < n; ++k)
@@ -49,9 +49,9 @@ RC_GTEST_PROP(SerialArmDynamicsProperty, MassMatrixIsThatOfTheEnergy, ()) {
   const std::size_t n = static_cast<std::size_t>(*rc::gen::inRange(1, 6));
   const SerialArm arm = heavy_arm(n);
   const std::vector<ArmElement> e = elements(arm);
-  const std::vector<Motion> motion = testing::any_motion(n);
+  const std::vector<math::Motion> motion = testing::any_motion(n);
   std::vector<double> angles;
-  for (const Motion& m : motion) angles.push_back(m.value);
+  for (const math::Motion& m : motion) angles.push_back(m.value);
   const std::vector<double> matrix = mass_matrix(e, angles);
   std::vector<ArmLinkRates> r(n);
   rates(e, arm.base, motion, r);
@@ -68,7 +68,7 @@ RC_GTEST_PROP(SerialArmDynamicsProperty, MassMatrixIsThatOfTheEnergy, ()) {
 TEST(SerialArmDynamics, FreePendulumKeepsItsEnergy) {
   const SerialArm arm{{0, 0}, {{1, {2, 0.1, 0.5, 0.2}, {}}, {0.8, {1, 0.05, 0.4, 0}, {{0.5, 0.8, 0}}}}};
   const std::vector<ArmElement> e = elements(arm);
-  std::vector<Motion> motion = {{0.3, 1.5, 0, 0}, {-0.9, -2, 0, 0}};
+  std::vector<math::Motion> motion = {{0.3, 1.5, 0, 0}, {-0.9, -2, 0, 0}};
   const std::vector<double> none(2);
   ASSERT_EQ(accelerate(e, none, 9.81, motion), Status::done);
   std::vector<ArmLinkRates> r(2);
@@ -80,7 +80,7 @@ TEST(SerialArmDynamics, FreePendulumKeepsItsEnergy) {
 TEST(SerialArmDynamics, OfALinkWithoutInertiaIsSingular) {
   const SerialArm arm{0, {{1, {2, 0.1, 0.5, 0}, {}}, {0.8, {}, {}}}};
   const std::vector<ArmElement> e = elements(arm);
-  std::vector<Motion> motion(2);
+  std::vector<math::Motion> motion(2);
   const std::vector<double> torques = {1, 0};
   EXPECT_EQ(accelerate(e, torques, 9.81, motion), Status::singular);
   EXPECT_TRUE(std::isnan(motion[0].acceleration));

@@ -28,18 +28,18 @@ constexpr double pi = std::numbers::pi;
 // The published task over 201 samples of 10 s.
 struct Task {
   std::vector<ArmElement> arm;
-  std::array<MotionLaw, 2> laws = two_link_motion();
+  std::array<math::MotionLaw, 2> laws = two_link_motion();
 };
 struct Peaks {
   std::vector<double> force1, force2, q1, q2, tau1;
 };
 Peaks run(const Task& task) {
-  const MotionCurve first(task.laws[0]), second(task.laws[1]);
+  const math::MotionCurve first(task.laws[0]), second(task.laws[1]);
   Peaks p;
   std::array<ArmLinkRates, 2> r;
   std::array<ArmJointLoads, 2> loads;
   for (int i = 0; i <= 200; ++i) {
-    const std::array<Motion, 2> motion = {first(0.05 * i), second(0.05 * i)};
+    const std::array<math::Motion, 2> motion = {first(0.05 * i), second(0.05 * i)};
     rates(task.arm, 0, motion, r);
     reactions(task.arm, r, 0, loads);
     p.force1.push_back(std::abs(loads[0].force));
@@ -56,7 +56,7 @@ double objective(const Peaks& p) { return rss_over_n(p.force1) / 2 + rss_over_n(
 Task published() { return {elements(serial_arm(two_link_arm()))}; }
 Task with_polynomials(double a1, double a2) {
   Task task = published();
-  task.laws = {Polynomial345{0, pi, 0, 10, {a1}}, Polynomial345{0, 3 * pi / 2, 0, 10, {a2}}};
+  task.laws = {math::Polynomial345{0, pi, 0, 10, {a1}}, math::Polynomial345{0, 3 * pi / 2, 0, 10, {a2}}};
   return task;
 }
 Task with_counterweights(double p, double mass2, double r2) {
@@ -95,7 +95,7 @@ TEST(SerialArmReactions, ObjectiveOfThePrintedCoefficients) {
   std::array<ArmJointLoads, 2> loads;
   Peaks p;
   for (int i = 0; i <= 200; ++i) {
-    std::array<Motion, 2> motion;
+    std::array<math::Motion, 2> motion;
     for (std::size_t k = 0; k < 2; ++k) {
       const auto a = linkwright::testing::numbers(at(reference, k == 0 ? "published.a1" : "published.a2"));
       const double x = i / 200.0, stroke = k == 0 ? pi : 3 * pi / 2;
@@ -151,7 +151,8 @@ TEST(SerialArmReactions, ComponentsOfThePublishedMotion) {
   const Value& sample = at(dynamics_case("manipulator-reference_motion"), "computed.sample_i50");
   const std::vector<ArmElement> arm = published().arm;
   const auto laws = two_link_motion();
-  const std::array<Motion, 2> motion = {MotionCurve(laws[0])(2.5), MotionCurve(laws[1])(2.5)};
+  const std::array<math::Motion, 2> motion = {math::MotionCurve(laws[0])(2.5),
+                                              math::MotionCurve(laws[1])(2.5)};
   std::array<ArmLinkRates, 2> r;
   std::array<ArmJointLoads, 2> loads;
   rates(arm, 0, motion, r);
@@ -167,7 +168,7 @@ RC_GTEST_PROP(SerialArmReactionsProperty, AgreeWithRedundantCoordinates, ()) {
     return TwoRods::Rod{*testing::log_between(0.1, 3), *testing::between(0.1, 9), *testing::between(0, 2)};
   };
   const TwoRods arm{{rod(), rod()}, *testing::between(0, 5)};
-  const std::vector<Motion> motion = testing::any_motion(2);
+  const std::vector<math::Motion> motion = testing::any_motion(2);
   const auto b = reactions_redundant(arm, {motion[0], motion[1]});
   const std::vector<ArmElement> e = elements(serial_arm(arm));
   std::array<ArmLinkRates, 2> r;
@@ -190,7 +191,7 @@ RC_GTEST_PROP(SerialArmReactionsProperty, AgreeWithRedundantCoordinates, ()) {
 
 // Newton and Euler, body by body, every attached mass a body of its own: knows neither base parameters nor
 // the joint as a point of reference.
-std::vector<ArmJointLoads> newton_euler(const SerialArm& arm, const std::vector<Motion>& motion,
+std::vector<ArmJointLoads> newton_euler(const SerialArm& arm, const std::vector<math::Motion>& motion,
                                         double gravity) {
   struct Particle {
     std::complex<double> position, acceleration;
@@ -203,7 +204,7 @@ std::vector<ArmJointLoads> newton_euler(const SerialArm& arm, const std::vector<
   std::complex<double> acceleration = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const ArmLink& link = arm.links[k];
-    const Motion& m = motion[k];
+    const math::Motion& m = motion[k];
     const auto place = [&](double distance, double angle) {
       return std::polar(1.0, m.value + angle) * distance;
     };
@@ -237,7 +238,7 @@ std::vector<ArmJointLoads> newton_euler(const SerialArm& arm, const std::vector<
   return loads;
 }
 
-double size_of(const SerialArm& arm, const std::vector<Motion>& motion, double gravity) {
+double size_of(const SerialArm& arm, const std::vector<math::Motion>& motion, double gravity) {
   double mass = 0, felt = gravity, reach = 0, inertia = 0;
   for (std::size_t k = 0; k < motion.size(); ++k) {
     const ArmLink& link = arm.links[k];
@@ -254,7 +255,7 @@ double size_of(const SerialArm& arm, const std::vector<Motion>& motion, double g
 RC_GTEST_PROP(SerialArmReactionsProperty, AgreeWithNewtonAndEuler, ()) {
   const std::size_t n = static_cast<std::size_t>(*rc::gen::inRange(1, 7));
   const SerialArm arm = testing::any_arm(n);
-  const std::vector<Motion> motion = testing::any_motion(n);
+  const std::vector<math::Motion> motion = testing::any_motion(n);
   const double gravity = *testing::between(0, 20), size = size_of(arm, motion, gravity);
   const std::vector<ArmElement> e = elements(arm);
   std::vector<ArmLinkRates> r(n);
@@ -276,7 +277,8 @@ TEST(SerialArmReactions, OfFourLinksAgreeWithNewtonAndEulerTo1e12) {
                        {0.5, {2, 0.1, 0.25, -0.7}, {{0.4, 0.5, 0}, {0.9, 0.3, 2}}},
                        {0.4, {1.2, 0.05, 0.15, 3}, {}},
                        {0.3, {0.8, 0.02, 0.1, 0}, {{2.5, 0.3, 0.1}}}}};
-  const std::vector<Motion> motion = {{0.4, 3, -5, 0}, {-1.3, -2, 8, 0}, {2.2, 4, 1, 0}, {5, -6, -12, 0}};
+  const std::vector<math::Motion> motion = {
+      {0.4, 3, -5, 0}, {-1.3, -2, 8, 0}, {2.2, 4, 1, 0}, {5, -6, -12, 0}};
   const std::vector<ArmElement> e = elements(arm);
   std::vector<ArmLinkRates> r(4);
   std::vector<ArmJointLoads> a(4);
@@ -295,7 +297,7 @@ TEST(SerialArmReactions, OfFourLinksAgreeWithNewtonAndEulerTo1e12) {
 RC_GTEST_PROP(SerialArmReactionsProperty, TheMotorsFeedTheEnergy, ()) {
   const std::size_t n = static_cast<std::size_t>(*rc::gen::inRange(1, 6));
   const SerialArm arm = testing::any_arm(n);
-  const std::vector<Motion> motion = testing::any_motion(n);
+  const std::vector<math::Motion> motion = testing::any_motion(n);
   const double gravity = *testing::between(0, 20), size = 30 * size_of(arm, motion, gravity);
   const std::vector<ArmElement> e = elements(arm);
   std::vector<ArmLinkRates> r(n);
@@ -318,12 +320,12 @@ TEST(SerialArmReactions, WorkIsTheGainOfEnergy) {
   arm.base = {0, 1};
   const std::vector<ArmElement> e = elements(arm);
   const auto laws = two_link_motion();
-  const MotionCurve first(laws[0]), second(laws[1]);
+  const math::MotionCurve first(laws[0]), second(laws[1]);
   const auto gap = [&](int steps) {
     std::array<ArmLinkRates, 2> r;
     double work = 0, gain = 0;
     for (int i = 0; i <= steps; ++i) {
-      const std::array<Motion, 2> motion = {first(4.0 * i / steps), second(4.0 * i / steps)};
+      const std::array<math::Motion, 2> motion = {first(4.0 * i / steps), second(4.0 * i / steps)};
       rates(e, arm.base, motion, r);
       const ArmEnergy energies = energy(e, r, 9.81);
       const double total = energies.kinetic + energies.potential;
@@ -340,7 +342,7 @@ TEST(SerialArmReactions, WorkIsTheGainOfEnergy) {
 TEST(SerialArmReactions, AtRestCarryTheWeight) {
   const SerialArm arm{0, {{2, {3, 0.1, 1, 0}, {}}, {1, {1.5, 0.1, 0.5, 0}, {{0.5, 1, 0}}}}};
   const std::vector<ArmElement> e = elements(arm);
-  const std::vector<Motion> motion(2);  // stretched along x
+  const std::vector<math::Motion> motion(2);  // stretched along x
   std::array<ArmLinkRates, 2> r;
   std::array<ArmJointLoads, 2> loads;
   rates(e, 0, motion, r);

@@ -217,8 +217,9 @@ TEST(SerialArmStudyRun, ComputesWhatTheArmDoes) {
   const Table& sweep = result.tables[0];
   const SerialArm arm{0, {{0.4, {3, 0.04, 0.2, 0}, {}}, {0.3, {2, 0.02, 0.1, pi / 18}, {{1, 0.3, 0}}}}};
   const std::vector<ArmElement> e = elements(arm);
-  const MotionCurve upper(CycloidalMotion{0, pi / 2, 0, 2}), fore(HarmonicMotion{0, pi / 6, 0.5, 0});
-  const std::vector<Motion> motion = {upper(1.5), fore(1.5)};
+  const math::MotionCurve upper(math::CycloidalMotion{0, pi / 2, 0, 2}),
+      fore(math::HarmonicMotion{0, pi / 6, 0.5, 0});
+  const std::vector<math::Motion> motion = {upper(1.5), fore(1.5)};
   std::vector<ArmLinkRates> r(2);
   std::vector<ArmJointLoads> loads(2);
   rates(e, 0, motion, r);

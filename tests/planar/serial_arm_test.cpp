@@ -22,7 +22,7 @@ constexpr double pi = std::numbers::pi;
 TEST(SerialArm, StandsWhereItsAnglesSay) {
   const SerialArm arm{{1, 2}, {{2, {}, {}}, {1, {}, {}}, {0.5, {}, {}}}};
   const std::vector<ArmElement> e = elements(arm);
-  const std::vector<Motion> motion = {{pi / 2}, {0}, {pi}};  // absolute: up, right, left
+  const std::vector<math::Motion> motion = {{pi / 2}, {0}, {pi}};  // absolute: up, right, left
   std::vector<ArmLinkRates> r(3);
   rates(e, arm.base, motion, r);
   const auto near = [](std::complex<double> a, std::complex<double> b) { EXPECT_LT(std::abs(a - b), 1e-15); };
@@ -38,11 +38,11 @@ RC_GTEST_PROP(SerialArmProperty, RatesAreTheDerivativesOfPositions, ()) {
   const std::size_t n = static_cast<std::size_t>(*rc::gen::inRange(1, 6));
   const SerialArm arm = testing::any_arm(n);
   const std::vector<ArmElement> e = elements(arm);
-  const std::vector<Motion> start = testing::any_motion(n);
+  const std::vector<math::Motion> start = testing::any_motion(n);
   const std::complex<double> place(*testing::between(-2, 2), *testing::between(-2, 2));
   const auto function = [&](std::span<const double> t, std::span<double> out, std::span<double> jacobian) {
-    std::vector<Motion> m = start;
-    for (Motion& k : m) {
+    std::vector<math::Motion> m = start;
+    for (math::Motion& k : m) {
       k.value += k.rate * t[0] + k.acceleration * t[0] * t[0] / 2;
       k.rate += k.acceleration * t[0];
     }
@@ -68,7 +68,7 @@ RC_GTEST_PROP(SerialArmProperty, RatesAreTheDerivativesOfPositions, ()) {
 TEST(SerialArm, RatesAllocateNothing) {
   const SerialArm arm{0, {{2, {}, {}}, {1, {}, {}}}};
   const std::vector<ArmElement> e = elements(arm);
-  const std::vector<Motion> motion(2);
+  const std::vector<math::Motion> motion(2);
   std::vector<ArmLinkRates> r(2);
   const std::size_t before = test::allocations();
   rates(e, arm.base, motion, r);

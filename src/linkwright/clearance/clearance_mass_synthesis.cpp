@@ -89,7 +89,7 @@ bool over_a_turn(const ClearanceFourBar& model, const EvenCrank& crank, const Li
   for (const auto& [time, k] : order) times.push_back(time);
   if (!(times.back() > 0)) times.push_back(1e-3 * turn / std::abs(crank.speed));
   std::size_t next = 0;
-  const ClearanceRun run = simulate_clearance(model, planar::ConstantSpeed{crank.angle, crank.speed}, start,
+  const ClearanceRun run = simulate_clearance(model, math::ConstantSpeed{crank.angle, crank.speed}, start,
                                               times, tolerances, [&](const ClearanceRow& now) {
                                                 if (next > 0 && next <= order.size())
                                                   row(order[next - 1].second, now);

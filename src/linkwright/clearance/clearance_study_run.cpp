@@ -13,8 +13,8 @@ using planar::InputMotion, planar::Vec;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-std::vector<planar::MotionCurve> curves_of(const ClearanceStudy& s) {
-  std::vector<planar::MotionCurve> out;
+std::vector<math::MotionCurve> curves_of(const ClearanceStudy& s) {
+  std::vector<math::MotionCurve> out;
   for (const planar::InputCourse& c : s.courses)
     if (c.law) out.emplace_back(*c.law);
   return out;
@@ -22,10 +22,10 @@ std::vector<planar::MotionCurve> curves_of(const ClearanceStudy& s) {
 bool all_driven(const ClearanceStudy& s) {
   return std::all_of(s.courses.begin(), s.courses.end(), [](const auto& c) { return c.law.has_value(); });
 }
-std::vector<InputMotion> inputs_at(const std::vector<planar::MotionCurve>& curves, double t) {
+std::vector<InputMotion> inputs_at(const std::vector<math::MotionCurve>& curves, double t) {
   std::vector<InputMotion> out;
-  for (const planar::MotionCurve& curve : curves) {
-    const planar::Motion m = curve(t);
+  for (const math::MotionCurve& curve : curves) {
+    const math::Motion m = curve(t);
     out.push_back({m.value, m.rate, m.acceleration});
   }
   return out;
@@ -82,7 +82,7 @@ class Recorder {
   // Time of a turn of the only drive if it turns evenly.
   double even_period() const {
     if (s_.courses.size() != 1 || !s_.courses[0].law || !s_.plan.rotary[0]) return 0;
-    const auto* even = std::get_if<planar::ConstantSpeed>(&*s_.courses[0].law);
+    const auto* even = std::get_if<math::ConstantSpeed>(&*s_.courses[0].law);
     return even && even->rate != 0 ? 2 * std::numbers::pi / std::abs(even->rate) : 0;
   }
 
@@ -155,7 +155,7 @@ class Recorder {
     for (const ContactJoint& c : s_.contacts) taken.push_back(c.joint);
     std::vector<double> values;
     for (const planar::InputCourse& c : s_.courses)
-      values.push_back(c.law ? planar::MotionCurve(*c.law)(s_.from).value : c.value);
+      values.push_back(c.law ? math::MotionCurve(*c.law)(s_.from).value : c.value);
     // The same linkage as that of the simulation, to which the forces of the contacts are added here, too.
     OpenLinkage open = open_linkage(s_.linkage, taken, values);
     if (open.status != Status::done) {
@@ -242,7 +242,7 @@ class Recorder {
     for (const planar::InputCourse& c : s_.courses) {
       InputMotion now{c.value, c.rate, 0};
       if (c.law) {
-        const planar::Motion m = planar::MotionCurve(*c.law)(t);
+        const math::Motion m = math::MotionCurve(*c.law)(t);
         now = {m.value, m.rate, m.acceleration};
       }
       inputs.push_back(now);
@@ -277,7 +277,7 @@ class Recorder {
     const std::vector<JointClearance> clearances = started();
     std::vector<double> values;
     for (const planar::InputCourse& c : s_.courses)
-      values.push_back(c.law ? planar::MotionCurve(*c.law)(s_.from).value : c.value);
+      values.push_back(c.law ? math::MotionCurve(*c.law)(s_.from).value : c.value);
     const ClearedLinkage cleared = with_clearance(s_.linkage, clearances, values);
     if (cleared.status != Status::done) {
       out_.status = cleared.status;

@@ -1,23 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "linkwright/clearance/clearance_study.h"
+#include "linkwright/study/drawn_scale.h"
 
 namespace linkwright::clearance {
 namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-// 1, 2, 5, 10, ...: the largest that is not more.
-double rounded_scale(double scale) {
-  if (!(scale > 1)) return 1;
-  const double tens = std::pow(10, std::floor(std::log10(scale) * (1 + 1e-12)));
-  for (const double digit : {5.0, 2.0})
-    if (digit * tens <= scale) return digit * tens;
-  return tens;
-}
 
 }  // namespace
 
@@ -33,7 +24,7 @@ study::Scene clearance_scene(const ClearanceStudy& s, const ClearanceRecording& 
   study::Scene scene = planar::linkage_scene(s.linkage, s.plan, records, s.traces, "time_s", "time");
   double largest = 0;
   for (std::size_t k = 0; k < s.pins(); ++k) largest = std::max(largest, s.clearance_of(k));
-  const double scale = rounded_scale(0.05 * s.plan.size / largest);
+  const double scale = study::drawn_scale(largest, 0.05 * s.plan.size);
   scene.title = fmt::format("motion, play drawn {:g} x", scale);
 
   const auto point = [&](const planar::BodyPoint& p) {

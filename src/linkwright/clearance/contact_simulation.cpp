@@ -55,7 +55,7 @@ class Simulation {
     for (std::size_t k = 0; k < courses.size(); ++k) {
       free[k] = !courses[k].law;
       if (courses[k].law)
-        laws_.push_back({k, planar::MotionCurve(*courses[k].law)});
+        laws_.push_back({k, math::MotionCurve(*courses[k].law)});
       else
         inputs_[k] = {courses[k].value, courses[k].rate, 0};
     }
@@ -187,7 +187,7 @@ class Simulation {
     const auto free = dynamics_->free();
     for (std::size_t i = 0; i < free.size(); ++i) inputs_[free[i]] = {y[i], y[free.size() + i], 0};
     for (const auto& [k, curve] : laws_) {
-      const planar::Motion m = curve(t);
+      const math::Motion m = curve(t);
       inputs_[k] = {m.value, m.rate, m.acceleration};
     }
   }
@@ -407,7 +407,7 @@ class Simulation {
     for (std::size_t k = 0; k < inputs_.size(); ++k)
       if (k >= original_) inputs_[k] = {open_.start[k], 0, 0};
     for (const auto& [k, curve] : laws_) {
-      const planar::Motion m = curve(t);
+      const math::Motion m = curve(t);
       inputs_[k] = {m.value, m.rate, m.acceleration};
     }
     std::vector<PinGap> gaps;
@@ -499,7 +499,7 @@ class Simulation {
   const ContactOutput& output_;
   std::size_t original_, first_force_, first_torque_;
   std::vector<InputMotion> inputs_;
-  std::vector<std::pair<std::size_t, planar::MotionCurve>> laws_;
+  std::vector<std::pair<std::size_t, math::MotionCurve>> laws_;
   std::optional<planar::LinkageDynamics> dynamics_;
   std::vector<Contact> contact_;
   std::vector<Kinematics> now_;
@@ -538,7 +538,7 @@ ContactRun simulate_contact(const planar::Linkage& linkage, std::span<const Cont
   }
   std::vector<double> values;
   for (const planar::InputCourse& c : courses)
-    values.push_back(c.law ? planar::MotionCurve(*c.law)(times.front()).value : c.value);
+    values.push_back(c.law ? math::MotionCurve(*c.law)(times.front()).value : c.value);
   OpenLinkage open = open_linkage(linkage, numbers, values);
   if (open.status != Status::done) return {.status = open.status, .message = open.message};
   return Simulation(open, joints, courses, options, output).run(times, context);

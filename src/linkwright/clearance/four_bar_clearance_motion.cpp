@@ -45,7 +45,7 @@ std::string caught_message(double time, double crank) {
 
 class Simulation {
  public:
-  Simulation(const ClearanceFourBar& model, const planar::MotionLaw& law, const ClearanceOutput& output)
+  Simulation(const ClearanceFourBar& model, const math::MotionLaw& law, const ClearanceOutput& output)
       : model_(model), law_(law), output_(output) {}
 
   ClearanceRun run(const LinkState& start, std::span<const double> times,
@@ -153,11 +153,11 @@ class Simulation {
   }
 
   const ClearanceFourBar& model_;
-  planar::MotionCurve law_;
+  math::MotionCurve law_;
   const ClearanceOutput& output_;
   ClearanceRun run_;
   ClearanceInstant now_, failed_;
-  planar::Motion crank_;
+  math::Motion crank_;
   double failed_crank_ = 0, from_ = 0, parted_at_ = 0, apart_time_ = 0;
   bool apart_ = false, caught_ = false;
 };
@@ -251,7 +251,7 @@ ClearanceOrbit failed_orbit(ClearanceOrbit orbit, const TurnMap& map) {
 
 }  // namespace
 
-ClearanceRun simulate_clearance(const ClearanceFourBar& model, const planar::MotionLaw& crank,
+ClearanceRun simulate_clearance(const ClearanceFourBar& model, const math::MotionLaw& crank,
                                 const LinkState& start, std::span<const double> times,
                                 const ClearanceTolerances& tolerances, const ClearanceOutput& output,
                                 const RunContext* context) {

@@ -9,7 +9,7 @@
 
 #include "linkwright/clearance/four_bar_clearance.h"
 #include "linkwright/core/run_context.h"
-#include "linkwright/planar/motion_law.h"
+#include "linkwright/math/motion_law.h"
 
 namespace linkwright::clearance {
 
@@ -23,7 +23,7 @@ struct ClearanceTolerances {
 /// One row of a simulation; valid during the call that receives it.
 struct ClearanceRow {
   double time = 0;
-  planar::Motion crank;
+  math::Motion crank;
   LinkState link;
   const ClearanceInstant* instant = nullptr;
 };
@@ -51,7 +51,7 @@ struct ClearanceRun {
 /// Motion of the clearance link while the crank moves as the law says (absolute angle, rad), from `start` at
 /// times.front(). `times` (s, rising, two at least) are those of the rows and have no influence on the steps.
 /// Throws ContractError as require_valid, for a clearance of 0, and for times and laws that do not work.
-ClearanceRun simulate_clearance(const ClearanceFourBar& model, const planar::MotionLaw& crank,
+ClearanceRun simulate_clearance(const ClearanceFourBar& model, const math::MotionLaw& crank,
                                 const LinkState& start, std::span<const double> times,
                                 const ClearanceTolerances& tolerances = {},
                                 const ClearanceOutput& output = {}, const RunContext* context = nullptr);

@@ -160,7 +160,7 @@ JointClearanceRun simulate_joint_clearance(const Linkage& linkage, std::span<con
   for (const planar::InputCourse& c : courses) {
     InputMotion start{c.value, c.rate, 0};
     if (c.law) {
-      const planar::Motion m = planar::MotionCurve(*c.law)(times.front());
+      const math::Motion m = math::MotionCurve(*c.law)(times.front());
       start = {m.value, m.rate, m.acceleration};
     }
     inputs.push_back(start);

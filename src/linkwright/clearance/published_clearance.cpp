@@ -128,9 +128,9 @@ std::vector<ClearanceComparison> compare_with_published_clearance() {
   const LinkState start{lead, 10};
   const std::vector<double> times{0, turn / 10};
   const ClearanceRun calm =
-      simulate_clearance(published_design_2(), planar::ConstantSpeed{0, 10}, start, times);
+      simulate_clearance(published_design_2(), math::ConstantSpeed{0, 10}, start, times);
   const ClearanceRun wild =
-      simulate_clearance(published_design_1(), planar::ConstantSpeed{0, 10}, start, times);
+      simulate_clearance(published_design_1(), math::ConstantSpeed{0, 10}, start, times);
   add("least tension of design 2, N", "contact is kept (figure 5)", calm.least_tension, "reproduced",
       "positive over the whole turn");
   add("fastest clearance link of design 2, of the crank's speed", "smooth (figure 5)", calm.fastest_link / 10,

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/math/motion_law.h"
 #include "linkwright/math/zero.h"
 
 namespace linkwright::parallel {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // Change of speed without acceleration at its ends: jerk for `jerk` s, none for `even` s, the opposite for
 // `jerk` s.
@@ -105,14 +103,10 @@ double reachable_speed(double speed, double length, const RateLimits& limits) {
 
 Progress shape(TimeLaw law, double x) {
   LINKWRIGHT_REQUIRE(law != TimeLaw::double_s, "a double S has no one shape");
-  x = std::clamp(x, 0.0, 1.0);
-  if (law == TimeLaw::polynomial_345) {
-    const double y = 1 - x;
-    return {x * x * x * (10 + x * (6 * x - 15)), 30 * x * x * y * y, 60 * x * y * (y - x),
-            60 * (1 - 6 * x * y)};
-  }
-  const double s = std::sin(2 * pi * x), c = std::cos(2 * pi * x);
-  return {x - s / (2 * pi), 1 - c, 2 * pi * s, 4 * pi * pi * c};
+  static const math::MotionCurve polynomial(math::Polynomial345{.to = 1}),
+      cycloidal(math::CycloidalMotion{.to = 1});
+  const math::Motion m = (law == TimeLaw::polynomial_345 ? polynomial : cycloidal)(std::clamp(x, 0.0, 1.0));
+  return {m.value, m.rate, m.acceleration, m.jerk};
 }
 
 }  // namespace linkwright::parallel

@@ -130,7 +130,7 @@ LinearForces linear_forces(const FourBarMachine& machine, double gravity, const 
   return forces;
 }
 
-LinearForces linear_forces(const SerialArm& arm, std::span<const Motion> motion, double gravity) {
+LinearForces linear_forces(const SerialArm& arm, std::span<const math::Motion> motion, double gravity) {
   const std::vector<ArmElement> own = elements(arm);
   const std::size_t n = own.size();
   LINKWRIGHT_REQUIRE(motion.size() % n == 0 && !motion.empty(), "{} motions for {} links", motion.size(), n);

@@ -58,7 +58,7 @@ LinearForces linear_forces(const FourBarMachine& machine, double gravity, const 
 /// absolute angles of all links at the first sample, then at the second, and so on. Gravity along -y (m/s2).
 ///
 /// Throws ContractError as `elements` does, and unless every sample has one motion a link.
-LinearForces linear_forces(const SerialArm& arm, std::span<const Motion> motion, double gravity);
+LinearForces linear_forces(const SerialArm& arm, std::span<const math::Motion> motion, double gravity);
 
 /// Any planar linkage: the named bodies, without what is attached to them, which stays. Columns as in its
 /// analysis: forces and moments of joints, drives, shaking. Springs, dampers, forces and torques go into the

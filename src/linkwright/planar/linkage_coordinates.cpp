@@ -58,7 +58,7 @@ class Coordinates {
       }
     bool any_free = false;
     for (std::size_t k = 0; k < courses.size(); ++k) {
-      laws_.push_back(courses[k].law ? std::optional<MotionCurve>(*courses[k].law) : std::nullopt);
+      laws_.push_back(courses[k].law ? std::optional<math::MotionCurve>(*courses[k].law) : std::nullopt);
       inputs_[k] = {courses[k].value, courses[k].rate, 0};
       any_free = any_free || !courses[k].law;
     }
@@ -121,7 +121,7 @@ class Coordinates {
   void prescribe(double t) {
     for (std::size_t k = 0; k < laws_.size(); ++k)
       if (laws_[k]) {
-        const Motion m = (*laws_[k])(t);
+        const math::Motion m = (*laws_[k])(t);
         inputs_[k] = {m.value, m.rate, m.acceleration};
       }
   }
@@ -401,7 +401,7 @@ class Coordinates {
   const SimulationOutput& output_;
   LinkageMotion motion_, rows_;  // of the state; of the rows, with groups
   std::vector<InputMotion> inputs_;
-  std::vector<std::optional<MotionCurve>> laws_;
+  std::vector<std::optional<math::MotionCurve>> laws_;
   std::vector<int> parts_, column_;  // parts that carry bodies; first coordinate of a part, -1 of others
   std::vector<Equation> equations_, coordinate_;
   std::span<const double> angles_;

@@ -42,7 +42,7 @@ class Simulation {
         last_sines_(plan.groups.size(), 0.0) {
     for (std::size_t k = 0; k < courses.size(); ++k) {
       if (courses[k].law)
-        laws_.push_back({k, MotionCurve(*courses[k].law)});
+        laws_.push_back({k, math::MotionCurve(*courses[k].law)});
       else
         inputs_[k] = {courses[k].value, courses[k].rate, 0};
     }
@@ -121,7 +121,7 @@ class Simulation {
     const auto free = dynamics_.free();
     for (std::size_t i = 0; i < free.size(); ++i) inputs_[free[i]] = {y[i], y[free.size() + i], 0};
     for (const auto& [k, curve] : laws_) {
-      const Motion m = curve(t);
+      const math::Motion m = curve(t);
       inputs_[k] = {m.value, m.rate, m.acceleration};
     }
   }
@@ -546,7 +546,7 @@ class Simulation {
   std::vector<InputMotion> inputs_;
   struct Law {
     std::size_t input;
-    MotionCurve curve;
+    math::MotionCurve curve;
   };
   std::vector<Law> laws_;
   std::optional<SmoothBranch> branch_;

@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "linkwright/core/run_context.h"
+#include "linkwright/math/motion_law.h"
 #include "linkwright/math/ode.h"
 #include "linkwright/planar/linkage_branch.h"
-#include "linkwright/planar/motion_law.h"
 
 namespace linkwright::planar {
 
 /// How an input moves: as its law says, or, without a law, freely from a value and rate at the first time.
 struct InputCourse {
-  std::optional<MotionLaw> law;
+  std::optional<math::MotionLaw> law;
   double value = 0, rate = 0;  ///< rad or m, per second; of a free input
 };
 

@@ -10,8 +10,8 @@
 #include "linkwright/planar/linkage_columns.h"
 #include "linkwright/planar/linkage_form.h"
 #include "linkwright/planar/linkage_plan.h"
-#include "linkwright/planar/motion_law.h"
 #include "linkwright/planar/slider_crank.h"
+#include "linkwright/study/driven_law.h"
 #include "linkwright/study/kind.h"
 
 // The analysis of any planar linkage over its inputs or over time: what its file holds, how it is read, run
@@ -22,7 +22,7 @@ namespace linkwright::planar {
 struct LinkageDrive {
   std::string joint;
   double rate = 0, acceleration = 0;
-  std::optional<MotionLaw> law;
+  std::optional<math::MotionLaw> law;
 };
 /// One axis of a grid.
 struct InputSamples {
@@ -49,7 +49,7 @@ struct LinkageStudy {
   Linkage linkage;
   LinkagePlan plan;
   std::vector<LinkageDrive> drives;  ///< one an input
-  std::variant<InputGrid, TimeSamples> sweep;
+  std::variant<InputGrid, study::TimeSamples> sweep;
   AtChangePoint at_change_point = AtChangePoint::smooth;  ///< of a grid over one input
   std::vector<BodyPoint> traces;
   LinkageQuality quality;
@@ -113,6 +113,7 @@ Field drive_field(bool rotary, int order, std::string_view key, std::string_view
 std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& linkage);
 /// `law` of a `[[drive]]` with its keys, written into the canonical table as well; nothing when it is absent
 /// or cannot be read. Problems go to the reader.
-std::optional<MotionLaw> read_law(study::ObjectReader& drive, bool rotary, bool required, Value& canonical);
+std::optional<math::MotionLaw> read_law(study::ObjectReader& drive, bool rotary, bool required,
+                                        Value& canonical);
 
 }  // namespace linkwright::planar

@@ -226,7 +226,8 @@ void describe_linkage(study::SchemaWriter& document, LinkageType type) {
 }
 
 Field drive_field(bool rotary, int order, std::string_view key, std::string_view summary, bool required) {
-  return motion_fields::value(rotary ? JointKind::rotary : JointKind::linear, key, summary, required, order);
+  return study::motion_fields::value(rotary ? study::JointKind::rotary : study::JointKind::linear, key,
+                                     summary, required, order);
 }
 
 std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& l) {
@@ -241,22 +242,23 @@ std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& l
 
 namespace {
 
-template <JointKind kind>
-std::optional<MotionLaw> read_law(study::ObjectReader& drive, bool required, Value& canonical) {
-  DrivenLaw<kind> law;
+template <study::JointKind kind>
+std::optional<math::MotionLaw> read_law(study::ObjectReader& drive, bool required, Value& canonical) {
+  study::DrivenLaw<kind> law;
   if (!drive(Field{.key = "law", .summary = "motion law", .required = required}, law)) return std::nullopt;
   study::ObjectWriter writer(canonical);
   writer(Field{.key = "law", .summary = {}}, law);
-  MotionLaw out = motion_law(law);
+  math::MotionLaw out = motion_law(law);
   if (const auto wrong = problem(out)) drive.error(wrong->key, wrong->message, wrong->hint);
   return out;
 }
 
 }  // namespace
 
-std::optional<MotionLaw> read_law(study::ObjectReader& drive, bool rotary, bool required, Value& canonical) {
-  return rotary ? read_law<JointKind::rotary>(drive, required, canonical)
-                : read_law<JointKind::linear>(drive, required, canonical);
+std::optional<math::MotionLaw> read_law(study::ObjectReader& drive, bool rotary, bool required,
+                                        Value& canonical) {
+  return rotary ? read_law<study::JointKind::rotary>(drive, required, canonical)
+                : read_law<study::JointKind::linear>(drive, required, canonical);
 }
 
 }  // namespace linkwright::planar

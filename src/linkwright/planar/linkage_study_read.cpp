@@ -190,7 +190,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
     read_grid(*sweep, l, s, canonical_sweep);
     read_drives(document, l, false, s, drives);
   } else {
-    TimeSamples times;
+    study::TimeSamples times;
     if (auto table = sweep->table(Field{.key = "time", .summary = {}, .required = true})) {
       table->read(times);
       if (times.samples >= 2 && !(times.to > times.from))
@@ -228,7 +228,7 @@ void describe(study::SchemaWriter& document, LinkageType type) {
   study::SchemaWriter drive;
   drive(Field{.key = "joint", .summary = "driven joint"}, std::string());
   drive(Field{.key = "law", .summary = "motion law, for a sweep over time"},
-        std::optional<RotaryLaw>().value_or(RotaryLaw{}));
+        std::optional<study::RotaryLaw>().value_or(study::RotaryLaw{}));
   for (bool rotary : {true, false})
     for (const auto& [order, key] : {std::pair{1, "speed"}, std::pair{2, "acceleration"}})
       drive.property(drive_field(rotary, order, key, "over a grid: the same at every position"),
@@ -246,7 +246,8 @@ void describe(study::SchemaWriter& document, LinkageType type) {
   sweep.property(Field{.key = "input", .summary = "axes of a grid"},
                  study::schema_array(std::move(axis).finish()));
   sweep(change_point_field, AtChangePoint::smooth);
-  sweep.property(Field{.key = "time", .summary = "times of the rows"}, study::schema_fields<TimeSamples>());
+  sweep.property(Field{.key = "time", .summary = "times of the rows"},
+                 study::schema_fields<study::TimeSamples>());
   document.property(Field{.key = "sweep", .summary = "where it is evaluated"}, std::move(sweep).finish());
   document.property(Field{.key = "quality", .summary = "what is asked beyond the table"},
                     study::schema_fields<LinkageQuality>());

@@ -27,7 +27,7 @@ constexpr double poor_transmission = 5 * pi / 180;
 // Columns of the table: time or not, inputs, quantities.
 std::vector<LinkageColumn> columns_of(const LinkageStudy& s) {
   std::vector<LinkageColumn> out;
-  if (std::holds_alternative<TimeSamples>(s.sweep))
+  if (std::holds_alternative<study::TimeSamples>(s.sweep))
     out.push_back({"time_s", "time (s)", [](const LinkageInstant& i) { return i.time; }});
   for (std::size_t k = 0; k < s.plan.inputs(); ++k)
     out.push_back({input_key(s.linkage, s.plan, k), input_label(s.linkage, s.plan, k),
@@ -45,14 +45,14 @@ double sample_at(double from, double to, int samples, int i) {
 
 LinkageRows rows_of(const LinkageStudy& s) {
   LinkageRows rows;
-  if (const auto* times = std::get_if<TimeSamples>(&s.sweep)) {
-    std::vector<MotionCurve> curves;
+  if (const auto* times = std::get_if<study::TimeSamples>(&s.sweep)) {
+    std::vector<math::MotionCurve> curves;
     for (const LinkageDrive& d : s.drives) curves.emplace_back(*d.law);
     for (int i = 0; i < times->samples; ++i) {
       rows.time.push_back(sample_at(times->from, times->to, times->samples, i));
       rows.inputs.emplace_back();
-      for (const MotionCurve& c : curves) {
-        const Motion m = c(rows.time.back());
+      for (const math::MotionCurve& c : curves) {
+        const math::Motion m = c(rows.time.back());
         rows.inputs.back().push_back({m.value, m.rate, m.acceleration});
       }
     }
@@ -118,7 +118,7 @@ class Runner {
   }
 
  private:
-  bool over_time() const { return std::holds_alternative<TimeSamples>(s_.sweep); }
+  bool over_time() const { return std::holds_alternative<study::TimeSamples>(s_.sweep); }
   // The scene shows the rows along the last axis of a grid, with the other inputs at their first value.
   std::size_t shown_rows() const {
     if (over_time()) return rows_.inputs.size();

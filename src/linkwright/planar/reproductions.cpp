@@ -41,9 +41,9 @@ ArmTask published_arm(bool polynomials) {
                .weights = {0.5, 0.5}};
   for (double to : {pi, 1.5 * pi}) {
     if (polynomials)
-      task.laws.push_back(Polynomial345{.from = 0, .to = to, .duration = 10, .higher = {}});
+      task.laws.push_back(math::Polynomial345{.from = 0, .to = to, .duration = 10, .higher = {}});
     else
-      task.laws.push_back(CycloidalMotion{.from = 0, .to = to, .duration = 10});
+      task.laws.push_back(math::CycloidalMotion{.from = 0, .to = to, .duration = 10});
   }
   return task;
 }

@@ -67,9 +67,9 @@ TwoRods two_link_arm() {
   return {.rods = {rod(0.5, 12), rod(0.5, 6)}, .payload = 4};
 }
 
-std::array<MotionLaw, 2> two_link_motion() {
+std::array<math::MotionLaw, 2> two_link_motion() {
   constexpr double pi = std::numbers::pi;
-  return {CycloidalMotion{0, pi, 0, 10}, CycloidalMotion{0, 3 * pi / 2, 0, 10}};
+  return {math::CycloidalMotion{0, pi, 0, 10}, math::CycloidalMotion{0, 3 * pi / 2, 0, 10}};
 }
 
 }  // namespace linkwright::planar

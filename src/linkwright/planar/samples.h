@@ -32,6 +32,6 @@ TwoRods two_link_arm();
 
 /// Its motion from (0, 0) to (pi, 3/2 pi) of the absolute angles, as the laws of both links. The source names
 /// neither the law nor the time: its three published objectives fix the cycloidal law and 10 s.
-std::array<MotionLaw, 2> two_link_motion();
+std::array<math::MotionLaw, 2> two_link_motion();
 
 }  // namespace linkwright::planar

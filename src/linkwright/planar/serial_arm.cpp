@@ -28,13 +28,13 @@ ArmPointMotion point(const ArmLinkRates& link, std::complex<double> place) {
           link.joint.acceleration + std::complex<double>(-e * y - w * w * x, e * x - w * w * y)};
 }
 
-void rates(std::span<const ArmElement> arm, std::complex<double> base, std::span<const Motion> motion,
+void rates(std::span<const ArmElement> arm, std::complex<double> base, std::span<const math::Motion> motion,
            std::span<ArmLinkRates> rates) {
   LINKWRIGHT_REQUIRE(motion.size() == arm.size() && rates.size() == arm.size(),
                      "{} motions and {} rates for {} links", motion.size(), rates.size(), arm.size());
   ArmPointMotion joint{.position = base};
   for (std::size_t k = 0; k < arm.size(); ++k) {
-    const Motion& m = motion[k];
+    const math::Motion& m = motion[k];
     rates[k] = {{std::cos(m.value), std::sin(m.value)}, m.rate, m.acceleration, joint};
     joint = point(rates[k], arm[k].length);
   }

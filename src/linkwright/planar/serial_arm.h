@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "linkwright/math/motion_law.h"
 #include "linkwright/planar/link_mass.h"
-#include "linkwright/planar/motion_law.h"
 
 // Open chains of links joined by revolute joints: model, positions and rates. Link k = 0, 1, ... has its own
 // joint O_k+1 (O1 joins the first link to the ground) and carries the next one, or the tip, at the end of its
@@ -52,7 +52,7 @@ ArmPointMotion point(const ArmLinkRates& link, std::complex<double> place);
 /// used), outwards from the base. The tip is point(rates.back(), length of the last link). Allocates nothing.
 ///
 /// Throws ContractError unless there are as many motions and rates as elements.
-void rates(std::span<const ArmElement> arm, std::complex<double> base, std::span<const Motion> motion,
+void rates(std::span<const ArmElement> arm, std::complex<double> base, std::span<const math::Motion> motion,
            std::span<ArmLinkRates> rates);
 
 }  // namespace linkwright::planar

@@ -20,12 +20,12 @@ using Complex = std::complex<double>;
 
 double sample_time(const ArmTask& task, int i) { return task.start + task.duration * i / task.intervals; }
 
-std::vector<Motion> motion_of(const ArmTask& task) {
-  std::vector<MotionCurve> curves;
-  for (const MotionLaw& law : task.laws) curves.emplace_back(law);
-  std::vector<Motion> out;
+std::vector<math::Motion> motion_of(const ArmTask& task) {
+  std::vector<math::MotionCurve> curves;
+  for (const math::MotionLaw& law : task.laws) curves.emplace_back(law);
+  std::vector<math::Motion> out;
   for (int i = 0; i <= task.intervals; ++i)
-    for (const MotionCurve& curve : curves) out.push_back(curve(sample_time(task, i)));
+    for (const math::MotionCurve& curve : curves) out.push_back(curve(sample_time(task, i)));
   return out;
 }
 
@@ -37,7 +37,7 @@ Complex times(const Complex& a, const Complex& b) {
 }
 
 // e'' of a link, the second derivative of its direction.
-Complex swing_of(const Motion& m, const Complex& direction) {
+Complex swing_of(const math::Motion& m, const Complex& direction) {
   return times({-m.rate * m.rate, m.acceleration}, direction);
 }
 
@@ -80,10 +80,10 @@ class ArmCost {
   std::vector<ArmElement> elements_;
   std::size_t size_ = 0, samples_ = 0;
   std::vector<double> stroke_;
-  std::vector<Motion> base_;       // sample by sample, all links
-  std::vector<Complex> swing_;     // of those
-  std::vector<Motion> higher_;     // sample by sample, all free coefficients, of a stroke of 1
-  std::vector<double> end_terms_;  // a_3, a_4, a_5 by each free coefficient; in front those without any
+  std::vector<math::Motion> base_;    // sample by sample, all links
+  std::vector<Complex> swing_;        // of those
+  std::vector<math::Motion> higher_;  // sample by sample, all free coefficients, of a stroke of 1
+  std::vector<double> end_terms_;     // a_3, a_4, a_5 by each free coefficient; in front those without any
   double factor_ = 1, scale_ = 1;
 };
 
@@ -95,14 +95,14 @@ ArmCost::ArmCost(const ArmTask& task, const ArmDesign& design)
   samples_ = static_cast<std::size_t>(task.intervals) + 1;
   if (unknowns_.per_law > 0) {
     for (std::size_t p = 0; p <= unknowns_.per_law; ++p) {
-      Polynomial345 law;
+      math::Polynomial345 law;
       law.higher.assign(p, 0.0);
       if (p > 0) law.higher.back() = 1;
       const std::vector<double> c = coefficients(law);
       for (std::size_t q = 0; q < 3; ++q) end_terms_.push_back(c[3 + q] - (p > 0 ? end_terms_[q] : 0));
     }
-    for (MotionLaw& law : task_.laws) {
-      auto& own = std::get<Polynomial345>(law);
+    for (math::MotionLaw& law : task_.laws) {
+      auto& own = std::get<math::Polynomial345>(law);
       own.higher.clear();
       stroke_.push_back(own.to - own.from);
     }
@@ -110,22 +110,22 @@ ArmCost::ArmCost(const ArmTask& task, const ArmDesign& design)
     higher_.resize(samples_ * unknowns_.laws());
     for (std::size_t j = 0; j < unknowns_.links; ++j)
       for (std::size_t p = 0; p < unknowns_.per_law; ++p) {
-        Polynomial345 law = std::get<Polynomial345>(task_.laws[j]);
+        math::Polynomial345 law = std::get<math::Polynomial345>(task_.laws[j]);
         law.from = 0, law.to = 1;
-        const MotionCurve without{MotionLaw(law)};
+        const math::MotionCurve without{math::MotionLaw(law)};
         law.higher.assign(p + 1, 0.0);
         law.higher.back() = 1;
-        const MotionCurve with{MotionLaw(law)};
+        const math::MotionCurve with{math::MotionLaw(law)};
         for (std::size_t i = 0; i < samples_; ++i) {
           const double t = sample_time(task_, static_cast<int>(i));
-          const Motion a = with(t), b = without(t);
+          const math::Motion a = with(t), b = without(t);
           higher_[i * unknowns_.laws() + j * unknowns_.per_law + p] = {a.value - b.value, a.rate - b.rate,
                                                                        a.acceleration - b.acceleration, 0};
         }
       }
   }
   base_ = motion_of(task_);
-  for (const Motion& m : base_) swing_.push_back(swing_of(m, ray(m.value)));
+  for (const math::Motion& m : base_) swing_.push_back(swing_of(m, ray(m.value)));
   size_ = unknowns_.laws();
   for (const Counterweight& w : design.counterweights) size_ += w.radius.fixed() ? 1 : 2;
   // The size of the cost before anything is chosen.
@@ -155,12 +155,12 @@ double ArmCost::operator()(std::span<const double> x, std::span<double> gradient
   std::vector<double> squares(n, 0.0), slopes(gradient.empty() ? 0 : n * size_, 0.0);
   std::vector<Complex> swing(n), by_coefficient(laws);  // e_j'', and its derivative
   for (std::size_t i = 0; i < samples_; ++i) {
-    const Motion* higher = higher_.data() + i * laws;
+    const math::Motion* higher = higher_.data() + i * laws;
     for (std::size_t j = 0; j < n; ++j) {
-      Motion m = base_[i * n + j];
+      math::Motion m = base_[i * n + j];
       for (std::size_t p = 0; p < per_law; ++p) {
         const double a = x[j * per_law + p] * stroke_[j];
-        const Motion& h = higher[j * per_law + p];
+        const math::Motion& h = higher[j * per_law + p];
         m.value += a * h.value, m.rate += a * h.rate, m.acceleration += a * h.acceleration;
       }
       if (per_law == 0) {
@@ -170,7 +170,7 @@ double ArmCost::operator()(std::span<const double> x, std::span<double> gradient
       const Complex direction = ray(m.value);
       swing[j] = swing_of(m, direction);
       for (std::size_t p = 0; p < per_law; ++p) {
-        const Motion& h = higher[j * per_law + p];
+        const math::Motion& h = higher[j * per_law + p];
         by_coefficient[j * per_law + p] =
             stroke_[j] *
             (times({-2 * m.rate * h.rate, h.acceleration}, direction) + times({0, h.value}, swing[j]));
@@ -277,7 +277,7 @@ void require_valid(const ArmTask& task, const ArmDesign& design) {
                      "largest coefficient {} must be more than 15, that of the law of degree 5",
                      design.largest_coefficient);
   for (std::size_t k = 0; k < n && design.degree > 5; ++k)
-    LINKWRIGHT_REQUIRE(std::holds_alternative<Polynomial345>(task.laws[k]),
+    LINKWRIGHT_REQUIRE(std::holds_alternative<math::Polynomial345>(task.laws[k]),
                        "law {} is no polynomial 3-4-5, degree {} has no meaning for it", k + 1,
                        design.degree);
   for (const Counterweight& w : design.counterweights) {
@@ -296,7 +296,7 @@ ArmTask designed(const ArmTask& task, const ArmDesign& design, std::span<const d
   const Unknowns u = unknowns(task, design);
   ArmTask out = task;
   for (std::size_t j = 0; j < u.links && u.per_law > 0; ++j)
-    std::get<Polynomial345>(out.laws[j])
+    std::get<math::Polynomial345>(out.laws[j])
         .higher.assign(x.begin() + static_cast<std::ptrdiff_t>(j * u.per_law),
                        x.begin() + static_cast<std::ptrdiff_t>((j + 1) * u.per_law));
   const std::vector<PointMass> weights = placed(design, x.subspan(u.laws()));
@@ -422,7 +422,7 @@ MassBalancing arm_counterweights(const ArmTask& task, const std::vector<Counterw
 
 std::vector<ArmPeaks> arm_peaks(const ArmTask& task) {
   const std::vector<ArmElement> arm = elements(task.arm);
-  const std::vector<Motion> motion = motion_of(task);
+  const std::vector<math::Motion> motion = motion_of(task);
   const std::size_t n = arm.size();
   LINKWRIGHT_REQUIRE(task.laws.size() == n, "{} laws for {} links", task.laws.size(), n);
   std::vector<ArmLinkRates> rate(n);

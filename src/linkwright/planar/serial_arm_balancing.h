@@ -7,12 +7,12 @@
 
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
+#include "linkwright/math/motion_law.h"
 #include "linkwright/optimise/nlopt_bridge.h"
 #include "linkwright/optimise/optimiser.h"
 #include "linkwright/optimise/problem.h"
 #include "linkwright/planar/mass_balancing.h"
 #include "linkwright/planar/measures.h"
-#include "linkwright/planar/motion_law.h"
 #include "linkwright/planar/serial_arm.h"
 
 // Joint forces of a serial arm made small by the laws of motion of its drives, by counterweights, or by both
@@ -23,8 +23,8 @@ namespace linkwright::planar {
 /// force, over intervals + 1 samples from start to end of the motion.
 struct ArmTask {
   SerialArm arm;
-  std::vector<MotionLaw> laws;     ///< absolute angles, one a link
-  double start = 0, duration = 1;  ///< s
+  std::vector<math::MotionLaw> laws;  ///< absolute angles, one a link
+  double start = 0, duration = 1;     ///< s
   int intervals = 200;
   double gravity = 0;                     ///< m/s2 along -y
   std::vector<double> weights;            ///< one a joint, >= 0, not all 0

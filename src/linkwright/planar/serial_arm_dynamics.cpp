@@ -26,7 +26,7 @@ std::vector<double> mass_matrix(std::span<const ArmElement> arm, std::span<const
 }
 
 Status accelerate(std::span<const ArmElement> arm, std::span<const double> absolute_torques, double gravity,
-                  std::span<Motion> motion) {
+                  std::span<math::Motion> motion) {
   const std::size_t n = arm.size();
   LINKWRIGHT_REQUIRE(absolute_torques.size() == n && motion.size() == n,
                      "{} torques and {} motions for {} links", absolute_torques.size(), motion.size(), n);

@@ -20,6 +20,6 @@ std::vector<double> mass_matrix(std::span<const ArmElement> arm, std::span<const
 /// `singular` if the mass matrix is not positive definite (a last link without any inertia): accelerations
 /// are then NaN. Throws ContractError unless there are as many motions and torques as elements.
 Status accelerate(std::span<const ArmElement> arm, std::span<const double> absolute_torques, double gravity,
-                  std::span<Motion> motion);
+                  std::span<math::Motion> motion);
 
 }  // namespace linkwright::planar

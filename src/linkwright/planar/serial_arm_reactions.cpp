@@ -84,7 +84,8 @@ SerialArm serial_arm(const TwoRods& arm) {
   return out;
 }
 
-std::array<ArmJointLoads, 2> reactions_redundant(const TwoRods& arm, const std::array<Motion, 2>& motion) {
+std::array<ArmJointLoads, 2> reactions_redundant(const TwoRods& arm,
+                                                 const std::array<math::Motion, 2>& motion) {
   for (const TwoRods::Rod& rod : arm.rods)
     LINKWRIGHT_REQUIRE(rod.length > 0 && rod.mass > 0 && rod.inertia >= 0,
                        "length {} and mass {} of a rod must be positive, its inertia {} not negative",
@@ -105,7 +106,7 @@ std::array<ArmJointLoads, 2> reactions_redundant(const TwoRods& arm, const std::
   Eigen::Matrix<double, 10, 1> M;
   for (int p = 0; p < 5; ++p) {
     for (int j = 0; j < 2; ++j) {
-      const Motion& m = motion[static_cast<std::size_t>(j)];
+      const math::Motion& m = motion[static_cast<std::size_t>(j)];
       const double c = std::cos(m.value), s = std::sin(m.value), r = along[p][j];
       B(2 * p, j) = -r * s, B(2 * p + 1, j) = r * c;
       B_dot(2 * p, j) = -r * c * m.rate, B_dot(2 * p + 1, j) = -r * s * m.rate;

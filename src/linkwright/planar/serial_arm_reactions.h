@@ -55,6 +55,7 @@ SerialArm serial_arm(const TwoRods& arm);
 /// 2018, Eqs. (2.2)-(2.21) and (2.32)). Without gravity. An independent route to check `reactions` with.
 ///
 /// Throws ContractError unless lengths and masses of the rods are positive.
-std::array<ArmJointLoads, 2> reactions_redundant(const TwoRods& arm, const std::array<Motion, 2>& motion);
+std::array<ArmJointLoads, 2> reactions_redundant(const TwoRods& arm,
+                                                 const std::array<math::Motion, 2>& motion);
 
 }  // namespace linkwright::planar

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "linkwright/planar/motion_law.h"
 #include "linkwright/planar/reactions_study.h"
 #include "linkwright/planar/serial_arm.h"
+#include "linkwright/study/driven_law.h"
 #include "linkwright/study/kind.h"
 
 // The analysis of a serial arm over time: what its file holds (field lists), how it is read, run and
@@ -88,7 +88,7 @@ constexpr std::array<EnumName<ArmAngle>, 2> names(ArmAngle) {
 struct ArmDrive {
   std::string link;
   ArmAngle angle = ArmAngle::absolute;
-  RotaryLaw law;
+  study::RotaryLaw law;
 };
 template <class Visitor>
 void fields(Visitor&& visit, ArmDrive& d) {
@@ -98,7 +98,7 @@ void fields(Visitor&& visit, ArmDrive& d) {
 }
 
 struct TimeSweep {
-  TimeSamples time;
+  study::TimeSamples time;
 };
 template <class Visitor>
 void fields(Visitor&& visit, TimeSweep& s) {
@@ -129,7 +129,7 @@ SerialArmStudy read_serial_arm_study(study::ObjectReader& document, const study:
 SerialArm serial_arm(const ArmMechanism& mechanism);
 
 /// Absolute motion of all links at the first time of the sweep, then at the second.
-std::vector<Motion> arm_motion(const SerialArmStudy& study);
+std::vector<math::Motion> arm_motion(const SerialArmStudy& study);
 
 /// The table of the study alone.
 Table serial_arm_table(const SerialArmStudy& study);

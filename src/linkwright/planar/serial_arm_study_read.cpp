@@ -95,8 +95,8 @@ std::vector<ArmDrive> sorted_drives(study::ObjectReader& document, const std::ve
                       "every link has one drive");
     driven[k] = true;
     sorted[k] = drive;
-    const MotionLaw law = motion_law(drive.law);
-    const auto* table = std::get_if<MotionTable>(&law);
+    const math::MotionLaw law = motion_law(drive.law);
+    const auto* table = std::get_if<math::MotionTable>(&law);
     // A table without rows lacks its keys, which is reported as such.
     if (const auto bad = problem(law); bad && !(table && (table->times.empty() || table->values.empty())))
       tables[i].error(bad->key, bad->message, bad->hint);
@@ -137,7 +137,7 @@ SerialArmStudy read_serial_arm_study(study::ObjectReader& document, const study:
   if (auto environment = document.table("environment")) environment->read(s.environment);
   if (auto sweep = document.table(Field{.key = "sweep", .summary = {}, .required = true})) {
     sweep->read(s.sweep);
-    const TimeSamples& time = s.sweep.time;
+    const study::TimeSamples& time = s.sweep.time;
     if (auto axis = sweep->table("time"); axis && time.samples >= 2 && time.to <= time.from)
       axis->error("to",
                   fmt::format("is {} s, must be after {} s, where the sweep begins", time.to, time.from));

@@ -34,7 +34,7 @@ struct Row {
   }
 };
 
-double time_of(const TimeSamples& s, int i) { return s.from + (s.to - s.from) * i / (s.samples - 1); }
+double time_of(const study::TimeSamples& s, int i) { return s.from + (s.to - s.from) * i / (s.samples - 1); }
 
 class Evaluation {
  public:
@@ -44,9 +44,9 @@ class Evaluation {
   }
 
   // Absolute motion of the links.
-  const std::vector<Motion>& move(double time) {
+  const std::vector<math::Motion>& move(double time) {
     for (std::size_t k = 0; k < elements_.size(); ++k) {
-      Motion& m = motion_[k] = curves_[k](time);
+      math::Motion& m = motion_[k] = curves_[k](time);
       if (k == 0 || study_.drives[k].angle != ArmAngle::joint) continue;
       m.value += motion_[k - 1].value;
       m.rate += motion_[k - 1].rate;
@@ -62,7 +62,7 @@ class Evaluation {
             .rates = std::vector<ArmLinkRates>(n),
             .loads = std::vector<ArmJointLoads>(n)};
     move(time);
-    for (const Motion& m : motion_) row.angles.push_back(m.value);
+    for (const math::Motion& m : motion_) row.angles.push_back(m.value);
     const double gravity = study_.environment.gravity;
     rates(elements_, arm_.base, motion_, row.rates);
     reactions(elements_, row.rates, gravity, row.loads);
@@ -76,8 +76,8 @@ class Evaluation {
   const SerialArmStudy& study_;
   SerialArm arm_;
   std::vector<ArmElement> elements_;
-  std::vector<MotionCurve> curves_;
-  std::vector<Motion> motion_;
+  std::vector<math::MotionCurve> curves_;
+  std::vector<math::Motion> motion_;
 };
 
 template <class Value>
@@ -307,11 +307,11 @@ void add_facts(study::Result& result, const SerialArmStudy& s, const std::vector
 
 }  // namespace
 
-std::vector<Motion> arm_motion(const SerialArmStudy& s) {
+std::vector<math::Motion> arm_motion(const SerialArmStudy& s) {
   Evaluation evaluate(s);
-  std::vector<Motion> out;
+  std::vector<math::Motion> out;
   for (int i = 0; i < s.sweep.time.samples; ++i) {
-    const std::vector<Motion>& now = evaluate.move(time_of(s.sweep.time, i));
+    const std::vector<math::Motion>& now = evaluate.move(time_of(s.sweep.time, i));
     out.insert(out.end(), now.begin(), now.end());
   }
   return out;
@@ -327,7 +327,7 @@ Table serial_arm_table(const SerialArmStudy& s) {
 study::Result run_serial_arm_study(const SerialArmStudy& s, RunContext& context) {
   study::Result result;
   Evaluation evaluate(s);
-  const TimeSamples& time = s.sweep.time;
+  const study::TimeSamples& time = s.sweep.time;
   std::vector<Row> rows;
   rows.reserve(static_cast<std::size_t>(time.samples));
   for (int i = 0; i < time.samples && result.status == Status::done; ++i) {

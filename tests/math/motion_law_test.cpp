@@ -1,4 +1,4 @@
-#include "linkwright/planar/motion_law.h"
+#include "linkwright/math/motion_law.h"
 
 #include <gmock/gmock.h>
 
@@ -8,13 +8,9 @@
 #include <vector>
 
 #include "linkwright/math/differences.h"
-#include "linkwright/study/bind.h"
-#include "linkwright/study/bind_schema.h"
-#include "linkwright/study/bind_write.h"
-#include "linkwright/study/read.h"
 #include "support/message.h"
 
-namespace linkwright::planar {
+namespace linkwright::math {
 namespace {
 
 using ::testing::HasSubstr;
@@ -53,7 +49,7 @@ TEST(MotionLaw, DerivativesAreThoseOfTheValue) {
     // Off the knots and ends, with room for the steps of the differences.
     for (double t : {-3.1, 0.31, 0.7, 1.1, 1.6, 2.24, 2.9, 11.4}) {
       const double x[1] = {t}, scale[1] = {0.3};
-      const auto check = math::check_jacobian(function, 3, x, scale);
+      const auto check = check_jacobian(function, 3, x, scale);
       EXPECT_TRUE(check.passed) << "law " << law.index() << " at " << t << ", row " << check.row << ": "
                                 << check.analytic << " against " << check.numeric;
     }
@@ -180,81 +176,5 @@ TEST(MotionLaw, NamesWhatIsNoMotion) {
   EXPECT_FALSE(problem(MotionTable{{0, 1}, {0, 1}, TableCurve::cubic, TableEnds::natural}));
 }
 
-// Tables that hold the motion of one joint.
-struct RotaryEntry {
-  RotaryLaw law;
-};
-template <class Visitor>
-void fields(Visitor&& visit, RotaryEntry& e) {
-  visit(Field{.key = "law", .summary = "motion", .required = true}, e.law);
-}
-struct LinearEntry {
-  LinearLaw law;
-};
-template <class Visitor>
-void fields(Visitor&& visit, LinearEntry& e) {
-  visit(Field{.key = "law", .summary = "motion", .required = true}, e.law);
-}
-
-template <class Entry>
-Entry read(const std::string& text, std::string& messages) {
-  Diagnostics diagnostics;
-  const Value document = study::read_text(text, study::Syntax::toml, "f", diagnostics);
-  study::DocumentReader reader(document, "f", diagnostics);
-  Entry entry;
-  reader.root().read(entry);
-  reader.finish();
-  for (const Diagnostic& d : diagnostics) messages += to_string(d) + "\n";
-  return entry;
-}
-
-TEST(MotionLaw, IsReadWithTheUnitsOfItsJoint) {
-  std::string messages;
-  const auto turn =
-      read<RotaryEntry>("law = \"cycloidal\"\nfrom_deg = 90\nto_rad = 0\nduration_ms = 500\n", messages);
-  const auto slide = read<LinearEntry>(
-      "law = \"cycloidal\"\nfrom_mm = 90\nto_m = 0\nstart_s = 1\nduration_s = 0.5\n", messages);
-  EXPECT_EQ(messages, "");
-  const auto& a = std::get<CycloidalMotion>(motion_law(turn.law));
-  EXPECT_EQ(a.from, pi / 2);
-  EXPECT_EQ(a.duration, 0.5);
-  EXPECT_EQ(std::get<CycloidalMotion>(motion_law(slide.law)).from, 0.09);
-  const auto even = read<RotaryEntry>("law = \"constant_speed\"\nspeed_rpm = 30\n", messages);
-  EXPECT_DOUBLE_EQ(MotionCurve(motion_law(even.law))(1).value, pi);
-  const auto table = read<LinearEntry>(
-      "law = \"table\"\ntimes_s = [0, 1, 2]\nvalues_mm = [0, 5, 0]\nends = \"periodic\"\n", messages);
-  EXPECT_NEAR(MotionCurve(motion_law(table.law))(3).value, 0.005, 1e-17);
-  const auto polynomial = read<RotaryEntry>(
-      "law = \"polynomial\"\nfrom_deg = 0\nto_deg = 180\nduration_s = 1\nend_speed_rpm = 30\n"
-      "start_jerk_deg_per_s3 = 180\n",
-      messages);
-  EXPECT_EQ(messages, "");
-  EXPECT_EQ(std::get<EndConditions>(motion_law(polynomial.law)).start_jerk, pi);
-  // What is written reads back to the same.
-  const Value written = study::write_fields(polynomial);
-  EXPECT_DOUBLE_EQ(written.find("end_speed_rad_per_s")->as_number(), pi);
-  EXPECT_EQ(written.find("start_acceleration_rad_per_s2"), nullptr);
-  EXPECT_EQ(study::schema_fields<LinearEntry>().find("anyOf") != nullptr ||
-                study::schema_fields<LinearEntry>().find("oneOf") != nullptr,
-            true);
-}
-
-TEST(MotionLaw, MessagesOfBadInput) {
-  const auto message = [](const std::string& text) {
-    std::string messages;
-    read<RotaryEntry>(text, messages);
-    return messages;
-  };
-  EXPECT_THAT(message("law = \"cyclodial\"\n"),
-              HasSubstr("is 'cyclodial', must be one of: constant_speed, cycloidal, polynomial_345, "
-                        "polynomial, table, harmonic; did you mean 'cycloidal'?"));
-  EXPECT_THAT(message("law = \"constant_speed\"\nspeed_m_per_s = 2\n"),
-              HasSubstr("is an angular speed, but 'm_per_s' is not a unit of it"));
-  EXPECT_THAT(message("law = \"cycloidal\"\nfrom_deg = 0\nto_deg = 1\nduration_s = 0\n"),
-              HasSubstr("duration_s: is 0 s, must be at least 1e-09 s"));
-  EXPECT_THAT(message("law = \"harmonic\"\namplitude_deg = 3\nfrequency_Hz = -1\n"),
-              HasSubstr("frequency_Hz: is -1 Hz, must be at least 0 Hz"));
-}
-
 }  // namespace
-}  // namespace linkwright::planar
+}  // namespace linkwright::math

@@ -1,158 +1,48 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <variant>
-#include <vector>
 
 #include "linkwright/core/field.h"
-#include "linkwright/math/spline.h"
+#include "linkwright/math/motion_law.h"
 
-// How a driven joint moves in time. A law is plain data in SI units and does not know whether its value is an
-// angle (rad) or a length (m); `Rotary<Law>` and `Linear<Law>` are the same laws as files hold them.
-namespace linkwright::planar {
-
-/// A joint at one instant: radians or metres, and their derivatives by seconds.
-struct Motion {
-  double value = 0, rate = 0, acceleration = 0, jerk = 0;
-};
-
-/// value = from + rate t.
-struct ConstantSpeed {
-  double from = 0;  ///< at t = 0
-  double rate = 0;
-};
-
-/// From rest to rest with the sine acceleration s(x) = x - sin(2 pi x) / (2 pi), x = (t - start) / duration;
-/// at rest before and after.
-struct CycloidalMotion {
-  double from = 0, to = 0;
-  double start = 0, duration = 1;  ///< s
-};
-
-/// From rest to rest without acceleration at the ends: s(x) = sum over p of a_p x^p, p = 3, 4, ...; at rest
-/// before and after. `higher` are a_6, a_7, ...; a_3, a_4, a_5 follow from the end conditions (Boskovic 2018,
-/// Eqs. (2.42)-(2.47) with any number of free coefficients), so without them it is 10 x^3 - 15 x^4 + 6 x^5.
-struct Polynomial345 {
-  double from = 0, to = 0;
-  double start = 0, duration = 1;  ///< s
-  std::vector<double> higher;      ///< shares of the stroke
-};
-
-/// a_0, a_1, ... of the law, shares of the stroke: zeros, then a_3, a_4, a_5 from the end conditions, then
-/// `higher`.
-std::vector<double> coefficients(const Polynomial345& law);
-
-/// The polynomial of least degree that meets the conditions which are given, any of them at either end.
-/// Outside it goes on at the rate that it has at the end.
-struct EndConditions {
-  double from = 0;
-  std::optional<double> to;
-  double start = 0, duration = 1;  ///< s
-  std::optional<double> start_rate, start_acceleration, start_jerk;
-  std::optional<double> end_rate, end_acceleration, end_jerk;
-};
-
-enum class TableCurve { cubic, quintic };
-constexpr std::array<EnumName<TableCurve>, 2> names(TableCurve) {
-  return {{{TableCurve::cubic, "cubic", "continuous acceleration, jerk in steps"},
-           {TableCurve::quintic, "quintic", "continuous acceleration and jerk"}}};
-}
-enum class TableEnds { natural, rest, periodic };
-constexpr std::array<EnumName<TableEnds>, 3> names(TableEnds) {
-  return {
-      {{TableEnds::natural, "natural",
-        "no acceleration (cubic) or no jerk (quintic); goes on at the last speed"},
-       {TableEnds::rest, "rest", "no speed (quintic: and no acceleration); stays there"},
-       {TableEnds::periodic, "periodic",
-        "repeats smoothly; the last row is the first one a period later, where an angle may have grown"}}};
-}
-/// A smooth curve through values in time: cubic or quintic spline.
-struct MotionTable {
-  std::vector<double> times;  ///< s, increasing
-  std::vector<double> values;
-  TableCurve curve = TableCurve::quintic;
-  TableEnds ends = TableEnds::natural;
-};
-
-/// value = centre + amplitude sin(2 pi frequency t + phase).
-struct HarmonicMotion {
-  double centre = 0, amplitude = 0;
-  double frequency = 0;  ///< Hz
-  double phase = 0;      ///< rad
-};
-
-using MotionLaw =
-    std::variant<ConstantSpeed, CycloidalMotion, Polynomial345, EndConditions, MotionTable, HarmonicMotion>;
-
-/// What keeps a law from being a motion.
-struct MotionProblem {
-  std::string_view key;  ///< of the field that is wrong, without unit
-  std::string message;
-  std::string hint;
-};
-std::optional<MotionProblem> problem(const MotionLaw& law);
-
-/// A law that is ready to be evaluated: its polynomials are solved for. Copies are cheap but for tables.
-class MotionCurve {
- public:
-  /// Throws ContractError with the text of `problem` if there is one.
-  explicit MotionCurve(const MotionLaw& law);
-
-  /// The motion at time t (s), any finite t. At a step of the jerk the value to the right counts.
-  Motion operator()(double t) const;
-
- private:
-  // Rest, or even motion, outside the knots; or repetition.
-  struct Pieces {
-    math::PiecewisePolynomial polynomial;
-    bool periodic = false;
-  };
-  static Motion at(const Pieces& pieces, double t);
-  std::variant<ConstantSpeed, CycloidalMotion, HarmonicMotion, Pieces> form_;
-};
-
-// ---------------------------------------------------------------------------------------------------------------
+// Motion laws as files hold them: with the units of the joint that they drive.
+namespace linkwright::study {
 
 enum class JointKind { rotary, linear };
 
 /// A law in a file: `from_deg`, `speed_rpm` for a rotary joint, `from_mm`, `speed_m_per_s` for a linear one.
 template <JointKind kind, class Law>
 struct Driven : Law {};
-template <class Law>
-using Rotary = Driven<JointKind::rotary, Law>;
-template <class Law>
-using Linear = Driven<JointKind::linear, Law>;
 
 template <JointKind kind>
-using DrivenLaw =
-    std::variant<Driven<kind, ConstantSpeed>, Driven<kind, CycloidalMotion>, Driven<kind, Polynomial345>,
-                 Driven<kind, EndConditions>, Driven<kind, MotionTable>, Driven<kind, HarmonicMotion>>;
+using DrivenLaw = std::variant<Driven<kind, math::ConstantSpeed>, Driven<kind, math::CycloidalMotion>,
+                               Driven<kind, math::Polynomial345>, Driven<kind, math::EndConditions>,
+                               Driven<kind, math::MotionTable>, Driven<kind, math::HarmonicMotion>>;
 /// Members of a study: visit(Field{.key = "law", ...}, law) reads the word and, beside it, the law's keys.
 using RotaryLaw = DrivenLaw<JointKind::rotary>;
 using LinearLaw = DrivenLaw<JointKind::linear>;
 
 /// The law itself.
 template <JointKind kind>
-MotionLaw motion_law(const DrivenLaw<kind>& law);
-extern template MotionLaw motion_law(const RotaryLaw&);
-extern template MotionLaw motion_law(const LinearLaw&);
+math::MotionLaw motion_law(const DrivenLaw<kind>& law) {
+  return std::visit(
+      []<class Law>(const Driven<kind, Law>& l) { return math::MotionLaw(static_cast<const Law&>(l)); }, law);
+}
 
-constexpr Word choice_word(const ConstantSpeed&) { return {"constant_speed", "even motion"}; }
-constexpr Word choice_word(const CycloidalMotion&) {
+constexpr Word choice_word(const math::ConstantSpeed&) { return {"constant_speed", "even motion"}; }
+constexpr Word choice_word(const math::CycloidalMotion&) {
   return {"cycloidal", "from rest to rest with a sine as acceleration"};
 }
-constexpr Word choice_word(const Polynomial345&) {
+constexpr Word choice_word(const math::Polynomial345&) {
   return {"polynomial_345", "from rest to rest by a polynomial without acceleration at its ends"};
 }
-constexpr Word choice_word(const EndConditions&) {
+constexpr Word choice_word(const math::EndConditions&) {
   return {"polynomial", "polynomial through given values, speeds, accelerations and jerks at its ends"};
 }
-constexpr Word choice_word(const MotionTable&) { return {"table", "smooth curve through values in time"}; }
-constexpr Word choice_word(const HarmonicMotion&) { return {"harmonic", "sine to and fro"}; }
+constexpr Word choice_word(const math::MotionTable&) {
+  return {"table", "smooth curve through values in time"};
+}
+constexpr Word choice_word(const math::HarmonicMotion&) { return {"harmonic", "sine to and fro"}; }
 template <JointKind kind, class Law>
 constexpr Word choice_word(const Driven<kind, Law>& law) {
   return choice_word(static_cast<const Law&>(law));
@@ -200,18 +90,18 @@ void interval(Visitor&& visit, Law& law) {
 }
 
 template <class Visitor>
-void list(Visitor&& visit, JointKind kind, ConstantSpeed& law) {
+void list(Visitor&& visit, JointKind kind, math::ConstantSpeed& law) {
   visit(value(kind, "from", "position at time 0"), law.from);
   visit(value(kind, "speed", "constant rate", true, 1), law.rate);
 }
 template <class Visitor>
-void list(Visitor&& visit, JointKind kind, CycloidalMotion& law) {
+void list(Visitor&& visit, JointKind kind, math::CycloidalMotion& law) {
   visit(value(kind, "from", "position before", true), law.from);
   visit(value(kind, "to", "position after", true), law.to);
   interval(visit, law);
 }
 template <class Visitor>
-void list(Visitor&& visit, JointKind kind, Polynomial345& law) {
+void list(Visitor&& visit, JointKind kind, math::Polynomial345& law) {
   visit(value(kind, "from", "position before", true), law.from);
   visit(value(kind, "to", "position after", true), law.to);
   interval(visit, law);
@@ -223,7 +113,7 @@ void list(Visitor&& visit, JointKind kind, Polynomial345& law) {
         law.higher);
 }
 template <class Visitor>
-void list(Visitor&& visit, JointKind kind, EndConditions& law) {
+void list(Visitor&& visit, JointKind kind, math::EndConditions& law) {
   visit(value(kind, "from", "position at the start", true), law.from);
   visit(value(kind, "to", "position at the end"), law.to);
   interval(visit, law);
@@ -235,7 +125,7 @@ void list(Visitor&& visit, JointKind kind, EndConditions& law) {
   visit(value(kind, "end_jerk", "jerk at the end", false, 3), law.end_jerk);
 }
 template <class Visitor>
-void list(Visitor&& visit, JointKind kind, MotionTable& law) {
+void list(Visitor&& visit, JointKind kind, math::MotionTable& law) {
   visit(Field{.key = "times",
               .summary = "increasing times",
               .dimension = Dimension::time,
@@ -248,7 +138,7 @@ void list(Visitor&& visit, JointKind kind, MotionTable& law) {
   visit(Field{.key = "ends", .summary = "what holds at the first and last row"}, law.ends);
 }
 template <class Visitor>
-void list(Visitor&& visit, JointKind kind, HarmonicMotion& law) {
+void list(Visitor&& visit, JointKind kind, math::HarmonicMotion& law) {
   visit(value(kind, "centre", "middle position"), law.centre);
   visit(value(kind, "amplitude", "largest distance from the middle", true), law.amplitude);
   visit(Field{.key = "frequency",
@@ -301,4 +191,5 @@ void fields(Visitor&& visit, TimeSamples& t) {
               .required = true},
         t.samples);
 }
-}  // namespace linkwright::planar
+
+}  // namespace linkwright::study

@@ -1,4 +1,4 @@
-#include "linkwright/planar/motion_law.h"
+#include "linkwright/math/motion_law.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "linkwright/core/check.h"
 
-namespace linkwright::planar {
+namespace linkwright::math {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -119,14 +119,14 @@ std::optional<MotionProblem> problem_of(const HarmonicMotion& law) {
                          {"phase", law.phase}});
 }
 
-math::PiecewisePolynomial polynomial(const Polynomial345& law) {
+PiecewisePolynomial polynomial(const Polynomial345& law) {
   std::vector<double> c = coefficients(law);
   for (double& coefficient : c) coefficient *= law.to - law.from;
   c[0] = law.from;
   return {{law.start, law.start + law.duration}, c.size(), c};
 }
 
-math::PiecewisePolynomial polynomial(const EndConditions& law) {
+PiecewisePolynomial polynomial(const EndConditions& law) {
   const std::vector<Condition> all = conditions(law);
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;
@@ -149,13 +149,13 @@ math::PiecewisePolynomial polynomial(const EndConditions& law) {
           {solution.data(), solution.data() + solution.size()}};
 }
 
-math::PiecewisePolynomial polynomial(const MotionTable& law) {
-  const auto ends = law.ends == TableEnds::natural ? math::SplineEnds::natural
-                    : law.ends == TableEnds::rest  ? math::SplineEnds::rest
-                                                   : math::SplineEnds::periodic;
+PiecewisePolynomial polynomial(const MotionTable& law) {
+  const auto ends = law.ends == TableEnds::natural ? SplineEnds::natural
+                    : law.ends == TableEnds::rest  ? SplineEnds::rest
+                                                   : SplineEnds::periodic;
   return math::interpolating_spline(
-      law.times, law.values,
-      law.curve == TableCurve::cubic ? math::SplineDegree::cubic : math::SplineDegree::quintic, ends);
+      law.times, law.values, law.curve == TableCurve::cubic ? SplineDegree::cubic : SplineDegree::quintic,
+      ends);
 }
 
 Motion at(const ConstantSpeed& law, double t) { return {law.from + law.rate * t, law.rate, 0, 0}; }
@@ -192,16 +192,16 @@ std::vector<double> coefficients(const Polynomial345& law) {
 }
 
 Motion MotionCurve::at(const Pieces& pieces, double t) {
-  const math::PiecewisePolynomial& p = pieces.polynomial;
+  const PiecewisePolynomial& p = pieces.polynomial;
   const double first = p.knots.front(), last = p.knots.back();
   const auto motion = [&](double time) {
-    const auto d = math::evaluate(p, time);
+    const auto d = evaluate(p, time);
     return Motion{d[0], d[1], d[2], d[3]};
   };
   if (pieces.periodic) {
     const double period = last - first, turns = std::floor((t - first) / period);
     Motion m = motion(std::clamp(t - turns * period, first, last));
-    m.value += turns * (math::evaluate(p, last)[0] - math::evaluate(p, first)[0]);
+    m.value += turns * (evaluate(p, last)[0] - evaluate(p, first)[0]);
     return m;
   }
   if (t >= first && t <= last) return motion(t);
@@ -236,17 +236,9 @@ Motion MotionCurve::operator()(double t) const {
         if constexpr (requires { form.polynomial; })
           return at(form, t);
         else
-          return planar::at(form, t);
+          return math::at(form, t);
       },
       form_);
 }
 
-template <JointKind kind>
-MotionLaw motion_law(const DrivenLaw<kind>& law) {
-  const auto plain = []<class Law>(const Driven<kind, Law>& l) { return MotionLaw(static_cast<Law>(l)); };
-  return std::visit(plain, law);
-}
-template MotionLaw motion_law(const RotaryLaw&);
-template MotionLaw motion_law(const LinearLaw&);
-
-}  // namespace linkwright::planar
+}  // namespace linkwright::math

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "linkwright/core/field.h"
+#include "linkwright/math/spline.h"
+
+// How a driven joint moves in time. A law is plain data in SI units and does not know whether its value is an
+// angle (rad) or a length (m).
+namespace linkwright::math {
+
+/// A joint at one instant: radians or metres, and their derivatives by seconds.
+struct Motion {
+  double value = 0, rate = 0, acceleration = 0, jerk = 0;
+};
+
+/// value = from + rate t.
+struct ConstantSpeed {
+  double from = 0;  ///< at t = 0
+  double rate = 0;
+};
+
+/// From rest to rest with the sine acceleration s(x) = x - sin(2 pi x) / (2 pi), x = (t - start) / duration;
+/// at rest before and after.
+struct CycloidalMotion {
+  double from = 0, to = 0;
+  double start = 0, duration = 1;  ///< s
+};
+
+/// From rest to rest without acceleration at the ends: s(x) = sum over p of a_p x^p, p = 3, 4, ...; at rest
+/// before and after. `higher` are a_6, a_7, ...; a_3, a_4, a_5 follow from the end conditions (Boskovic 2018,
+/// Eqs. (2.42)-(2.47) with any number of free coefficients), so without them it is 10 x^3 - 15 x^4 + 6 x^5.
+struct Polynomial345 {
+  double from = 0, to = 0;
+  double start = 0, duration = 1;  ///< s
+  std::vector<double> higher;      ///< shares of the stroke
+};
+
+/// a_0, a_1, ... of the law, shares of the stroke: zeros, then a_3, a_4, a_5 from the end conditions, then
+/// `higher`.
+std::vector<double> coefficients(const Polynomial345& law);
+
+/// The polynomial of least degree that meets the conditions which are given, any of them at either end.
+/// Outside it goes on at the rate that it has at the end.
+struct EndConditions {
+  double from = 0;
+  std::optional<double> to;
+  double start = 0, duration = 1;  ///< s
+  std::optional<double> start_rate, start_acceleration, start_jerk;
+  std::optional<double> end_rate, end_acceleration, end_jerk;
+};
+
+enum class TableCurve { cubic, quintic };
+constexpr std::array<EnumName<TableCurve>, 2> names(TableCurve) {
+  return {{{TableCurve::cubic, "cubic", "continuous acceleration, jerk in steps"},
+           {TableCurve::quintic, "quintic", "continuous acceleration and jerk"}}};
+}
+enum class TableEnds { natural, rest, periodic };
+constexpr std::array<EnumName<TableEnds>, 3> names(TableEnds) {
+  return {
+      {{TableEnds::natural, "natural",
+        "no acceleration (cubic) or no jerk (quintic); goes on at the last speed"},
+       {TableEnds::rest, "rest", "no speed (quintic: and no acceleration); stays there"},
+       {TableEnds::periodic, "periodic",
+        "repeats smoothly; the last row is the first one a period later, where an angle may have grown"}}};
+}
+/// A smooth curve through values in time: cubic or quintic spline.
+struct MotionTable {
+  std::vector<double> times;  ///< s, increasing
+  std::vector<double> values;
+  TableCurve curve = TableCurve::quintic;
+  TableEnds ends = TableEnds::natural;
+};
+
+/// value = centre + amplitude sin(2 pi frequency t + phase).
+struct HarmonicMotion {
+  double centre = 0, amplitude = 0;
+  double frequency = 0;  ///< Hz
+  double phase = 0;      ///< rad
+};
+
+using MotionLaw =
+    std::variant<ConstantSpeed, CycloidalMotion, Polynomial345, EndConditions, MotionTable, HarmonicMotion>;
+
+/// What keeps a law from being a motion.
+struct MotionProblem {
+  std::string_view key;  ///< of the field that is wrong, without unit
+  std::string message;
+  std::string hint;
+};
+std::optional<MotionProblem> problem(const MotionLaw& law);
+
+/// A law that is ready to be evaluated: its polynomials are solved for. Copies are cheap but for tables.
+class MotionCurve {
+ public:
+  /// Throws ContractError with the text of `problem` if there is one.
+  explicit MotionCurve(const MotionLaw& law);
+
+  /// The motion at time t (s), any finite t. At a step of the jerk the value to the right counts.
+  Motion operator()(double t) const;
+
+ private:
+  // Rest, or even motion, outside the knots; or repetition.
+  struct Pieces {
+    PiecewisePolynomial polynomial;
+    bool periodic = false;
+  };
+  static Motion at(const Pieces& pieces, double t);
+  std::variant<ConstantSpeed, CycloidalMotion, HarmonicMotion, Pieces> form_;
+};
+
+}  // namespace linkwright::math
