@@ -8,7 +8,10 @@ namespace {
 TEST(ClearanceStudies, AreThoseOfLinkagesWithClearance) {
   std::vector<std::string> names;
   for (const study::Kind& kind : studies()) names.push_back(study::name_of(kind));
-  EXPECT_THAT(names, ::testing::ElementsAre("simulation/clearance.linkage"));
+  EXPECT_THAT(names, ::testing::ElementsAre("synthesis/clearance.four_bar/path_points",
+                                            "synthesis/clearance.four_bar/lead",
+                                            "synthesis/clearance.four_bar/path_points_and_lead",
+                                            "simulation/clearance.linkage"));
 }
 
 TEST(ClearanceStudies, ExamplesRun) {

@@ -72,10 +72,11 @@ class OrbitFollower {
   ClearanceOrbit orbit_;
 };
 
-// Rows of one turn of a motion; false when it does not go round.
+// Rows of one turn of a motion.
 template <class Row>
-bool over_a_turn(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start,
-                 std::span<const double> crank_angles, const ClearanceTolerances& tolerances, Row&& row) {
+ClearanceRun over_a_turn(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start,
+                         std::span<const double> crank_angles, const ClearanceTolerances& tolerances,
+                         Row&& row) {
   // Rows in the order of time, each angle within the turn that begins with the orbit.
   const double sense = std::copysign(1.0, crank.speed);
   std::vector<std::pair<double, std::size_t>> order;
@@ -87,16 +88,14 @@ bool over_a_turn(const ClearanceFourBar& model, const EvenCrank& crank, const Li
   std::sort(order.begin(), order.end());
   std::vector<double> times{0};
   for (const auto& [time, k] : order) times.push_back(time);
-  if (!(times.back() > 0)) times.push_back(1e-3 * turn / std::abs(crank.speed));
+  times.push_back(turn / std::abs(crank.speed));  // the whole turn, for the tension
   std::size_t next = 0;
-  const ClearanceRun run = simulate_clearance(model, math::ConstantSpeed{crank.angle, crank.speed}, start,
-                                              times, tolerances, [&](const ClearanceRow& now) {
-                                                if (next > 0 && next <= order.size())
-                                                  row(order[next - 1].second, now);
-                                                ++next;
-                                                return true;
-                                              });
-  return run.status == Status::done;
+  return simulate_clearance(model, math::ConstantSpeed{crank.angle, crank.speed}, start, times, tolerances,
+                            [&](const ClearanceRow& now) {
+                              if (next > 0 && next <= order.size()) row(order[next - 1].second, now);
+                              ++next;
+                              return true;
+                            });
 }
 
 std::vector<double> even_angles(const EvenCrank& crank, int samples) {
@@ -112,13 +111,47 @@ math::LeastSquaresOptions local_options() {
           .relative_decrease_tolerance = 1e-9,
           .step_tolerance = 1e-10};
 }
-// Scales of difference quotients; longer ones where an integration leaves its own errors in what is
-// differenced.
-constexpr double smooth = 0.1, integrated = 10;
+// Scales of difference quotients, as shares of the ranges; longer ones where an integration leaves its own
+// errors in what is differenced.
+constexpr double smooth = 0.1, integrated = 1;
 std::vector<double> widths(std::span<const double> lower, std::span<const double> upper, double share) {
   std::vector<double> out;
   for (std::size_t k = 0; k < lower.size(); ++k) out.push_back(std::max(share * (upper[k] - lower[k]), 1e-9));
   return out;
+}
+
+// Least squares whose variables are shares of their ranges, all damped alike. Mass centres of the rocker
+// hardly matter to the clearance link; a damping by the diagonal would let them run until the orbit is lost.
+template <class Misfit>
+math::LeastSquaresReport minimise_shares(Misfit&& misfit, std::size_t m, std::span<double> x,
+                                         std::span<const double> lower, std::span<const double> upper,
+                                         double difference, math::LeastSquaresOptions options) {
+  const std::size_t n = x.size();
+  std::vector<double> there(n), shares(n), zeros(n, 0.0), ones(n, 1.0), scale(n, difference);
+  const auto place = [&](std::span<const double> share) {
+    for (std::size_t k = 0; k < n; ++k) there[k] = lower[k] + (upper[k] - lower[k]) * share[k];
+  };
+  for (std::size_t k = 0; k < n; ++k)
+    shares[k] = upper[k] > lower[k] ? (x[k] - lower[k]) / (upper[k] - lower[k]) : 0;
+  const auto at_shares = [&](std::span<const double> share, std::span<double> r, std::span<double>) {
+    place(share);
+    return misfit(there, r);
+  };
+  const auto residuals = [&](std::span<const double> share, std::span<double> r, std::span<double> jacobian) {
+    return at_shares(share, r, {}) &&
+           (jacobian.empty() || math::central_jacobian(at_shares, m, share, jacobian, scale) == Status::done);
+  };
+  options.damping = math::Damping::identity;
+  options.lambda0 = 1;
+  options.jacobian_at_trials = false;
+  math::LeastSquaresWorkspace workspace;
+  const math::LeastSquaresReport report =
+      math::minimise_least_squares(residuals, m, shares, zeros, ones, options, workspace);
+  if (report.status != Status::infeasible) {
+    place(shares);
+    std::copy(there.begin(), there.end(), x.begin());
+  }
+  return report;
 }
 
 }  // namespace
@@ -199,16 +232,15 @@ ClearanceMassDesign clearance_mass_design(const ClearanceMassProblem& p, std::ve
   }
   out.orbit = follower.orbit();
   double sum = 0;
-  out.least_tension = infinity;
   const std::vector<double> angles = even_angles(p.crank, p.samples);
-  const bool round = over_a_turn(model, p.crank, out.orbit.start(p.crank), angles, p.tolerances,
-                                 [&](std::size_t, const ClearanceRow& row) {
-                                   const double off =
-                                       std::remainder(row.link.angle - row.crank.value - p.lead, turn);
-                                   sum += off * off;
-                                   out.least_tension = std::min(out.least_tension, row.instant->tension);
-                                 });
-  out.orbit_error = round ? std::sqrt(sum) / p.samples : infinity;
+  const ClearanceRun run = over_a_turn(model, p.crank, out.orbit.start(p.crank), angles, p.tolerances,
+                                       [&](std::size_t, const ClearanceRow& row) {
+                                         const double off =
+                                             std::remainder(row.link.angle - row.crank.value - p.lead, turn);
+                                         sum += off * off;
+                                       });
+  out.least_tension = run.least_tension;
+  out.orbit_error = run.status == Status::done ? std::sqrt(sum) / p.samples : infinity;
   return out;
 }
 
@@ -217,8 +249,7 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
   require_valid(p);
   std::vector<double> lower, upper;
   limits(p, lower, upper);
-  const std::vector<double> scale = widths(lower, upper, smooth),
-                            orbit_scale = widths(lower, upper, integrated);
+  const std::vector<double> scale = widths(lower, upper, smooth);
   const auto m = static_cast<std::size_t>(p.samples);
 
   const auto by_force = [&](std::span<const double> x, std::span<double> r, std::span<double> jacobian) {
@@ -253,25 +284,13 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
       return over_a_turn(model, p.crank, follower.orbit().start(p.crank), angles, p.tolerances,
                          [&](std::size_t k, const ClearanceRow& row) {
                            r[k] = std::remainder(row.link.angle - row.crank.value - p.lead, turn);
-                         });
-    };
-    const auto residuals = [&](std::span<const double> at, std::span<double> r, std::span<double> jacobian) {
-      if (!on_orbit(at, r)) return false;
-      if (jacobian.empty()) return true;
-      const auto inner = [&](std::span<const double> there, std::span<double> out, std::span<double>) {
-        return on_orbit(there, out);
-      };
-      return math::central_jacobian(inner, m, at, jacobian, orbit_scale) == Status::done;
+                         })
+                 .status == Status::done;
     };
     math::LeastSquaresOptions options = local_options();
-    options.max_iterations = 20;
-    options.jacobian_at_trials = false;
-    options.relative_decrease_tolerance = 1e-3;
-    math::LeastSquaresWorkspace workspace;
-    std::vector<double> refined = x;
-    const math::LeastSquaresReport report =
-        math::minimise_least_squares(residuals, m, refined, lower, upper, options, workspace);
-    if (report.status != Status::infeasible) x = refined;
+    options.max_iterations = 40;
+    options.relative_decrease_tolerance = 1e-4;
+    minimise_shares(on_orbit, m, x, lower, upper, integrated, options);
     interrupted = context.interruption();
   }
   ClearanceMassDesign out = clearance_mass_design(p, x);
@@ -305,10 +324,26 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
     r[2 * k] = point.real() - path.x[k];
     r[2 * k + 1] = point.imag() - path.y[k];
   };
+  // Least force of the ideal pin over a turn, over the mean one: where it is nearly zero pin and bush part,
+  // and its direction says nothing of the clearance link.
+  const auto evenness = [&](const ClearanceFourBar& model) {
+    ClearanceFourBar ideal = model;
+    ideal.clearance = 0;
+    double least = infinity, mean = 0;
+    for (const double angle : even_angles(mass.crank, mass.samples)) {
+      const ClearanceInstant now = clearance_instant(ideal, angle, mass.crank.speed, 0, {});
+      if (now.status != Status::done) return 0.0;
+      least = std::min(least, now.tension);
+      mean += now.tension / mass.samples;
+    }
+    return mean > 0 ? least / mean : 0.0;
+  };
+  const double even_enough = std::min(0.25, 0.5 * evenness(model_of(x)));
   // The clearance link along the force of the ideal joint: no integration.
   const auto in_the_limit = [&](std::span<const double> at, std::span<double> r) {
     ++out.evaluations;
     const ClearanceFourBar model = model_of(at);
+    if (evenness(model) < even_enough) return false;
     for (std::size_t k = 0; k < path.x.size(); ++k) {
       const double direction = force_direction(model, path.crank_angles[k], mass.crank.speed, 0);
       const ClearancePosition p = clearance_position(model, path.crank_angles[k], direction);
@@ -323,9 +358,10 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
     if (context.interrupted()) return false;
     const ClearanceFourBar model = model_of(at);
     if (!turns_fully(model) || !follower.follow(model)) return false;
-    return over_a_turn(
+    const ClearanceRun run = over_a_turn(
         model, mass.crank, follower.orbit().start(mass.crank), path.crank_angles, mass.tolerances,
         [&](std::size_t k, const ClearanceRow& row) { misses(k, row.instant->position.point, r); });
+    return run.status == Status::done && run.least_tension > 0;
   };
   const auto minimise = [&](auto&& misfit, double share, double decrease, int iterations) {
     const std::vector<double> scale = widths(lower, upper, share);
@@ -355,13 +391,27 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
     for (const double value : r) sum += value * value;
     return std::sqrt(sum / static_cast<double>(path.x.size()));
   };
-  minimise(in_the_limit, smooth, 1e-6, 200);
   std::vector<double> r(m);
-  if (follower.begin(model_of(x))) {
-    minimise(on_orbit, integrated, 1e-2, 10);
-  } else {
-    out.status = Status::not_converged;
+  // From x, in place: the distance of the path on the orbit; infinite where there is no orbit in contact.
+  const auto on_orbit_from = [&](std::vector<double> start, bool search) {
+    x = std::move(start);
+    if (!follower.begin(model_of(x)) || !on_orbit(x, r)) return infinity;
+    if (search) minimise(on_orbit, integrated, 1e-2, 30);
+    return follower.begin(model_of(x)) && on_orbit(x, r) ? rms(r) : infinity;
+  };
+  const std::vector<double> given = x;
+  minimise(in_the_limit, smooth, 1e-6, 200);
+  // What is good in the limit may have no orbit that keeps contact at this clearance.
+  double found = on_orbit_from(x, true);
+  std::vector<double> best = x;
+  if (!(found <= on_orbit_from(given, false))) {
+    if (const double other = on_orbit_from(given, true); other < found) {
+      found = other;
+      best = x;
+    }
   }
+  x = best;
+  if (!std::isfinite(found) || !follower.begin(model_of(x))) out.status = Status::not_converged;
   out.x = x;
   out.model = model_of(x);
   out.limit_rms = in_the_limit(x, r) ? rms(r) : infinity;
@@ -373,15 +423,11 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
   }
   out.orbit =
       find_orbit(out.model, mass.crank, follower.orbit().lead, follower.orbit().slope, mass.tolerances);
-  double least = infinity;
-  if (over_a_turn(out.model, mass.crank, out.orbit.start(mass.crank), path.crank_angles, mass.tolerances,
-                  [&](std::size_t k, const ClearanceRow& row) {
-                    misses(k, row.instant->position.point, r);
-                    least = std::min(least, row.instant->tension);
-                  })) {
-    out.path_rms = rms(r);
-    out.least_tension = least;
-  }
+  const ClearanceRun run =
+      over_a_turn(out.model, mass.crank, out.orbit.start(mass.crank), path.crank_angles, mass.tolerances,
+                  [&](std::size_t k, const ClearanceRow& row) { misses(k, row.instant->position.point, r); });
+  if (run.status == Status::done) out.path_rms = rms(r);
+  out.least_tension = run.least_tension;
   if (const Status interrupted = context.interruption(); interrupted != Status::done)
     out.status = interrupted;
   return out;

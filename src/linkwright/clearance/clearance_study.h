@@ -86,7 +86,7 @@ struct ClearanceRecording {
   std::vector<RecordedRow> rows;
   std::vector<RecordedRow> ideal;     ///< the same without clearance: times, inputs, values
   std::vector<RecordedRow> sections;  ///< once a turn of an even drive, from the start
-  double period = 0;                   ///< s, of that drive; 0 = there is none
+  double period = 0;                  ///< s, of that drive; 0 = there is none
   std::vector<ContactEvent> events;
   std::vector<ContactValidity> validity;  ///< one a continuous pin
   /// Of every traced point: places on the ideal path, close together.
@@ -97,7 +97,9 @@ ClearanceRecording record_clearance(const ClearanceStudy& study, RunContext& con
 /// Tables, plots and facts.
 study::Result report_clearance(const ClearanceStudy& study, ClearanceRecording recording);
 
-/// The linkage in motion with its play enlarged so that one sees it.
-study::Scene clearance_scene(const ClearanceStudy& study, const ClearanceRecording& recording);
+/// The linkage in motion with its play enlarged so that one sees it. Of a row it takes the record, whose
+/// input is that of the scene, and the eccentricities of the pins; of the study the linkage and its pins.
+study::Scene clearance_scene(const ClearanceStudy& study, const ClearanceRecording& recording,
+                             std::string input_key = "time_s", std::string input_label = "time");
 
 }  // namespace linkwright::clearance

@@ -12,7 +12,8 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-study::Scene clearance_scene(const ClearanceStudy& s, const ClearanceRecording& recording) {
+study::Scene clearance_scene(const ClearanceStudy& s, const ClearanceRecording& recording,
+                             std::string input_key, std::string input_label) {
   // Few enough rows for an animation.
   std::vector<const RecordedRow*> rows;
   const std::size_t stride = std::max<std::size_t>(
@@ -21,7 +22,8 @@ study::Scene clearance_scene(const ClearanceStudy& s, const ClearanceRecording& 
   if (!rows.empty() && rows.back() != &recording.rows.back()) rows.push_back(&recording.rows.back());
   std::vector<planar::LinkageRecord> records;
   for (const RecordedRow* row : rows) records.push_back(row->record);
-  study::Scene scene = planar::linkage_scene(s.linkage, s.plan, records, s.traces, "time_s", "time");
+  study::Scene scene = planar::linkage_scene(s.linkage, s.plan, records, s.traces, std::move(input_key),
+                                             std::move(input_label));
   double largest = 0;
   for (std::size_t k = 0; k < s.pins(); ++k) largest = std::max(largest, s.clearance_of(k));
   const double scale = study::drawn_scale(largest, 0.05 * s.plan.size);

@@ -1,9 +1,14 @@
 #include "linkwright/clearance/studies.h"
 
+#include "linkwright/clearance/clearance_design_study.h"
 #include "linkwright/clearance/clearance_study.h"
 
 namespace linkwright::clearance {
 
-std::vector<study::Kind> studies() { return {clearance_kind()}; }
+std::vector<study::Kind> studies() {
+  std::vector<study::Kind> out = clearance_design_kinds();
+  out.push_back(clearance_kind());
+  return out;
+}
 
 }  // namespace linkwright::clearance

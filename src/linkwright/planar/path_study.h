@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "linkwright/optimise/population_methods.h"
+#include "linkwright/planar/path_points_study.h"
 #include "linkwright/planar/path_synthesis.h"
 #include "linkwright/study/kind.h"
 
@@ -93,25 +94,17 @@ constexpr std::array<EnumName<TracingPoint>, 1> names(TracingPoint) {
   return {{{TracingPoint::coupler, "coupler", "point (coupler_u, coupler_v) of the coupler"}}};
 }
 
-struct PathTarget {
+struct PathTarget : PathPointsForm {
   TracingPoint point = TracingPoint::coupler;
   bool closed = false;
   PathTiming timing;
-  std::optional<std::vector<std::array<double, 2>>> points;
-  std::optional<std::string> points_file;
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathTarget& t) {
   visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
   visit(Field{.key = "closed", .summary = "the last point is followed by the first"}, t.closed);
   visit(Field{.key = "timing", .summary = "how crank angles are tied to the points"}, t.timing);
-  visit(
-      Field{
-          .key = "points", .summary = "target points [x, y] in their order", .dimension = Dimension::length},
-      t.points);
-  visit(Field{.key = "points_file",
-              .summary = "CSV file with columns x_m, y_m (any length unit) instead of points"},
-        t.points_file);
+  fields(visit, static_cast<PathPointsForm&>(t));
 }
 
 /// What is minimised.

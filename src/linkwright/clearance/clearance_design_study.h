@@ -1,0 +1,354 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "linkwright/clearance/clearance_mass_synthesis.h"
+#include "linkwright/clearance/clearance_path_synthesis.h"
+#include "linkwright/optimise/population_methods.h"
+#include "linkwright/planar/path_points_study.h"
+#include "linkwright/planar/reactions_study.h"
+#include "linkwright/study/run_seeds.h"
+
+// The synthesis of a four-bar whose crank pin has clearance (Varedi et al. 2014): what its file holds, how it
+// is read, run and reported.
+namespace linkwright::clearance {
+
+/// What a study designs: its `target.type`.
+enum class DesignTarget {
+  lengths,  ///< "path_points": lengths for a path, the clearance link at a presumed lead
+  masses,   ///< "lead": masses that make the clearance link keep its lead
+  both      ///< "path_points_and_lead"
+};
+
+/// How lengths and masses are found when a study asks for both.
+enum class DesignStages { in_turn, at_once };
+constexpr std::array<EnumName<DesignStages>, 2> names(DesignStages) {
+  return {{{DesignStages::in_turn, "in_turn", "lengths for the presumed lead, then masses that keep it"},
+           {DesignStages::at_once, "at_once",
+            "after that both together, for the path on the motion that repeats itself"}}};
+}
+
+/// `[mechanism.parameters]`, in the order of ClearanceLength.
+struct DesignLengthsForm {
+  std::array<std::optional<Range>, clearance_length_count> ranges;
+};
+template <class Visitor>
+void fields(Visitor&& visit, DesignLengthsForm& p) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, clearance_length_count> keys = {
+      {{"ground", "length of the ground link"},
+       {"crank", "length of the crank"},
+       {"coupler", "length of the coupler"},
+       {"rocker", "length of the rocker"},
+       {"point_distance", "tracing point: distance from the bush of the coupler"},
+       {"pivot_x", "crank pivot, x"},
+       {"pivot_y", "crank pivot, y"},
+       {"point_angle", "tracing point: direction from the line of the coupler, counter-clockwise"},
+       {"frame_angle", "direction of the ground link"}}};
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    Field field{.key = keys[k].first,
+                .summary = keys[k].second,
+                .dimension = k < index(ClearanceLength::point_angle) ? Dimension::length : Dimension::angle};
+    if (k <= index(ClearanceLength::point_distance)) field.minimum = 0;
+    field.exclusive_minimum = k <= index(ClearanceLength::rocker);
+    visit(field, p.ranges[k]);
+  }
+}
+
+/// `[mechanism.mass.coupler]` and `[mechanism.mass.rocker]`.
+struct DesignMassForm {
+  std::array<std::optional<Range>, 4> ranges;  ///< mass, u, v, inertia
+};
+template <class Visitor>
+void fields(Visitor&& visit, DesignMassForm& m) {
+  visit(Field{.key = "mass",
+              .summary = "mass",
+              .dimension = Dimension::mass,
+              .minimum = 0,
+              .exclusive_minimum = true},
+        m.ranges[0]);
+  visit(Field{.key = "centre_u",
+              .summary = "mass centre along the link, from its first joint",
+              .dimension = Dimension::length},
+        m.ranges[1]);
+  visit(Field{.key = "centre_v",
+              .summary = "mass centre to the left of that line",
+              .dimension = Dimension::length},
+        m.ranges[2]);
+  visit(Field{.key = "inertia",
+              .summary = "about the mass centre",
+              .dimension = Dimension::inertia,
+              .minimum = 0,
+              .exclusive_minimum = true},
+        m.ranges[3]);
+}
+struct DesignMassesForm {
+  DesignMassForm coupler, rocker;
+};
+template <class Visitor>
+void fields(Visitor&& visit, DesignMassesForm& m) {
+  visit(Field{.key = "coupler", .summary = "from the loose pin to the rocker"}, m.coupler);
+  visit(Field{.key = "rocker", .summary = "from its pivot to the coupler"}, m.rocker);
+}
+
+struct DesignDampingForm {
+  double coupler = 0, rocker = 0, link = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, DesignDampingForm& d) {
+  const auto damping = [&](std::string_view key, std::string_view summary, double& value) {
+    visit(Field{.key = key,
+                .summary = summary,
+                .dimension = Dimension::damping_angular,
+                .minimum = 0,
+                .maximum = 1e6},
+          value);
+  };
+  damping("coupler", "viscous torque against the turning of the coupler", d.coupler);
+  damping("rocker", "... of the rocker", d.rocker);
+  damping("link", "... of the clearance link", d.link);
+}
+
+/// `[mechanism]`.
+struct DesignMechanismForm {
+  DesignTarget target = DesignTarget::both;
+  planar::Branch branch = planar::Branch::open;
+  double clearance = 0;
+  bool crank_rotates_fully = true;
+  DesignLengthsForm parameters;
+  DesignMassesForm mass;
+  DesignDampingForm damping;
+};
+template <class Visitor>
+void fields(Visitor&& visit, DesignMechanismForm& m) {
+  visit(Field{.key = "branch", .summary = "assembly mode"}, m.branch);
+  visit(Field{.key = "clearance",
+              .summary = "of the crank pin: radius of the bush less radius of the pin",
+              .dimension = Dimension::length,
+              .minimum = 0,
+              .maximum = 1e6,
+              .exclusive_minimum = true,
+              .required = true},
+        m.clearance);
+  if (m.target != DesignTarget::masses)
+    visit(Field{.key = "crank_rotates_fully", .summary = "the crank turns fully and is the shortest link"},
+          m.crank_rotates_fully);
+  visit(Field{.key = "parameters",
+              .summary = "lengths: numbers, or { min, max } where they are designed",
+              .required = m.target == DesignTarget::masses},
+        m.parameters);
+  if (m.target == DesignTarget::lengths) return;
+  visit(Field{.key = "mass", .summary = "masses: numbers, or { min, max }", .required = true}, m.mass);
+  visit(Field{.key = "damping", .summary = "viscous torques"}, m.damping);
+}
+
+/// `[drive]`.
+struct DesignDriveForm {
+  double speed = 0, start_angle = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, DesignDriveForm& d) {
+  visit(Field{.key = "speed",
+              .summary = "of the crank, which turns evenly; counter-clockwise positive",
+              .dimension = Dimension::speed_angular,
+              .minimum = -1e6,
+              .maximum = 1e6,
+              .required = true},
+        d.speed);
+  visit(Field{.key = "start_angle",
+              .summary = "direction of the crank where the turn begins",
+              .dimension = Dimension::angle,
+              .minimum = -1e3,
+              .maximum = 1e3},
+        d.start_angle);
+}
+
+/// `target.timing`. Crank angles are absolute, from the x axis.
+struct DesignTimingForm {
+  double start = 0;
+  std::optional<double> step, free_within;
+  std::optional<std::vector<double>> angles;
+};
+template <class Visitor>
+void fields(Visitor&& visit, DesignTimingForm& t) {
+  visit(Field{.key = "start", .summary = "crank angle of the first point", .dimension = Dimension::angle},
+        t.start);
+  visit(Field{.key = "step", .summary = "crank rotation from point to point", .dimension = Dimension::angle},
+        t.step);
+  visit(Field{.key = "angles", .summary = "or the crank angle of each point", .dimension = Dimension::angle},
+        t.angles);
+  visit(Field{.key = "free_within",
+              .summary = "each angle may be so much more or less; if absent it is prescribed",
+              .dimension = Dimension::angle,
+              .minimum = 0,
+              .maximum = 3.2,
+              .exclusive_minimum = true},
+        t.free_within);
+}
+
+/// `[target]`.
+struct DesignTargetForm : planar::PathPointsForm {
+  DesignTarget target = DesignTarget::both;
+  double lead = 0;
+  int samples = 72;
+  DesignStages stages = DesignStages::in_turn;
+  DesignTimingForm timing;
+};
+template <class Visitor>
+void fields(Visitor&& visit, DesignTargetForm& t) {
+  visit(Field{.key = "lead",
+              .summary = "by how much the clearance link is to be ahead of the crank",
+              .dimension = Dimension::angle,
+              .minimum = -3.2,
+              .maximum = 3.2},
+        t.lead);
+  if (t.target != DesignTarget::lengths)
+    visit(Field{.key = "samples",
+                .summary = "points of the turn at which the lead is compared",
+                .minimum = 8,
+                .maximum = 10000},
+          t.samples);
+  if (t.target == DesignTarget::masses) return;
+  if (t.target == DesignTarget::both)
+    visit(Field{.key = "stages", .summary = "how lengths and masses are found"}, t.stages);
+  visit(Field{.key = "timing", .summary = "crank angles of the points", .required = true}, t.timing);
+  fields(visit, static_cast<planar::PathPointsForm&>(t));
+}
+
+/// `[reference]`: a design that the answer is put beside.
+struct DesignReferenceForm {
+  DesignTarget target = DesignTarget::both;
+  std::string label = "reference";
+  DesignLengthsForm parameters;
+  DesignMassesForm mass;
+};
+template <class Visitor>
+void fields(Visitor&& visit, DesignReferenceForm& r) {
+  visit(Field{.key = "label", .summary = "what it is called in the report"}, r.label);
+  if (r.target != DesignTarget::masses)
+    visit(Field{.key = "parameters", .summary = "its lengths", .required = true}, r.parameters);
+  if (r.target != DesignTarget::lengths)
+    visit(Field{.key = "mass", .summary = "its masses", .required = true}, r.mass);
+}
+
+/// `[optimiser]`.
+struct RecommendedDesign {
+  int starts = 12;
+};
+template <class Visitor>
+void fields(Visitor&& visit, RecommendedDesign& r) {
+  visit(Field{.key = "starts", .summary = "local searches of each stage", .minimum = 1, .maximum = 1e6},
+        r.starts);
+}
+constexpr Word choice_word(const RecommendedDesign&) {
+  return {"recommended", "least squares from many starts; of masses on the motion that repeats itself"};
+}
+/// The population methods minimise the objectives of the source: the misfit of the path, and the misfit of
+/// the lead over the first turn. Violated constraints cost a constant, Eq. (23).
+using DesignMethod = optimise::MethodChoice<optimise::Constraints::penalty, RecommendedDesign>;
+struct DesignOptimiser {
+  DesignMethod method;
+};
+template <class Visitor>
+void fields(Visitor&& visit, DesignOptimiser& o) {
+  visit(Field{.key = "method", .summary = "how designs are searched"}, o.method);
+}
+
+/// A design: variables of both problems.
+struct ClearanceDesignValues {
+  std::vector<double> lengths;  ///< of clearance_path_design; of fixed lengths only the nine
+  std::vector<double> masses;   ///< of with_masses; empty = none
+};
+
+/// A study as read.
+struct ClearanceDesignStudy {
+  DesignTarget target = DesignTarget::both;
+  DesignStages stages = DesignStages::in_turn;
+  ClearancePathProblem path;  ///< without points when lengths are not designed
+  ClearanceMassProblem mass;  ///< its model has the fixed lengths when only masses are designed
+  bool closed = false;        ///< the points go round with the crank
+  DesignMethod method;
+  std::optional<ClearanceDesignValues> reference;
+  std::string reference_label;
+  int samples = 361;  ///< rows of a turn
+
+  bool has_path() const { return target != DesignTarget::masses; }
+  bool has_masses() const { return target != DesignTarget::lengths; }
+  double lead() const { return has_masses() ? mass.lead : path.lead; }  ///< wanted, or presumed
+};
+
+/// What a seed came to.
+struct ClearanceDesignAnswer {
+  Status status = Status::infeasible;
+  ClearanceDesignValues best;
+  double cost = std::numeric_limits<double>::infinity();  ///< see cost_name; infinite when infeasible
+  int starts = 0, reached = 0;                            ///< of the last stage that counts them
+  std::int64_t evaluations = 0;
+  std::vector<optimise::GenerationLog> log;
+};
+using ClearanceDesignRuns = study::SeedRuns<ClearanceDesignAnswer>;
+
+/// What the seeds are compared by: key and words.
+struct CostName {
+  std::string_view key, words;
+};
+CostName cost_name(const ClearanceDesignStudy& study);
+
+/// "synthesis" of "clearance.four_bar" for "path_points", "lead" and "path_points_and_lead".
+std::vector<study::Kind> clearance_design_kinds();
+
+std::optional<ClearanceDesignStudy> read_clearance_design(study::ObjectReader& document,
+                                                          const study::Common& common, DesignTarget target,
+                                                          Value& canonical);
+study::Result run_clearance_design(const ClearanceDesignStudy& study, const study::Common& common,
+                                   RunContext& context);
+
+// ---- between running and reporting
+// -----------------------------------------------------------------------------
+
+/// One instant of the turn that a design is shown on.
+struct DesignRow {
+  double crank = 0;  ///< rad, not wrapped
+  double time = 0;   ///< s; without masses the crank angle over 1 rad/s
+  LinkState link;
+  ClearanceInstant instant;  ///< without masses only the position
+};
+/// What a design does.
+struct DesignMeasures {
+  ClearanceFourBar model;
+  // The path, where there is one.
+  ClearancePathDesign presumed;  ///< with the clearance link at the presumed lead
+  /// Places of the tracing point at the targets: on the turn of the rows, or, without masses, with the
+  /// presumed lead.
+  std::vector<std::complex<double>> reached;
+  double rms = 0, largest = 0;  ///< m, of these
+  double anywhere = 0;          ///< m: largest distance with the pin anywhere in its bush
+  // The motion, where there are masses.
+  ClearanceMassDesign motion;
+  bool repeats = false;  ///< the rows are of the orbit; else of the turn that starts with the wanted lead
+  ClearanceRun run;      ///< over the turn
+  double least_at = 0;   ///< rad: crank angle of the least tension
+  double work_mean = 0;  ///< mean of sin(lead) weighted by the tension
+  std::vector<DesignRow> rows;
+};
+DesignMeasures measure_design(const ClearanceDesignStudy& study, const ClearanceDesignValues& values);
+
+/// Lead of a row, within half a turn of the wanted one.
+double lead_of(const ClearanceDesignStudy& study, const DesignRow& row);
+/// Targets and where the tracing point comes; `before` may be null.
+Table design_points(const ClearanceDesignStudy& study, const DesignMeasures& design,
+                    const DesignMeasures* before);
+Table design_turn(const ClearanceDesignStudy& study, const DesignMeasures& design, std::string name);
+/// All that a simulation of the design asks for: "linkage-points", "linkage-masses", "linkage-start".
+std::vector<Table> design_linkage_tables(const ClearanceDesignStudy& study, const DesignMeasures& design);
+/// The design in motion over its turn, play enlarged.
+study::Scene design_scene(const ClearanceDesignStudy& study, const DesignMeasures& design);
+
+study::Result report_clearance_design(const ClearanceDesignStudy& study, const study::Common& common,
+                                      const ClearanceDesignRuns& runs);
+
+}  // namespace linkwright::clearance

@@ -1,0 +1,493 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "linkwright/clearance/clearance_design_study.h"
+#include "linkwright/math/angles.h"
+
+namespace linkwright::clearance {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi, nan = std::numeric_limits<double>::quiet_NaN(),
+                 infinity = std::numeric_limits<double>::infinity();
+using Verdict = study::Fact::Verdict;
+using Style = study::Plot::Style;
+
+// A seed succeeds when it comes this close to the best of all: a share of the best, or, where zero is within
+// reach, a small part of a nanometre or of a degree.
+constexpr double success_share = 1e-3, success_absolute = 1e-10;
+
+struct Variable {
+  const char *key, *label;
+};
+constexpr std::array<Variable, clearance_length_count + clearance_mass_count> variables_of_all = {
+    {{"ground_m", "ground link (m)"},
+     {"crank_m", "crank (m)"},
+     {"coupler_m", "coupler (m)"},
+     {"rocker_m", "rocker (m)"},
+     {"point_distance_m", "tracing point, distance (m)"},
+     {"pivot_x_m", "crank pivot x (m)"},
+     {"pivot_y_m", "crank pivot y (m)"},
+     {"point_angle_rad", "tracing point, angle (rad)"},
+     {"frame_angle_rad", "direction of the ground link (rad)"},
+     {"coupler_mass_kg", "mass of the coupler (kg)"},
+     {"coupler_u_m", "mass centre of the coupler, along (m)"},
+     {"coupler_v_m", "mass centre of the coupler, across (m)"},
+     {"coupler_inertia_kg_m2", "inertia of the coupler (kg m2)"},
+     {"rocker_mass_kg", "mass of the rocker (kg)"},
+     {"rocker_u_m", "mass centre of the rocker, along (m)"},
+     {"rocker_v_m", "mass centre of the rocker, across (m)"},
+     {"rocker_inertia_kg_m2", "inertia of the rocker (kg m2)"}}};
+
+std::string metres(double value) {
+  if (value >= 0.1) return fmt::format("{:.4g} m", value);
+  if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
+  return fmt::format("{:.3g} µm", value * 1e6);
+}
+double wrapped_degrees(double angle) {
+  const double d = std::fmod(math::degrees(angle), 360);
+  return d < 0 ? d + 360 : d;
+}
+
+class Reporter {
+ public:
+  Reporter(const ClearanceDesignStudy& s, const study::Common& common, const ClearanceDesignRuns& runs)
+      : s_(s), common_(common), runs_(runs) {}
+
+  study::Result report() {
+    result_.status = runs_.status;
+    const auto best = std::min_element(runs_.answers.begin(), runs_.answers.end(),
+                                       [](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    interrupted();
+    if (best == runs_.answers.end() || !complete(*best)) {
+      nothing_found();
+      return std::move(result_);
+    }
+    answer_ = &*best;
+    if (result_.status == Status::done) result_.status = answer_->status;
+    feasible_ = std::isfinite(answer_->cost);
+    if (result_.status == Status::done && !feasible_) result_.status = Status::infeasible;
+    d_ = measure_design(s_, answer_->best);
+    if (s_.reference) before_ = measure_design(s_, *s_.reference);
+    solution();
+    statistics();
+    design_table();
+    if (s_.has_path()) result_.tables.push_back(design_points(s_, d_, before_ ? &*before_ : nullptr));
+    result_.tables.push_back(design_turn(s_, d_, "turn"));
+    if (before_ && s_.has_masses()) result_.tables.push_back(design_turn(s_, *before_, "reference"));
+    seeds_table();
+    if (s_.has_masses())
+      for (Table& t : design_linkage_tables(s_, d_)) result_.tables.push_back(std::move(t));
+    plots();
+    result_.scenes.push_back(design_scene(s_, d_));
+    facts();
+    changes();
+    warnings();
+    headline();
+    return std::move(result_);
+  }
+
+ private:
+  // Feasible ones by cost, then those that at least have numbers.
+  static std::pair<double, int> rank(const ClearanceDesignAnswer& a) {
+    return {a.cost, -static_cast<int>(a.best.lengths.size() + a.best.masses.size())};
+  }
+  bool complete(const ClearanceDesignAnswer& a) const {
+    return (!s_.has_path() || !a.best.lengths.empty()) && (!s_.has_masses() || !a.best.masses.empty());
+  }
+  std::string_view method() const {
+    return std::visit([](const auto& m) { return choice_word(m).name; }, s_.method);
+  }
+  void warn(std::string message, std::string hint = {}) {
+    result_.diagnostics.push_back(
+        {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
+  }
+  void fact(std::string label, std::string text, Verdict verdict = Verdict::plain) {
+    result_.facts.push_back({std::move(label), std::move(text), verdict});
+  }
+  void interrupted() {
+    if (runs_.answers.size() < static_cast<std::size_t>(common_.seeds.count))
+      warn(fmt::format("interrupted: {} of {} seeds ran", runs_.answers.size(), common_.seeds.count));
+  }
+  void nothing_found() {
+    if (result_.status == Status::done) result_.status = Status::infeasible;
+    if (result_.status != Status::infeasible)
+      result_.headline = "Interrupted before the first design.";
+    else if (s_.target == DesignTarget::masses)
+      result_.headline = "No masses found: none within the bounds press pin and bush together.";
+    else
+      result_.headline =
+          "No design found: no start of the search assembles at every point and turns its crank fully.";
+  }
+
+  // ---- what is designed
+  // ---------------------------------------------------------------------------------------
+
+  struct Number {
+    Variable name;
+    double value = 0, lower = 0, upper = 0, reference = nan;
+  };
+  std::vector<Number> numbers() const {
+    std::vector<Number> out;
+    const auto add = [&](std::size_t k, double value, const Range& r, const std::vector<double>* reference,
+                         std::size_t at) {
+      out.push_back({variables_of_all[k], value, r.lower, r.upper,
+                     reference && at < reference->size() ? (*reference)[at] : nan});
+    };
+    if (s_.has_path())
+      for (std::size_t k = 0; k < clearance_length_count; ++k)
+        add(k, answer_->best.lengths[k], s_.path.bounds[k], s_.reference ? &s_.reference->lengths : nullptr,
+            k);
+    if (s_.has_masses())
+      for (std::size_t k = 0; k < clearance_mass_count; ++k)
+        add(clearance_length_count + k, answer_->best.masses[k], s_.mass.bounds[k],
+            s_.reference ? &s_.reference->masses : nullptr, k);
+    return out;
+  }
+  bool lost(const DesignMeasures& d) const { return !(d.run.least_tension > 0); }
+  double separation_angle(const DesignMeasures& d) const {
+    return s_.mass.crank.angle + s_.mass.crank.speed * d.run.first_separation;
+  }
+  // Largest and least lead over the turn, wrapped about the wanted one.
+  std::pair<double, double> leads(const DesignMeasures& d) const {
+    double low = infinity, high = -infinity;
+    for (const DesignRow& r : d.rows) {
+      const double lead = lead_of(s_, r);
+      low = std::min(low, lead), high = std::max(high, lead);
+    }
+    return {low, high};
+  }
+  void solution() {
+    study::Solution out;
+    out.label = s_.target == DesignTarget::lengths  ? "lengths"
+                : s_.target == DesignTarget::masses ? "masses"
+                                                    : "lengths and masses";
+    for (const Number& n : numbers()) {
+      std::string label = n.name.label;
+      out.parameters.push_back({n.name.key, label.substr(0, label.rfind(" (")), n.value, n.lower, n.upper});
+    }
+    out.objectives = Value::object();
+    if (s_.has_path()) {
+      out.objectives["path_error_rms_m"] = d_.rms;
+      out.objectives["path_error_max_m"] = d_.largest;
+      out.objectives["path_error_anywhere_m"] = d_.anywhere;
+      out.objectives["path_objective_m"] = d_.presumed.objective;
+      out.objectives["presumed_path_error_rms_m"] = d_.presumed.rms;
+    }
+    if (s_.has_masses()) {
+      const auto [low, high] = leads(d_);
+      out.objectives["orbit_error_rad"] = d_.motion.orbit_error;
+      out.objectives["first_turn_error_rad"] = d_.motion.transient_error;
+      out.objectives["lead_min_rad"] = low;
+      out.objectives["lead_max_rad"] = high;
+      out.objectives["least_tension_N"] = d_.run.least_tension;
+      out.objectives["least_tension_crank_angle_rad"] = d_.least_at;
+      out.objectives["separated_share"] = d_.run.separated;
+      out.objectives["start_lead_rad"] = d_.rows.empty() ? nan : lead_of(s_, d_.rows[0]);
+      out.objectives["start_link_rate_rad_per_s"] = d_.rows.empty() ? nan : d_.rows[0].link.rate;
+    }
+    out.classification = Value::object();
+    out.classification["branch"] = name_of(d_.model.linkage.branch);
+    out.classification["crank_rotates_fully"] = turns_fully(d_.model);
+    if (s_.has_masses()) {
+      out.classification["contact_kept"] = !lost(d_);
+      out.classification["repeats"] = d_.repeats;
+    }
+    out.classification["active_bounds"] = Value::array();
+    for (const Number& n : numbers()) {
+      const double close = 1e-6 * (n.upper - n.lower);
+      if (n.upper > n.lower && (n.value <= n.lower + close || n.value >= n.upper - close))
+        out.classification["active_bounds"].push_back(n.name.key);
+    }
+    out.defects = Value::array();
+    for (const auto& v : d_.presumed.violations)
+      out.defects.push_back(fmt::format("violates {} by {:.3g}", v.reason, v.amount));
+    if (s_.has_masses() && lost(d_)) out.defects.push_back("contact is lost");
+    out.scene = "motion";
+    result_.solutions.push_back(std::move(out));
+  }
+
+  void statistics() {
+    std::vector<optimise::SeedOutcome> outcomes;
+    result_.log = Value::array();
+    for (std::size_t i = 0; i < runs_.answers.size(); ++i) {
+      const ClearanceDesignAnswer& a = runs_.answers[i];
+      outcomes.push_back({a.cost, std::isfinite(a.cost) ? 0.0 : 1.0, a.evaluations});
+      Value entry;
+      entry["seed"] = static_cast<std::int64_t>(runs_.seeds[i]);
+      entry["status"] = to_string(a.status);
+      entry["best"] = a.cost;
+      entry["evaluations"] = a.evaluations;
+      entry["history"] = Value::array();
+      double last = infinity;
+      for (const optimise::GenerationLog& g : a.log) {
+        if (!(g.best_cost < last) || g.best_violation > 0) continue;
+        last = g.best_cost;
+        Value step;
+        step["evaluations"] = g.evaluations;
+        step["best"] = g.best_cost;
+        entry["history"].push_back(std::move(step));
+      }
+      result_.log.push_back(std::move(entry));
+    }
+    const double best = answer_->cost;
+    const optimise::SeedStatistics st =
+        optimise::statistics(outcomes, best + std::max(success_share * best, success_absolute));
+    Value& out = result_.statistics;
+    out["method"] = method();
+    out["measure"] = cost_name(s_).key;
+    out["seeds"] = st.seeds;
+    out["feasible_seeds"] = st.feasible;
+    out["best"] = st.best;
+    out["quantile10"] = st.quantile10;
+    out["median"] = st.median;
+    out["quantile90"] = st.quantile90;
+    out["worst"] = st.worst;
+    out["success_threshold"] = st.threshold;
+    out["success_rate"] = st.success_rate;
+    out["evaluations"] = st.evaluations;
+    out["median_evaluations"] = st.median_evaluations;
+    success_ = st.success_rate;
+  }
+
+  // ---- tables
+  // -------------------------------------------------------------------------------------------------
+
+  void design_table() {
+    Table table{.name = "design"};
+    std::vector<double> value, lower, upper, reference;
+    for (const Number& n : numbers()) {
+      table.names.emplace_back(n.name.label);
+      value.push_back(n.value);
+      lower.push_back(n.lower);
+      upper.push_back(n.upper);
+      reference.push_back(n.reference);
+    }
+    table.add("value", "value (SI units)", value);
+    table.add("lower", "lower bound", lower);
+    table.add("upper", "upper bound", upper);
+    if (s_.reference) table.add("reference", s_.reference_label, reference);
+    result_.tables.push_back(std::move(table));
+  }
+
+  void seeds_table() {
+    Table table{.name = "seeds"};
+    std::vector<double> seed, cost, evaluations;
+    for (std::size_t i = 0; i < runs_.answers.size(); ++i) {
+      const ClearanceDesignAnswer& a = runs_.answers[i];
+      seed.push_back(static_cast<double>(runs_.seeds[i]));
+      cost.push_back(std::isfinite(a.cost) ? a.cost : nan);
+      evaluations.push_back(static_cast<double>(a.evaluations));
+      table.status.emplace_back(to_string(a.status));
+    }
+    table.add("seed", "seed", seed);
+    table.add(std::string(cost_name(s_).key), std::string(cost_name(s_).words), cost);
+    table.add("evaluations", "evaluations", evaluations);
+    result_.tables.push_back(std::move(table));
+  }
+
+  // ---- plots and scene
+  // ----------------------------------------------------------------------------------------
+
+  study::Plot& plot(const char* name, std::string title, const char* table, const char* x,
+                    std::vector<std::string> y, Style style = Style::line) {
+    study::Plot& p = result_.plots.emplace_back();
+    p.name = name;
+    p.title = std::move(title);
+    p.table = table;
+    p.x = x;
+    p.y = std::move(y);
+    p.style = style;
+    p.scene = "motion";
+    return p;
+  }
+  void plots() {
+    const std::string pale = before_ ? fmt::format(" (pale: {})", s_.reference_label) : "";
+    const char* before = before_ ? "reference" : "";
+    if (s_.has_path()) {
+      plot("path", "Path: targets and where the tracing point comes", "points", "crank_angle_rad",
+           {"target_x_m", "target_y_m", "x_m", "y_m"}, Style::polar);
+      std::vector<std::string> distances{"distance_m"};
+      if (before_) distances.emplace_back("reference_distance_m");
+      plot("errors", "Distance from the target points", "points", "crank_angle_rad", distances,
+           Style::points);
+    }
+    if (!s_.has_masses()) return;
+    plot("lead", "Lead of the clearance link before the crank" + pale, "turn", "crank_angle_rad",
+         {"lead_rad", "wanted_lead_rad"})
+        .baseline = before;
+    plot("contact-angle", "Contact angle over the turn", "turn", "crank_angle_rad", {"contact_angle_rad"})
+        .baseline = before;
+    plot("tension", "Tension of the clearance link: contact while positive" + pale, "turn", "crank_angle_rad",
+         {"tension_N"})
+        .baseline = before;
+    plot("torque", "Drive torque" + pale, "turn", "crank_angle_rad", {"drive_torque_N_m"}).baseline = before;
+  }
+
+  // ---- words
+  // --------------------------------------------------------------------------------------------------
+
+  std::string contact_text(const DesignMeasures& d) const {
+    if (!lost(d))
+      return fmt::format("kept: least tension {:.4g} N at a crank angle of {:.1f}°", d.run.least_tension,
+                         wrapped_degrees(d.least_at));
+    return fmt::format(
+        "lost at a crank angle of {:.1f}°; without contact {:.3g} % of the turn, least tension "
+        "{:.4g} N at {:.1f}°",
+        wrapped_degrees(separation_angle(d)), 100 * d.run.separated, d.run.least_tension,
+        wrapped_degrees(d.least_at));
+  }
+  void facts() {
+    if (s_.has_path()) {
+      std::size_t worst = 0;
+      for (std::size_t k = 0; k < d_.reached.size(); ++k)
+        if (off(k) > off(worst)) worst = k;
+      fact(s_.has_masses() ? "path error on the motion" : "path error with the presumed lead",
+           fmt::format("root mean square {}, at most {} at point {}", metres(d_.rms), metres(d_.largest),
+                       worst + 1),
+           feasible_ ? Verdict::good : Verdict::bad);
+      if (s_.has_masses())
+        fact("path error with the presumed lead",
+             fmt::format("root mean square {}", metres(d_.presumed.rms)));
+      else
+        fact("path objective F1", metres(d_.presumed.objective));
+      fact("wherever the pin lies in its bush",
+           fmt::format("at most {} off the points", metres(d_.anywhere)));
+    }
+    fact("crank turns fully wherever the pin lies", turns_fully(d_.model) ? "yes" : "no",
+         turns_fully(d_.model) ? Verdict::good : Verdict::bad);
+    if (s_.has_masses()) {
+      fact("contact", contact_text(d_), lost(d_) ? Verdict::bad : Verdict::good);
+      const auto [low, high] = leads(d_);
+      fact("lead of the clearance link",
+           fmt::format("{:.2f}° to {:.2f}° over the turn, wanted {:.4g}°", math::degrees(low),
+                       math::degrees(high), math::degrees(s_.lead())));
+      if (d_.repeats)
+        fact("lead objective F2",
+             fmt::format(
+                 "{:.4g} rad on the motion that repeats, {:.4g} rad in the first turn from the wanted lead",
+                 d_.motion.orbit_error, d_.motion.transient_error));
+      else
+        fact("lead objective F2",
+             fmt::format("{:.4g} rad in the first turn from the wanted lead", d_.motion.transient_error));
+      fact("work of the pin over a turn",
+           fmt::format("mean of the sine of the lead, weighted by the tension: {:.2g}", d_.work_mean));
+      fact("to simulate it",
+           "mechanism.type = \"clearance.linkage\" with the numbers of the tables linkage-points, "
+           "linkage-masses and linkage-start");
+    }
+    fact("method", std::string(method()));
+    if (answer_->starts > 0 && s_.target == DesignTarget::lengths)
+      fact("local searches that came to it", fmt::format("{} of {}", answer_->reached, answer_->starts));
+    fact("seeds that reached the best",
+         fmt::format("{:.0f} of {}", success_ * static_cast<double>(runs_.answers.size()),
+                     runs_.answers.size()),
+         success_ > 0.9 ? Verdict::good : Verdict::plain);
+    fact("evaluations", fmt::format("{}", result_.statistics.find("evaluations")->as_integer()));
+  }
+  double off(std::size_t k) const {
+    return std::abs(d_.reached[k] - std::complex<double>(s_.path.x[k], s_.path.y[k]));
+  }
+
+  void changes() {
+    if (!before_) return;
+    const auto add = [&](const char* key, const char* label, const char* measure, double before, double after,
+                         bool wanted) {
+      if (std::isfinite(before) && std::isfinite(after))
+        result_.changes.push_back({key, label, measure, before, after, wanted});
+    };
+    if (s_.has_path()) {
+      add("distance_m", "path error (m)", "rms", before_->rms, d_.rms, true);
+      add("distance_m", "path error (m)", "max", before_->largest, d_.largest, false);
+    }
+    if (!s_.has_masses()) return;
+    add("lead_rad", "lead objective F2 on the motion that repeats (rad)", "rms", before_->motion.orbit_error,
+        d_.motion.orbit_error, true);
+    add("lead_rad", "lead objective F2 of the first turn (rad)", "rms", before_->motion.transient_error,
+        d_.motion.transient_error, true);
+    add("tension_N", "tension (N)", "min", before_->run.least_tension, d_.run.least_tension, false);
+  }
+
+  void warnings() {
+    for (const auto& v : d_.presumed.violations)
+      warn(fmt::format("the design violates {} by {:.3g}", v.reason, v.amount));
+    if (!turns_fully(d_.model))
+      warn("the crank does not turn fully with the pin anywhere in its bush",
+           "lengthen coupler and rocker, or take a shorter crank");
+    const bool passive = s_.target == DesignTarget::lengths || s_.stages == DesignStages::in_turn;
+    if (s_.lead() > 0 && passive) {
+      const double least = s_.lead() / std::sqrt(double(s_.mass.samples));
+      warn(fmt::format(
+               "a lead of {:.4g}° throughout cannot be had: over a turn that repeats itself the pin does "
+               "no work on a passive coupler in contact, so the sine of the lead, weighted by the "
+               "tension, has the mean 0{}",
+               math::degrees(s_.lead()),
+               s_.has_masses() ? fmt::format("; no masses come far below F2 = lead / sqrt({}) = {:.4g} rad",
+                                             s_.mass.samples, least)
+                               : ", and the path is another one than presumed here"),
+           "lead_deg = 0 is what masses can do");
+    }
+    if (!s_.has_masses()) return;
+    if (!d_.repeats)
+      warn(
+          "no motion that repeats itself was found; tables and tension are of the first turn from the wanted "
+          "lead",
+          "allow more mass at the loose pin");
+    if (d_.run.status != Status::done) warn(fmt::format("the turn ends early: {}", d_.run.message));
+    if (lost(d_))
+      warn(fmt::format(
+               "pin and bush part at a crank angle of {:.1f}° (least tension {:.4g} N at {:.1f}°): what "
+               "follows is outside of the model",
+               wrapped_degrees(separation_angle(d_)), d_.run.least_tension, wrapped_degrees(d_.least_at)),
+           "simulate it with model = \"contact\", or allow a heavier coupler with its mass at the loose pin");
+  }
+
+  void headline() {
+    std::string& text = result_.headline;
+    if (!feasible_) {
+      text = "No design meets every condition; the nearest one is shown.";
+      return;
+    }
+    if (s_.has_path()) {
+      text = fmt::format("The linkage passes the {} points within {} (root mean square {})",
+                         d_.reached.size(), metres(d_.largest), metres(d_.rms));
+      text += s_.has_masses() ? (d_.repeats ? " on the motion that repeats itself" : " in the first turn")
+                              : fmt::format(" if the clearance link leads the crank by {:.4g}°",
+                                            math::degrees(s_.lead()));
+    } else {
+      const auto [low, high] = leads(d_);
+      text =
+          fmt::format("The clearance link keeps within {:.2g}° of its lead of {:.4g}°",
+                      math::degrees(std::max(high - s_.lead(), s_.lead() - low)), math::degrees(s_.lead()));
+    }
+    if (s_.has_masses())
+      text += lost(d_) ? fmt::format(
+                             ", but pin and bush part at a crank angle of {:.1f}°: the design is outside "
+                             "of the model",
+                             wrapped_degrees(separation_angle(d_)))
+                       : fmt::format("; pin and bush stay in contact, with {:.4g} N at least",
+                                     d_.run.least_tension);
+    text += ".";
+  }
+
+  const ClearanceDesignStudy& s_;
+  const study::Common& common_;
+  const ClearanceDesignRuns& runs_;
+  const ClearanceDesignAnswer* answer_ = nullptr;
+  DesignMeasures d_;
+  std::optional<DesignMeasures> before_;
+  bool feasible_ = false;
+  double success_ = 0;
+  study::Result result_;
+};
+
+}  // namespace
+
+study::Result report_clearance_design(const ClearanceDesignStudy& study, const study::Common& common,
+                                      const ClearanceDesignRuns& runs) {
+  return Reporter(study, common, runs).report();
+}
+
+}  // namespace linkwright::clearance

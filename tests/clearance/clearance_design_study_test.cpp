@@ -1,0 +1,299 @@
+#include "linkwright/clearance/clearance_design_study.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include "clearance/studies.h"
+#include "linkwright/study/write.h"
+
+namespace linkwright::clearance {
+namespace {
+
+using testing::fact;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::prepare;
+using testing::problems_of;
+using testing::replaced;
+using testing::run_text;
+
+constexpr double turn = 2 * std::numbers::pi;
+
+std::string example(const std::string& name) {
+  std::ifstream file(LINKWRIGHT_SOURCE_DIR "/examples/studies/" + name + ".toml");
+  std::ostringstream text;
+  text << file.rdbuf();
+  EXPECT_FALSE(text.str().empty()) << name;
+  // File names are relative to the study, which tests read from elsewhere.
+  std::string out = text.str();
+  const std::string csv = "\"loose-four-bar-path.csv\"";
+  const auto found = out.find(csv);
+  if (found != std::string::npos)
+    out.replace(found, csv.size(), "\"" LINKWRIGHT_SOURCE_DIR "/examples/studies/loose-four-bar-path.csv\"");
+  return out;
+}
+const std::string& kind_example(DesignTarget target) {
+  static const std::vector<study::Kind> kinds = clearance_design_kinds();
+  return kinds[static_cast<std::size_t>(target)].example;
+}
+const Table& table(const study::Result& r, std::string_view name) {
+  for (const Table& t : r.tables)
+    if (t.name == name) return t;
+  ADD_FAILURE() << "no table " << name;
+  static const Table none;
+  return none;
+}
+const std::vector<double>& values(const study::Result& r, std::string_view name, std::string_view key) {
+  const Column* c = table(r, name).find(key);
+  if (c) return c->values;
+  ADD_FAILURE() << "no column " << name << "." << key;
+  static const std::vector<double> none{0};
+  return none;
+}
+double objective(const study::Result& r, const char* key) {
+  const Value* v = r.solutions.at(0).objectives.find(key);
+  return v && v->is_number() ? v->as_number() : std::nan("");
+}
+void expect_plots_have_columns(const study::Result& r) {
+  for (const study::Plot& p : r.plots) {
+    for (const std::string& key : p.y) EXPECT_TRUE(table(r, p.table).find(key)) << p.name << " " << key;
+    if (!p.baseline.empty()) {
+      EXPECT_TRUE(table(r, p.baseline).find(p.y[0])) << p.name;
+    }
+  }
+}
+
+TEST(ClearanceDesignStudy, LengthsAreThoseOfTheLeastSquares) {
+  const study::Result r = run_text(replaced(example("loose-four-bar-lengths"), "count = 5", "count = 1"));
+  ASSERT_EQ(r.status, Status::done) << r.headline;
+  // The global optimum, to the digits of the reference.
+  EXPECT_NEAR(objective(r, "path_objective_m"), 0.0152133e-3, 1e-10);
+  EXPECT_NEAR(objective(r, "path_error_rms_m"), 6 * objective(r, "path_objective_m"), 1e-12);  // sqrt(36)
+  EXPECT_GT(objective(r, "path_error_anywhere_m"), objective(r, "path_error_max_m"));
+  ASSERT_EQ(values(r, "points", "distance_m").size(), 36u);
+  // Design 2 beside it: 6.548915e-5 m times 6.
+  ASSERT_EQ(r.changes.size(), 2u);
+  EXPECT_NEAR(r.changes[0].before, 3.929349e-4, 1e-10);
+  EXPECT_EQ(values(r, "design", "reference")[0], 0.2027109);
+  EXPECT_THAT(r.headline, HasSubstr("if the clearance link leads the crank by 10°"));
+  EXPECT_THAT(fact(r, "crank turns fully wherever the pin lies"), HasSubstr("yes"));
+  ASSERT_EQ(r.diagnostics.size(), 1u);
+  EXPECT_THAT(to_string(r.diagnostics[0]), HasSubstr("a lead of 10° throughout cannot be had"));
+  expect_plots_have_columns(r);
+}
+
+TEST(ClearanceDesignStudy, TheSwarmOfTheSourceSpreads) {
+  const study::Result r =
+      run_text(replaced(example("loose-four-bar-lengths-swarm"), "count = 10", "count = 2"));
+  ASSERT_EQ(r.status, Status::done) << r.headline;
+  EXPECT_GT(objective(r, "path_objective_m"), 0.0152133e-3);
+  EXPECT_LT(objective(r, "path_objective_m"), 0.4e-3);
+  EXPECT_FALSE(r.log.as_array().at(0).find("history")->as_array().empty());
+  EXPECT_EQ(values(r, "seeds", "path_objective_m").size(), 2u);
+}
+
+TEST(ClearanceDesignStudy, MassesFollowTheCrank) {
+  const study::Result r = run_text(replaced(example("loose-four-bar-masses"), "count = 3", "count = 1"));
+  ASSERT_EQ(r.status, Status::done) << r.headline;
+  EXPECT_THAT(r.diagnostics, IsEmpty());
+  EXPECT_THAT(r.headline, HasSubstr("pin and bush stay in contact, with 2.0"));
+  EXPECT_LT(objective(r, "orbit_error_rad"), 4.3e-5);
+  const std::vector<double>&lead = values(r, "turn", "lead_rad"), &tension = values(r, "turn", "tension_N"),
+        &before = values(r, "reference", "lead_rad");
+  ASSERT_EQ(lead.size(), 361u);
+  for (std::size_t i = 0; i < lead.size(); ++i)
+    EXPECT_NEAR(lead[i], 0, 1.5e-3) << i;  // a twelfth of a degree
+  EXPECT_NEAR(lead.front(), lead.back(), 1e-6);
+  EXPECT_NEAR(*std::min_element(tension.begin(), tension.end()), objective(r, "least_tension_N"), 1e-3);
+  // The periodic orbit of Table 3: 17 degrees either way.
+  EXPECT_NEAR(*std::max_element(before.begin(), before.end()), 17.8 * turn / 360, 1e-2);
+  EXPECT_THAT(fact(r, "contact"), HasSubstr("kept: least tension 2.0"));
+  // The pin does no work over a turn.
+  EXPECT_THAT(fact(r, "work of the pin over a turn"), HasSubstr("weighted by the tension"));
+  expect_plots_have_columns(r);
+}
+
+// What the tables say of the design is what a simulation of it needs: the same motion, by other equations.
+TEST(ClearanceDesignStudy, TheDesignCanBeTakenOn) {
+  std::string text = replaced(example("loose-four-bar-masses"), "count = 3", "count = 1");
+  text = replaced(text, "gravity_m_per_s2 = 0.0", "gravity_m_per_s2 = 9.81");
+  text = replaced(text, "speed_rad_per_s = 10.0", "speed_rad_per_s = 50.0\nstart_angle_deg = 30.0");
+  text.erase(text.find("[[check]]"));
+  const study::Result r = run_text(text);
+  ASSERT_EQ(r.status, Status::done) << r.headline;
+
+  const Table &points = table(r, "linkage-points"), &masses = table(r, "linkage-masses");
+  std::string sim = "schema = 1\nkind = \"simulation\"\n[mechanism]\ntype = \"clearance.linkage\"\n";
+  for (const std::string body : {"ground", "crank", "coupler", "rocker"}) {
+    sim += fmt::format("[[mechanism.body]]\nname = \"{}\"\npoints_m = {{", body);
+    const char* comma = "";
+    for (std::size_t i = 0; i < points.names.size(); ++i) {
+      if (!points.names[i].starts_with(body + ".")) continue;
+      sim += fmt::format("{} {} = [{}, {}]", comma, points.names[i].substr(body.size() + 1),
+                         values(r, "linkage-points", "x_m")[i], values(r, "linkage-points", "y_m")[i]);
+      comma = ",";
+    }
+    sim += " }\n";
+    for (std::size_t i = 0; i < masses.names.size(); ++i)
+      if (masses.names[i] == body)
+        sim += fmt::format(
+            "mass_kg = {}\ncentre_m = [{}, {}]\ninertia_kg_m2 = {}\n",
+            values(r, "linkage-masses", "mass_kg")[i], values(r, "linkage-masses", "centre_x_m")[i],
+            values(r, "linkage-masses", "centre_y_m")[i], values(r, "linkage-masses", "inertia_kg_m2")[i]);
+  }
+  for (const auto& [name, first, second] :
+       {std::array{"O2", "ground", "crank"}, std::array{"A", "crank", "coupler"},
+        std::array{"B", "coupler", "rocker"}, std::array{"O4", "ground", "rocker"}})
+    sim += fmt::format("[[mechanism.joint]]\nname = \"{0}\"\nfirst = \"{1}.{0}\"\nsecond = \"{2}.{0}\"\n",
+                       name, first, second);
+  const auto start = [&](const char* key) { return values(r, "linkage-start", key)[0]; };
+  sim += fmt::format(
+      "[[mechanism.assembly]]\nbodies = [\"coupler\", \"rocker\"]\nmode = \"plus\"\n[[drive]]\njoint = "
+      "\"O2\"\nlaw = \"constant_speed\"\nfrom_rad = {}\nspeed_rad_per_s = {}\n[[clearance]]\njoint = "
+      "\"A\"\nmodel = \"continuous\"\nclearance_m = {}\nstart_angle_rad = {}\nstart_rate_rad_per_s = "
+      "{}\n[simulation]\nto_s = {}\nsamples = 361\nrtol = 1e-10\n",
+      start("crank_angle_rad"), start("speed_rad_per_s"), start("clearance_m"), start("start_angle_rad"),
+      start("start_rate_rad_per_s"), start("turn_s"));
+  const study::Result taken = run_text(sim);
+  ASSERT_EQ(taken.status, Status::done) << taken.headline;
+  // Both integrate to about 1e-8; a turn of ten swings of the link lets that grow.
+  const std::vector<double>&tension = values(taken, "pins", "A_tension_N"),
+        &angle = values(taken, "pins", "A_link_angle_rad");
+  ASSERT_EQ(tension.size(), 361u);
+  for (std::size_t i = 0; i < tension.size(); ++i) {
+    EXPECT_NEAR(tension[i], values(r, "turn", "tension_N")[i], 1e-4 * tension[i]) << i;
+    EXPECT_NEAR(angle[i], values(r, "turn", "contact_angle_rad")[i], 1e-5) << i;
+  }
+}
+
+// Both stages with free crank angles, by the swarm of the source, and what is told when a lead is asked for.
+TEST(ClearanceDesignStudy, BothStagesInTurn) {
+  std::string text = replaced(kind_example(DesignTarget::both), "at_once", "in_turn");
+  text = replaced(text, "lead_deg  = 0.0", "lead_deg = 10.0");
+  text = replaced(text, "step_deg = 30.0", "step_deg = 30.0, free_within_deg = 5.0");
+  text = replaced(text, "method = \"recommended\"\nstarts = 6\nseeds  = { first = 1, count = 2 }",
+                  "method = \"particle_swarm\"\npopulation = 20\ngenerations = 30");
+  const study::Result r = run_text(text);
+  ASSERT_EQ(r.status, Status::done) << r.headline;
+  EXPECT_THAT(r.headline, HasSubstr("on the motion that repeats itself"));
+  EXPECT_LT(objective(r, "first_turn_error_rad"), 0.03);
+  ASSERT_FALSE(r.diagnostics.empty());
+  EXPECT_THAT(to_string(r.diagnostics[0]),
+              HasSubstr("no masses come far below F2 = lead / sqrt(72) = 0.02057 rad"));
+}
+
+TEST(ClearanceDesignStudy, BothAtOnceMeetThePathOnTheMotion) {
+  const study::Result r = run_text(kind_example(DesignTarget::both));
+  ASSERT_EQ(r.status, Status::done) << r.headline;
+  EXPECT_LT(objective(r, "path_error_rms_m"), 5e-6);  // of points with 5 um of rounding
+  EXPECT_GT(objective(r, "least_tension_N"), 0);
+  EXPECT_THAT(r.diagnostics, IsEmpty());
+  ASSERT_EQ(r.scenes.size(), 1u);
+  const study::Scene& scene = r.scenes[0];
+  EXPECT_EQ(scene.input_key, "crank_angle_rad");
+  EXPECT_THAT(scene.title, HasSubstr("play drawn"));
+  ASSERT_EQ(scene.targets.size(), 1u);
+  EXPECT_TRUE(scene.targets[0].closed);
+  ASSERT_EQ(scene.circles.size(), 1u);
+  EXPECT_EQ(scene.circles[0].name, "clearance of A, 1 mm");
+  expect_plots_have_columns(r);
+}
+
+// Bars of even mass, as linkages are built: pin and bush part, and the report says where.
+TEST(ClearanceDesignStudy, TellsWhereContactIsLost) {
+  std::string text = kind_example(DesignTarget::masses);
+  const auto set = [&](const std::string& from, const std::string& to) { text = replaced(text, from, to); };
+  set("mass_kg       = { min = 0.02, max = 0.2 }\ncentre_u_mm   = { min = -50.0, max = 200.0 }",
+      "mass_kg = 0.0737\ncentre_u_mm = 90.0");
+  set("centre_v_mm   = { min = -50.0, max = 50.0 }\ninertia_kg_m2 = { min = 1e-6, max = 5e-4 }",
+      "centre_v_mm = 0.0\ninertia_kg_m2 = 0.000202");
+  set("mass_kg       = { min = 0.02, max = 0.2 }\ncentre_u_mm   = { min = -50.0, max = 250.0 }",
+      "mass_kg = 0.049\ncentre_u_mm = 60.0");
+  set("centre_v_mm   = { min = -50.0, max = 50.0 }\ninertia_kg_m2 = { min = 1e-6, max = 5e-4 }",
+      "centre_v_mm = 0.0\ninertia_kg_m2 = 0.0000619");
+  set("method = \"recommended\"\nstarts = 6\nseeds  = { first = 1, count = 2 }",
+      "method = \"particle_swarm\"\npopulation = 4\ngenerations = 2");
+  const study::Result r = run_text(text);
+  ASSERT_FALSE(r.solutions.empty()) << r.headline;
+  EXPECT_LT(objective(r, "least_tension_N"), 0);
+  EXPECT_THAT(fact(r, "contact"), HasSubstr("lost at a crank angle of"));
+  EXPECT_THAT(r.headline, HasSubstr("but pin and bush part at a crank angle of"));
+  std::string told;
+  for (const Diagnostic& d : r.diagnostics) told += to_string(d) + "\n";
+  EXPECT_THAT(told, HasSubstr("what follows is outside of the model"));
+  EXPECT_THAT(told, HasSubstr("simulate it with model = \"contact\""));
+}
+
+TEST(ClearanceDesignStudy, WritesWhatItReads) {
+  for (const DesignTarget target : {DesignTarget::lengths, DesignTarget::masses, DesignTarget::both}) {
+    std::string messages;
+    const auto first = prepare(kind_example(target), messages);
+    ASSERT_TRUE(first) << messages;
+    const auto second = prepare(study::to_toml(first->canonical), messages);
+    ASSERT_TRUE(second) << messages;
+    EXPECT_EQ(first->canonical, second->canonical);
+  }
+}
+
+TEST(ClearanceDesignStudy, BoundsFollowFromThePath) {
+  std::string text = kind_example(DesignTarget::lengths);
+  const auto from = text.find("[mechanism.parameters]");
+  text.erase(from, text.find("[target]") - from);
+  std::string messages;
+  const auto study = prepare(text, messages);
+  ASSERT_TRUE(study) << messages;
+  const Value* crank = study->canonical.find("mechanism")->find("parameters")->find("crank_m");
+  ASSERT_TRUE(crank);
+  // Extent of the points: 165.31 mm by 262.51 mm.
+  EXPECT_NEAR(crank->find("max")->as_number(), 4 * std::hypot(0.16531, 0.26251), 1e-9);
+}
+
+TEST(ClearanceDesignStudy, NamesWhatIsWrong) {
+  const auto problems = [](DesignTarget target, const std::string& what, const std::string& by) {
+    return problems_of(replaced(kind_example(target), what, by));
+  };
+  using enum DesignTarget;
+  EXPECT_THAT(problems(lengths, "clearance_mm = 1.0", "clearance_mm = 0.0"),
+              HasSubstr("must be more than 0"));
+  EXPECT_THAT(problems(lengths, "clearance_mm = 1.0", "clearance_mm = 40.0"),
+              HasSubstr("40 mm is more than half of the shortest crank, 60 mm"));
+  EXPECT_THAT(problems(masses, "clearance_mm = 1.0", "clearance_mm = 60.0"),
+              HasSubstr("60 mm is more than half of the shortest link, 100 mm"));
+  EXPECT_THAT(problems(masses, "ground_mm         = 200.0", "ground_mm = 140.0"),
+              HasSubstr("the crank does not turn fully wherever the pin lies in its bush"));
+  EXPECT_THAT(problems(masses, "crank_mm          = 100.0", "crank_mm = { min = 90.0, max = 110.0 }"),
+              HasSubstr("crank is a range, but masses are designed here, not lengths; write a number"));
+  EXPECT_THAT(problems(masses, "rocker_mm         = 250.0\n", ""),
+              HasSubstr("there is no rocker; all nine are needed"));
+  EXPECT_THAT(problems(masses, "speed_rpm = 100.0", "speed_rpm = 0.0"), HasSubstr("the crank stands still"));
+  EXPECT_THAT(problems(masses, "centre_v_mm   = { min = -50.0, max = 50.0 }\n", ""),
+              HasSubstr("the coupler has no centre_v_mm"));
+  const std::string timing = "timing    = { start_deg = 0.0, step_deg = 30.0 }";
+  EXPECT_THAT(problems(lengths, timing, "timing = { start_deg = 0.0 }"),
+              HasSubstr("the crank angles of the points are missing"));
+  EXPECT_THAT(problems(lengths, timing, "timing = { step_deg = 30.0, angles_deg = [1.0] }"),
+              HasSubstr("there are both step and angles"));
+  EXPECT_THAT(problems(lengths, timing, "timing = { angles_deg = [1.0, 2.0] }"),
+              HasSubstr("2 angles for 12 points"));
+  EXPECT_THAT(problems(lengths, timing, "timing = { step_deg = 0.0 }"),
+              HasSubstr("the step is 0 rad, it must not be zero nor more than a turn"));
+  EXPECT_THAT(problems(lengths, timing, "timing = { step_deg = -30.0, free_within_deg = 5.0 }"),
+              HasSubstr("the crank angle of point 2 is not more than that of point 1"));
+  EXPECT_THAT(problems(both, timing, "timing = { step_deg = 30.0, free_within_deg = 5.0 }"),
+              HasSubstr("at_once needs prescribed crank angles"));
+  EXPECT_THAT(
+      problems(lengths, "[optimiser]", "[reference]\n[reference.parameters]\ncrank_mm = 1.0\n[optimiser]"),
+      HasSubstr("there is no ground; all nine are needed"));
+  EXPECT_THAT(problems(lengths, "[optimiser]", "[drive]\nspeed_rpm = 1.0\n[optimiser]"), HasSubstr("drive"));
+}
+
+}  // namespace
+}  // namespace linkwright::clearance
