@@ -72,25 +72,86 @@ TEST(JointClearance, FourBarAgreesWithItsClosedForm) {
         });
     EXPECT_EQ(k, times.size());
     EXPECT_TRUE(std::isnan(rows.run.joints[0].first_separation));
-    EXPECT_NEAR(rows.run.joints[0].least_tension, run.least_tension, 0.05);  // rows are 5 deg apart
+    EXPECT_EQ(rows.run.joints[0].sign_changes, 0);
+    EXPECT_NEAR(rows.run.joints[0].least_tension, run.least_tension, 0.05);  // steps are not the same
   }
 }
 
-// One instant, everything about it: position by position solver, tension by the joint forces.
+// Times of the loss of contact are events of the integration: those of the closed form, whatever the rows.
 TEST(JointClearance, SeesSeparationAsTheClosedFormDoes) {
   const ClearanceFourBar model = published_four_bar("gamma-design1-table2-g9.81-w50");
   const planar::Linkage l = as_linkage(model);
-  const std::vector<double> times = evenly_spaced(0, 0.6 * turn / 50, 2001);
-  const double degree = turn / 360;
-  const Rows rows = simulated(
-      l, {{.joint = planar::joint_index(l, "A"), .clearance = 1e-3, .angle = 10 * degree, .rate = 50}}, 50,
-      times);
-  const ClearanceRun run = simulate_clearance(model, math::ConstantSpeed{0, 50}, {10 * degree, 50},
-                                              std::vector{0.0, times.back()});
-  ASSERT_FALSE(std::isnan(run.first_separation));
-  // Rows are 38 us apart, and the tension is a smooth function between most of them.
-  EXPECT_NEAR(rows.run.joints[0].first_separation, run.first_separation, 4e-6);
-  EXPECT_NEAR(rows.run.joints[0].separated, run.separated, 0.01);
+  const double to = 0.6 * turn / 50, degree = turn / 360;
+  const std::vector<JointClearance> pin{
+      {.joint = planar::joint_index(l, "A"), .clearance = 1e-3, .angle = 10 * degree, .rate = 50}};
+  const ClearanceRun wanted =
+      simulate_clearance(model, math::ConstantSpeed{0, 50}, {10 * degree, 50}, std::vector{0.0, to},
+                         {.relative = 1e-12, .absolute = 1e-13});
+  ASSERT_FALSE(std::isnan(wanted.first_separation));
+  std::vector<ContactValidity> found;
+  for (const int rows : {2, 21, 2001})
+    found.push_back(simulated(l, pin, 50, evenly_spaced(0, to, rows), 1e-12).run.joints[0]);
+  for (const ContactValidity& v : found) {
+    // The motion is violent: what the two integrations differ by grows a thousandfold.
+    EXPECT_NEAR(v.first_separation, wanted.first_separation, 1e-10);
+    EXPECT_NEAR(v.separated, wanted.separated, 1e-7);
+    EXPECT_EQ(v.sign_changes, wanted.sign_changes);
+    // Steps do not see the rows.
+    EXPECT_EQ(v.first_separation, found[0].first_separation);
+    EXPECT_EQ(v.separated, found[0].separated);
+  }
+  EXPECT_GT(wanted.separated, 0.05);
+}
+
+// Where it is to stop it stops on the far side of the loss, and the state there is one to go on from.
+TEST(JointClearance, StopsWhereContactIsLost) {
+  const ClearanceFourBar model = published_four_bar("gamma-design1-table2-g9.81-w50");
+  const planar::Linkage l = as_linkage(model);
+  const planar::InputCourse crank{math::ConstantSpeed{0, 50}, 0, 0};
+  const JointClearance pin{
+      .joint = planar::joint_index(l, "A"), .clearance = 1e-3, .angle = 10 * turn / 360, .rate = 50};
+  const std::vector<double> times = evenly_spaced(0, turn / 50, 101);
+  std::size_t rows = 0;
+  double last = -1;
+  const auto run = [&](const JointClearance& from, double shift) {
+    rows = 0;
+    const planar::InputCourse drive{math::ConstantSpeed{50 * shift, 50}, 0, 0};
+    return simulate_joint_clearance(
+        l, std::span(&from, 1), std::span(&drive, 1), times,
+        {.relative_tolerance = 1e-11, .absolute_tolerance = 1e-12},
+        [&](const JointClearanceRow& row) {
+          ++rows;
+          last = row.instant.time;
+          return true;
+        },
+        nullptr, AtSeparation::stop);
+  };
+  const JointClearanceRun whole =
+      simulate_joint_clearance(l, std::span(&pin, 1), std::span(&crank, 1), times,
+                               {.relative_tolerance = 1e-11, .absolute_tolerance = 1e-12});
+  const JointClearanceRun part = run(pin, 0);
+  ASSERT_EQ(part.status, Status::done) << part.message;
+  EXPECT_EQ(part.parted, 0);
+  EXPECT_EQ(part.simulation.time, part.joints[0].first_separation);
+  EXPECT_EQ(part.simulation.time, whole.joints[0].first_separation);
+  EXPECT_LE(last, part.simulation.time);
+  EXPECT_LT(rows, times.size());
+  EXPECT_LE(part.end[0].tension, 0);
+  EXPECT_GT(part.end[0].tension, -1e-6);
+  EXPECT_EQ(part.end[0].tension, part.joints[0].least_tension);
+  EXPECT_NEAR(part.inputs[0].value, 50 * part.simulation.time, 1e-12);
+  EXPECT_LT(whole.parted, 0);
+  // A start without contact has no row at all. Two millionths of a turn after the loss the tension is
+  // negative.
+  JointClearance later = pin;
+  later.angle = part.end[0].angle + 2e-6 * part.end[0].rate;
+  later.rate = part.end[0].rate + 2e-6 * part.end[0].acceleration;
+  const JointClearanceRun none = run(later, part.simulation.time + 2e-6);
+  EXPECT_EQ(none.status, Status::done);
+  EXPECT_EQ(none.parted, 0);
+  EXPECT_EQ(rows, 0u);
+  EXPECT_EQ(none.simulation.time, 0);
+  EXPECT_LT(none.end[0].tension, 0);
 }
 
 // Clearance within a dyad: no closed form. The other route is that in the places of all bodies.

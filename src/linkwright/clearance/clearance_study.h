@@ -1,12 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <complex>
 #include <limits>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "linkwright/clearance/contact_simulation.h"
-#include "linkwright/clearance/joint_clearance.h"
+#include "linkwright/clearance/automatic_contact.h"
+#include "linkwright/clearance/joint_orbit.h"
 #include "linkwright/planar/linkage_columns.h"
 #include "linkwright/planar/linkage_scene.h"
 #include "linkwright/study/kind.h"
@@ -22,22 +25,46 @@ struct ContinuousPin {
   bool angle_given = false, rate_given = false;
 };
 
-/// A study as read. Either contacts or continuous pins, not both.
+/// How the pins of a study touch; all of them in the same way.
+enum class PinModel { contact, continuous, automatic };
+
+/// How long a study goes on.
+struct TransientRun {
+  double to = 1;  ///< s
+};
+constexpr Word choice_word(const TransientRun&) { return {"transient", "from the start to an end"}; }
+struct PeriodicRun {
+  int max_turns = 200;      ///< periods of the drives after which it is given up
+  double tolerance = 1e-6;  ///< for states of a section, see ClearanceRegime::change
+};
+constexpr Word choice_word(const PeriodicRun&) {
+  return {"periodic", "what the motion comes to: one that repeats itself with the drives"};
+}
+
+/// A study as read.
 struct ClearanceStudy {
   planar::Linkage linkage;
   planar::LinkagePlan plan;
   std::vector<planar::InputCourse> courses;  ///< one an input
-  double from = 0, to = 1;                   ///< s
-  int samples = 1001;
+  double from = 0;                           ///< s
+  std::variant<TransientRun, PeriodicRun> regime;
+  double period = 0;   ///< s, of the drives, for what needs it; 0 = there is none
+  int samples = 1001;  ///< from start to end, or of a period
   double relative_tolerance = 1e-9;
   long max_steps = 10'000'000;
-  std::vector<ContactJoint> contacts;
-  std::vector<ContinuousPin> continuous;
+  PinModel model = PinModel::contact;
+  std::vector<ContactJoint> contacts;     ///< of contact and automatic
+  std::vector<ContinuousPin> continuous;  ///< of continuous and automatic
   std::vector<planar::BodyPoint> traces;
   planar::LinkageQuantities quantities;
   int scene_samples = 361;  ///< of the animation, at most
 
-  std::size_t pins() const { return contacts.size() + continuous.size(); }
+  const PeriodicRun* periodic() const { return std::get_if<PeriodicRun>(&regime); }
+  /// s: when it ends at the latest.
+  double to() const {
+    return periodic() ? from + periodic()->max_turns * period : std::get<TransientRun>(regime).to;
+  }
+  std::size_t pins() const { return std::max(contacts.size(), continuous.size()); }
   int joint_of(std::size_t pin) const {
     return contacts.empty() ? continuous[pin].clearance.joint : contacts[pin].joint;
   }
@@ -45,6 +72,9 @@ struct ClearanceStudy {
     return contacts.empty() ? continuous[pin].clearance.clearance : contacts[pin].clearance;
   }
   PinSide pin_side(std::size_t pin) const { return contacts.empty() ? PinSide::first : contacts[pin].pin; }
+  const std::string& pin_name(std::size_t pin) const {
+    return linkage.joints[static_cast<std::size_t>(joint_of(pin))].name;
+  }
 };
 
 /// "simulation" of "clearance.linkage".
@@ -56,10 +86,10 @@ study::Result run_clearance_study(const ClearanceStudy& study, RunContext& conte
 // ---- between running and reporting
 // -----------------------------------------------------------------------------
 
-/// A pin at one instant: of contact all but the last three, of continuous contact all but depth, friction and
-/// contact.
+/// A pin at one instant: of continuous contact with the clearance link, which depth and friction are not of.
 struct PinInstant {
   std::complex<double> eccentricity, rate;  ///< middle of the bush to that of the pin, m and m/s
+  double bush_angle = 0;                    ///< rad: direction of the eccentricity in the frame of the bush
   double depth = 0;                         ///< m
   double normal = 0, friction = 0;          ///< N; of continuous contact `normal` is the tension
   bool contact = false;
@@ -75,24 +105,50 @@ struct RecordedRow {
   std::vector<double> values = {};  ///< of the columns
   planar::LinkageRecord record = {};
 };
+/// What a periodic regime was looked for with, and found.
+struct ClearanceRegime {
+  int turns = 0;   ///< periods of the drives after which it repeats; 0: not found
+  int waited = 0;  ///< periods from the start to where it was seen to repeat; 0: found by shooting
+  /// Largest change of a pin over `turns` periods, or, without, over the last one: ways as shares of the
+  /// clearance, speeds as shares of the largest of all sections; of a clearance link the sine and cosine of
+  /// its angle, and its speed as a share of one turn a period.
+  double change = std::numeric_limits<double>::quiet_NaN();
+  std::optional<JointOrbit> orbit;  ///< of continuous contact, where that was looked for
+};
 /// What a run has recorded.
 struct ClearanceRecording {
   Status status = Status::done;
   std::string message;
+  double from = 0;  ///< s: where what is reported begins
   double time = 0;  ///< reached, s
+  /// When pins went over from continuous to real contact, which of them parted, and where the inputs were
+  /// then.
+  double switched = std::numeric_limits<double>::quiet_NaN();  ///< s; NaN: never
+  int parted = -1;
+  std::vector<planar::InputMotion> switched_inputs;
   double largest_drift = 0, peak_energy = 0;
   long steps = 0, evaluations = 0;
   std::vector<planar::LinkageColumn> columns;  ///< of the linkage without clearance that are known with it
-  std::vector<RecordedRow> rows;
-  std::vector<RecordedRow> ideal;     ///< the same without clearance: times, inputs, values
-  std::vector<RecordedRow> sections;  ///< once a turn of an even drive, from the start
-  double period = 0;                  ///< s, of that drive; 0 = there is none
+  std::vector<RecordedRow> rows;               ///< of a periodic study the last periods alone
+  std::vector<RecordedRow> ideal;              ///< the same without clearance: times, inputs, values
+  std::vector<RecordedRow> sections;           ///< once a period of the drives, from the start
+  std::optional<ClearanceRegime> regime;       ///< of periodic studies
   std::vector<ContactEvent> events;
   std::vector<ContactValidity> validity;  ///< one a continuous pin
   /// Of every traced point: places on the ideal path, close together.
   std::vector<std::vector<std::complex<double>>> ideal_paths;
 };
 ClearanceRecording record_clearance(const ClearanceStudy& study, RunContext& context);
+
+/// Tables that summarise rows; without rows when there is nothing to summarise.
+Table contacts_table(const ClearanceStudy& study, const ClearanceRecording& recording);
+/// Where on its bush a pin presses, and how: directions in the frame of the bush, in steps of 5 deg.
+Table contact_map_table(const ClearanceStudy& study, const ClearanceRecording& recording);
+Table spectrum_table(const ClearanceStudy& study, const ClearanceRecording& recording);
+Table section_table(const ClearanceStudy& study, const ClearanceRecording& recording);
+/// The start of a periodic motion in continuous contact, one row a pin, and its Floquet multipliers.
+Table orbit_table(const ClearanceStudy& study, const JointOrbit& orbit);
+Table multipliers_table(const JointOrbit& orbit);
 
 /// Tables, plots and facts.
 study::Result report_clearance(const ClearanceStudy& study, ClearanceRecording recording);

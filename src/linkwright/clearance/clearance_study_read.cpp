@@ -17,6 +17,7 @@ namespace linkwright::clearance {
 namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr double most_rows = 1e7;  // of which a periodic study keeps the last
 
 constexpr Field number(std::string_view key, std::string_view summary, Dimension dimension, double minimum,
                        bool more_than = false, bool required = false) {
@@ -49,7 +50,7 @@ constexpr Word choice_word(const ContactForm&) {
   return {"contact", "pin and bush fly free, strike, press and slide"};
 }
 template <class Visitor>
-void fields(Visitor&& visit, ContactForm& c) {
+void material_fields(Visitor&& visit, ContactForm& c) {
   visit(number("bush_radius", "radius of the bush", Dimension::length, 0, true, true), c.bush_radius);
   visit(Field{.key = "law", .summary = "how energy is lost in a contact"}, c.law);
   visit(Field{.key = "restitution",
@@ -71,6 +72,10 @@ void fields(Visitor&& visit, ContactForm& c) {
   visit(number("friction_whole", "speed of sliding above which friction is whole", Dimension::speed, 0, true),
         c.friction_whole);
   visit(Field{.key = "pin", .summary = "which body carries the pin"}, c.pin);
+}
+template <class Visitor>
+void fields(Visitor&& visit, ContactForm& c) {
+  material_fields(visit, c);
   visit(any_number("start", "from the middle of the bush to that of the pin at the start, along x and y",
                    Dimension::length),
         c.start);
@@ -85,7 +90,7 @@ constexpr Word choice_word(const ContinuousForm&) {
   return {"continuous", "pin and bush always touch: a massless link as long as the clearance"};
 }
 template <class Visitor>
-void fields(Visitor&& visit, ContinuousForm& c) {
+void start_fields(Visitor&& visit, ContinuousForm& c) {
   visit(any_number("start_angle",
                    "direction from the point of the first body to that of the second at the start; if absent "
                    "where the force of the ideal joint presses it",
@@ -94,14 +99,33 @@ void fields(Visitor&& visit, ContinuousForm& c) {
   visit(any_number("start_rate", "how fast that turns then; if absent as that force does",
                    Dimension::speed_angular),
         c.rate);
+}
+template <class Visitor>
+void fields(Visitor&& visit, ContinuousForm& c) {
+  start_fields(visit, c);
   visit(number("damping", "viscous torque against the turning of the link", Dimension::damping_angular, 0),
         c.damping);
+}
+
+// What both of its models need; how pins lie in real contact follows from the loss of the other.
+struct AutomaticForm {
+  ContactForm contact;
+  ContinuousForm continuous;
+};
+constexpr Word choice_word(const AutomaticForm&) {
+  return {"automatic",
+          "continuous as long as pin and bush are pressed together, from the first loss on contact"};
+}
+template <class Visitor>
+void fields(Visitor&& visit, AutomaticForm& a) {
+  material_fields(visit, a.contact);
+  start_fields(visit, a.continuous);
 }
 
 struct PinForm {
   std::string joint;
   double clearance = 0;
-  std::variant<ContactForm, ContinuousForm> model;
+  std::variant<ContactForm, ContinuousForm, AutomaticForm> model;
 };
 template <class Visitor>
 void fields(Visitor&& visit, PinForm& p) {
@@ -168,8 +192,8 @@ std::optional<int> joint_of(study::ObjectReader& table, const PinForm& form, con
   return j;
 }
 
-std::optional<ContactJoint> contact_of(study::ObjectReader& table, const PinForm& form, int joint) {
-  const ContactForm& c = std::get<ContactForm>(form.model);
+std::optional<ContactJoint> contact_of(study::ObjectReader& table, const PinForm& form, const ContactForm& c,
+                                       int joint) {
   if (!(c.bush_radius > form.clearance)) {
     table.error("bush_radius", fmt::format("{:.6g} mm is not more than the clearance, {:.6g} mm",
                                            1e3 * c.bush_radius, 1e3 * form.clearance));
@@ -225,17 +249,23 @@ void read_clearances(study::ObjectReader& document, ClearanceStudy& s, Value::Ar
       continue;
     }
     told.emplace_back(*joint, model);
-    if (const auto* c = std::get_if<ContinuousForm>(&form.model)) {
+    const auto* automatic = std::get_if<AutomaticForm>(&form.model);
+    const auto* contact = automatic ? &automatic->contact : std::get_if<ContactForm>(&form.model);
+    const auto* continuous = automatic ? &automatic->continuous : std::get_if<ContinuousForm>(&form.model);
+    s.model = automatic ? PinModel::automatic : contact ? PinModel::contact : PinModel::continuous;
+    if (contact) {
+      const auto pin = contact_of(table, form, *contact, *joint);
+      if (!pin) continue;
+      s.contacts.push_back(*pin);
+    }
+    if (continuous)
       s.continuous.push_back({.clearance = {.joint = *joint,
                                             .clearance = form.clearance,
-                                            .angle = c->angle.value_or(0),
-                                            .rate = c->rate.value_or(0),
-                                            .damping = c->damping},
-                              .angle_given = c->angle.has_value(),
-                              .rate_given = c->rate.has_value()});
-    } else if (const auto contact = contact_of(table, form, *joint)) {
-      s.contacts.push_back(*contact);
-    }
+                                            .angle = continuous->angle.value_or(0),
+                                            .rate = continuous->rate.value_or(0),
+                                            .damping = continuous->damping},
+                              .angle_given = continuous->angle.has_value(),
+                              .rate_given = continuous->rate.has_value()});
   }
 }
 
@@ -245,20 +275,39 @@ void read_clearances(study::ObjectReader& document, ClearanceStudy& s, Value::Ar
 // ----------------------------------------------------------------------------------------------
 
 template <class Visitor>
+void fields(Visitor&& visit, TransientRun& r) {
+  visit(Field{.key = "to",
+              .summary = "when it ends",
+              .dimension = Dimension::time,
+              .minimum = -1e9,
+              .maximum = 1e9,
+              .required = true},
+        r.to);
+}
+template <class Visitor>
+void fields(Visitor&& visit, PeriodicRun& r) {
+  visit(Field{.key = "max_turns",
+              .summary = "periods of the drives after which a motion that does not repeat is given up",
+              .minimum = 2,
+              .maximum = 10'000},
+        r.max_turns);
+  visit(Field{.key = "regime_tolerance",
+              .summary = "by which states one period apart may differ: shares of clearance and speeds",
+              .minimum = 1e-12,
+              .maximum = 0.1},
+        r.tolerance);
+}
+template <class Visitor>
 void fields(Visitor&& visit, ClearanceStudy& s) {
-  const auto time = [&](std::string_view key, std::string_view summary, bool required, double& value) {
-    visit(Field{.key = key,
-                .summary = summary,
-                .dimension = Dimension::time,
-                .minimum = -1e9,
-                .maximum = 1e9,
-                .required = required},
-          value);
-  };
-  time("from", "when the motion starts", false, s.from);
-  time("to", "when it ends", true, s.to);
+  visit(Field{.key = "from",
+              .summary = "when the motion starts",
+              .dimension = Dimension::time,
+              .minimum = -1e9,
+              .maximum = 1e9},
+        s.from);
+  visit(Field{.key = "regime", .summary = "what is reported"}, s.regime);
   visit(Field{.key = "samples",
-              .summary = "rows of the tables, both ends included",
+              .summary = "rows of the tables, both ends included; of a periodic regime those of a period",
               .minimum = 2,
               .maximum = 1e6},
         s.samples);
@@ -271,16 +320,41 @@ void fields(Visitor&& visit, ClearanceStudy& s) {
 
 namespace {
 
+// The period of the drives, which a periodic regime needs.
+void find_period(study::ObjectReader& table, ClearanceStudy& s) {
+  const DrivePeriod found = drive_period(s.courses, s.plan.rotary);
+  s.period = found.period;
+  if (!s.periodic()) return;
+  if (found.period == 0) {
+    const std::string drive =
+        found.input < 0 ? std::string()
+                        : ": that of '" + planar::input_joint(s.linkage, std::size_t(found.input)).name + "'";
+    table.error(
+        "regime", "no drive repeats itself with all the others" + drive,
+        "periodic regimes need constant speeds, harmonic laws or periodic tables with a common period");
+  } else if (const std::string load = load_against_time(s.linkage); !load.empty()) {
+    table.error("regime", fmt::format("load '{}' depends on the time, so the motion has no period", load),
+                "let it depend on the input");
+  } else if (double(s.samples) * s.periodic()->max_turns > most_rows) {
+    table.error("samples",
+                fmt::format("{} rows a period for up to {} periods are more than {:g}", s.samples,
+                            s.periodic()->max_turns, most_rows),
+                "take fewer samples or max_turns");
+  }
+}
+
 study::Prepared prepare(study::ObjectReader& document, const study::Common& common) {
   study::Prepared prepared;
   ClearanceStudy s;
   s.quantities = planar::chosen_quantities(common.output.quantities);
   s.scene_samples = common.output.samples;
   auto description = planar::read_linkage(document, planar::LinkageType::linkage, true);
-  if (auto table = document.table(Field{.key = "simulation", .summary = {}, .required = true})) {
-    table->read(s);
-    if (!(s.to > s.from) && !document.document().has_errors())
-      table->error("to", fmt::format("the simulation ends at {} s, but starts at {} s", s.to, s.from), {});
+  auto simulation = document.table(Field{.key = "simulation", .summary = {}, .required = true});
+  if (simulation) {
+    simulation->read(s);
+    if (!s.periodic() && !(s.to() > s.from) && !document.document().has_errors())
+      simulation->error("to", fmt::format("the simulation ends at {} s, but starts at {} s", s.to(), s.from),
+                        {});
   }
   if (!description) {
     for (study::ObjectReader& drive : document.tables("drive")) drive.members();
@@ -294,6 +368,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   s.plan = std::move(description->plan);
   s.traces = std::move(description->traces);
   read_clearances(document, s, clearances);
+  if (simulation && s.courses.size() == s.plan.inputs()) find_period(*simulation, s);
   prepared.canonical["drive"] = Value(std::move(drives));
   prepared.canonical["clearance"] = Value(std::move(clearances));
   prepared.canonical["simulation"] = study::write_fields(s);
@@ -384,7 +459,7 @@ speed_rpm = 5000.0
 [[clearance]]
 joint          = "B"
 clearance_mm   = 0.5                # radius of the bush less radius of the pin
-model          = "contact"          # contact | continuous
+model          = "contact"          # contact | continuous | automatic
 bush_radius_mm = 10.0
 law            = "lankarani_nikravesh"   # lankarani_nikravesh | flores_2011
 restitution    = 0.9

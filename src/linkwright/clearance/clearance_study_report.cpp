@@ -15,9 +15,6 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
 constexpr double poor_balance = 1e-5;
-// Turns below which a section tells nothing, and rows below which a spectrum does.
-constexpr std::size_t least_turns = 3, least_rows = 32;
-
 // Rows beyond which not every one is compared with the ideal path.
 constexpr std::size_t most_compared = 20000;
 
@@ -43,9 +40,14 @@ class Reporter {
     motion();
     ideal();
     pins();
-    if (contact()) contacts();
-    spectrum();
-    section();
+    if (real()) add(contacts_table(s_, r_));
+    if (rows() > 0) add(contact_map_table(s_, r_));
+    add(spectrum_table(s_, r_));
+    add(section_table(s_, r_));
+    if (r_.regime && r_.regime->orbit && r_.regime->orbit->status == Status::done) {
+      add(orbit_table(s_, *r_.regime->orbit));
+      add(multipliers_table(*r_.regime->orbit));
+    }
     if (!r_.rows.empty()) result_.scenes.push_back(clearance_scene(s_, r_));
     plots();
     facts();
@@ -54,7 +56,13 @@ class Reporter {
   }
 
  private:
-  bool contact() const { return !s_.contacts.empty(); }
+  void add(Table table) {
+    if (!table.columns.empty()) result_.tables.push_back(std::move(table));
+  }
+  bool contact() const { return s_.model != PinModel::continuous; }
+  // Whether there was real contact.
+  bool real() const { return s_.model == PinModel::contact || switched(); }
+  bool switched() const { return !std::isnan(r_.switched); }
   std::size_t rows() const { return r_.rows.size(); }
   const std::string& name(std::size_t pin) const { return s_.linkage.joints[at(s_.joint_of(pin))].name; }
   std::string key(std::size_t pin) const { return planar::identifier(name(pin)); }
@@ -158,6 +166,29 @@ class Reporter {
     result_.tables.push_back(std::move(table));
   }
 
+  // With one rotary drive the clearance link runs before it.
+  bool leads() const { return s_.plan.inputs() == 1 && s_.plan.rotary[0]; }
+  void add_lead(Table& table, std::size_t k) {
+    std::vector<double> lead =
+        column(r_.rows, [&](const RecordedRow& r) { return r.pins[k].angle - r.inputs[0].value; });
+    if (!lead.empty()) {
+      const double turns = lead[0] - math::wrap_angle(lead[0]);
+      for (double& v : lead) v -= turns;
+    }
+    table.add(
+        key(k) + "_lead_rad",
+        fmt::format("{} clearance link before {} (rad)", name(k), planar::input_joint(s_.linkage, 0).name),
+        std::move(lead));
+  }
+  static void unwrap_known(std::vector<double>& angles) {
+    double last = nan;
+    for (double& a : angles) {
+      if (std::isnan(a)) continue;
+      if (!std::isnan(last)) a = last + math::angle_difference(a, last);
+      last = a;
+    }
+  }
+
   void pins() {
     Table table{.name = "pins"}, hodograph{.name = "hodograph"};
     table.add("time_s", "time (s)", column(r_.rows, [](const RecordedRow& r) { return r.time; }));
@@ -176,6 +207,9 @@ class Reporter {
         add("_contact_N", "contact force (N)", [](const PinInstant& p) { return p.normal; });
         add("_friction_N", "friction (N)", [](const PinInstant& p) { return p.friction; });
         add("_touches", "in contact (1) or not (0)", [](const PinInstant& p) { return p.contact; });
+        Column& angle = add("_contact_angle_rad", "direction of the pin in its bush where they touch (rad)",
+                            [](const PinInstant& p) { return p.contact ? std::arg(p.eccentricity) : nan; });
+        unwrap_known(angle.values);
       } else {
         add("_link_angle_rad", "direction of the clearance link (rad)",
             [](const PinInstant& p) { return p.angle; });
@@ -185,6 +219,7 @@ class Reporter {
             [](const PinInstant& p) { return p.angle_acceleration; });
         add("_tension_N", "tension of the clearance link, positive in contact (N)",
             [](const PinInstant& p) { return p.normal; });
+        if (leads()) add_lead(table, k);
       }
       // The way of the pin beside the circle that it is in.
       std::vector<double> circle_x, circle_y;
@@ -202,70 +237,6 @@ class Reporter {
     add_status(table, r_.rows);
     result_.tables.push_back(std::move(table));
     result_.tables.push_back(std::move(hodograph));
-  }
-
-  void contacts() {
-    Table table{.name = "contacts"};
-    const auto add = [&](const char* key, const char* label, auto&& of) {
-      std::vector<double> values;
-      for (const ContactEvent& e : r_.events) values.push_back(of(e));
-      table.add(key, label, std::move(values));
-    };
-    for (const ContactEvent& e : r_.events) table.names.push_back(name(at(e.joint)));
-    add("start_s", "start (s)", [](const ContactEvent& e) { return e.start; });
-    add("approach_m_per_s", "speed of approach (m/s)", [](const ContactEvent& e) { return e.approach; });
-    add("angle_rad", "direction of the pin in its bush (rad)", [](const ContactEvent& e) { return e.angle; });
-    add("end_s", "end (s)", [](const ContactEvent& e) { return e.end; });
-    add("separation_m_per_s", "speed of separation (m/s)",
-        [](const ContactEvent& e) { return e.separation; });
-    add("depth_m", "largest depth (m)", [](const ContactEvent& e) { return e.depth; });
-    add("force_N", "largest force (N)", [](const ContactEvent& e) { return e.force; });
-    result_.tables.push_back(std::move(table));
-  }
-
-  void spectrum() {
-    if (rows() < least_rows) return;
-    Table table{.name = "spectrum"};
-    const double interval = (s_.to - s_.from) / (s_.samples - 1);
-    for (std::size_t k = 0; k < s_.pins(); ++k) {
-      Spectrum spectrum = amplitude_spectrum(
-          column(r_.rows, [k](const RecordedRow& r) { return r.pins[k].normal; }), interval, true);
-      if (k == 0) table.add("frequency_Hz", "frequency (Hz)", std::move(spectrum.frequency));
-      table.add(key(k) + "_amplitude_N",
-                fmt::format("{} amplitude of the {} (N)", name(k), contact() ? "contact force" : "tension"),
-                std::move(spectrum.amplitude));
-    }
-    result_.tables.push_back(std::move(table));
-  }
-
-  void section() {
-    if (r_.sections.size() <= least_turns) return;
-    Table table{.name = "section"};
-    std::vector<double> turns;
-    for (std::size_t i = 0; i < r_.sections.size(); ++i) turns.push_back(double(i));
-    table.add("turn", "turn", std::move(turns));
-    for (std::size_t k = 0; k < s_.pins(); ++k) {
-      const auto add = [&](const char* end, std::string label, auto&& of) {
-        table.add(key(k) + end, name(k) + " " + std::move(label),
-                  column(r_.sections, [&](const RecordedRow& r) { return double(of(r.pins[k])); }));
-      };
-      if (contact()) {
-        add("_eccentricity_x_m", "eccentricity x (m)",
-            [](const PinInstant& p) { return p.eccentricity.real(); });
-        add("_eccentricity_y_m", "eccentricity y (m)",
-            [](const PinInstant& p) { return p.eccentricity.imag(); });
-        add("_eccentricity_rate_x_m_per_s", "eccentricity rate x (m/s)",
-            [](const PinInstant& p) { return p.rate.real(); });
-        add("_eccentricity_rate_y_m_per_s", "eccentricity rate y (m/s)",
-            [](const PinInstant& p) { return p.rate.imag(); });
-      } else {
-        add("_link_angle_rad", "direction of the clearance link (rad)",
-            [](const PinInstant& p) { return std::remainder(p.angle, 2 * std::numbers::pi); });
-        add("_link_speed_rad_per_s", "speed of the clearance link (rad/s)",
-            [](const PinInstant& p) { return p.angle_rate; });
-      }
-    }
-    result_.tables.push_back(std::move(table));
   }
 
   // ---- plots
@@ -298,7 +269,7 @@ class Reporter {
     if (table("ideal")) p.baseline = "ideal";
   }
   void plots() {
-    std::vector<std::string> paths, errors, hodograph, forces, spectrum, reactions, drives;
+    std::vector<std::string> paths, errors, hodograph, forces, spectrum, reactions, drives, map, angles;
     for (std::size_t k = 0; k < s_.traces.size(); ++k) {
       const std::string t = trace_key(k);
       for (const char* end : {"_x_m", "_y_m", "_ideal_x_m", "_ideal_y_m"}) paths.push_back(t + end);
@@ -310,11 +281,18 @@ class Reporter {
         hodograph.push_back(key(k) + end);
       forces.push_back(key(k) + (contact() ? "_contact_N" : "_tension_N"));
       spectrum.push_back(key(k) + "_amplitude_N");
+      for (const char* end : {"_force_x_N", "_force_y_N"}) map.push_back(key(k) + end);
+      angles.push_back(key(k) + (contact() ? "_contact_angle_rad" : "_lead_rad"));
     }
     plot("hodograph", "Ways of the pins in their bushes", "hodograph", "", hodograph, Style::polar);
     plot("contact-forces",
          contact() ? "Contact forces" : "Tension of the clearance links: contact while positive", "pins",
          "time_s", forces);
+    plot("contact-map", "Contact map: the largest force on each place of the bush, in the frame of the bush",
+         "contact_map", "", map, Style::polar);
+    plot("contact-angles",
+         contact() ? "Where the pins touch: directions in their bushes" : "Leads of the clearance links",
+         "pins", "time_s", angles, contact() ? Style::points : Style::line);
     if (!contact()) {
       std::vector<std::string> speeds;
       for (std::size_t k = 0; k < s_.pins(); ++k) speeds.push_back(key(k) + "_link_speed_rad_per_s");
@@ -359,10 +337,12 @@ class Reporter {
     result_.diagnostics.push_back(
         {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
   }
-  double duration() const { return r_.time - s_.from; }
+  double duration() const { return r_.time - r_.from; }
 
   void facts() {
-    if (contact())
+    if (r_.regime) regime_facts();
+    if (s_.model == PinModel::automatic) switch_fact();
+    if (real())
       contact_facts();
     else
       continuous_facts();
@@ -384,16 +364,85 @@ class Reporter {
          fmt::format("{} steps, {} evaluations of the equations of motion", r_.steps, r_.evaluations));
     if (!r_.message.empty()) warn(r_.message, "");
   }
+  void regime_facts() {
+    const ClearanceRegime& regime = *r_.regime;
+    if (regime.orbit) orbit_facts(*regime.orbit);
+    if (regime.turns > 0 && regime.waited > 0)
+      fact("periodic regime",
+           fmt::format("repeats every {} ({:.6g} s) after {}, within {:.2g}", periods(regime.turns),
+                       regime.turns * s_.period, periods(regime.waited), regime.change),
+           Verdict::good);
+    else if (regime.turns == 0)
+      fact("periodic regime",
+           std::isnan(regime.change)
+               ? std::string("not found")
+               : fmt::format("not found within {}: the last one changed the motion by {:.3g}",
+                             periods(regime.waited), regime.change),
+           Verdict::bad);
+  }
+  static std::string periods(int count) {
+    return count == 1 ? std::string("turn") : fmt::format("{} turns", count);
+  }
+  void orbit_facts(const JointOrbit& orbit) {
+    const bool taken = r_.regime->waited == 0;
+    if (orbit.status != Status::done) {
+      fact("shooting", "no periodic motion in continuous contact: " + orbit.message);
+      return;
+    }
+    fact(taken ? "periodic regime" : "shooting",
+         fmt::format(
+             "{:.6g} s, in continuous contact; found in {} steps of Newton's method, a period changes it by "
+             "{:.2g}{}",
+             s_.period, orbit.iterations, orbit.residual,
+             taken ? "" : "; but pins part on it, or it is unstable"),
+         taken ? Verdict::good : Verdict::plain);
+    std::string multipliers;
+    for (const std::complex<double>& m : orbit.multipliers)
+      multipliers += fmt::format("{}{:.6f}{:+.6f}i", multipliers.empty() ? "" : ", ", m.real(), m.imag());
+    const bool unstable = orbit.stability == OrbitStability::unstable;
+    fact("stability",
+         fmt::format("{}: {}; Floquet multipliers {}", name_of(orbit.stability), summary_of(orbit.stability),
+                     multipliers),
+         unstable ? Verdict::bad : Verdict::good);
+    if (unstable && taken)
+      warn("the periodic motion is unstable: a real linkage leaves it",
+           "model = \"automatic\" goes on turn after turn to the motion that it comes to");
+  }
+  static std::string_view summary_of(OrbitStability stability) {
+    for (const auto& word : names(OrbitStability{}))
+      if (word.value == stability) return word.summary;
+    return {};
+  }
+  // Where the first input was when pins parted: "O2 at 71 deg".
+  std::string where_switched() const {
+    if (r_.switched_inputs.empty()) return {};
+    const double value = r_.switched_inputs[0].value;
+    const std::string& joint = planar::input_joint(s_.linkage, 0).name;
+    return s_.plan.rotary[0]
+               ? fmt::format(", {} at {:.4g} deg", joint, math::degrees(math::wrap_angle(value)))
+               : fmt::format(", {} at {:.4g} mm", joint, 1e3 * value);
+  }
+  void switch_fact() {
+    if (!(duration() > 0)) return;
+    if (!switched()) {
+      fact("model", "continuous contact holds throughout", Verdict::good);
+      return;
+    }
+    fact("model", fmt::format("pin {} parted from its bush at {:.6g} s{}; from there on real contact{}",
+                              name(at(r_.parted)), r_.switched, where_switched(),
+                              s_.pins() > 1 ? " of all loose pins" : ""));
+  }
   void contact_facts() {
     if (!(duration() > 0)) return;
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < s_.pins(); ++k) {
       std::size_t count = 0;
-      double touching = 0, force = 0, approach = 0, depth = 0;
+      double touching = switched() ? std::max(r_.switched - r_.from, 0.0) : 0;
+      double force = 0, approach = 0, depth = 0;
       for (const ContactEvent& e : r_.events) {
         if (at(e.joint) != k) continue;
         ++count;
-        touching += (std::isnan(e.end) ? r_.time : e.end) - e.start;
+        touching += (std::isnan(e.end) ? r_.time : e.end) - std::max(e.start, r_.from);
         force = std::max(force, e.force);
         approach = std::max(approach, e.approach);
         depth = std::max(depth, e.depth);
@@ -406,7 +455,8 @@ class Reporter {
                                     count, 100 * touching / duration(), force, 1e6 * depth, approach));
       largest_force_ = std::max(largest_force_, force);
     }
-    const double interval = (s_.to - s_.from) / (s_.samples - 1);
+    if (rows() < 2) return;
+    const double interval = (r_.rows.back().time - r_.rows.front().time) / double(rows() - 1);
     if (shortest < interval)
       fact("shortest contact",
            fmt::format("{:.3g} s, less than the {:.3g} s between rows: plots and spectrum miss peaks of the "
@@ -433,29 +483,51 @@ class Reporter {
       warn(fmt::format("the pin of '{}' is taken to touch its bush always, but they part at {:.4g} s: what "
                        "follows is outside of the model",
                        name(k), v.first_separation),
-           "model = \"contact\" computes flights and impacts");
+           "model = \"contact\" computes flights and impacts, model = \"automatic\" from there on");
     }
   }
 
   void headline() {
+    std::string& text = result_.headline;
     if (rows() == 0) {
-      result_.headline = "The linkage does not start: " + r_.message + ".";
+      const bool interrupted = r_.status == Status::cancelled || r_.status == Status::deadline;
+      text =
+          (interrupted ? "Ended before its first row: " : "The linkage does not start: ") + r_.message + ".";
       return;
     }
-    std::string& text = result_.headline;
-    if (contact())
-      text = fmt::format("In {:.4g} s {} contacts of pin and bush, with up to {:.4g} N", duration(),
-                         r_.events.size(), largest_force_);
-    else if (lost_)
-      text = "Pin and bush do not stay in contact: the motion is outside of the model";
-    else
-      text = fmt::format("Pin and bush stay in contact for all {:.4g} s", duration());
+    if (r_.regime) text = regime_headline();
+    text += motion_headline();
     if (!std::isnan(path_error_))
       text +=
           fmt::format("; {} leaves its path by up to {:.4g} mm", trace_name(farthest_), 1e3 * path_error_);
     text += ".";
-    if (r_.status != Status::done)
-      text += fmt::format(" It ends at {:.6g} s, before {:.6g} s: {}.", r_.time, s_.to, to_string(r_.status));
+    if (r_.status != Status::done && !(r_.regime && r_.time >= s_.to()))
+      text +=
+          fmt::format(" It ends at {:.6g} s, before {:.6g} s: {}.", r_.time, s_.to(), to_string(r_.status));
+  }
+  std::string regime_headline() const {
+    const ClearanceRegime& regime = *r_.regime;
+    if (regime.turns == 0)
+      return fmt::format("The motion did not become periodic within {} turns: ", s_.periodic()->max_turns);
+    if (regime.waited == 0)
+      return fmt::format("The periodic motion is {}: ", name_of(regime.orbit->stability));
+    return fmt::format("The motion repeats every {} after {}: ", periods(regime.turns),
+                       periods(regime.waited));
+  }
+  std::string motion_headline() const {
+    const bool begins = result_.headline.empty();
+    if (switched())
+      return fmt::format(
+          "{} {} parts from its bush at {:.4g} s{}, and {} contacts with up to {:.4g} N follow",
+          begins ? "Pin" : "pin", name(at(r_.parted)), r_.switched, where_switched(), r_.events.size(),
+          largest_force_);
+    if (real())
+      return fmt::format("{} {:.4g} s {} contacts of pin and bush, with up to {:.4g} N", begins ? "In" : "in",
+                         duration(), r_.events.size(), largest_force_);
+    if (lost_)
+      return begins ? "Pin and bush do not stay in contact: the motion is outside of the model"
+                    : "pin and bush do not stay in contact, so it is outside of the model";
+    return fmt::format("{} and bush stay in contact for all {:.4g} s", begins ? "Pin" : "pin", duration());
   }
 
   const ClearanceStudy& s_;

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "linkwright/clearance/clearance_study.h"
+#include "linkwright/clearance/clearance_study_rows.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::clearance {
@@ -12,6 +15,8 @@ using planar::InputMotion, planar::Vec;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+// A motion that repeats itself after more periods than this counts as one that does not.
+constexpr int most_periods = 8;
 
 std::vector<math::MotionCurve> curves_of(const ClearanceStudy& s) {
   std::vector<math::MotionCurve> out;
@@ -36,18 +41,56 @@ Vec<double> place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
                      const planar::LinkageMotion& motion, const planar::BodyPoint& p) {
   return planar::point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at).position;
 }
+// What of a section has to come back, scaled: of pins that fly also where they are off their circle.
+std::vector<double> section_state(const ClearanceStudy& s, const RecordedRow& row, double fastest) {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < row.pins.size(); ++k) {
+    const PinInstant& p = row.pins[k];
+    const bool link = s.model == PinModel::continuous;
+    const std::complex<double> way = link ? std::polar(1.0, p.angle) : p.eccentricity / s.clearance_of(k);
+    const std::complex<double> rate =
+        link ? std::complex<double>(p.angle_rate * s.period / (2 * std::numbers::pi)) : p.rate / fastest;
+    out.insert(out.end(), {way.real(), way.imag(), rate.real(), rate.imag()});
+  }
+  return out;
+}
 
 class Recorder {
  public:
-  Recorder(const ClearanceStudy& s, RunContext& context) : s_(s), context_(context) {
-    out_.period = even_period();
+  Recorder(const ClearanceStudy& s, RunContext& context)
+      : s_(s),
+        context_(context),
+        same_(1e-12 * std::max({std::abs(s.from), std::abs(s.to()), s.to() - s.from})),
+        rows_(s, out_, [this](RecordedRow&& row) { return keep(std::move(row)); }) {
+    for (const planar::InputCourse& c : s_.courses)
+      start_.push_back(c.law ? math::MotionCurve(*c.law)(s_.from).value : c.value);
+    for (const ContactJoint& c : s_.contacts) contact_numbers_.push_back(c.joint);
+  }
+
+  ClearanceRecording run() {
+    out_.from = s_.from;
+    if (prepare()) {
+      if (s_.periodic())
+        find_regime();
+      else
+        once();
+    }
+    without_clearance();
+    paths();
+    return std::move(out_);
+  }
+
+ private:
+  // ---- times --------------------------------------------------------------------------------------------
+
+  // Rows of a transient, and sections; both in one run: a section within rounding of a row is that row.
+  void set_times() {
     std::vector<double> rows, sections;
-    for (int i = 0; i < s.samples; ++i)
-      rows.push_back(i + 1 == s.samples ? s.to : s.from + (s.to - s.from) * i / (s.samples - 1));
-    for (int k = 0; out_.period > 0 && s.from + k * out_.period <= s.to; ++k)
-      sections.push_back(s.from + k * out_.period);
-    // Both in one run; a section within rounding of a row is that row.
-    same_ = 1e-12 * std::max({std::abs(s.from), std::abs(s.to), s.to - s.from});
+    const double to = s_.to();
+    for (int i = 0; i < s_.samples; ++i)
+      rows.push_back(i + 1 == s_.samples ? to : s_.from + (to - s_.from) * i / (s_.samples - 1));
+    for (int k = 0; s_.period > 0 && s_.from + k * s_.period <= to; ++k)
+      sections.push_back(s_.from + k * s_.period);
     for (std::size_t i = 0, k = 0; i < rows.size() || k < sections.size();) {
       const double row = i < rows.size() ? rows[i] : std::numeric_limits<double>::infinity();
       const double section = k < sections.size() ? sections[k] : std::numeric_limits<double>::infinity();
@@ -58,181 +101,209 @@ class Recorder {
       k += is_section_.back();
     }
   }
-
-  ClearanceRecording run() {
-    out_.columns = planar::linkage_columns(s_.linkage, s_.plan, s_.quantities, s_.traces);
-    // A free joint has no drive whose force would be of interest.
-    std::erase_if(out_.columns, [&](const planar::LinkageColumn& c) {
-      for (std::size_t k = 0; k < s_.courses.size(); ++k)
-        if (!s_.courses[k].law &&
-            c.key.starts_with(planar::identifier(planar::input_joint(s_.linkage, k).name) + "_drive_"))
-          return true;
-      return false;
-    });
-    if (s_.contacts.empty())
-      with_continuous_contact();
-    else
-      with_contacts();
-    without_clearance();
-    paths();
-    return std::move(out_);
-  }
-
- private:
-  // Time of a turn of the only drive if it turns evenly.
-  double even_period() const {
-    if (s_.courses.size() != 1 || !s_.courses[0].law || !s_.plan.rotary[0]) return 0;
-    const auto* even = std::get_if<math::ConstantSpeed>(&*s_.courses[0].law);
-    return even && even->rate != 0 ? 2 * std::numbers::pi / std::abs(even->rate) : 0;
-  }
-
-  // ---- columns of a linkage whose joints are others
-  // -----------------------------------------------------------
-
-  // Keeps the columns that the moving linkage has, too, and finds them there. What its own inputs drive are
-  // columns of the other.
-  void choose_columns(const planar::Linkage& l, const planar::LinkagePlan& plan) {
-    const std::vector<planar::LinkageColumn> own = planar::linkage_columns(l, plan, s_.quantities, s_.traces);
-    std::vector<planar::LinkageColumn> kept;
-    for (const planar::LinkageColumn& c : out_.columns) {
-      std::function<double(const planar::LinkageInstant&, const RecordedRow&)> value;
-      for (std::size_t k = 0; k < s_.pins(); ++k) {
-        const std::string key = planar::identifier(s_.linkage.joints[at(s_.joint_of(k))].name);
-        if (c.key == key + "_x_N")
-          value = [k](const planar::LinkageInstant&, const RecordedRow& r) { return r.pins[k].force.x; };
-        else if (c.key == key + "_y_N")
-          value = [k](const planar::LinkageInstant&, const RecordedRow& r) { return r.pins[k].force.y; };
-        else if (c.key == key + "_N")
-          value = [k](const planar::LinkageInstant&, const RecordedRow& r) { return norm(r.pins[k].force); };
-      }
-      for (std::size_t k = s_.courses.size(); !value && k < plan.inputs(); ++k)
-        if (planar::input_key(l, plan, k) == c.key)
-          value = [k](const planar::LinkageInstant& i, const RecordedRow&) { return i.inputs[k].value; };
-      if (!value) {
-        const auto found =
-            std::find_if(own.begin(), own.end(), [&](const auto& o) { return o.key == c.key; });
-        if (found == own.end()) continue;
-        value = [v = found->value](const planar::LinkageInstant& i, const RecordedRow&) { return v(i); };
-      }
-      kept.push_back(c);
-      values_.push_back(std::move(value));
+  // The same of so many periods, each with all samples.
+  void set_times(int periods) {
+    times_.clear();
+    is_section_.clear();
+    const int each = s_.samples - 1;
+    for (int i = 0; i <= periods * each; ++i) {
+      times_.push_back(s_.from + s_.period * (double(i) / each));
+      is_section_.push_back(i % each == 0);
     }
-    out_.columns = std::move(kept);
+    is_row_.assign(times_.size(), true);
   }
 
-  // Completes a row: values and what the drawing needs. `joints` maps those of the linkage to those of the
-  // moving one, -1 = a pin with clearance.
-  void finish(RecordedRow row, const planar::LinkagePlan& plan, std::span<const InputMotion> inputs,
-              const planar::LinkageMotion& motion, const std::vector<int>& joints) {
-    const planar::LinkageInstant instant{row.time, {inputs.begin(), inputs.end()}, &motion, &forces_};
-    for (const auto& value : values_)
-      row.values.push_back(row.status == Status::done ? value(instant, row) : nan);
-    row.inputs.assign(inputs.begin(), inputs.begin() + static_cast<std::ptrdiff_t>(s_.courses.size()));
-    row.record.status = row.status;
-    row.record.input = row.time;
-    for (int b = 0; b < static_cast<int>(s_.linkage.bodies.size()); ++b)
-      row.record.bodies.push_back(planar::body_state(plan, motion, b));
-    if (forces_.status == Status::done && !forces_.joints.empty()) {
-      for (std::size_t j = 0; j < joints.size(); ++j)
-        row.record.joints.push_back(joints[j] < 0 ? planar::JointReaction() : forces_.joints[at(joints[j])]);
-      for (std::size_t k = 0; k < s_.pins(); ++k)
-        row.record.joints[at(s_.joint_of(k))].force = row.pins[k].force;
-      row.record.drives.assign(forces_.drives.begin(),
-                               forces_.drives.begin() + static_cast<std::ptrdiff_t>(s_.courses.size()));
-    }
-    // Rows that have no position are left out.
+  // ---- rows ---------------------------------------------------------------------------------------------
+
+  // Rows that have no position are left out.
+  bool keep(RecordedRow&& row) {
     const auto found = std::lower_bound(times_.begin(), times_.end(), row.time - same_);
     const auto now = static_cast<std::size_t>(std::min(found, times_.end() - 1) - times_.begin());
     if (is_section_[now]) out_.sections.push_back(row);
     if (is_row_[now]) out_.rows.push_back(std::move(row));
+    return !is_section_[now] || !searching_ || !repeats();
+  }
+  // Whether the last section is one of those before; then the motion is known. Drops old rows.
+  bool repeats() {
+    double fastest = 1e-300;
+    for (std::size_t k = 0; k < s_.pins(); ++k)
+      fastest = std::max(fastest, s_.clearance_of(k) * 2 * std::numbers::pi / s_.period);
+    for (const RecordedRow& row : out_.sections)
+      for (const PinInstant& p : row.pins) fastest = std::max(fastest, std::abs(p.rate));
+    std::vector<std::vector<double>> states;
+    const std::size_t first =
+        out_.sections.size() - std::min<std::size_t>(out_.sections.size(), most_periods + 1);
+    for (std::size_t i = first; i < out_.sections.size(); ++i)
+      states.push_back(section_state(s_, out_.sections[i], fastest));
+    ClearanceRegime& regime = *out_.regime;
+    regime.turns = repeating_period(states, s_.periodic()->tolerance, most_periods);
+    regime.waited = static_cast<int>(out_.sections.size()) - 1;
+    const std::size_t apart = at(std::max(regime.turns, 1));
+    if (states.size() > apart) {
+      regime.change = 0;
+      for (std::size_t i = 0; i < states.back().size(); ++i)
+        regime.change =
+            std::max(regime.change, std::abs(states.back()[i] - states[states.size() - 1 - apart][i]));
+    }
+    drop_rows(out_.sections.back().time - (regime.turns > 0 ? regime.turns : most_periods) * s_.period);
+    return regime.turns > 0;
+  }
+  void drop_rows(double before) {
+    const auto first = std::find_if(out_.rows.begin(), out_.rows.end(),
+                                    [&](const RecordedRow& row) { return row.time >= before - same_; });
+    out_.rows.erase(out_.rows.begin(), first);
   }
 
-  // ---- contact
-  // ------------------------------------------------------------------------------------------------
+  // ---- the moving linkages ------------------------------------------------------------------------------
 
-  void with_contacts() {
-    std::vector<int> taken;
-    for (const ContactJoint& c : s_.contacts) taken.push_back(c.joint);
-    std::vector<double> values;
-    for (const planar::InputCourse& c : s_.courses)
-      values.push_back(c.law ? math::MotionCurve(*c.law)(s_.from).value : c.value);
-    // The same linkage as that of the simulation, to which the forces of the contacts are added here, too.
-    OpenLinkage open = open_linkage(s_.linkage, taken, values);
-    if (open.status != Status::done) {
-      out_.status = open.status;
-      out_.message = open.message;
-      return;
+  bool prepare() {
+    if (s_.model != PinModel::contact) {
+      starts_ = started();
+      cleared_ = with_clearance(s_.linkage, starts_, start_);
+      if (cleared_.status != Status::done) return fail(cleared_.status, cleared_.message);
+      rows_.expect(cleared_, starts_);
     }
-    choose_columns(open.linkage, open.plan);
-    std::vector<int> joints;
-    for (const planar::LinkageJoint& j : s_.linkage.joints)
-      joints.push_back(planar::joint_index(open.linkage, j.name));
-    for (const int j : taken) joints[at(j)] = -1;
-    planar::Linkage pressed = open.linkage;
-    for (const OpenLinkage::Pin& pin : open.pins)
-      for (const planar::BodyPoint& side : {pin.first, pin.second}) {
-        planar::LinkageBody& body = pressed.bodies[at(side.body)];
-        pressed.forces.emplace_back();
-        pressed.forces.back().point = {side.body, static_cast<int>(body.points.size())};
-        body.points.push_back({"contact of " + pin.name, {0, 0}});
-      }
-    const std::size_t first_force = s_.linkage.forces.size();
-    ContactOptions options{.tolerance = s_.relative_tolerance, .max_steps = s_.max_steps};
-    const ContactRun run = simulate_contact(
-        s_.linkage, s_.contacts, s_.courses, times_, options,
-        [&](const ContactRow& c) {
-          RecordedRow row{.time = c.time,
-                          .kinetic = c.kinetic,
-                          .potential = c.potential,
-                          .elastic = c.elastic,
-                          .dissipated = c.dissipated,
-                          .work = c.work,
-                          .drift = c.drift};
-          for (std::size_t k = 0; k < c.joints.size(); ++k) {
-            const ContactState& state = c.joints[k];
-            const OpenLinkage::Pin& pin = open.pins[k];
-            const bool pin_first = s_.contacts[k].pin == PinSide::first;
-            const Vec<double> e = planar::vec(state.eccentricity);
-            const Vec<double> n = norm(e) > 0 ? (1 / norm(e)) * e : Vec<double>{1, 0};
-            const Vec<double> on_pin = -state.normal * n - state.friction * left(n);
-            const Vec<double> where =
-                place_of(open.linkage, open.plan, *c.motion, pin_first ? pin.first : pin.second) +
-                (s_.contacts[k].bush_radius - s_.contacts[k].clearance) * n;
-            const Vec<double> on_second = pin_first ? -on_pin : on_pin;
-            for (std::size_t side = 0; side < 2; ++side) {
-              planar::PointForce& force = pressed.forces[first_force + 2 * k + side];
-              force.force = number(side == 0 ? -on_second : on_second);
-              const planar::PartState<double> frame =
-                  planar::body_state(open.plan, *c.motion, force.point.body);
-              pressed.bodies[at(force.point.body)].points[at(force.point.point)].at =
-                  number(unturn(frame.direction, where - frame.origin));
-            }
-            row.pins.push_back({.eccentricity = state.eccentricity,
-                                .rate = state.rate,
-                                .depth = state.depth,
-                                .normal = state.normal,
-                                .friction = state.friction,
-                                .contact = state.contact,
-                                .force = on_second});
-          }
-          if (s_.quantities.dynamic())
-            planar::solve_forces(pressed, open.plan, *c.motion, c.time, c.inputs[0].value, forces_);
-          finish(std::move(row), open.plan, c.inputs, *c.motion, joints);
-          return true;
-        },
-        &context_);
-    out_.status = run.status;
-    out_.message = run.message;
-    out_.time = run.time;
+    if (s_.model != PinModel::continuous) {
+      // The same linkage as that of the simulation, to which the forces of the contacts are added here, too.
+      open_ = open_linkage(s_.linkage, contact_numbers_, start_);
+      if (open_.status != Status::done) return fail(open_.status, open_.message);
+      rows_.expect(open_);
+    }
+    rows_.choose_columns();
+    return true;
+  }
+  bool fail(Status status, const std::string& message) {
+    out_.status = status;
+    out_.message = message;
+    return false;
+  }
+  planar::SimulationOptions continuous_options() const {
+    return {.relative_tolerance = s_.relative_tolerance,
+            .absolute_tolerance = 0.1 * s_.relative_tolerance,
+            .max_steps = s_.max_steps};
+  }
+
+  void simulate() {
+    if (s_.model == PinModel::continuous)
+      with_continuous_contact();
+    else if (s_.model == PinModel::contact)
+      with_contacts();
+    else
+      with_both();
+  }
+  template <class Run>
+  void take(const Run& run) {
     out_.largest_drift = run.largest_drift;
     out_.peak_energy = run.peak_energy;
     out_.steps = run.steps;
     out_.evaluations = run.evaluations;
+    out_.time = run.time;
+  }
+  void with_contacts() {
+    const ContactRun run = simulate_contact(
+        s_.linkage, s_.contacts, s_.courses, times_,
+        {.tolerance = s_.relative_tolerance, .max_steps = s_.max_steps},
+        [&](const ContactRow& row) { return rows_.add(row); }, &context_);
+    fail(run.status, run.message);
+    take(run);
     out_.events = run.events;
   }
+  void with_continuous_contact() {
+    const JointClearanceRun run = simulate_joint_clearance(
+        s_.linkage, starts_, s_.courses, times_, continuous_options(),
+        [&](const JointClearanceRow& row) { return rows_.add(row); }, &context_);
+    fail(run.status, run.message);
+    take(run.simulation);
+    out_.validity = run.joints;
+  }
+  void with_both() {
+    std::vector<AutomaticPin> pins;
+    for (std::size_t k = 0; k < starts_.size(); ++k)
+      pins.push_back({s_.contacts[k], starts_[k].angle, starts_[k].rate});
+    const AutomaticContactRun run = simulate_automatic_contact(
+        s_.linkage, pins, s_.courses, times_, {.tolerance = s_.relative_tolerance, .max_steps = s_.max_steps},
+        {.continuous = [&](const JointClearanceRow& row) { return rows_.add(row); },
+         .contact = [&](const ContactRow& row) { return rows_.add(row); }},
+        &context_);
+    fail(run.status, run.message);
+    take(run);
+    out_.events = run.contact.events;
+    out_.validity = run.continuous.joints;
+    out_.switched = run.switched;
+    out_.parted = run.pin;
+    out_.switched_inputs = run.inputs;
+  }
 
-  // ---- continuous contact
-  // -------------------------------------------------------------------------------------
+  // ---- runs ---------------------------------------------------------------------------------------------
+
+  void once() {
+    set_times();
+    simulate();
+  }
+  void clear() {
+    out_.rows.clear();
+    out_.sections.clear();
+    out_.events.clear();
+    out_.switched = nan;
+    out_.parted = -1;
+  }
+  // Continuous contact has its periodic motion found by shooting, whether or not the motion from the start
+  // would settle on it. Of pins that may part it counts where it keeps contact and is not unstable. All
+  // others go on period after period until a section repeats.
+  void find_regime() {
+    out_.regime.emplace();
+    const std::vector<JointClearance> given = starts_;
+    if (s_.model != PinModel::contact && shoot()) return;
+    starts_ = given;
+    clear();
+    set_times(s_.periodic()->max_turns);
+    searching_ = true;
+    simulate();
+    const ClearanceRegime& regime = *out_.regime;
+    if (regime.turns == 0) {
+      // What came last: the period that had been completed, and what was begun.
+      if (!out_.sections.empty()) drop_rows(out_.sections.back().time - s_.period);
+      if (out_.status == Status::done)
+        fail(Status::not_converged,
+             fmt::format(
+                 "the motion did not become periodic within {} turns: the last one changed it by {:.3g}, "
+                 "more than the tolerance {:.3g}",
+                 s_.periodic()->max_turns, regime.change, s_.periodic()->tolerance));
+    }
+    // Contacts of the regime alone.
+    if (regime.turns > 0 && !out_.rows.empty()) {
+      out_.from = out_.rows.front().time;
+      std::erase_if(out_.events, [&](const ContactEvent& e) { return e.end <= out_.from + same_; });
+    }
+  }
+  // false: there is no such motion, or pins part on it.
+  bool shoot() {
+    // Multipliers are known to some thousandths of what differences leave.
+    planar::SimulationOptions options = continuous_options();
+    options.relative_tolerance = std::min(options.relative_tolerance, 1e-10);
+    options.absolute_tolerance = 0.01 * options.relative_tolerance;
+    JointOrbit orbit =
+        find_joint_orbit(s_.linkage, starts_, s_.courses, s_.from, s_.period, options, &context_);
+    const bool found = orbit.status == Status::done;
+    const bool interrupted = orbit.status == Status::cancelled || orbit.status == Status::deadline;
+    if (interrupted) fail(orbit.status, orbit.message);
+    const bool unstable = orbit.stability == OrbitStability::unstable;
+    for (std::size_t k = 0; k < starts_.size(); ++k) {
+      starts_[k].angle = orbit.start[k].angle;
+      starts_[k].rate = orbit.start[k].rate;
+    }
+    out_.regime->orbit = std::move(orbit);
+    if (interrupted) return true;
+    if (!found || (unstable && s_.model == PinModel::automatic)) return false;
+    set_times(1);
+    simulate();
+    if (s_.model == PinModel::automatic && !std::isnan(out_.switched)) return false;
+    out_.regime->turns = 1;
+    out_.regime->change = out_.regime->orbit->residual;
+    return true;
+  }
+
+  // ---- start of continuous contact ----------------------------------------------------------------------
 
   // Direction in which the force of the ideal joint presses the pin at a time, first body's point to
   // second's.
@@ -262,7 +333,7 @@ class Recorder {
     std::vector<double> now, before, after;
     if (!pressed_directions(s_.from, now)) return out;
     // The rate by differences: free joints have none that would be known.
-    const double step = 1e-6 * (s_.to - s_.from);
+    const double step = 1e-6 * (s_.periodic() ? s_.period : s_.to() - s_.from);
     const bool known = all_driven(s_) && pressed_directions(s_.from - step, before) &&
                        pressed_directions(s_.from + step, after);
     for (std::size_t k = 0; k < out.size(); ++k) {
@@ -273,68 +344,7 @@ class Recorder {
     return out;
   }
 
-  void with_continuous_contact() {
-    const std::vector<JointClearance> clearances = started();
-    std::vector<double> values;
-    for (const planar::InputCourse& c : s_.courses)
-      values.push_back(c.law ? math::MotionCurve(*c.law)(s_.from).value : c.value);
-    const ClearedLinkage cleared = with_clearance(s_.linkage, clearances, values);
-    if (cleared.status != Status::done) {
-      out_.status = cleared.status;
-      out_.message = cleared.message;
-      return;
-    }
-    choose_columns(cleared.linkage, cleared.plan);
-    std::vector<int> joints;
-    for (std::size_t j = 0; j < s_.linkage.joints.size(); ++j) joints.push_back(static_cast<int>(j));
-    const planar::SimulationOptions options{.relative_tolerance = s_.relative_tolerance,
-                                            .absolute_tolerance = 0.1 * s_.relative_tolerance,
-                                            .max_steps = s_.max_steps};
-    const JointClearanceRun run = simulate_joint_clearance(
-        s_.linkage, clearances, s_.courses, times_, options,
-        [&](const JointClearanceRow& c) {
-          const planar::SimulationInstant& i = c.instant;
-          RecordedRow row{.time = i.time,
-                          .status = i.status,
-                          .kinetic = i.kinetic,
-                          .potential = i.potential,
-                          .work = i.work,
-                          .drift = i.drift};
-          planar::solve_forces(cleared.linkage, cleared.plan, *i.motion, i.time, i.inputs[0].value, forces_);
-          for (std::size_t k = 0; k < c.joints.size(); ++k) {
-            const ClearanceState& state = c.joints[k];
-            const double r = clearances[k].clearance;
-            // From the bush, which the second body has, to the pin.
-            const std::complex<double> e = -std::polar(r, state.angle);
-            // The pin of the bar at its carrier has the number of the joint.
-            const bool by_first =
-                cleared.bars[k].carrier == s_.linkage.joints[at(clearances[k].joint)].first.body;
-            const Vec<double> f = forces_.joints[at(clearances[k].joint)].force;
-            row.pins.push_back({.eccentricity = e,
-                                .rate = std::complex<double>(0, state.rate) * e,
-                                .normal = state.tension,
-                                .contact = state.tension > 0,
-                                .angle = state.angle,
-                                .angle_rate = state.rate,
-                                .angle_acceleration = state.acceleration,
-                                .force = by_first ? f : -f});
-          }
-          finish(std::move(row), cleared.plan, i.inputs, *i.motion, joints);
-          return true;
-        },
-        &context_);
-    out_.status = run.status;
-    out_.message = run.message;
-    out_.time = run.simulation.time;
-    out_.largest_drift = run.simulation.largest_drift;
-    out_.peak_energy = run.simulation.peak_energy;
-    out_.steps = run.simulation.steps;
-    out_.evaluations = run.simulation.evaluations;
-    out_.validity = run.joints;
-  }
-
-  // ---- the ideal linkage
-  // --------------------------------------------------------------------------------------
+  // ---- the ideal linkage --------------------------------------------------------------------------------
 
   void add_ideal(double t, Status status, std::span<const InputMotion> inputs,
                  const planar::LinkageMotion& motion) {
@@ -382,9 +392,9 @@ class Recorder {
     }
     const auto curves = curves_of(s_);
     planar::LinkageMotion motion(s_.plan);
-    // One turn says all of an even drive.
+    // One period says all of the drives.
     const double reached = out_.rows.back().time;
-    const double to = out_.period > 0 ? std::min(reached, s_.from + out_.period) : reached;
+    const double to = s_.period > 0 ? std::min(reached, s_.from + s_.period) : reached;
     constexpr int count = 4000;
     for (int i = 0; i <= count; ++i) {
       planar::solve_position(s_.plan, inputs_at(curves, s_.from + (to - s_.from) * i / count), motion);
@@ -396,13 +406,19 @@ class Recorder {
 
   const ClearanceStudy& s_;
   RunContext& context_;
+  double same_ = 0;  // s
+  ClearanceRecording out_;
+  ClearanceRows rows_;
+  std::vector<double> start_;         // values of the inputs
+  std::vector<int> contact_numbers_;  // joints
+  std::vector<JointClearance> starts_;
+  ClearedLinkage cleared_;
+  OpenLinkage open_;
   std::vector<double> times_;
   std::vector<bool> is_row_, is_section_;
-  double same_ = 0;  // s
-  std::vector<std::function<double(const planar::LinkageInstant&, const RecordedRow&)>> values_;
+  bool searching_ = false;  // for a section that repeats
   std::vector<std::complex<double>> places_;
   planar::LinkageForces forces_;
-  ClearanceRecording out_;
 };
 
 }  // namespace

@@ -12,18 +12,10 @@
 namespace linkwright::clearance {
 namespace {
 
-using planar::InputMotion, planar::Vec, planar::dot, planar::cross, planar::left;
+using planar::InputMotion, planar::Vec, planar::dot;
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// A pin in its bush at one instant.
-struct Kinematics {
-  Vec<double> eccentricity{0, 0}, rate{0, 0}, normal{1, 0};
-  double distance = 0, depth = 0, depth_rate = 0, slip = 0;
-};
-struct Forces {
-  double normal = 0, friction = 0;
-};
 // Largest value of a cubic through values and slopes at the ends of a step, if there is one inside.
 std::optional<double> summit(double f0, double s0, double f1, double s1, double h) {
   if (!(s0 > 0 && s1 < 0)) return std::nullopt;
@@ -44,13 +36,10 @@ class Simulation {
         options_(options),
         output_(output),
         original_(courses.size()),
-        first_force_(open.linkage.forces.size()),
-        first_torque_(open.linkage.torques.size()),
+        pins_(open, joints),
         inputs_(open.plan.inputs()),
         contact_(joints.size()),
-        now_(joints.size()),
         forces_(joints.size()) {
-    add_loads();
     std::vector<bool> free(inputs_.size(), true);
     for (std::size_t k = 0; k < courses.size(); ++k) {
       free[k] = !courses[k].law;
@@ -82,7 +71,7 @@ class Simulation {
       hooks.event_values = [&](double time, std::span<const double> s, std::span<double> values) {
         place(time, s);
         for (std::size_t k = 0; k < joints_.size(); ++k)
-          values[k] = now_[k].depth + (contact_[k].on ? noise_ : 0);
+          values[k] = pins_[k].depth + (contact_[k].on ? noise_ : 0);
       };
       hooks.event = [&](double time, std::span<const std::size_t> which, std::span<double> s) {
         for (const std::size_t k : which) change(k, time, s);
@@ -110,7 +99,7 @@ class Simulation {
       if (ended_ || t >= times.back()) break;
       if (run_.steps >= options_.max_steps) {
         run_.status = Status::not_converged;
-        run_.message = fmt::format("{} steps used up at {:.6g} s", run_.steps, t);
+        use_up(t);
         break;
       }
       place(t, y);
@@ -121,42 +110,6 @@ class Simulation {
   }
 
  private:
-  // ---- loads: two forces and two torques a joint --------------------------------------------------------
-
-  const OpenLinkage::Pin& pin(std::size_t k) const { return open_.pins[k]; }
-  planar::BodyPoint journal(std::size_t k) const {
-    return joints_[k].pin == PinSide::first ? pin(k).first : pin(k).second;
-  }
-  planar::BodyPoint bush(std::size_t k) const {
-    return joints_[k].pin == PinSide::first ? pin(k).second : pin(k).first;
-  }
-  void add_loads() {
-    planar::Linkage& l = open_.linkage;
-    for (std::size_t k = 0; k < joints_.size(); ++k)
-      for (const auto& [point, side] : {std::pair{journal(k), "pin of "}, std::pair{bush(k), "bush of "}}) {
-        if (point.body == 0) continue;
-        l.forces.push_back({.name = side + pin(k).name, .point = point});
-        l.torques.push_back({.name = side + pin(k).name, .body = point.body, .from = 0});
-      }
-  }
-  void apply() {
-    planar::Linkage& l = open_.linkage;
-    std::size_t force = first_force_, torque = first_torque_;
-    for (std::size_t k = 0; k < joints_.size(); ++k) {
-      const Kinematics& s = now_[k];
-      const double pin_radius = joints_[k].bush_radius - joints_[k].clearance;
-      const Vec<double> on_pin = -forces_[k].normal * s.normal - forces_[k].friction * left(s.normal);
-      if (journal(k).body != 0) {
-        l.forces[force++].force = number(on_pin);
-        l.torques[torque++].torque = cross(pin_radius * s.normal, on_pin);
-      }
-      if (bush(k).body != 0) {
-        l.forces[force++].force = number(-on_pin);
-        l.torques[torque++].torque = -cross((s.distance + pin_radius) * s.normal, on_pin);
-      }
-    }
-  }
-
   // ---- state: values and rates of the free inputs, work, dissipated energy ------------------------------
 
   std::vector<double> state() const {
@@ -201,34 +154,18 @@ class Simulation {
     planar::solve_position(open_.plan, inputs_, motion);
     if (motion.status != Status::done) return motion.status;
     planar::solve_velocity(open_.plan, inputs_, motion);
-    for (std::size_t k = 0; k < joints_.size(); ++k) {
-      Kinematics& s = now_[k];
-      const double sign = joints_[k].pin == PinSide::second ? 1 : -1;
-      const PinGap gap = pin_gap(open_, motion, k);
-      s.eccentricity = sign * planar::vec(gap.way);
-      s.rate = sign * planar::vec(gap.rate);
-      s.distance = norm(s.eccentricity);
-      s.normal = s.distance > 0 ? (1 / s.distance) * s.eccentricity : Vec<double>{1, 0};
-      s.depth = s.distance - joints_[k].clearance;
-      s.depth_rate = dot(s.rate, s.normal);
-      const double pin_radius = joints_[k].bush_radius - joints_[k].clearance;
-      s.slip = dot(s.rate, left(s.normal)) + speed(journal(k)) * pin_radius -
-               speed(bush(k)) * (s.distance + pin_radius);
-    }
+    pins_.place(motion);
     return Status::done;
-  }
-  double speed(const planar::BodyPoint& p) const {
-    return planar::body_state(open_.plan, dynamics_->motion, p.body).speed;
   }
   void press() {
     for (std::size_t k = 0; k < joints_.size(); ++k) {
       forces_[k] = {};
       if (!contact_[k].on) continue;
-      forces_[k].normal = normal_force(joints_[k].law, now_[k].depth, now_[k].depth_rate,
+      forces_[k].normal = normal_force(joints_[k].law, pins_[k].depth, pins_[k].depth_rate,
                                        run_.events[contact_[k].event].approach);
-      forces_[k].friction = friction_force(joints_[k].law, forces_[k].normal, now_[k].slip);
+      forces_[k].friction = friction_force(joints_[k].law, forces_[k].normal, pins_[k].slip);
     }
-    apply();
+    pins_.press(forces_);
   }
   // Accelerations of the free inputs under the present forces, in inputs_.
   Status accelerate(double t) {
@@ -240,7 +177,7 @@ class Simulation {
     if (last_status_ != Status::done) return false;
     // A pin in flight is not let out of sight: see simulate_contact.
     for (std::size_t k = 0; k < joints_.size(); ++k)
-      if (!contact_[k].on && norm(now_[k].eccentricity - contact_[k].seen) > joints_[k].clearance / 2)
+      if (!contact_[k].on && norm(pins_[k].eccentricity - contact_[k].seen) > joints_[k].clearance / 2)
         return false;
     press();
     if (accelerate(t) != Status::done) return false;
@@ -250,11 +187,11 @@ class Simulation {
       rate[i] = inputs_[free[i]].rate, rate[n + i] = inputs_[free[i]].acceleration;
     double taken = 0, lost = 0;
     for (std::size_t k = 0; k < joints_.size(); ++k) {
-      const double sliding = forces_[k].friction * now_[k].slip;
-      taken += forces_[k].normal * now_[k].depth_rate + sliding;
+      const double sliding = forces_[k].friction * pins_[k].slip;
+      taken += forces_[k].normal * pins_[k].depth_rate + sliding;
       if (contact_[k].on)
-        lost +=
-            (forces_[k].normal - elastic_force(joints_[k].law, now_[k].depth)) * now_[k].depth_rate + sliding;
+        lost += (forces_[k].normal - elastic_force(joints_[k].law, pins_[k].depth)) * pins_[k].depth_rate +
+                sliding;
     }
     rate[2 * n] = dynamics_->power + taken;
     rate[2 * n + 1] = lost;
@@ -278,7 +215,8 @@ class Simulation {
     run_.events.push_back({.joint = static_cast<int>(k),
                            .start = t,
                            .approach = approach,
-                           .angle = planar::angle_of(now_[k].eccentricity)});
+                           .angle = planar::angle_of(pins_[k].eccentricity),
+                           .bush_angle = pins_.bush_angle(dynamics_->motion, k)});
   }
   void change(std::size_t k, double t, std::span<const double> y) {
     place(t, y);
@@ -287,43 +225,29 @@ class Simulation {
       contact_[k].on = false;
       ContactEvent& e = run_.events[contact_[k].event];
       e.end = t;
-      e.separation = -now_[k].depth_rate;
+      e.separation = -pins_[k].depth_rate;
     } else {
-      begin(k, t, now_[k].depth_rate);
+      begin(k, t, pins_[k].depth_rate);
     }
   }
   // A touch within rounding can begin or end without a crossing that shows. True when it does.
   bool slipped(std::size_t k) const {
-    return contact_[k].on ? now_[k].depth < -noise_ && now_[k].depth_rate < 0
-                          : now_[k].depth > 0 && now_[k].depth_rate > 0;
+    return contact_[k].on ? pins_[k].depth < -noise_ && pins_[k].depth_rate < 0
+                          : pins_[k].depth > 0 && pins_[k].depth_rate > 0;
   }
   void settle(double t, std::span<const double> y) {
     for (std::size_t k = 0; k < joints_.size(); ++k)
       if (slipped(k)) change(k, t, y);
   }
-  // Acceleration of a pin in its bush at the present forces; after accelerate().
-  Vec<double> acceleration(std::size_t k) {
-    const auto of = [&](const planar::BodyPoint& p) {
-      return planar::point_motion(open_.plan, dynamics_->motion, p.body,
-                                  open_.linkage.bodies[at(p.body)].points[at(p.point)].at)
-          .acceleration;
-    };
-    return of(journal(k)) - of(bush(k));
-  }
-  double depth_acceleration(std::size_t k) {
-    const Kinematics& s = now_[k];
-    if (s.distance == 0) return 0;
-    return dot(acceleration(k), s.normal) + (dot(s.rate, s.rate) - s.depth_rate * s.depth_rate) / s.distance;
-  }
   // Mass that a force between pin and bush along the normal feels.
   double effective_mass(std::size_t k, double t) {
     const auto with = [&](double force) {
-      for (Forces& f : forces_) f = {};
+      for (PinForce& f : forces_) f = {};
       forces_[k].normal = force;
-      apply();
+      pins_.press(forces_);
       if (accelerate(t) != Status::done) return 0.0;
       planar::solve_acceleration(open_.plan, inputs_, dynamics_->motion);
-      return dot(acceleration(k), now_[k].normal);
+      return dot(pins_.acceleration(dynamics_->motion, k), pins_[k].normal);
     };
     return 1 / std::max(with(0) - with(1), 1e-300);
   }
@@ -334,14 +258,15 @@ class Simulation {
     press();
     if (accelerate(t) != Status::done) return;
     planar::solve_acceleration(open_.plan, inputs_, dynamics_->motion);
-    const Kinematics& s = now_[k];
+    const PinPlace& s = pins_[k];
     const ContactLaw& law = joints_[k].law;
     ContactEvent& e = run_.events[c.event];
     const double approach = std::max(e.approach, least_approach), force = forces_[k].normal;
     const double stiff = s.depth > 0 ? law.exponent * elastic_force(law, s.depth) / s.depth : 0;
     const double force_rate =
         force > 0 ? stiff * s.depth_rate * (1 + damping_factor(law) * s.depth_rate / approach) +
-                        elastic_force(law, s.depth) * damping_factor(law) * depth_acceleration(k) / approach
+                        elastic_force(law, s.depth) * damping_factor(law) *
+                            pins_.depth_acceleration(dynamics_->motion, k) / approach
                   : 0;
     e.depth = std::max(e.depth, s.depth);
     e.force = std::max(e.force, force);
@@ -360,10 +285,10 @@ class Simulation {
     for (std::size_t k = 0; k < joints_.size(); ++k) {
       note(k, t);
       Contact& c = contact_[k];
-      c.seen = now_[k].eccentricity;
+      c.seen = pins_[k].eccentricity;
       c.time = t;
-      c.depth = now_[k].depth;
-      c.depth_rate = now_[k].depth_rate;
+      c.depth = pins_[k].depth;
+      c.depth_rate = pins_[k].depth_rate;
       if (c.on && c.mass == 0) c.mass = effective_mass(k, t);
       if (!c.on) c.mass = 0;
     }
@@ -376,7 +301,7 @@ class Simulation {
         longest = std::min(longest, options_.contact_step *
                                         contact_time(joints_[k].law, c.mass, run_.events[c.event].approach));
       } else {
-        const double pace = norm(now_[k].rate);
+        const double pace = norm(pins_[k].rate);
         if (pace > 0) longest = std::min(longest, joints_[k].clearance / 4 / pace);
       }
     }
@@ -428,19 +353,29 @@ class Simulation {
     planar::solve_acceleration(open_.plan, inputs_, dynamics_->motion);
     start_kinetic_ = planar::kinetic_energy(open_.plan, dynamics_->motion);
     start_potential_ = planar::potential_energy(open_.linkage, open_.plan, dynamics_->motion);
+    // Those that press into each other are in contact; the others where the forces then drive them in.
+    const double rounding = 10 * noise_;
+    for (std::size_t k = 0; k < joints_.size(); ++k)
+      if (pins_[k].depth > rounding) begin(k, t, std::max(pins_[k].depth_rate, 0.0));
+    press();
+    run_.status = accelerate(t);
+    if (run_.status != Status::done) {
+      run_.message = "the start does not work: " + std::string(to_string(run_.status));
+      return false;
+    }
+    planar::solve_acceleration(open_.plan, inputs_, dynamics_->motion);
     std::vector<std::size_t> touching;
     for (std::size_t k = 0; k < joints_.size(); ++k) {
-      const double rounding = 10 * noise_;
-      const double pace = 1e-9 * (norm(now_[k].rate) + std::abs(now_[k].slip));
-      if (now_[k].depth > rounding ||
-          (now_[k].depth >= -rounding &&
-           (now_[k].depth_rate > pace || (now_[k].depth_rate >= -pace && depth_acceleration(k) > 0))))
+      const double pace = 1e-9 * (norm(pins_[k].rate) + std::abs(pins_[k].slip));
+      if (!contact_[k].on && pins_[k].depth >= -rounding &&
+          (pins_[k].depth_rate > pace ||
+           (pins_[k].depth_rate >= -pace && pins_.depth_acceleration(dynamics_->motion, k) > 0)))
         touching.push_back(k);
     }
-    for (const std::size_t k : touching) begin(k, t, std::max(now_[k].depth_rate, 0.0));
+    for (const std::size_t k : touching) begin(k, t, std::max(pins_[k].depth_rate, 0.0));
     place();
     for (const ContactJoint& j : joints_)
-      start_elastic_ += elastic_energy(j.law, now_[at(index_of(j))].depth);
+      start_elastic_ += elastic_energy(j.law, pins_[at(index_of(j))].depth);
     remember(t);
     return true;
   }
@@ -468,9 +403,9 @@ class Simulation {
     rows_.clear();
     ContactRow row{.time = t, .inputs = inputs_, .motion = &dynamics_->motion};
     for (std::size_t k = 0; k < joints_.size(); ++k) {
-      rows_.push_back({number(now_[k].eccentricity), number(now_[k].rate), now_[k].depth, forces_[k].normal,
-                       forces_[k].friction, contact_[k].on});
-      if (contact_[k].on) row.elastic += elastic_energy(joints_[k].law, now_[k].depth);
+      rows_.push_back({number(pins_[k].eccentricity), number(pins_[k].rate), pins_[k].depth,
+                       forces_[k].normal, forces_[k].friction, contact_[k].on});
+      if (contact_[k].on) row.elastic += elastic_energy(joints_[k].law, pins_[k].depth);
     }
     row.joints = rows_;
     row.kinetic = planar::kinetic_energy(open_.plan, dynamics_->motion);
@@ -491,19 +426,22 @@ class Simulation {
     run_.status =
         ode.status == Status::limit_reached && last_status_ != Status::done ? last_status_ : ode.status;
     run_.message = fmt::format("ended at {:.6g} s: {}", ode.t, ode.message);
+    // The integration counts its last stretch alone.
+    if (ode.end == math::OdeEnd::steps) use_up(ode.t);
   }
+  void use_up(double t) { run_.message = fmt::format("ended at {:.6g} s: {} steps used up", t, run_.steps); }
 
   OpenLinkage& open_;
   std::span<const ContactJoint> joints_;
   const ContactOptions& options_;
   const ContactOutput& output_;
-  std::size_t original_, first_force_, first_torque_;
+  std::size_t original_;
+  ContactPins pins_;
   std::vector<InputMotion> inputs_;
   std::vector<std::pair<std::size_t, math::MotionCurve>> laws_;
   std::optional<planar::LinkageDynamics> dynamics_;
   std::vector<Contact> contact_;
-  std::vector<Kinematics> now_;
-  std::vector<Forces> forces_;
+  std::vector<PinForce> forces_;
   std::vector<ContactState> rows_;
   double start_kinetic_ = 0, start_potential_ = 0, start_elastic_ = 0;
   double noise_ = 0;  // m, rounding of the depth: a contact ends that much behind zero

@@ -7,36 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "linkwright/clearance/contact_law.h"
-#include "linkwright/clearance/open_linkage.h"
+#include "linkwright/clearance/contact_pins.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/planar/linkage_simulation.h"
 
 // Joints with clearance in which pin and bush fly free, strike, press and slide: any pins of any planar
 // linkage of rigid bodies.
 namespace linkwright::clearance {
-
-enum class PinSide { first, second };
-constexpr std::array<EnumName<PinSide>, 2> names(PinSide) {
-  return {{{PinSide::first, "first", "the pin is on the first body of the joint, the bush on the second"},
-           {PinSide::second, "second", "the pin is on the second body, the bush on the first"}}};
-}
-
-/// How the pin lies in the bush at the start: J - B, from the centre of the bush to that of the pin (m,
-/// global frame), and how fast it changes (m/s). Zero: centred, with the velocities of the ideal linkage.
-struct PinStart {
-  std::complex<double> eccentricity{0, 0}, rate{0, 0};
-};
-
-/// A pin that has clearance.
-struct ContactJoint {
-  int joint = 0;           ///< of the linkage: a revolute joint without drive and friction
-  double clearance = 0;    ///< c, m, > 0: radius of the bush less radius of the pin
-  double bush_radius = 0;  ///< m, more than the clearance; arm of friction
-  ContactLaw law;
-  PinSide pin = PinSide::first;
-  PinStart start;
-};
 
 struct ContactOptions {
   /// In flight and impacts; contacts that are pressed together for long, whose damping makes the equations
@@ -56,6 +33,7 @@ struct ContactEvent {
   double start = 0;         ///< s
   double approach = 0;      ///< m/s, rate of the depth then
   double angle = 0;         ///< rad: direction of the eccentricity then, global
+  double bush_angle = 0;    ///< rad: the same in the frame of the body that carries the bush
   double end = nan;         ///< s; NaN when it was still on at the end
   double separation = nan;  ///< m/s, rate at which they part, positive
   double depth = 0;         ///< m, largest

@@ -7,6 +7,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage_dynamics.h"
 #include "linkwright/planar/linkage_limits.h"
 #include "linkwright/planar/linkage_reactions.h"
 
@@ -75,6 +76,91 @@ Status start_bars(const ClearedLinkage& cleared, std::span<const JointClearance>
   }
   return Status::not_converged;
 }
+
+// Follows the tensions along a simulation.
+class Watcher {
+ public:
+  Watcher(const ClearedLinkage& cleared, JointClearanceRun& run, AtSeparation at_separation)
+      : cleared_(cleared),
+        run_(run),
+        stops_(at_separation == AtSeparation::stop),
+        apart_(cleared.bars.size(), false),
+        parted_at_(cleared.bars.size(), 0),
+        apart_time_(cleared.bars.size(), 0) {}
+
+  void tensions(const planar::SimulationInstant& i, std::span<double> out) {
+    solve(i);
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = tension(i, k);
+  }
+
+  /// States at a row or step; false when there is no contact at the start and the simulation is to end.
+  bool look(const planar::SimulationInstant& i) {
+    solve(i);
+    for (std::size_t k = 0; k < cleared_.bars.size(); ++k) {
+      const planar::PartState<double> s = planar::body_state(cleared_.plan, *i.motion, cleared_.bars[k].body);
+      ClearanceState& now = run_.end[k];
+      now.angle += math::angle_difference(planar::angle_of(s.direction), now.angle);
+      now.rate = s.speed;
+      now.acceleration = s.angular_acceleration;
+      now.tension = tension(i, k);
+      ContactValidity& validity = run_.joints[k];
+      validity.least_tension = std::min(validity.least_tension, now.tension);
+      if (!started_ && !(now.tension > 0)) part(k, i.time);
+    }
+    started_ = true;
+    for (std::size_t k = 0; k < run_.inputs.size(); ++k) run_.inputs[k] = i.inputs[k];
+    run_.kinetic = planar::kinetic_energy(cleared_.plan, *i.motion);
+    run_.potential = planar::potential_energy(cleared_.linkage, cleared_.plan, *i.motion);
+    run_.work = i.work;
+    return run_.parted < 0;
+  }
+
+  bool note(const planar::SimulationInstant& i, std::span<const std::size_t> crossed) {
+    look(i);
+    for (const std::size_t k : crossed) {
+      ++run_.joints[k].sign_changes;
+      if (apart_[k]) {
+        apart_[k] = false;
+        apart_time_[k] += i.time - parted_at_[k];
+      } else {
+        part(k, i.time);
+      }
+    }
+    return run_.parted < 0;
+  }
+
+  void finish(double from) {
+    const double duration = run_.simulation.time - from;
+    for (std::size_t k = 0; k < apart_.size(); ++k) {
+      if (apart_[k]) apart_time_[k] += run_.simulation.time - parted_at_[k];
+      run_.joints[k].separated = duration > 0 ? apart_time_[k] / duration : 0;
+    }
+  }
+
+ private:
+  void solve(const planar::SimulationInstant& i) {
+    planar::solve_forces(cleared_.linkage, cleared_.plan, *i.motion, i.time, i.inputs[0].value, forces_);
+  }
+  double tension(const planar::SimulationInstant& i, std::size_t k) const {
+    const ClearanceBar& bar = cleared_.bars[k];
+    const planar::PartState<double> s = planar::body_state(cleared_.plan, *i.motion, bar.body);
+    const bool to_second = cleared_.linkage.joints[at(bar.far_joint)].first.point == 1;
+    return (to_second ? -1 : 1) * dot(forces_.joints[at(bar.far_joint)].force, s.direction);
+  }
+  void part(std::size_t k, double t) {
+    apart_[k] = true;
+    parted_at_[k] = t;
+    if (std::isnan(run_.joints[k].first_separation)) run_.joints[k].first_separation = t;
+    if (stops_ && run_.parted < 0) run_.parted = static_cast<int>(k);
+  }
+
+  const ClearedLinkage& cleared_;
+  JointClearanceRun& run_;
+  bool stops_, started_ = false;
+  std::vector<bool> apart_;
+  std::vector<double> parted_at_, apart_time_;  // s
+  planar::LinkageForces forces_;
+};
 
 }  // namespace
 
@@ -148,14 +234,15 @@ JointClearanceRun simulate_joint_clearance(const Linkage& linkage, std::span<con
                                            std::span<const planar::InputCourse> courses,
                                            std::span<const double> times,
                                            const planar::SimulationOptions& options,
-                                           const JointClearanceOutput& output, const RunContext* context) {
+                                           const JointClearanceOutput& output, const RunContext* context,
+                                           AtSeparation at_separation) {
   LINKWRIGHT_REQUIRE(courses.size() == linkage.driven.size(), "the linkage has {} inputs, got {}",
                      linkage.driven.size(), courses.size());
   LINKWRIGHT_REQUIRE(!clearances.empty() && !times.empty(), "{} clearances, {} times", clearances.size(),
                      times.size());
   JointClearanceRun run;
   run.joints.resize(clearances.size());
-  std::vector<InputMotion> inputs;
+  run.simulation.time = times.front();
   std::vector<double> values;
   for (const planar::InputCourse& c : courses) {
     InputMotion start{c.value, c.rate, 0};
@@ -163,62 +250,40 @@ JointClearanceRun simulate_joint_clearance(const Linkage& linkage, std::span<con
       const math::Motion m = math::MotionCurve(*c.law)(times.front());
       start = {m.value, m.rate, m.acceleration};
     }
-    inputs.push_back(start);
+    run.inputs.push_back(start);
     values.push_back(start.value);
   }
+  for (const JointClearance& c : clearances) run.end.push_back({.angle = c.angle, .rate = c.rate});
   const ClearedLinkage cleared = with_clearance(linkage, clearances, values);
   run.status = cleared.status;
   run.message = cleared.message;
   if (run.status != Status::done) return run;
+  std::vector<InputMotion> inputs = run.inputs;
   inputs.resize(cleared.plan.inputs());
   run.status = start_bars(cleared, clearances, inputs);
   if (run.status != Status::done) {
     run.message = "with clearance the start does not work";
     return run;
   }
+  Watcher watcher(cleared, run, at_separation);
   std::vector<planar::InputCourse> all(courses.begin(), courses.end());
   for (const ClearanceBar& bar : cleared.bars)
     all.push_back({{}, inputs[at(bar.input)].value, inputs[at(bar.input)].rate});
-
-  planar::LinkageForces forces;
-  std::vector<ClearanceState> now(clearances.size()), before;
-  double time_before = 0;
-  std::vector<double> apart(clearances.size(), 0.0);
-  for (std::size_t k = 0; k < now.size(); ++k) now[k].angle = clearances[k].angle;
-  const auto watch = [&](double t, std::size_t k) {
-    ContactValidity& validity = run.joints[k];
-    const double a = before.empty() ? now[k].tension : before[k].tension, b = now[k].tension;
-    validity.least_tension = std::min(validity.least_tension, b);
-    const double step = before.empty() ? 0 : t - time_before;
-    const double crossing = a * b < 0 ? a / (a - b) : (b > 0 ? 1 : 0);  // share of the step before it
-    if (std::isnan(validity.first_separation) && (a <= 0 || b <= 0))
-      validity.first_separation = a <= 0 ? t - step : t - step + crossing * step;
-    apart[k] += a > 0 && b > 0 ? 0 : a <= 0 && b <= 0 ? step : (a <= 0 ? crossing : 1 - crossing) * step;
-  };
-  run.simulation = planar::simulate(
+  planar::SimulationWatch watch;
+  if (at_separation != AtSeparation::ignore)
+    watch = {.count = clearances.size(),
+             .values = [&](const planar::SimulationInstant& i,
+                           std::span<double> tensions) { watcher.tensions(i, tensions); },
+             .note = [&](const planar::SimulationInstant& i,
+                         std::span<const std::size_t> crossed) { return watcher.note(i, crossed); }};
+  run.simulation = planar::simulate_watched(
       cleared.linkage, cleared.plan, all, times, options,
-      [&](const planar::SimulationInstant& instant) {
-        planar::solve_forces(cleared.linkage, cleared.plan, *instant.motion, instant.time,
-                             instant.inputs[0].value, forces);
-        for (std::size_t k = 0; k < now.size(); ++k) {
-          const ClearanceBar& bar = cleared.bars[k];
-          const planar::PartState<double> s = planar::body_state(cleared.plan, *instant.motion, bar.body);
-          const planar::JointReaction& far = forces.joints[at(bar.far_joint)];
-          const bool to_second = cleared.linkage.joints[at(bar.far_joint)].first.point == 1;
-          now[k].angle += math::angle_difference(planar::angle_of(s.direction), now[k].angle);
-          now[k].rate = s.speed;
-          now[k].acceleration = s.angular_acceleration;
-          now[k].tension = (to_second ? -1 : 1) * dot(far.force, s.direction);
-          watch(instant.time, k);
-        }
-        before = now;
-        time_before = instant.time;
-        return !output || output({instant, now});
+      [&](const planar::SimulationInstant& i) {
+        if (i.status == Status::done && !watcher.look(i)) return false;
+        return !output || output({i, run.end});
       },
-      context);
-  const double duration = run.simulation.time - times.front();
-  for (std::size_t k = 0; k < now.size(); ++k)
-    run.joints[k].separated = duration > 0 ? apart[k] / duration : 0;
+      watch, context);
+  watcher.finish(times.front());
   run.status = run.simulation.status;
   run.message = run.simulation.message;
   return run;

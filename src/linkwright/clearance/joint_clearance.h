@@ -67,11 +67,12 @@ struct JointClearanceRow {
 /// false ends the simulation.
 using JointClearanceOutput = std::function<bool(const JointClearanceRow&)>;
 
-/// Where contact ends, seen at the rows and by straight lines between them.
+/// Where contact ends. Found within the steps of the integration: rows have no influence.
 struct ContactValidity {
-  double first_separation = std::numeric_limits<double>::quiet_NaN();  ///< s; NaN: never
+  double first_separation = std::numeric_limits<double>::quiet_NaN();  ///< s: first tension <= 0; NaN: never
   double separated = 0;                                            ///< share of the time with tension <= 0
-  double least_tension = std::numeric_limits<double>::infinity();  ///< N
+  int sign_changes = 0;                                            ///< of the tension
+  double least_tension = std::numeric_limits<double>::infinity();  ///< N, over steps and rows
 };
 
 struct JointClearanceRun {
@@ -79,16 +80,26 @@ struct JointClearanceRun {
   std::string message;
   planar::SimulationReport simulation;
   std::vector<ContactValidity> joints;  ///< one a clearance
+  /// Where it ends, at simulation.time: of the clearances, and values and rates of the inputs of the
+  /// original.
+  std::vector<ClearanceState> end;
+  std::vector<planar::InputMotion> inputs;
+  double kinetic = 0, potential = 0, work = 0;  ///< J there, as in planar::SimulationInstant
+  int parted = -1;  ///< clearance at whose loss of contact it ended, with AtSeparation::stop
 };
 
+/// What to do when the tension of a clearance is no longer positive. With `ignore` it is not looked for, and
+/// validity is that of the rows alone, which saves half of the time.
+enum class AtSeparation { go_on, stop, ignore };
+
 /// Motion under forces with clearance: `courses` are those of the inputs of the original linkage, laws or
-/// free. Times, options and the rest as in planar::simulate, whose contract errors it throws, too.
-JointClearanceRun simulate_joint_clearance(const planar::Linkage& linkage,
-                                           std::span<const JointClearance> clearances,
-                                           std::span<const planar::InputCourse> courses,
-                                           std::span<const double> times,
-                                           const planar::SimulationOptions& options,
-                                           const JointClearanceOutput& output = {},
-                                           const RunContext* context = nullptr);
+/// free. Times, options and the rest as in planar::simulate, whose contract errors it throws, too. With
+/// AtSeparation::stop it ends, with status done, at the first instant at which a tension is not positive, and
+/// there is no row beyond.
+JointClearanceRun simulate_joint_clearance(
+    const planar::Linkage& linkage, std::span<const JointClearance> clearances,
+    std::span<const planar::InputCourse> courses, std::span<const double> times,
+    const planar::SimulationOptions& options, const JointClearanceOutput& output = {},
+    const RunContext* context = nullptr, AtSeparation at_separation = AtSeparation::go_on);
 
 }  // namespace linkwright::clearance

@@ -32,11 +32,12 @@ std::string place(const Linkage& l, const LinkagePlan& plan, std::size_t input, 
 class Simulation {
  public:
   Simulation(const Linkage& l, const LinkagePlan& plan, std::span<const InputCourse> courses,
-             const SimulationOptions& options, const SimulationOutput& output)
+             const SimulationOptions& options, const SimulationOutput& output, const SimulationWatch& watch)
       : l_(l),
         plan_(plan),
         options_(options),
         output_(output),
+        watch_(watch),
         dynamics_(l, plan, free_of(courses)),
         inputs_(plan.inputs()),
         last_sines_(plan.groups.size(), 0.0) {
@@ -66,19 +67,26 @@ class Simulation {
     std::vector<math::OdeEvent> events;
     if (stops_at_changes()) events.resize(2, {.crossing = math::OdeCrossing::falling});
     if (watches_rest()) events.push_back({.crossing = math::OdeCrossing::either});
+    first_watched_ = events.size();
+    events.resize(first_watched_ + watch_.count);
+    watched_.assign(watch_.count, 1);
 
     math::OdeHooks hooks{.output_times = times, .context = context};
     hooks.output = [&](double t, std::span<const double> now) { return show(t, now); };
     hooks.step = [&](double t, std::span<const double> now) { return after_step(t, now); };
     if (!events.empty()) {
       hooks.events = events;
-      hooks.event_values = [&](double, std::span<const double> now, std::span<double> values) {
+      hooks.event_values = [&](double t, std::span<const double> now, std::span<double> values) {
         std::size_t i = 0;
         if (stops_at_changes()) {
           values[i++] = std::min(now[0] - below_, 1.0);
           values[i++] = std::min(above_ - now[0], 1.0);
         }
         if (watches_rest()) values[i] = now[1];
+        // Beyond what can be placed they stay what they were.
+        if (watch_.count > 0 && watched(t, now).status == Status::done) watch_.values(instant_, watched_);
+        std::copy(watched_.begin(), watched_.end(),
+                  values.begin() + static_cast<std::ptrdiff_t>(first_watched_));
       };
       hooks.event = [&](double t, std::span<const std::size_t> which, std::span<double> now) {
         return act(t, which, now);
@@ -277,6 +285,17 @@ class Simulation {
     report_.time = t;
     return !output_ || output_(now);
   }
+  // An instant for those who watch.
+  const SimulationInstant& watched(double t, std::span<const double> y) {
+    put(t, y);
+    instant_ = {.time = t, .status = solve(t).status, .inputs = inputs_, .work = y.back() + kinks_};
+    if (instant_.status == Status::done) {
+      instant_.motion = &placed();
+      instant_.status = instant_.motion->status;
+    }
+    if (instant_.status != Status::done) restore();
+    return instant_;
+  }
   // Exactly at a change point the parts behind it have no place of their own.
   double interpolated_potential() {
     const InputMotion here = inputs_[0];
@@ -294,6 +313,7 @@ class Simulation {
   }
 
   bool after_step(double t, std::span<const double> y) {
+    if (watch_.note && watched(t, y).status == Status::done && !watch_.note(instant_, {})) return false;
     put(t, y);
     const double time_before = last_time_;
     const InputMotion before = last_;
@@ -381,7 +401,15 @@ class Simulation {
 
   math::OdeAction act(double t, std::span<const std::size_t> which, std::span<double> y) {
     math::OdeAction action = math::OdeAction::go_on;
+    if (watch_.note && which.back() >= first_watched_) {
+      std::vector<std::size_t> crossed;
+      for (const std::size_t event : which)
+        if (event >= first_watched_) crossed.push_back(event - first_watched_);
+      if (watched(t, y).status == Status::done && !watch_.note(instant_, crossed))
+        return math::OdeAction::stop;
+    }
     for (const std::size_t event : which) {
+      if (event >= first_watched_) continue;
       if (!stops_at_changes() || event >= 2) {
         put(t, y);
         if (holds(t)) {
@@ -542,6 +570,7 @@ class Simulation {
   const LinkagePlan& plan_;
   const SimulationOptions& options_;
   const SimulationOutput& output_;
+  const SimulationWatch& watch_;
   LinkageDynamics dynamics_;
   std::vector<InputMotion> inputs_;
   struct Law {
@@ -553,6 +582,9 @@ class Simulation {
   bool friction_ = false;
   std::vector<double> last_sines_;
   std::vector<PartState<double>> good_parts_;
+  std::size_t first_watched_ = 0;  // among the events
+  std::vector<double> watched_;    // last values
+  SimulationInstant instant_;
   double start_kinetic_ = 0, start_potential_ = 0, kinks_ = 0;
   double last_time_ = 0;
   InputMotion last_;
@@ -566,15 +598,22 @@ class Simulation {
 
 }  // namespace
 
-SimulationReport simulate(const Linkage& linkage, const LinkagePlan& plan,
-                          std::span<const InputCourse> courses, std::span<const double> times,
-                          const SimulationOptions& options, const SimulationOutput& output,
-                          const RunContext* context) {
+SimulationReport simulate_watched(const Linkage& linkage, const LinkagePlan& plan,
+                                  std::span<const InputCourse> courses, std::span<const double> times,
+                                  const SimulationOptions& options, const SimulationOutput& output,
+                                  const SimulationWatch& watch, const RunContext* context) {
   LINKWRIGHT_REQUIRE(courses.size() == plan.inputs(), "the linkage has {} inputs, got {}", plan.inputs(),
                      courses.size());
   LINKWRIGHT_REQUIRE(times.size() >= 2 && times.front() < times.back(), "no interval of time: {} times",
                      times.size());
-  return Simulation(linkage, plan, courses, options, output).run(times, context);
+  return Simulation(linkage, plan, courses, options, output, watch).run(times, context);
+}
+
+SimulationReport simulate(const Linkage& linkage, const LinkagePlan& plan,
+                          std::span<const InputCourse> courses, std::span<const double> times,
+                          const SimulationOptions& options, const SimulationOutput& output,
+                          const RunContext* context) {
+  return simulate_watched(linkage, plan, courses, times, options, output, {}, context);
 }
 
 }  // namespace linkwright::planar

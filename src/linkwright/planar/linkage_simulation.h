@@ -43,6 +43,16 @@ struct SimulationInstant {
 /// false ends the simulation.
 using SimulationOutput = std::function<bool(const SimulationInstant&)>;
 
+/// Quantities whose changes of sign are found within the steps, however far apart the rows are (see
+/// math::OdeHooks). Of energies the instants have the work alone.
+struct SimulationWatch {
+  std::size_t count = 0;  ///< of the quantities
+  std::function<void(const SimulationInstant&, std::span<double> values)> values = {};
+  /// After every step, and where quantities change signs: `crossed` are their indices. false ends the
+  /// simulation.
+  std::function<bool(const SimulationInstant&, std::span<const std::size_t> crossed)> note = {};
+};
+
 /// A change point that the linkage went through.
 struct ChangePassage {
   double time = 0;
@@ -83,5 +93,11 @@ SimulationReport simulate(const Linkage& linkage, const LinkagePlan& plan,
                           std::span<const InputCourse> courses, std::span<const double> times,
                           const SimulationOptions& options, const SimulationOutput& output,
                           const RunContext* context = nullptr);
+
+/// The same, watched.
+SimulationReport simulate_watched(const Linkage& linkage, const LinkagePlan& plan,
+                                  std::span<const InputCourse> courses, std::span<const double> times,
+                                  const SimulationOptions& options, const SimulationOutput& output,
+                                  const SimulationWatch& watch, const RunContext* context = nullptr);
 
 }  // namespace linkwright::planar
