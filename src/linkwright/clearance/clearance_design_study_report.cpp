@@ -318,8 +318,11 @@ class Reporter {
     plot("lead", "Lead of the clearance link before the crank" + pale, "turn", "crank_angle_rad",
          {"lead_rad", "wanted_lead_rad"})
         .baseline = before;
-    plot("contact-angle", "Contact angle over the turn", "turn", "crank_angle_rad", {"contact_angle_rad"})
-        .baseline = before;
+    // Not with the scene, where the last row is the first one again: this angle is larger there by a turn.
+    study::Plot& angle = plot("contact-angle", "Contact angle over the turn" + pale, "turn",
+                              "crank_angle_rad", {"contact_angle_rad", "wanted_contact_angle_rad"});
+    angle.baseline = before;
+    angle.scene.clear();
     plot("tension", "Tension of the clearance link: contact while positive" + pale, "turn", "crank_angle_rad",
          {"tension_N"})
         .baseline = before;
@@ -372,11 +375,9 @@ class Reporter {
       else
         fact("lead objective F2",
              fmt::format("{:.4g} rad in the first turn from the wanted lead", d_.motion.transient_error));
-      fact("work of the pin over a turn",
-           fmt::format("mean of the sine of the lead, weighted by the tension: {:.2g}", d_.work_mean));
-      fact("to simulate it",
-           "mechanism.type = \"clearance.linkage\" with the numbers of the tables linkage-points, "
-           "linkage-masses and linkage-start");
+      fact("mean sine of the lead, by tension",
+           fmt::format("{:.2g}: the work of the pin over a turn", d_.work_mean));
+      fact("to simulate it", "tables linkage-points, linkage-masses, linkage-start for clearance.linkage");
     }
     fact("method", std::string(method()));
     if (answer_->starts > 0 && s_.target == DesignTarget::lengths)

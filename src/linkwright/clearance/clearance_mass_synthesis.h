@@ -84,9 +84,10 @@ struct ClearanceDesign {
   std::int64_t evaluations = 0;
 };
 /// The path that is traced on the periodic orbit itself is brought to the target, in lengths and masses at
-/// once; no law for the clearance link is presumed, and `lead` of neither problem is used. Timing must be
-/// prescribed. Starts from the lengths of `path_x` (as of synthesise_clearance_path) and the masses of
-/// `mass_x`.
+/// once; no law for the clearance link is presumed, and `lead` of neither problem is used. Only designs whose
+/// pin and bush stay in contact over the whole turn are taken. Timing must be prescribed. Starts from the
+/// lengths of `path_x` (as of synthesise_clearance_path) and the masses of `mass_x`, and from what is best in
+/// the limit of small clearances.
 ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const ClearanceMassProblem& mass,
                                          std::span<const double> path_x, std::span<const double> mass_x,
                                          RunContext& context);
