@@ -36,5 +36,16 @@ TEST(Drive, SinePulse) {
   EXPECT_NE(test::message([] { SpinUp{1, 0}(0); }).find("a spin-up of 0 s"), std::string::npos);
 }
 
+TEST(Drive, TorqueTableIsStraightBetweenRows) {
+  const TorqueTable law{{0.5, 1, 2}, {2, 4, -4}};
+  EXPECT_EQ(law(0.499), 0);
+  EXPECT_EQ(law(0.5), 2);
+  EXPECT_DOUBLE_EQ(law(0.75), 3);
+  EXPECT_DOUBLE_EQ(law(1.5), 0);
+  EXPECT_EQ(law(2), -4);
+  EXPECT_EQ(law(2.001), 0);
+  EXPECT_NE(test::message([] { TorqueTable{{0, 1}, {1}}(0); }).find("2 times, 1 torques"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace linkwright::flexible

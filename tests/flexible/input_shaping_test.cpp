@@ -111,6 +111,16 @@ TEST(InputShaping, StopsALinkWithoutVibration) {
   EXPECT_LT(left(impulses(Shaper::ei, {1.1 * w})), zv_off);
 }
 
+TEST(InputShaping, EvenMotionStaysEven) {
+  // A law that moves before time 0 is late by the mean of the impulses, without jumps.
+  const auto list = impulses(Shaper::zv, {.frequency = 5});
+  const auto even = [](double t) { return HubMotion{.angle = 1 + 2 * t, .rate = 2}; };
+  for (const double t : {0.0, 0.1, list[1].time, 3.0}) {
+    EXPECT_NEAR(shaped(even, list, t).angle, 1 + 2 * (t - list[1].time / 2), 1e-12);
+    EXPECT_DOUBLE_EQ(shaped(even, list, t).rate, 2);
+  }
+}
+
 TEST(InputShaping, ShapedTorqueHasTheSameImpulse) {
   const auto list = impulses(Shaper::zvd, {.frequency = 5, .damping = 0.1});
   const auto law = [](double t) { return t < 1 ? 3.0 : 0.0; };

@@ -127,7 +127,7 @@ TEST(Links, DrivenHingesTellTheirTorque) {
                             outer_half(torque_beam()), 1);
   const double step = 1e-3;
   const SpinUp turn_by{1, 2};
-  const HingeDrive motion[] = {{.hinge = 0, .motion = MotionLaw(turn_by)}};
+  const HingeDrive motion[] = {{.hinge = 0, .motion = AngleLaw(turn_by)}};
   const auto still = [](double) { return HubMotion{}; };
   const Simulation given = simulate_motion(
       chain, still, {.end = 1, .output_interval = step, .step = step, .hinges = motion, .keep_states = true});
@@ -160,7 +160,7 @@ TEST(Links, RefuseWhatDoesNotFit) {
             }).find("-1 at a hinge: it must not be negative"),
             std::string::npos);
   const SpinUp law{1, 1};
-  const HingeDrive drive[] = {{.hinge = 0, .motion = MotionLaw(law)}};
+  const HingeDrive drive[] = {{.hinge = 0, .motion = AngleLaw(law)}};
   EXPECT_NE(test::message([&] {
               simulate_motion(chain, law, {.end = 1, .output_interval = 1, .step = 0.1, .hinges = drive});
             }).find("a drive of hinge 0 of 0 with 1 laws"),

@@ -287,10 +287,9 @@ std::vector<SectionForce> ChainEquations::sections() const {
   for (std::size_t s = joint_.size(); s-- > 0;) {
     const Node& node = node_[s + 1];
     const Cell& cell = chain_->cells[s];
-    const Vec2 f = cell.mass * (node.a - gravity_);
-    force += f;
-    moment += cross(node.z, f);
-    couple += cell.inertia * node.acceleration;
+    force += joint_[s].force;
+    moment += cross(node.z, joint_[s].force);
+    couple += joint_[s].couple;
     const Vec2 middle = 0.5 * (node_[s].z + node.z);
     const Vec2 along = turned_back(joint_[s].mean, force);
     out[s + 1] = {.position = position - cell.length / 2,

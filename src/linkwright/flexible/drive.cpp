@@ -1,5 +1,6 @@
 #include "linkwright/flexible/drive.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -20,6 +21,17 @@ HubMotion SpinUp::operator()(double time) const {
 double SinePulse::operator()(double time) const {
   LINKWRIGHT_REQUIRE(duration > 0, "a pulse of {} s", duration);
   return time >= 0 && time <= duration ? torque * std::sin(2 * std::numbers::pi * time / duration) : 0;
+}
+
+double TorqueTable::operator()(double time) const {
+  LINKWRIGHT_REQUIRE(!times.empty() && times.size() == torques.size(), "{} times, {} torques", times.size(),
+                     torques.size());
+  if (!(time >= times.front() && time <= times.back())) return 0;
+  const std::size_t after =
+      static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+  if (after == times.size()) return torques.back();
+  const double share = (time - times[after - 1]) / (times[after] - times[after - 1]);
+  return torques[after - 1] + share * (torques[after] - torques[after - 1]);
 }
 
 }  // namespace linkwright::flexible

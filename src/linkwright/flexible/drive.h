@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "linkwright/math/function_ref.h"
 
 /// What turns the hub.
@@ -11,7 +13,7 @@ struct HubMotion {
 };
 
 /// Angle or torque (N m) as a function of time (s).
-using MotionLaw = math::FunctionRef<HubMotion(double)>;
+using AngleLaw = math::FunctionRef<HubMotion(double)>;
 using TorqueLaw = math::FunctionRef<double(double)>;
 
 /// Spin-up (Boskovic 2018, (3.50)): from rest to a steady rate within a time, without a jump of the
@@ -26,6 +28,13 @@ struct SpinUp {
 struct SinePulse {
   double torque = 0;    ///< tau_0 (N m)
   double duration = 0;  ///< T > 0 (s): a break
+  double operator()(double time) const;
+};
+
+/// Torque in straight lines between rows; none before the first and after the last.
+struct TorqueTable {
+  std::vector<double> times;    ///< s, increasing: breaks
+  std::vector<double> torques;  ///< N m
   double operator()(double time) const;
 };
 

@@ -66,11 +66,10 @@ double residual_vibration(std::span<const Impulse> impulses, const ShapedMode& m
   return std::hypot(cosines, sines);
 }
 
-HubMotion shaped(MotionLaw law, std::span<const Impulse> impulses, double time) {
+HubMotion shaped(AngleLaw law, std::span<const Impulse> impulses, double time) {
   HubMotion out;
   for (const Impulse& i : impulses) {
-    const double t = time - i.time;
-    const HubMotion m = t >= 0 ? law(t) : HubMotion{.angle = law(0).angle};
+    const HubMotion m = law(time - i.time);
     out.angle += i.share * m.angle;
     out.rate += i.share * m.rate;
     out.acceleration += i.share * m.acceleration;

@@ -8,6 +8,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/flexible/chain_equations.h"
+#include "linkwright/flexible/links.h"
 
 namespace linkwright::flexible {
 
@@ -24,8 +25,17 @@ Chain without_gravity(Chain chain) {
 // The straight link at a speed of its hub; counts eigenvalues below others.
 class Straight {
  public:
-  Straight(const Chain& chain, double speed, bool free_hub)
-      : chain_(without_gravity(chain)), equations_(chain_), free_hub_(free_hub) {
+  Straight(const Chain& chain, const Vibration& about)
+      : chain_(without_gravity(chain)), equations_(chain_), free_hub_(about.hub == Hub::free) {
+    const double speed = about.speed;
+    const bool free_hub = free_hub_;
+    const std::vector<std::size_t> joints = hinges(chain);
+    LINKWRIGHT_REQUIRE(about.turns.empty() || about.turns.size() == joints.size(), "{} turns of {} hinges",
+                       about.turns.size(), joints.size());
+    for (const std::size_t k : about.locked) {
+      LINKWRIGHT_REQUIRE(k < joints.size(), "hinge {} of {} locked", k, joints.size());
+      equations_.lock_turn(joints[k]);
+    }
     const bool turns = speed != 0;
     LINKWRIGHT_REQUIRE(!(chain.extensible && turns && free_hub),
                        "modes of an extensible link on a free hub that turns at {} rad/s are not known",
@@ -35,6 +45,10 @@ class Straight {
       const Equilibrium stretched = equilibrium(chain_, {}, {.speed = speed});
       LINKWRIGHT_REQUIRE(stretched.status == Status::done, "no steady rotation at {} rad/s", speed);
       state = stretched.state;
+    }
+    for (std::size_t k = 0; k < about.turns.size(); ++k) {
+      LINKWRIGHT_REQUIRE(about.turns[k] == 0 || !turns, "bent hinges on a hub that turns at {} rad/s", speed);
+      state.q[per * joints[k] + turn] = about.turns[k];
     }
     state.rate = speed;
     equations_.evaluate(state);
@@ -81,28 +95,30 @@ class Straight {
   double unit_ = 1;
 };
 
-int coordinates(const Chain& chain, bool free_hub) {
-  return int(chain.cells.size()) * (chain.extensible ? 3 : 2) + free_hub;
-}
-
-void require_count(const Chain& chain, int count, bool free_hub) {
-  // Nodes without rotary inertia have fewer frequencies than coordinates.
-  int massless = 0;
-  for (const Cell& cell : chain.cells) massless += cell.hinge || cell.inertia == 0;
-  const int most = coordinates(chain, free_hub) - massless;
+void require_count(const Chain& chain, int count, const Vibration& about) {
+  const int most = mode_count(chain, about);
   LINKWRIGHT_REQUIRE(count >= 1 && count <= most, "mode {} of a chain that has {}", count, most);
 }
 
 }  // namespace
 
+int mode_count(const Chain& chain, const Vibration& about) {
+  // Nodes without rotary inertia have fewer frequencies than coordinates.
+  int out = about.hub == Hub::free;
+  for (const Cell& cell : chain.cells) {
+    out += chain.extensible ? 3 : 2;
+    out -= cell.hinge || cell.inertia == 0;
+  }
+  return out - static_cast<int>(about.locked.size());
+}
+
 int modes_below(const Chain& chain, double square, const Vibration& about) {
-  return Straight(chain, about.speed, about.hub == Hub::free).below(square);
+  return Straight(chain, about).below(square);
 }
 
 std::vector<Mode> modes(const Chain& chain, int count, const Vibration& about) {
-  const bool free_hub = about.hub == Hub::free;
-  require_count(chain, count, free_hub);
-  Straight straight(chain, about.speed, free_hub);
+  require_count(chain, count, about);
+  Straight straight(chain, about);
   std::vector<Mode> out(count);
   for (int k = 1; k <= count; ++k) {
     const double square = straight.square(k);
@@ -115,8 +131,10 @@ std::vector<Mode> modes(const Chain& chain, int count, const Vibration& about) {
 
 ModeShape mode_shape(const Chain& chain, int k, const Vibration& about) {
   const bool free_hub = about.hub == Hub::free;
-  require_count(chain, k, free_hub);
-  Straight straight(chain, about.speed, free_hub);
+  LINKWRIGHT_REQUIRE(std::all_of(about.turns.begin(), about.turns.end(), [](double t) { return t == 0; }),
+                     "shapes are known of links in line only");
+  require_count(chain, k, about);
+  Straight straight(chain, about);
   const double square = straight.square(k);
   // Beside the eigenvalue by more than the rounding of the elimination, by less than the distance to the
   // next.
@@ -143,7 +161,7 @@ ModeShape mode_shape(const Chain& chain, int k, const Vibration& about) {
 }
 
 std::optional<double> critical_speed(const Chain& chain, double limit) {
-  const auto unstable = [&](double speed) { return Straight(chain, speed, false).below(0) > 0; };
+  const auto unstable = [&](double speed) { return Straight(chain, {.speed = speed}).below(0) > 0; };
   if (!unstable(limit)) return {};
   double low = 0, high = limit;
   while (high - low > 1e-12 * high) {

@@ -16,6 +16,9 @@ namespace linkwright::flexible {
 struct Vibration {
   double speed = 0;       ///< of the hub (rad/s)
   Hub hub = Hub::driven;  ///< free: with the hub's inertia; a first frequency of 0 is its rotation
+  /// Turns of all hinges (rad), about which it vibrates; empty: in line. Others than 0 of a hub at rest only.
+  std::span<const double> turns = {};
+  std::span<const std::size_t> locked = {};  ///< hinges that do not turn, such as those of given motion
 };
 
 struct Mode {
@@ -24,6 +27,9 @@ struct Mode {
   double frequency = 0;
   double growth = 0;  ///< 1/s
 };
+
+/// How many modes the chain has, at most.
+int mode_count(const Chain& chain, const Vibration& about = {});
 
 /// The first `count` modes, from the lowest omega^2 on, to 1e-12 relative or rounding. Gravity is left out.
 ///

@@ -221,7 +221,7 @@ class Elastica {
   double turn_ = 0, turn_rate_ = 0, turn_acceleration_ = 0, torque_ = 0;
 };
 
-ReferenceMotion simulate(const Beam& beam, const MotionLaw* motion, const TorqueLaw* torque,
+ReferenceMotion simulate(const Beam& beam, const AngleLaw* motion, const TorqueLaw* torque,
                          const ReferenceRun& run) {
   require(beam, run.beam);
   LINKWRIGHT_REQUIRE(run.end > 0 && run.output_interval > 0 && run.tolerance > 0,
@@ -337,7 +337,7 @@ std::vector<double> reference_frequencies(const Beam& beam, int count, double sp
   return out;
 }
 
-ReferenceMotion reference_motion(const Beam& beam, MotionLaw law, const ReferenceRun& run) {
+ReferenceMotion reference_motion(const Beam& beam, AngleLaw law, const ReferenceRun& run) {
   return simulate(beam, &law, nullptr, run);
 }
 

@@ -50,7 +50,7 @@ struct ReferenceMotion {
 };
 
 /// From rest, undeformed, under a given turn of the hub or a given torque.
-ReferenceMotion reference_motion(const Beam& beam, MotionLaw law, const ReferenceRun& run);
+ReferenceMotion reference_motion(const Beam& beam, AngleLaw law, const ReferenceRun& run);
 ReferenceMotion reference_torque(const Beam& beam, TorqueLaw law, const ReferenceRun& run);
 
 }  // namespace linkwright::flexible

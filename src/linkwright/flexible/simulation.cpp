@@ -22,7 +22,7 @@ constexpr int most_refinements = 12, most_halvings = 6;
 
 // The drive: exactly one of both laws.
 struct Drive {
-  const MotionLaw* motion = nullptr;
+  const AngleLaw* motion = nullptr;
   const TorqueLaw* torque = nullptr;
 };
 
@@ -355,6 +355,22 @@ double extrapolate(const Simulation& coarse, Simulation& fine) {
     moved = std::max(moved, std::hypot(s.tip_xi - rough.tip_xi, s.tip_eta - rough.tip_eta) / 3);
     for (const auto quantity : quantities) s.*quantity += (s.*quantity - rough.*quantity) / 3;
   }
+  const auto limit = [](double& value, double rough) { value += (value - rough) / 3; };
+  const auto limits = [&](std::vector<double>& values, const std::vector<double>& roughs) {
+    for (std::size_t k = 0; k < values.size(); ++k) limit(values[k], roughs[k]);
+  };
+  for (std::size_t i = 0; i < std::min(coarse.states.size(), fine.states.size()); ++i) {
+    const ChainState& rough = coarse.states[i];
+    ChainState& s = fine.states[i];
+    limit(s.angle, rough.angle);
+    limit(s.rate, rough.rate);
+    limit(s.acceleration, rough.acceleration);
+    limits(s.q, rough.q);
+    limits(s.v, rough.v);
+    limits(s.a, rough.a);
+  }
+  for (std::size_t i = 0; i < std::min(coarse.hinge_torques.size(), fine.hinge_torques.size()); ++i)
+    limits(fine.hinge_torques[i], coarse.hinge_torques[i]);
   return moved;
 }
 
@@ -434,7 +450,7 @@ Simulation simulate(const Chain& chain, const Drive& drive, const SimulationOpti
 
 }  // namespace
 
-Simulation simulate_motion(const Chain& chain, MotionLaw law, const SimulationOptions& options,
+Simulation simulate_motion(const Chain& chain, AngleLaw law, const SimulationOptions& options,
                            const Start& start) {
   return simulate(chain, {.motion = &law}, options, start);
 }

@@ -16,8 +16,8 @@ namespace linkwright::flexible {
 
 /// A motor in a hinge: turns the outer link against the inner one by a given angle, or with a given torque.
 struct HingeDrive {
-  std::size_t hinge = 0;                 ///< 0, 1, ... from the hub outwards (links.h)
-  std::optional<MotionLaw> motion = {};  ///< exactly one of both
+  std::size_t hinge = 0;                ///< 0, 1, ... from the hub outwards (links.h)
+  std::optional<AngleLaw> motion = {};  ///< exactly one of both
   std::optional<TorqueLaw> torque = {};
 };
 
@@ -62,9 +62,8 @@ struct Simulation {
   /// error of the cells, not of the link.
   bool unstable = false;
   std::vector<Sample> samples;
-  std::vector<ChainState> states;  ///< with keep_states, one a sample, of the finest run
-  /// Torque of each drive of a hinge (N m), given or needed: hinge_torques[i][k] of sample i, drive k, finest
-  /// run.
+  std::vector<ChainState> states;  ///< with keep_states, one a sample
+  /// Torque of each drive of a hinge (N m), given or needed: hinge_torques[i][k] of sample i, drive k.
   std::vector<std::vector<double>> hinge_torques;
   ChainState last;   ///< state at the end of the finest run
   double error = 0;  ///< with extrapolate: largest change of the tip by the extrapolation (m), NaN if the
@@ -80,7 +79,7 @@ struct Simulation {
 ///
 /// Throws ContractError for times that are not positive, a spectral radius outside [0, 1), a start of another
 /// size, drives of hinges that are not there or not of one law each.
-Simulation simulate_motion(const Chain& chain, MotionLaw law, const SimulationOptions& options,
+Simulation simulate_motion(const Chain& chain, AngleLaw law, const SimulationOptions& options,
                            const Start& start = {});
 
 /// Motion under a given torque on the hub.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/flexible/links.h"
 
 namespace linkwright::flexible {
 
@@ -22,6 +23,13 @@ Equilibrium equilibrium(const Chain& chain, const TipLoad& load, const Equilibri
   Equilibrium out{.state = state_at_rest(chain)};
   out.state.angle = options.angle;
   ChainEquations equations(chain);
+  const std::vector<std::size_t> joints = hinges(chain);
+  LINKWRIGHT_REQUIRE(options.turns.empty() || options.turns.size() == joints.size(), "{} turns of {} hinges",
+                     options.turns.size(), joints.size());
+  for (std::size_t k = 0; k < options.turns.size(); ++k) {
+    equations.lock_turn(joints[k]);
+    out.state.q[per * joints[k] + turn] = options.turns[k];
+  }
   std::vector<double> change(out.state.q.size());
   const auto evaluate = [&](ChainState& state, double share) {
     state.rate = share * options.speed;

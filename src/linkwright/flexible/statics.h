@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "linkwright/core/status.h"
@@ -10,8 +11,10 @@
 namespace linkwright::flexible {
 
 struct EquilibriumOptions {
-  double angle = 0;          ///< of the hub (rad); matters under gravity
-  double speed = 0;          ///< of the hub, steady (rad/s)
+  double angle = 0;  ///< of the hub (rad); matters under gravity
+  double speed = 0;  ///< of the hub, steady (rad/s)
+  /// Turns at which all hinges are held (rad); empty: they turn about their springs.
+  std::span<const double> turns = {};
   double tolerance = 1e-11;  ///< of the residuals, relative to the largest force and couple in the chain
   int max_iterations = 40;   ///< Newton steps for each part of the load
 };

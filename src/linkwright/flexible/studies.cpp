@@ -1,9 +1,10 @@
 #include "linkwright/flexible/studies.h"
 
+#include "linkwright/flexible/arm_study.h"
 #include "linkwright/flexible/hub_link_study.h"
 
 namespace linkwright::flexible {
 
-std::vector<study::Kind> studies() { return {hub_link_kind()}; }
+std::vector<study::Kind> studies() { return {arm_kind(), hub_link_kind()}; }
 
 }  // namespace linkwright::flexible

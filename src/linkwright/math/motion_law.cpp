@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -175,6 +176,35 @@ Motion at(const HarmonicMotion& law, double t) {
           -law.amplitude * w * w * w * c};
 }
 
+std::vector<double> knots(const ConstantSpeed&, double, double) { return {}; }
+std::vector<double> knots(const HarmonicMotion&, double, double) { return {}; }
+std::vector<double> knots(const MotionTable& law, double from, double to) {
+  std::vector<double> out = law.times;
+  if (law.ends != TableEnds::periodic) return out;
+  const double first = law.times.front(), period = law.times.back() - first;
+  out.clear();
+  for (double turn = std::floor((from - first) / period); first + turn * period < to; ++turn)
+    for (std::size_t i = 0; i + 1 < law.times.size(); ++i) out.push_back(law.times[i] + turn * period);
+  return out;
+}
+template <class Law>
+std::vector<double> knots(const Law& law, double, double) {
+  return {law.start, law.start + law.duration};
+}
+
+constexpr double always = -std::numeric_limits<double>::infinity();
+std::optional<double> settled(const ConstantSpeed&) { return always; }
+std::optional<double> settled(const HarmonicMotion& law) {
+  return law.amplitude == 0 || law.frequency == 0 ? std::optional(always) : std::nullopt;
+}
+std::optional<double> settled(const MotionTable& law) {
+  return law.ends == TableEnds::periodic ? std::nullopt : std::optional(law.times.back());
+}
+template <class Law>
+std::optional<double> settled(const Law& law) {
+  return law.start + law.duration;
+}
+
 }  // namespace
 
 std::vector<double> coefficients(const Polynomial345& law) {
@@ -212,6 +242,16 @@ Motion MotionCurve::at(const Pieces& pieces, double t) {
 
 std::optional<MotionProblem> problem(const MotionLaw& law) {
   return std::visit([](const auto& l) { return problem_of(l); }, law);
+}
+
+std::vector<double> breaks(const MotionLaw& law, double from, double to) {
+  std::vector<double> out = std::visit([&](const auto& l) { return knots(l, from, to); }, law);
+  std::erase_if(out, [&](double t) { return !(t > from && t < to); });
+  return out;
+}
+
+std::optional<double> even_from(const MotionLaw& law) {
+  return std::visit([](const auto& l) { return settled(l); }, law);
 }
 
 MotionCurve::MotionCurve(const MotionLaw& law) {

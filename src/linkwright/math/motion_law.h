@@ -96,6 +96,14 @@ struct MotionProblem {
 };
 std::optional<MotionProblem> problem(const MotionLaw& law);
 
+/// Times between `from` and `to` at which the acceleration or the jerk may step, sorted: what integrates in
+/// time ends its steps there. Of a law without problem.
+std::vector<double> breaks(const MotionLaw& law, double from, double to);
+
+/// From when on the motion is even, or rest, for good: -infinity at constant speed; nothing where it never is
+/// (harmonic motion, periodic tables). Of a law without problem.
+std::optional<double> even_from(const MotionLaw& law);
+
 /// A law that is ready to be evaluated: its polynomials are solved for. Copies are cheap but for tables.
 class MotionCurve {
  public:

@@ -1,0 +1,341 @@
+#include "linkwright/flexible/arm_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linkwright/flexible/response.h"
+
+namespace linkwright::flexible {
+namespace {
+
+constexpr std::size_t per = coordinates_per_cell;
+
+// The cut of a link with the largest bending moment, of all samples.
+struct Worst {
+  double moment = 0, position = 0, time = 0;
+};
+struct Recording {
+  Table table{.name = "motion"};
+  std::vector<Worst> worst;  // one a link
+};
+
+Recording record(const ArmStudy& s, const ArmChain& arm, const Simulation& run) {
+  const std::vector<ArmLinkForm>& links = s.mechanism.links;
+  Recording out;
+  out.worst.resize(links.size());
+  Table& table = out.table;
+  const auto add = [&](std::string key, std::string label) {
+    table.add(std::move(key), std::move(label));
+    return table.columns.size() - 1;
+  };
+  const auto push = [&](std::size_t column, double value) { table.columns[column].values.push_back(value); };
+
+  const std::size_t first = add("time_s", "time (s)");
+  add("hub_angle_rad", "angle of the hub (rad)");
+  add("hub_speed_rad_per_s", "speed of the hub (rad/s)");
+  add("tip_x_m", "tip, x (m)");
+  add("tip_y_m", "tip, y (m)");
+  add("rigid_tip_x_m", "tip of the rigid arm, x (m)");
+  add("rigid_tip_y_m", "tip of the rigid arm, y (m)");
+  add("tip_along_m", "tip against the rigid arm, along the last link (m)");
+  add("tip_across_m", "tip against the rigid arm, across the last link (m)");
+  add("hub_torque_N_m", "torque on the hub (N m)");
+  add("hub_force_x_N", "force of the hub on the first link, x (N)");
+  add("hub_force_y_N", "force of the hub on the first link, y (N)");
+  add("hub_moment_N_m", "couple of the hub on the first link (N m)");
+  // By link: columns of its joint, then of its bending.
+  std::vector<std::size_t> joint(links.size()), bending(links.size()), motor(links.size());
+  std::size_t motors = 0, hinge = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const std::string& name = links[k].name;
+    if (links[k].hinge) {
+      joint[k] = add(name + "_angle_rad", "angle of the hinge of " + name + " (rad)");
+      add(name + "_speed_rad_per_s", "speed of the hinge of " + name + " (rad/s)");
+      add(name + "_force_x_N", "force in the hinge on " + name + ", x (N)");
+      add(name + "_force_y_N", "force in the hinge on " + name + ", y (N)");
+      if (!std::holds_alternative<FreeForm>(s.drives[++hinge])) {
+        motor[k] = ++motors;
+        add(name + "_torque_N_m", "torque of the drive on " + name + " (N m)");
+      }
+    } else if (k > 0) {
+      joint[k] = add(name + "_weld_axial_N", "tension in the weld of " + name + " (N)");
+      add(name + "_weld_shear_N", "shear force in the weld of " + name + " (N)");
+      add(name + "_weld_moment_N_m", "bending moment in the weld of " + name + " (N m)");
+    }
+    bending[k] = add(name + "_bending_moment_N_m", "largest bending moment in " + name + " (N m)");
+    if (links[k].fibre_distance)
+      add(name + "_bending_stress_Pa", "largest bending stress in " + name + " (Pa)");
+  }
+  const std::size_t energies = add("kinetic_energy_J", "kinetic energy (J)");
+  add("potential_energy_J", "potential energy (J)");
+  add("work_J", "work of the drives (J)");
+  add("dissipated_J", "dissipated energy (J)");
+  add("energy_balance_J", "energy less work (J)");
+
+  ChainEquations equations(arm.chain);
+  for (std::size_t i = 0; i < run.states.size(); ++i) {
+    const Sample& sample = run.samples[i];
+    const ChainState& state = run.states[i];
+    equations.evaluate(state);
+    const Vec2 hub{std::cos(state.angle), std::sin(state.angle)};
+    const Vec2 tip = turned(hub, shape(arm.chain, state.q).node.back());
+    const Vec2 rigid = turned(hub, shape(arm.chain, bent(arm.chain, state.q, 0)).node.back());
+    const TipDisplacement moved = tip_displacement(arm.chain, state.q);
+    const Vec2 reaction = turned(hub, {sample.reaction_xi, sample.reaction_eta});
+    std::size_t column = first;
+    for (const double value :
+         {sample.time, sample.angle, sample.rate, tip.x, tip.y, rigid.x, rigid.y, moved.along, moved.across,
+          sample.torque, reaction.x, reaction.y, sample.moment})
+      push(column++, value);
+    const std::vector<Vec2> forces = hinge_forces(arm, equations, state);
+    hinge = 0;
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      const std::vector<SectionForce> cuts = link_sections(arm, k, equations, state);
+      if (const auto cell = arm.links[k].hinge) {
+        push(joint[k], state.q[per * *cell + turn]);
+        push(joint[k] + 1, state.v[per * *cell + turn]);
+        push(joint[k] + 2, forces[hinge].x);
+        push(joint[k] + 3, forces[hinge++].y);
+        if (motor[k] > 0) push(joint[k] + 4, run.hinge_torques[i][motor[k] - 1]);
+      } else if (k > 0) {
+        push(joint[k], cuts.front().axial);
+        push(joint[k] + 1, cuts.front().shear);
+        push(joint[k] + 2, cuts.front().moment);
+      }
+      const SectionForce& most =
+          *std::max_element(cuts.begin(), cuts.end(), [](const SectionForce& a, const SectionForce& b) {
+            return std::abs(a.moment) < std::abs(b.moment);
+          });
+      const double moment = std::abs(most.moment);
+      push(bending[k], moment);
+      if (links[k].fibre_distance)
+        push(bending[k] + 1, bending_stress(links[k].beam, moment, *links[k].fibre_distance));
+      if (moment > out.worst[k].moment) out.worst[k] = {moment, most.position, sample.time};
+    }
+    column = energies;
+    for (const double value :
+         {sample.kinetic, sample.potential, sample.work, sample.dissipated, sample.energy_balance()})
+      push(column++, value);
+  }
+  return out;
+}
+
+std::vector<ChainPlot> plots_of(const ArmStudy& s) {
+  std::vector<std::string> angles{"hub_angle_rad"}, speeds{"hub_speed_rad_per_s"}, torques{"hub_torque_N_m"},
+      moments, stresses, hinge_forces;
+  for (const ArmLinkForm& link : s.mechanism.links) {
+    if (link.hinge) {
+      angles.push_back(link.name + "_angle_rad");
+      speeds.push_back(link.name + "_speed_rad_per_s");
+      torques.push_back(link.name + "_torque_N_m");
+      hinge_forces.push_back(link.name + "_force_x_N");
+      hinge_forces.push_back(link.name + "_force_y_N");
+    }
+    moments.push_back(link.name + "_bending_moment_N_m");
+    stresses.push_back(link.name + "_bending_stress_Pa");
+  }
+  return {
+      {"tip", "Tip against the rigid arm, across and along the last link", {"tip_across_m", "tip_along_m"}},
+      {"angles", "Angles of hub and hinges", angles},
+      {"speeds", "Speeds of hub and hinges", speeds},
+      {"torques", "Torques of the drives", torques},
+      {"moments", "Largest bending moment in each link", moments},
+      {"stresses", "Largest bending stress in each link", stresses},
+      {"hub-force", "Force of the hub on the first link", {"hub_force_x_N", "hub_force_y_N"}},
+      {"hinge-forces", "Forces in the hinges on the outer links", hinge_forces},
+      {"energy", "Energies", {"kinetic_energy_J", "potential_energy_J", "work_J", "dissipated_J"}},
+      {"balance", "Energy audit: kinetic + potential + dissipated - work", {"energy_balance_J"}}};
+}
+
+// Forces and torques of the hinges, as arrows.
+void add_hinges(const ArmStudy& s, const ArmChain& arm, const Table& table, study::Scene& scene) {
+  for (std::size_t k = 0; k < arm.links.size(); ++k) {
+    if (!arm.links[k].hinge) continue;
+    const std::string& name = s.mechanism.links[k].name;
+    const int point = static_cast<int>(1 + arm.links[k].root);
+    scene.vectors.push_back({"hinge on " + name, study::Scene::Quantity::force, "N", point,
+                             table.find(name + "_force_x_N")->values, table.find(name + "_force_y_N")->values,
+                             name});
+    if (const Column* torque = table.find(name + "_torque_N_m"))
+      scene.moments.push_back({"drive of " + name, "N m", point, torque->values, {}});
+  }
+}
+
+}  // namespace
+
+ChainStudy arm_chain_study(const ArmStudy& s) {
+  ChainStudy out;
+  out.arm = [form = s.mechanism](int times) {
+    std::vector<ArmLink> links;
+    for (const ArmLinkForm& l : form.links) {
+      ArmLink link{.beam = l.beam, .divisions = times * l.divisions, .hinge = {}};
+      if (l.hinge) link.hinge = l.hinge->joint;
+      link.beam.extensible = form.hub.extensible;
+      link.beam.mass_damping = form.hub.mass_damping;
+      link.beam.stiffness_damping = form.hub.stiffness_damping;
+      if (links.empty()) {
+        link.beam.hub_radius = form.hub.hub_radius;
+        link.beam.hub_inertia = form.hub.hub_inertia;
+        link.beam.hub_stiffness = form.hub.hub_stiffness;
+        link.beam.hub_damping = form.hub.hub_damping;
+        link.beam.gravity = form.hub.gravity;
+      }
+      links.push_back(link);
+    }
+    return arm_chain(links);
+  };
+  for (const ArmLinkForm& link : s.mechanism.links) out.names.push_back(link.name);
+  for (const DriveLaw& law : s.drives) out.drives.push_back(joint_drive(law, s.simulation.end));
+  out.simulation = s.simulation;
+  out.shaping = s.shaping;
+  out.samples = s.samples;
+  out.table = [s](const ArmChain& arm, const Simulation& run) { return record(s, arm, run).table; };
+  out.tip = {"tip_across_m", "tip_along_m"};
+  out.plots = plots_of(s);
+  return out;
+}
+
+study::Result run_arm_study(const ArmStudy& s, RunContext& context) {
+  ChainRun run = run_chain(arm_chain_study(s), context);
+  study::Result& result = run.result;
+  const Table& motion = result.tables.front();
+  const std::vector<Worst> worst = record(s, run.arm, run.simulation).worst;
+  std::vector<study::Fact> facts;
+  const auto fact = [&](std::string label, std::string text) {
+    facts.push_back({std::move(label), std::move(text), study::Fact::Verdict::plain});
+  };
+
+  double peak = 0, when = 0;
+  for (std::size_t i = 0; i < motion.rows(); ++i) {
+    const double off =
+        std::hypot(motion.find("tip_along_m")->values[i], motion.find("tip_across_m")->values[i]);
+    if (off > peak) peak = off, when = motion.find("time_s")->values[i];
+  }
+  fact("largest displacement of the tip against the rigid arm",
+       fmt::format("{} at {:.4g} s", millimetres(peak), when));
+  fact("largest torque on the hub", fmt::format("{:.4g} N m", largest_of(motion, "hub_torque_N_m")));
+  Table sections{.name = "sections", .names = {}, .columns = {}, .status = {}};
+  sections.add("bending_moment_N_m", "largest bending moment (N m)");
+  sections.add("bending_stress_Pa", "largest bending stress (Pa)");
+  sections.add("position_m", "where: from the root of the link (m)");
+  sections.add("time_s", "when (s)");
+  std::string most_stressed;
+  double most_stress = 0;
+  for (std::size_t k = 0; k < worst.size(); ++k) {
+    const ArmLinkForm& link = s.mechanism.links[k];
+    const Worst& w = worst[k];
+    if (link.hinge && motion.find(link.name + "_torque_N_m"))
+      fact("largest torque in the hinge of " + link.name,
+           fmt::format("{:.4g} N m", largest_of(motion, link.name + "_torque_N_m")));
+    const std::string where = fmt::format("{:.4g} mm from its root, at {:.4g} s", 1e3 * w.position, w.time);
+    double stress = std::numeric_limits<double>::quiet_NaN();
+    if (link.fibre_distance) {
+      stress = bending_stress(link.beam, w.moment, *link.fibre_distance);
+      if (stress > most_stress) most_stress = stress, most_stressed = link.name;
+      fact("largest bending stress of " + link.name, fmt::format("{:.4g} MPa, {}", 1e-6 * stress, where));
+    } else {
+      fact("largest bending moment of " + link.name, fmt::format("{:.4g} N m, {}", w.moment, where));
+    }
+    sections.names.push_back(link.name);
+    std::size_t column = 0;
+    for (const double value : {w.moment, stress, w.position, w.time})
+      sections.columns[column++].values.push_back(value);
+  }
+  if (!result.scenes.empty()) add_hinges(s, run.arm, motion, result.scenes.front());
+  result.facts.insert(result.facts.begin(), facts.begin(), facts.end());
+  result.headline =
+      result.status == Status::done
+          ? fmt::format("The tip leaves that of the rigid arm by up to {}{}.", millimetres(peak),
+                        most_stressed.empty() ? ""
+                                              : fmt::format("; {} bends most, by {:.4g} MPa", most_stressed,
+                                                            1e-6 * most_stress))
+          : headline_of_end(run.simulation);
+  result.tables.push_back(std::move(sections));
+  return std::move(result);
+}
+
+study::Kind arm_kind() {
+  study::Kind kind;
+  kind.kind = "simulation";
+  kind.mechanism = "flexible.arm";
+  kind.summary =
+      "arm of elastic links in series, hinged or welded: motion, torques, joint forces, stress, frequencies, "
+      "input shaping";
+  kind.example = R"(# linkwright study: two elastic links, turned by motors in hub and elbow
+schema = 1
+kind   = "simulation"
+title  = "Elastic two-link arm"
+
+[mechanism]
+type              = "flexible.arm"
+hub_radius_mm     = 40.0
+hub_inertia_kg_m2 = 0.05
+
+[[mechanism.link]]
+name                = "upper"
+length_mm           = 500.0
+density_kg_per_m3   = 2700
+area_mm2            = 150.0            # 30 x 5 mm
+second_moment_mm4   = 312.5
+elastic_modulus_GPa = 70.0
+fibre_distance_mm   = 2.5              # for the stress
+divisions           = 2
+
+[[mechanism.link]]
+name                = "fore"
+length_mm           = 400.0
+density_kg_per_m3   = 2700
+area_mm2            = 75.0             # 25 x 3 mm
+second_moment_mm4   = 56.25
+elastic_modulus_GPa = 70.0
+tip_mass_kg         = 0.1
+fibre_distance_mm   = 1.5
+divisions           = 2
+[mechanism.link.hinge]                 # without it, the link is welded on in line
+mass_kg             = 0.5
+outer_inertia_kg_m2 = 1e-4
+
+[[drive]]
+link       = "upper"                   # turned with the hub
+law        = "cycloidal"               # or polynomial_345, table, spin_up, sine_torque, torque_table, none, ...
+from_deg   = 0.0
+to_deg     = 60.0
+duration_s = 1.0
+
+[[drive]]
+link       = "fore"                    # turned in its hinge, against the line of the upper link
+law        = "cycloidal"
+from_deg   = 90.0
+to_deg     = 20.0
+duration_s = 1.0
+
+[shaping]                              # leave it out to see the vibration
+shaper = "zv"
+
+[simulation]
+end_s  = 2.0
+step_s = 0.005
+)";
+  kind.schema = [](study::SchemaWriter& document) {
+    document.property(Field{.key = "mechanism", .summary = "hub and links", .required = true},
+                      study::schema_fields<ArmForm>());
+    document.property(Field{.key = "drive", .summary = "what turns hub and hinges", .required = true},
+                      study::schema_array(study::schema_fields<ArmDriveForm>()));
+    document.property(Field{.key = "shaping", .summary = "all drives in shares that cancel a vibration"},
+                      study::schema_fields<ShapingForm>());
+    document.property(Field{.key = "simulation", .summary = "how it is followed in time", .required = true},
+                      study::schema_fields<SimulationForm>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    study::Prepared prepared;
+    if (auto s = read_arm_study(document, common, prepared.canonical))
+      prepared.run = [s = *std::move(s)](RunContext& context) { return run_arm_study(s, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::flexible

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/flexible/beam_form.h"
+#include "linkwright/flexible/chain_study.h"
+#include "linkwright/flexible/drive_study.h"
+#include "linkwright/flexible/links.h"
+#include "linkwright/study/kind.h"
+
+// The simulation of an arm of elastic links in series: what its file holds, how it is read, run and reported.
+namespace linkwright::flexible {
+
+/// `[mechanism.link.hinge]`.
+struct HingeForm {
+  Hinge joint;
+};
+template <class Visitor>
+void fields(Visitor&& visit, HingeForm& f) {
+  using beam_fields::number;
+  using enum Dimension;
+  Hinge& h = f.joint;
+  visit(number("stiffness", "of a spring, without torque where both links are in line", stiffness_angular),
+        h.stiffness);
+  visit(number("damping", "of a damper", damping_angular), h.damping);
+  visit(number("mass", "of joint and motor", mass), h.mass);
+  visit(number("inner_inertia", "of what turns with the inner link, such as a stator", inertia),
+        h.inner_inertia);
+  visit(number("outer_inertia", "of what turns with the outer link, such as a rotor", inertia),
+        h.outer_inertia);
+}
+
+/// `[[mechanism.link]]`.
+struct ArmLinkForm {
+  std::string name;
+  Beam beam;
+  int divisions = 4;
+  std::optional<double> fibre_distance;
+  std::optional<HingeForm> hinge;
+};
+template <class Visitor>
+void fields(Visitor&& visit, ArmLinkForm& l) {
+  visit(Field{.key = "name", .summary = "for tables and drives; default: link1, link2, ..."}, l.name);
+  beam_fields::link(visit, l.beam);
+  beam_fields::tip(visit, l.beam);
+  visit(beam_fields::fibre_distance, l.fibre_distance);
+  visit(Field{.key = "divisions", .summary = "two cells each", .minimum = 1, .maximum = 200}, l.divisions);
+  visit(Field{.key = "hinge", .summary = "that carries the link; without it, the link is welded on in line"},
+        l.hinge);
+}
+
+/// `[mechanism]`.
+struct ArmForm {
+  Beam hub;  ///< hub, gravity and damping only
+  std::vector<ArmLinkForm> links;
+};
+template <class Visitor>
+void fields(Visitor&& visit, ArmForm& a) {
+  beam_fields::hub(visit, a.hub);
+  visit(Field{.key = "link", .summary = "the links from the hub outwards", .required = true}, a.links);
+}
+
+/// `[[drive]]`.
+struct ArmDriveForm {
+  std::string link;
+  DriveLaw law;
+};
+template <class Visitor>
+void fields(Visitor&& visit, ArmDriveForm& d) {
+  visit(Field{.key = "link",
+              .summary = "that is turned: the first one with the hub, another one in its hinge",
+              .required = true},
+        d.link);
+  visit(Field{.key = "law",
+              .summary = "what turns it; angles of a hinge count from the line of the inner link",
+              .required = true},
+        d.law);
+}
+
+/// A simulation as read.
+struct ArmStudy {
+  ArmForm mechanism;
+  std::vector<DriveLaw> drives;  ///< of the hub, then one a hinge
+  std::optional<ShapingForm> shaping;
+  SimulationForm simulation;
+  int samples = 361;
+};
+
+/// Reads the tables of the study and writes them into `canonical`; problems go to the reader.
+std::optional<ArmStudy> read_arm_study(study::ObjectReader& document, const study::Common& common,
+                                       Value& canonical);
+/// What of it arms share with a single link.
+ChainStudy arm_chain_study(const ArmStudy& study);
+
+/// "simulation" of "flexible.arm".
+study::Kind arm_kind();
+/// Integrates and reports; what was reached is kept, whatever ends it.
+study::Result run_arm_study(const ArmStudy& study, RunContext& context);
+
+}  // namespace linkwright::flexible

@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "linkwright/flexible/arm_study.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::flexible {
+namespace {
+
+// More is no arm, and its tables would fill the memory.
+constexpr std::size_t most_links = 20;
+
+bool is_column_name(std::string_view name) {
+  return std::isalpha(static_cast<unsigned char>(name.front())) &&
+         std::all_of(name.begin(), name.end(),
+                     [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)); });
+}
+
+void check_links(study::ObjectReader& mechanism, ArmForm& arm) {
+  std::vector<ArmLinkForm>& links = arm.links;
+  std::vector<study::ObjectReader> tables = mechanism.tables("link");
+  if (mechanism.has("link") && links.empty() && tables.empty())
+    mechanism.error("link", "an arm has at least one link", "add [[mechanism.link]]");
+  if (links.size() > most_links)
+    mechanism.error("link", fmt::format("has {} links, at most {} are allowed", links.size(), most_links));
+  const bool readable = !mechanism.document().has_errors();
+  for (std::size_t k = 0; k < links.size() && k < tables.size(); ++k) {
+    ArmLinkForm& link = links[k];
+    study::ObjectReader& table = tables[k];
+    if (link.name.empty()) {
+      if (table.has("name")) table.error("name", "is empty", "leave it out, or give one");
+      link.name = fmt::format("link{}", k + 1);
+    } else if (!is_column_name(link.name)) {
+      table.error(
+          "name",
+          fmt::format("is '{}', must begin with a letter and hold letters, digits and _ only", link.name),
+          "it becomes the beginning of column names");
+    } else if (link.name == "hub") {
+      table.error("name", "is 'hub', which stands for the hub itself", "take another one");
+    }
+    for (std::size_t other = 0; other < k; ++other)
+      if (links[other].name == link.name)
+        table.error("name", fmt::format("'{}' is the name of another link, too", link.name));
+    if (k == 0 && link.hinge)
+      table.error("hinge", "the first link is welded to the hub",
+                  "give the mechanism hub_stiffness, hub_damping and hub_inertia");
+    if (!readable) continue;
+    if (const auto wrong = problem(link.beam)) table.error("", *wrong);
+  }
+}
+
+// One law a joint, free where the file names none; nothing where one is no law.
+std::vector<DriveLaw> sorted_drives(study::ObjectReader& document, const ArmForm& arm,
+                                    const std::vector<ArmDriveForm>& drives) {
+  std::vector<study::ObjectReader> tables = document.tables("drive");
+  std::vector<std::string_view> known;
+  for (const ArmLinkForm& link : arm.links) known.emplace_back(link.name);
+  std::vector<std::optional<DriveLaw>> laws(known.size());
+  bool complete = true;
+  for (std::size_t i = 0; i < drives.size() && i < tables.size(); ++i) {
+    const ArmDriveForm& drive = drives[i];
+    const auto at = std::find(known.begin(), known.end(), drive.link);
+    if (at == known.end()) {
+      if (drive.link.empty() && !tables[i].has("link")) continue;  // reported as missing
+      const std::string_view nearest = nearest_word(drive.link, known);
+      tables[i].error(
+          "link", fmt::format("no link is called '{}'; there are: {}", drive.link, fmt::join(known, ", ")),
+          nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+      continue;
+    }
+    const auto k = static_cast<std::size_t>(at - known.begin());
+    if (laws[k])
+      tables[i].error("link", fmt::format("'{}' has a drive already", drive.link),
+                      "the hub and every hinge have one drive");
+    else if (k > 0 && !arm.links[k].hinge)
+      tables[i].error("link", fmt::format("'{}' is welded on: it has no hinge to be driven", drive.link),
+                      "give the link a hinge, or leave this drive out");
+    laws[k] = drive.law;
+    complete = check_drive(tables[i], drive.law) && complete;
+  }
+  if (!laws.empty() && !laws[0])
+    document.error(
+        "drive", fmt::format("nothing turns the hub with link '{}'", known[0]),
+        fmt::format("add [[drive]] with link = \"{}\" and a law, or law = \"none\" to let it swing",
+                    known[0]));
+  std::vector<DriveLaw> out;
+  if (!complete) return out;
+  for (std::size_t k = 0; k < laws.size(); ++k)
+    if (k == 0 || arm.links[k].hinge) out.push_back(laws[k].value_or(FreeForm()));
+  return out;
+}
+
+}  // namespace
+
+std::optional<ArmStudy> read_arm_study(study::ObjectReader& document, const study::Common& common,
+                                       Value& canonical) {
+  ArmStudy s;
+  s.samples = common.output.samples;
+  std::vector<ArmDriveForm> drives;
+  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  auto simulation = document.table(Field{.key = "simulation", .summary = {}, .required = true});
+  if (mechanism) mechanism->read(s.mechanism);
+  document(Field{.key = "drive", .summary = {}, .required = true}, drives);
+  document(Field{.key = "shaping", .summary = {}}, s.shaping);
+  if (simulation) simulation->read(s.simulation);
+  if (mechanism) check_links(*mechanism, s.mechanism);
+  if (!mechanism || !simulation || document.document().has_errors()) return std::nullopt;
+  s.drives = sorted_drives(document, s.mechanism, drives);
+  if (s.drives.empty() || document.document().has_errors()) return std::nullopt;
+  check_chain_study(arm_chain_study(s), *simulation, document);
+  if (document.document().has_errors()) return std::nullopt;
+  canonical["mechanism"] = study::write_fields(s.mechanism);
+  Value::Array written;
+  for (ArmDriveForm& drive : drives) written.push_back(study::write_fields(drive));
+  canonical["drive"] = std::move(written);
+  if (s.shaping) canonical["shaping"] = study::write_fields(*s.shaping);
+  canonical["simulation"] = study::write_fields(s.simulation);
+  return s;
+}
+
+}  // namespace linkwright::flexible

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/flexible/arm.h"
+#include "linkwright/flexible/drive_study.h"
+#include "linkwright/flexible/modes.h"
+#include "linkwright/flexible/simulation.h"
+#include "linkwright/study/kind.h"
+
+// What the simulations of one link and of arms share: their options, how they run and what they report.
+namespace linkwright::flexible {
+
+enum class StartForm { undeformed, equilibrium };
+constexpr std::array<EnumName<StartForm>, 2> names(StartForm) {
+  return {{{StartForm::undeformed, "undeformed", "straight links"},
+           {StartForm::equilibrium, "equilibrium",
+            "links bent as their weight bends them with hub and hinges held"}}};
+}
+
+/// `[simulation]`.
+struct SimulationForm {
+  double end = 0, step = 0.005;
+  int modes = 3;
+  StartForm start = StartForm::undeformed;
+  bool extrapolate = true;
+  std::optional<double> tolerance;
+  bool compare_divisions = true;
+  std::optional<double> deflection_scale;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SimulationForm& s) {
+  visit(beam_fields::number("end", "time to which it is followed", Dimension::time, true, true), s.end);
+  visit(beam_fields::number("step", "longest step of the integration", Dimension::time, false, true), s.step);
+  visit(Field{.key = "start", .summary = "how the links are at time 0"}, s.start);
+  visit(Field{.key = "extrapolate", .summary = "with half the step, too, and to the limit of both"},
+        s.extrapolate);
+  visit(beam_fields::number("tolerance", "halve the step until the tip moves by no more", Dimension::length,
+                            false, true),
+        s.tolerance);
+  visit(Field{.key = "modes", .summary = "frequencies in the table of modes", .minimum = 1, .maximum = 20},
+        s.modes);
+  visit(
+      Field{.key = "compare_divisions", .summary = "again with twice the divisions, and tell the difference"},
+      s.compare_divisions);
+  visit(
+      Field{.key = "deflection_scale",
+            .summary = "how many times as large the scene draws the bending; default: to scale where it can "
+                       "be seen, else 2, 5, 10, ... times",
+            .minimum = 0,
+            .maximum = 1e9,
+            .exclusive_minimum = true},
+      s.deflection_scale);
+}
+
+struct ChainPlot {
+  const char* name;
+  const char* title;
+  std::vector<std::string> columns;  ///< of the table "motion"; those that are not there are left out
+};
+
+/// A simulation as read: a chain with what turns it.
+struct ChainStudy {
+  std::function<ArmChain(int)> arm;  ///< with that many times the divisions
+  std::vector<std::string> names;    ///< of the links
+  std::vector<JointDrive> drives;    ///< of the hub, then one a hinge
+  SimulationForm simulation;
+  std::optional<ShapingForm> shaping;
+  int samples = 361;
+  std::function<Table(const ArmChain&, const Simulation&)> table;  ///< "motion"
+  std::array<std::string, 2> tip;  ///< columns: displacement of the tip across the link and along it
+  std::vector<ChainPlot> plots;
+};
+
+/// Says what keeps the simulation from being one, with the keys of `[simulation]` and of the table that holds
+/// `shaping`.
+void check_chain_study(const ChainStudy& study, study::ObjectReader& simulation,
+                       study::ObjectReader& shaping_parent);
+
+/// What the report of a kind adds to.
+struct ChainRun {
+  ArmChain arm;
+  Simulation simulation;  ///< with states
+  study::Result result;   ///< tables "motion", "modes" and, of a shaped one, "unshaped"; plots, facts, scene
+};
+/// Integrates; what was reached is kept, whatever ends it.
+ChainRun run_chain(const ChainStudy& study, RunContext& context);
+
+/// Largest |value| of a column, 0 of an empty one.
+double largest_of(const Table& table, std::string_view key);
+/// "12.34 mm".
+std::string millimetres(double metres);
+/// "Ended at 1.2 s: ..." of a run that is not done.
+std::string headline_of_end(const Simulation& run);
+
+}  // namespace linkwright::flexible

@@ -1,0 +1,155 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "linkwright/flexible/beam_form.h"
+#include "linkwright/flexible/drive.h"
+#include "linkwright/flexible/input_shaping.h"
+#include "linkwright/study/driven_law.h"
+#include "linkwright/study/kind.h"
+
+// What turns hubs and hinges, as files hold it and ready to be asked.
+namespace linkwright::flexible {
+
+namespace drive_fields {
+
+constexpr Field start_angle = {.key = "angle",
+                               .summary = "at the start",
+                               .dimension = Dimension::angle,
+                               .minimum = -1e4,
+                               .maximum = 1e4};
+
+}  // namespace drive_fields
+
+struct SpinUpForm {
+  SpinUp law;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SpinUpForm& f) {
+  visit(Field{.key = "speed",
+              .summary = "that is reached",
+              .dimension = Dimension::speed_angular,
+              .minimum = -1e6,
+              .maximum = 1e6,
+              .required = true},
+        f.law.rate);
+  visit(beam_fields::number("duration", "within which it is reached", Dimension::time, true, true),
+        f.law.duration);
+}
+constexpr Word choice_word(const SpinUpForm&) {
+  return {"spin_up", "from rest to a steady speed without a jump of the acceleration"};
+}
+
+struct SinePulseForm {
+  SinePulse law;
+  double angle = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SinePulseForm& f) {
+  visit(Field{.key = "torque",
+              .summary = "amplitude",
+              .dimension = Dimension::torque,
+              .minimum = -1e12,
+              .maximum = 1e12,
+              .required = true},
+        f.law.torque);
+  visit(beam_fields::number("duration", "of the period, after which there is no torque", Dimension::time,
+                            true, true),
+        f.law.duration);
+  visit(drive_fields::start_angle, f.angle);
+}
+constexpr Word choice_word(const SinePulseForm&) {
+  return {"sine_torque", "one period of a sine as torque, then none"};
+}
+
+struct TorqueTableForm {
+  TorqueTable law;
+  double angle = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, TorqueTableForm& f) {
+  visit(Field{.key = "times",
+              .summary = "increasing times",
+              .dimension = Dimension::time,
+              .minimum = 0,
+              .maximum = 1e9,
+              .required = true},
+        f.law.times);
+  visit(Field{.key = "torques",
+              .summary = "torque at each time",
+              .dimension = Dimension::torque,
+              .minimum = -1e12,
+              .maximum = 1e12,
+              .required = true},
+        f.law.torques);
+  visit(drive_fields::start_angle, f.angle);
+}
+constexpr Word choice_word(const TorqueTableForm&) {
+  return {"torque_table", "torque in straight lines between rows, none before the first and after the last"};
+}
+
+struct FreeForm {
+  double angle = 0, speed = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, FreeForm& f) {
+  visit(drive_fields::start_angle, f.angle);
+  visit(Field{.key = "speed",
+              .summary = "at the start",
+              .dimension = Dimension::speed_angular,
+              .minimum = -1e6,
+              .maximum = 1e6},
+        f.speed);
+}
+constexpr Word choice_word(const FreeForm&) { return {"none", "no drive: it swings or turns freely"}; }
+
+template <class... Laws>
+std::variant<SpinUpForm, Laws..., SinePulseForm, TorqueTableForm, FreeForm> drive_laws(std::variant<Laws...>);
+/// Every motion law of joints, the spin-up, torques, or none.
+using DriveLaw = decltype(drive_laws(study::RotaryLaw()));
+
+/// Says what keeps the law from being one, with the keys of its table. False if anything does, keys that are
+/// missing among it, which the reader reports.
+bool check_drive(study::ObjectReader& table, const DriveLaw& law);
+
+struct ShapingForm {
+  Shaper shaper = Shaper::zv;
+  std::optional<double> frequency;
+  double damping = 0;
+  int mode = 1;
+};
+template <class Visitor>
+void fields(Visitor&& visit, ShapingForm& f) {
+  visit(Field{.key = "shaper", .summary = "which impulses"}, f.shaper);
+  visit(Field{.key = "mode", .summary = "vibration that is not to be excited", .minimum = 1, .maximum = 5},
+        f.mode);
+  visit(Field{.key = "frequency",
+              .summary = "of the vibration; default: computed for the mode",
+              .dimension = Dimension::frequency,
+              .minimum = 0,
+              .maximum = 1e9,
+              .exclusive_minimum = true},
+        f.frequency);
+  visit(Field{.key = "damping", .summary = "ratio of the vibration", .minimum = 0, .maximum = 0.99},
+        f.damping);
+}
+
+/// What turns one joint: a motion that is given, a torque, or (neither) nothing.
+struct JointDrive {
+  std::function<HubMotion(double)> motion;
+  std::function<double(double)> torque;
+  std::vector<double> breaks;      ///< s, where it jumps or kinks before the end of the simulation
+  std::optional<double> quiet{0};  ///< s, from when on it is even, or without torque; nothing if never
+  double angle = 0, rate = 0;      ///< at the start (rad, rad/s)
+  double last = 0;                 ///< angle at the end of a given motion, else that at the start (rad)
+
+  bool free() const { return !motion && !torque; }
+};
+/// Of a law without problem, up to `end` (s).
+JointDrive joint_drive(const DriveLaw& law, double end);
+
+}  // namespace linkwright::flexible
