@@ -8,7 +8,7 @@ namespace {
 TEST(ClearanceStudies, AreThoseOfLinkagesWithClearance) {
   std::vector<std::string> names;
   for (const study::Kind& kind : studies()) names.push_back(study::name_of(kind));
-  EXPECT_THAT(names, ::testing::ElementsAre("simulation/clearance.linkage"));
+  EXPECT_THAT(names, ::testing::ElementsAre("simulation/clearance.linkage", "analysis/clearance.linkage"));
 }
 
 TEST(ClearanceStudies, ExamplesRun) {

@@ -2,7 +2,9 @@
 
 #include <complex>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/clearance/contact_simulation.h"
@@ -99,5 +101,16 @@ study::Result report_clearance(const ClearanceStudy& study, ClearanceRecording r
 
 /// The linkage in motion with its play enlarged so that one sees it.
 study::Scene clearance_scene(const ClearanceStudy& study, const ClearanceRecording& recording);
+
+// ---- shared with other studies of clearance
+// --------------------------------------------------------------------
+
+/// The joint that `name`, found at `key` of a table, means. Nothing, and the problem told, when there is none.
+std::optional<int> joint_named(study::ObjectReader& table, std::string_view key, const std::string& name,
+                               const planar::Linkage& linkage);
+/// The revolute joint of a `[[clearance]]` table with `joint` and `clearance`, if its links are long enough
+/// for that.
+std::optional<int> loose_joint(study::ObjectReader& table, const std::string& joint, double clearance,
+                               const planar::Linkage& linkage);
 
 }  // namespace linkwright::clearance
