@@ -48,7 +48,7 @@ TEST(ClearanceSensitivity, WorstPathErrorOfAFourBarOverAllDirections) {
       sum += off.real() * off.real() / 720;
     }
     // Second order: r over the distances that bend, some hundredths of a metre.
-    EXPECT_NEAR(rows[k].worst_distance[0] / worst, 1, 1e-3) << k;
+    EXPECT_NEAR(rows[k].worst_error[0] / worst, 1, 1e-3) << k;
     EXPECT_NEAR(rows[k].deviation[0] / std::sqrt(sum), 1, 2e-3) << k;
   }
 }
@@ -74,6 +74,36 @@ TEST(ClearanceSensitivity, FunctionByLengths) {
     EXPECT_NEAR(std::abs(rows[k].derivatives[1]), std::abs(by_coupler), 1e-7);
     EXPECT_EQ(rows[k].derivatives[0] * rows[k].derivatives[1] > 0, by_crank * by_coupler > 0);
     EXPECT_NEAR(rows[k].worst[0], 1e-4 * std::abs(by_crank) + 2e-4 * std::abs(by_coupler), 1e-10);
+  }
+}
+
+// Several tolerances at once: their worst direction, tried.
+TEST(ClearanceSensitivity, WorstErrorIsThatOfTheWorstDirection) {
+  const planar::Linkage l = as_linkage(published_four_bar("gamma-design2-table3-g0-w10"));
+  const LinkageTolerances tolerances{
+      .pins = {{planar::joint_index(l, "A"), 2e-5}, {planar::joint_index(l, "B"), 1e-5}},
+      .lengths = {{planar::body_index(l, "crank"), 0, 1, 3e-5},
+                  {planar::body_index(l, "rocker"), 0, 1, 4e-5}}};
+  const ToleranceOutputs outputs{.points = {tracing_point(l)}, .coordinates = {planar::joint_index(l, "O4")}};
+  ASSERT_EQ(quantity_count(l, outputs), 2u);
+  for (const SensitivitySample& row : clearance_sensitivity(l, tolerances, outputs, crank_motions(12))) {
+    const double *x = row.derivatives.data(), *y = x + 6;
+    double worst = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const planar::Vec<double> n = planar::unit(turn / 2 * i / 20000);
+      const auto along = [&](std::size_t j) { return n.x * x[j] + n.y * y[j]; };
+      worst = std::max(worst, 2e-5 * std::hypot(along(0), along(1)) + 1e-5 * std::hypot(along(2), along(3)) +
+                                  3e-5 * std::abs(along(4)) + 4e-5 * std::abs(along(5)));
+    }
+    // The next direction tried is at most 0.8e-4 rad off: half of its square, and kinks 1e-4.
+    EXPECT_NEAR(row.worst_error[0] / worst, 1, 1e-4);
+    EXPECT_GE(row.worst_error[0], worst * (1 - 1e-12));
+    double parts = 0, squares = 0;
+    for (std::size_t k = 0; k < 4; ++k) parts += row.contributions[k], squares += row.mean_squares[k];
+    EXPECT_NEAR(parts, row.worst_error[0], 1e-18);
+    EXPECT_NEAR(squares, row.deviation[0] * row.deviation[0] + row.deviation[1] * row.deviation[1], 1e-20);
+    // Of a number the error is that of the value.
+    EXPECT_NEAR(row.worst_error[1], row.worst[2], 1e-16);
   }
 }
 
@@ -105,7 +135,7 @@ TEST(ClearanceSensitivity, MonteCarloAgreesWithTheFirstOrder) {
       EXPECT_GT(drawn.samples[s].most[i] - first[s].values[i], first[s].worst[i] * 0.7);
       EXPECT_LT(first[s].values[i] - drawn.samples[s].least[i], first[s].worst[i] * 1.001);
     }
-    EXPECT_LT(drawn.samples[s].worst_distance[0], first[s].worst_distance[0] * 1.001);
+    EXPECT_LT(drawn.samples[s].worst_error[0], first[s].worst_error[0] * 1.001);
   }
   // The same seed, the same numbers.
   const MonteCarloResult again = clearance_monte_carlo(l, tolerances, outputs, samples, 100, 5, context),
@@ -132,10 +162,10 @@ TEST(ClearanceSensitivity, AnyLinkage) {
         sample.linkage, tolerances, {.points = {point}, .drives = true}, samples, 200, 1, context);
     for (std::size_t s = 0; s < samples.size(); ++s) {
       ASSERT_EQ(rows[s].status, Status::done) << name;
-      EXPECT_GT(rows[s].worst_distance[0], 0) << name;
+      EXPECT_GT(rows[s].worst_error[0], 0) << name;
       EXPECT_EQ(drawn.samples[s].assembled, 200) << name;
-      EXPECT_LT(drawn.samples[s].worst_distance[0], rows[s].worst_distance[0] * 1.02) << name;
-      EXPECT_GT(drawn.samples[s].worst_distance[0], rows[s].worst_distance[0] * 0.2) << name;
+      EXPECT_LT(drawn.samples[s].worst_error[0], rows[s].worst_error[0] * 1.02) << name;
+      EXPECT_GT(drawn.samples[s].worst_error[0], rows[s].worst_error[0] * 0.2) << name;
     }
   }
 }

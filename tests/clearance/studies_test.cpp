@@ -11,7 +11,7 @@ TEST(ClearanceStudies, AreThoseOfLinkagesWithClearance) {
   EXPECT_THAT(names, ::testing::ElementsAre("synthesis/clearance.four_bar/path_points",
                                             "synthesis/clearance.four_bar/lead",
                                             "synthesis/clearance.four_bar/path_points_and_lead",
-                                            "simulation/clearance.linkage"));
+                                            "simulation/clearance.linkage", "analysis/clearance.linkage"));
 }
 
 TEST(ClearanceStudies, ExamplesRun) {

@@ -19,7 +19,7 @@ using planar::InputMotion, planar::JointType, planar::Linkage, planar::LinkageMo
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void require_valid(const Linkage& l, const LinkageTolerances& t, const ToleranceOutputs& o,
-                   std::size_t samples) {
+                   std::size_t samples, std::size_t times) {
   const auto joint = [&](int j) -> const planar::LinkageJoint& {
     LINKWRIGHT_REQUIRE(j >= 0 && at(j) < l.joints.size(), "there is no joint {} among {}", j,
                        l.joints.size());
@@ -51,6 +51,8 @@ void require_valid(const Linkage& l, const LinkageTolerances& t, const Tolerance
   for (const int j : o.forces) joint(j);
   LINKWRIGHT_REQUIRE(!l.driven.empty() && samples % l.driven.size() == 0, "{} motions for {} inputs", samples,
                      l.driven.size());
+  LINKWRIGHT_REQUIRE(times == 0 || times * l.driven.size() == samples, "{} times for {} samples", times,
+                     samples / l.driven.size());
 }
 
 // The linkage with offsets of its pins, in the frames of their first bodies, and errors of its lengths: pairs
@@ -80,8 +82,9 @@ Linkage changed(const Linkage& l, const LinkageTolerances& t, std::span<const do
 // Solves a linkage at all samples, each from the nominal motion there, so that it stays in its assembly mode.
 class Solver {
  public:
-  Solver(const Linkage& l, const ToleranceOutputs& o, std::span<const InputMotion> samples)
-      : outputs_(o), samples_(samples), forces_wanted_(!o.forces.empty() || o.drives) {
+  Solver(const Linkage& l, const ToleranceOutputs& o, std::span<const InputMotion> samples,
+         std::span<const double> times)
+      : outputs_(o), samples_(samples), times_(times), forces_wanted_(!o.forces.empty() || o.drives) {
     planar::PlanResult result = planar::plan(l);
     LINKWRIGHT_REQUIRE(result.problems.empty(), "the linkage cannot be planned: {}",
                        result.problems.front().message);
@@ -100,7 +103,7 @@ class Solver {
       parts_.push_back(motion.parts);
       modes_ = motion.modes;
       values_.emplace_back();
-      if (motion.status == Status::done) values_.back() = read(l, plan_, motion, now, {});
+      if (motion.status == Status::done) values_.back() = read(l, plan_, motion, s, {});
     }
   }
 
@@ -127,14 +130,14 @@ class Solver {
       motion.parts = parts_[s];
       const auto now = samples_.subspan(s * inputs, inputs);
       planar::solve_motion(other.plan, now, motion);
-      if (motion.status == Status::done) out[s] = read(l, other.plan, motion, now, values_[s]);
+      if (motion.status == Status::done) out[s] = read(l, other.plan, motion, s, values_[s]);
     }
     return out;
   }
 
  private:
   std::vector<double> read(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
-                           std::span<const InputMotion> now, std::span<const double> near) const {
+                           std::size_t sample, std::span<const double> near) const {
     std::vector<double> out;
     for (const planar::BodyPoint& p : outputs_.points) {
       const auto place =
@@ -151,7 +154,8 @@ class Solver {
     }
     if (forces_wanted_) {
       planar::LinkageForces forces;
-      planar::solve_forces(l, plan, motion, 0, now[0].value, forces);
+      planar::solve_forces(l, plan, motion, times_.empty() ? 0 : times_[sample],
+                           samples_[sample * plan.inputs()].value, forces);
       for (const int j : outputs_.forces) {
         out.push_back(forces.joints[at(j)].force.x);
         out.push_back(forces.joints[at(j)].force.y);
@@ -163,6 +167,7 @@ class Solver {
 
   const ToleranceOutputs& outputs_;
   std::span<const InputMotion> samples_;
+  std::span<const double> times_;
   bool forces_wanted_;
   LinkagePlan plan_;
   std::vector<Status> status_;
@@ -171,9 +176,63 @@ class Solver {
   std::vector<std::vector<double>> values_;
 };
 
-// Largest singular value of ((a, b), (c, d)).
-double stretch(double a, double b, double c, double d) {
-  return (std::hypot(a + d, c - b) + std::hypot(a - d, b + c)) / 2;
+// Error of a quantity of `size` values, 1 or 2, whose derivatives are `rows`: in the worst direction n the
+// tolerances together reach the sum of c |J' n| over pins and t |j' n| over lengths, and their extreme errors
+// add up to a vector whose direction is no worse than n. From a coarse search that climbs to the top.
+void worst_error(const LinkageTolerances& t, const double* rows, std::size_t parameters, std::size_t size,
+                 double* contributions, double* total) {
+  const std::size_t pins = t.pins.size();
+  const auto along = [&](const planar::Vec<double>& n, std::size_t j) {
+    return n.x * rows[j] + (size == 2 ? n.y * rows[parameters + j] : 0);
+  };
+  // The extreme errors for a direction, summed up; the part of each in that direction.
+  const auto extreme = [&](const planar::Vec<double>& n) {
+    planar::Vec<double> sum{0, 0};
+    const auto add = [&](std::size_t j, double by) {
+      sum.x += by * rows[j];
+      if (size == 2) sum.y += by * rows[parameters + j];
+    };
+    for (std::size_t k = 0; k < pins; ++k) {
+      const double a = along(n, 2 * k), b = along(n, 2 * k + 1), slope = std::hypot(a, b);
+      contributions[k] = t.pins[k].clearance * slope;
+      if (!(slope > 0)) continue;
+      add(2 * k, t.pins[k].clearance * a / slope);
+      add(2 * k + 1, t.pins[k].clearance * b / slope);
+    }
+    for (std::size_t k = 0; k < t.lengths.size(); ++k) {
+      const double a = along(n, 2 * pins + k);
+      contributions[pins + k] = t.lengths[k].tolerance * std::abs(a);
+      add(2 * pins + k, std::copysign(t.lengths[k].tolerance, a));
+    }
+    return sum;
+  };
+  planar::Vec<double> best{1, 0}, sum = extreme(best);
+  if (size == 2) {
+    constexpr int directions = 32;  // of half a turn: the other half is the same
+    for (int i = 1; i < directions; ++i) {
+      const planar::Vec<double> n = planar::unit(std::numbers::pi * i / directions), s = extreme(n);
+      if (dot(n, s) > dot(best, extreme(best))) best = n, sum = s;
+    }
+    for (int i = 0; i < 100 && norm(sum) > 0; ++i) {
+      const planar::Vec<double> next = (1 / norm(sum)) * sum;
+      const bool there = norm(next - best) < 1e-9;  // the error is stationary: right to rounding
+      best = next;
+      sum = extreme(best);
+      if (there) break;
+    }
+    extreme(best);
+  }
+  *total = 0;
+  for (std::size_t k = 0; k < pins + t.lengths.size(); ++k) *total += contributions[k];
+}
+
+// Values of each quantity: two of a vector.
+std::vector<std::size_t> quantity_sizes(const Linkage& l, const ToleranceOutputs& o) {
+  std::vector<std::size_t> out(o.points.size(), 2);
+  out.insert(out.end(), o.coordinates.size(), 1);
+  out.insert(out.end(), o.forces.size(), 2);
+  if (o.drives) out.insert(out.end(), l.driven.size(), 1);
+  return out;
 }
 
 }  // namespace
@@ -182,13 +241,19 @@ std::size_t value_count(const Linkage& l, const ToleranceOutputs& o) {
   return 2 * o.points.size() + o.coordinates.size() + 2 * o.forces.size() + (o.drives ? l.driven.size() : 0);
 }
 
+std::size_t quantity_count(const Linkage& l, const ToleranceOutputs& o) {
+  return o.points.size() + o.coordinates.size() + o.forces.size() + (o.drives ? l.driven.size() : 0);
+}
+
 std::vector<SensitivitySample> clearance_sensitivity(const Linkage& l, const LinkageTolerances& t,
                                                      const ToleranceOutputs& o,
-                                                     std::span<const InputMotion> samples) {
-  require_valid(l, t, o, samples.size());
-  const Solver solver(l, o, samples);
+                                                     std::span<const InputMotion> samples,
+                                                     std::span<const double> times) {
+  require_valid(l, t, o, samples.size(), times.size());
+  const Solver solver(l, o, samples, times);
   const std::size_t pins = t.pins.size(), parameters = 2 * pins + t.lengths.size(),
                     values = value_count(l, o);
+  const std::vector<std::size_t> sizes = quantity_sizes(l, o);
   std::vector<SensitivitySample> out(solver.samples());
   for (std::size_t s = 0; s < out.size(); ++s) {
     out[s].status = solver.status(s);
@@ -241,14 +306,24 @@ std::vector<SensitivitySample> clearance_sensitivity(const Linkage& l, const Lin
       now.worst.push_back(worst);
       now.deviation.push_back(std::sqrt(variance));
     }
-    for (std::size_t p = 0; p < o.points.size(); ++p) {
-      const double *x = &now.derivatives[2 * p * parameters], *y = x + parameters;
-      double worst = 0;
-      for (std::size_t k = 0; k < pins; ++k)
-        worst += t.pins[k].clearance * stretch(x[2 * k], x[2 * k + 1], y[2 * k], y[2 * k + 1]);
-      for (std::size_t k = 0; k < t.lengths.size(); ++k)
-        worst += t.lengths[k].tolerance * std::hypot(x[2 * pins + k], y[2 * pins + k]);
-      now.worst_distance.push_back(worst);
+    const std::size_t tolerances = pins + t.lengths.size();
+    now.worst_error.resize(sizes.size());
+    now.contributions.resize(sizes.size() * tolerances);
+    now.mean_squares.resize(sizes.size() * tolerances);
+    for (std::size_t q = 0, i = 0; q < sizes.size(); i += sizes[q++]) {
+      const double* rows = now.derivatives.data() + i * parameters;
+      worst_error(t, rows, parameters, sizes[q], now.contributions.data() + q * tolerances,
+                  &now.worst_error[q]);
+      for (std::size_t k = 0; k < tolerances; ++k) {
+        const bool pin = k < pins;
+        double squares = 0;
+        for (std::size_t r = 0; r < sizes[q]; ++r) {
+          const double* row = rows + r * parameters + (pin ? 2 * k : pins + k);
+          squares += row[0] * row[0] + (pin ? row[1] * row[1] : 0);
+        }
+        const double range = pin ? t.pins[k].clearance : t.lengths[k - pins].tolerance;
+        now.mean_squares[q * tolerances + k] = range * range * squares / (pin ? 2 : 3);
+      }
     }
   }
   return out;
@@ -256,11 +331,13 @@ std::vector<SensitivitySample> clearance_sensitivity(const Linkage& l, const Lin
 
 MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances& t,
                                        const ToleranceOutputs& o, std::span<const InputMotion> samples,
-                                       int draws, std::uint64_t seed, const RunContext& context) {
-  require_valid(l, t, o, samples.size());
+                                       int draws, std::uint64_t seed, const RunContext& context,
+                                       std::span<const double> times) {
+  require_valid(l, t, o, samples.size(), times.size());
   LINKWRIGHT_REQUIRE(draws >= 1, "needs 1 draw at least, got {}", draws);
-  const Solver solver(l, o, samples);
+  const Solver solver(l, o, samples, times);
   const std::size_t pins = t.pins.size(), values = value_count(l, o);
+  const std::vector<std::size_t> sizes = quantity_sizes(l, o);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   MonteCarloResult out;
   out.samples.resize(solver.samples());
@@ -269,11 +346,12 @@ MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances
     s.deviation.assign(values, 0);
     s.least.assign(values, infinity);
     s.most.assign(values, -infinity);
-    s.worst_distance.assign(o.points.size(), 0);
+    s.worst_error.assign(sizes.size(), 0);
   }
   std::vector<double> by(2 * pins + t.lengths.size());
   while (out.draws < draws) {
     if (out.status = context.interruption(); out.status != Status::done) break;
+    if (out.draws % 64 == 0) context.report({.stage = "monte_carlo", .fraction = double(out.draws) / draws});
     RandomStream random({.seed = seed, .individual = static_cast<std::uint32_t>(out.draws)});
     for (std::size_t k = 0; k < pins; ++k) {
       const double angle = random.uniform(0, 2 * std::numbers::pi);
@@ -283,9 +361,15 @@ MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances
     for (std::size_t k = 0; k < t.lengths.size(); ++k)
       by[2 * pins + k] = t.lengths[k].tolerance * random.uniform(-1, 1);
     const auto drawn = solver.of(changed(l, t, by));
+    out.missed.push_back(0);
+    out.largest.resize(out.largest.size() + sizes.size(), 0);
+    double* largest = out.largest.data() + at(out.draws) * sizes.size();
     ++out.draws;
     for (std::size_t s = 0; s < drawn.size(); ++s) {
-      if (drawn[s].empty()) continue;
+      if (drawn[s].empty()) {
+        if (solver.status(s) == Status::done) ++out.missed.back();
+        continue;
+      }
       MonteCarloSample& now = out.samples[s];
       ++now.assembled;
       for (std::size_t i = 0; i < values; ++i) {  // Welford's sums
@@ -295,10 +379,13 @@ MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances
         now.least[i] = std::min(now.least[i], value);
         now.most[i] = std::max(now.most[i], value);
       }
-      for (std::size_t p = 0; p < o.points.size(); ++p)
-        now.worst_distance[p] =
-            std::max(now.worst_distance[p], std::hypot(drawn[s][2 * p] - solver.values(s)[2 * p],
-                                                       drawn[s][2 * p + 1] - solver.values(s)[2 * p + 1]));
+      for (std::size_t q = 0, i = 0; q < sizes.size(); i += sizes[q++]) {
+        const double first = drawn[s][i] - solver.values(s)[i],
+                     error = sizes[q] == 2 ? std::hypot(first, drawn[s][i + 1] - solver.values(s)[i + 1])
+                                           : std::abs(first);
+        now.worst_error[q] = std::max(now.worst_error[q], error);
+        largest[q] = std::max(largest[q], error);
+      }
     }
   }
   for (MonteCarloSample& s : out.samples)

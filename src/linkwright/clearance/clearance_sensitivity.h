@@ -39,6 +39,9 @@ struct ToleranceOutputs {
   bool drives = false;           ///< likewise
 };
 std::size_t value_count(const planar::Linkage& linkage, const ToleranceOutputs& outputs);
+/// What errs as one thing, in the same order: a point by a distance (m), a coordinate (rad or m), a force by
+/// the size of a vector (N), a drive (N m or N).
+std::size_t quantity_count(const planar::Linkage& linkage, const ToleranceOutputs& outputs);
 
 /// First derivatives at one sample.
 struct SensitivitySample {
@@ -53,24 +56,32 @@ struct SensitivitySample {
   /// Standard deviation of each value to first order, pins touching their bushes in directions that are even
   /// over the circle, lengths even within their tolerance, all independent.
   std::vector<double> deviation;
-  /// Of every point: largest distance from its nominal place to first order; of a pin clearance times the
-  /// largest singular value of the derivative (m).
-  std::vector<double> worst_distance;
+  /// Largest error of each quantity to first order, all tolerances together in the worst direction: exact
+  /// for the linear theory.
+  std::vector<double> worst_error;
+  /// What each tolerance has in it (pins, then lengths), of quantity q by tolerance k at
+  /// contributions[q * tolerances + k]: along the direction of the worst error, so that they sum up to it.
+  std::vector<double> contributions;
+  /// Mean square of the error of each quantity by each tolerance alone, as random as for `deviation`; in the
+  /// order of `contributions`. The root of their sum over tolerances is that of all together.
+  std::vector<double> mean_squares;
 };
 /// By central differences of whole solutions; the step is 6e-6 of the size of the linkage, the error about
 /// 1e-10 of a value's size, more near dead points. `samples` holds the motion of all inputs, sample after
 /// sample; forces take their rates and accelerations. Throws ContractError for tolerances, outputs and
-/// samples that do not fit, or a linkage that cannot be planned.
+/// samples that do not fit, or a linkage that cannot be planned. `times` of the samples, for loads that
+/// depend on time; empty = 0 at all of them.
 std::vector<SensitivitySample> clearance_sensitivity(const planar::Linkage& linkage,
                                                      const LinkageTolerances& tolerances,
                                                      const ToleranceOutputs& outputs,
-                                                     std::span<const planar::InputMotion> samples);
+                                                     std::span<const planar::InputMotion> samples,
+                                                     std::span<const double> times = {});
 
 /// What random linkages do at one sample.
 struct MonteCarloSample {
   int assembled = 0;  ///< draws that have a position there; the rest is about these
   std::vector<double> mean, deviation, least, most;  ///< of each value
-  std::vector<double> worst_distance;                ///< of every point from its nominal place, m
+  std::vector<double> worst_error;                   ///< largest one of each quantity
 };
 /// Draws linkages: pins touching their bushes in even directions, lengths even within their tolerance; every
 /// draw keeps its numbers over all samples and is solved exactly. Deterministic for a seed.
@@ -78,10 +89,15 @@ struct MonteCarloResult {
   Status status = Status::done;  ///< done, deadline or cancelled
   int draws = 0;                 ///< made
   std::vector<MonteCarloSample> samples;
+  /// Of every draw: at how many samples that have a nominal motion it does not assemble.
+  std::vector<int> missed;
+  /// Largest error of quantity q over all samples, of draw d at largest[d * quantities + q].
+  std::vector<double> largest;
 };
 MonteCarloResult clearance_monte_carlo(const planar::Linkage& linkage, const LinkageTolerances& tolerances,
                                        const ToleranceOutputs& outputs,
                                        std::span<const planar::InputMotion> samples, int draws,
-                                       std::uint64_t seed, const RunContext& context);
+                                       std::uint64_t seed, const RunContext& context,
+                                       std::span<const double> times = {});
 
 }  // namespace linkwright::clearance

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -157,5 +158,17 @@ study::Result report_clearance(const ClearanceStudy& study, ClearanceRecording r
 /// input is that of the scene, and the eccentricities of the pins; of the study the linkage and its pins.
 study::Scene clearance_scene(const ClearanceStudy& study, const ClearanceRecording& recording,
                              std::string input_key = "time_s", std::string input_label = "time");
+
+// ---- shared with other studies of clearance
+// --------------------------------------------------------------------
+
+/// The joint that `name`, found at `key` of a table, means. Nothing, and the problem told, when there is
+/// none.
+std::optional<int> joint_named(study::ObjectReader& table, std::string_view key, const std::string& name,
+                               const planar::Linkage& linkage);
+/// The revolute joint of a `[[clearance]]` table with `joint` and `clearance`, if its links are long enough
+/// for that.
+std::optional<int> loose_joint(study::ObjectReader& table, const std::string& joint, double clearance,
+                               const planar::Linkage& linkage);
 
 }  // namespace linkwright::clearance

@@ -156,37 +156,52 @@ ShortLink shortest_link(const planar::Linkage& l, int joint) {
   return out;
 }
 
-// The joint of a table, if it can have clearance.
+}  // namespace
+
+std::optional<int> joint_named(study::ObjectReader& table, std::string_view key, const std::string& name,
+                               const planar::Linkage& l) {
+  const int j = planar::joint_index(l, name);
+  if (j >= 0) return j;
+  std::vector<std::string_view> known;
+  for (const planar::LinkageJoint& k : l.joints) known.push_back(k.name);
+  const std::string_view nearest = nearest_word(name, known);
+  table.error(key, fmt::format("there is no joint '{}'", name),
+              nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+  return std::nullopt;
+}
+
+std::optional<int> loose_joint(study::ObjectReader& table, const std::string& name, double clearance,
+                               const planar::Linkage& l) {
+  const auto j = joint_named(table, "joint", name, l);
+  if (!j) return std::nullopt;
+  if (const planar::JointType type = l.joints[at(*j)].type; type != planar::JointType::revolute) {
+    table.error("joint",
+                fmt::format("joint '{}' is {}; only revolute joints have clearance", name, name_of(type)));
+    return std::nullopt;
+  }
+  if (const ShortLink link = shortest_link(l, *j); clearance > link.length / 2) {
+    table.error("clearance", fmt::format("{:.6g} mm is more than half of the link '{}', {:.6g} mm",
+                                         1e3 * clearance, link.name, 1e3 * link.length));
+    return std::nullopt;
+  }
+  return j;
+}
+
+namespace {
+
+// The joint of a table, if it can be simulated with clearance.
 std::optional<int> joint_of(study::ObjectReader& table, const PinForm& form, const planar::Linkage& l) {
-  const int j = planar::joint_index(l, form.joint);
-  if (j < 0) {
-    std::vector<std::string_view> known;
-    for (const planar::LinkageJoint& k : l.joints) known.push_back(k.name);
-    const std::string_view nearest = nearest_word(form.joint, known);
-    table.error("joint", fmt::format("there is no joint '{}'", form.joint),
-                nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
-    return std::nullopt;
-  }
-  const planar::LinkageJoint& joint = l.joints[at(j)];
-  if (joint.type != planar::JointType::revolute) {
-    table.error("joint", fmt::format("joint '{}' is {}; only revolute joints have clearance", form.joint,
-                                     name_of(joint.type)));
-    return std::nullopt;
-  }
-  if (std::find(l.driven.begin(), l.driven.end(), j) != l.driven.end()) {
+  const auto j = loose_joint(table, form.joint, form.clearance, l);
+  if (!j) return std::nullopt;
+  if (std::find(l.driven.begin(), l.driven.end(), *j) != l.driven.end()) {
     table.error("joint",
                 fmt::format("joint '{}' is driven: a drive needs a pin without clearance", form.joint),
                 "put the [[drive]] at another joint");
     return std::nullopt;
   }
-  if (joint.friction > 0) {
+  if (l.joints[at(*j)].friction > 0) {
     table.error("joint", fmt::format("joint '{}' has friction of its own", form.joint),
                 "write friction in this table instead, for the contact");
-    return std::nullopt;
-  }
-  if (const ShortLink link = shortest_link(l, j); form.clearance > link.length / 2) {
-    table.error("clearance", fmt::format("{:.6g} mm is more than half of the link '{}', {:.6g} mm",
-                                         1e3 * form.clearance, link.name, 1e3 * link.length));
     return std::nullopt;
   }
   return j;

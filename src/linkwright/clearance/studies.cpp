@@ -2,12 +2,14 @@
 
 #include "linkwright/clearance/clearance_design_study.h"
 #include "linkwright/clearance/clearance_study.h"
+#include "linkwright/clearance/tolerance_study.h"
 
 namespace linkwright::clearance {
 
 std::vector<study::Kind> studies() {
   std::vector<study::Kind> out = clearance_design_kinds();
   out.push_back(clearance_kind());
+  out.push_back(tolerance_kind());
   return out;
 }
 

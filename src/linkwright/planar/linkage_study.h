@@ -104,6 +104,9 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
 /// The tables of `read_linkage` as a canonical study holds them.
 void write_linkage(const LinkageDescription& description, Value& canonical);
 void describe_linkage(study::SchemaWriter& document, LinkageType type);
+/// The same with `[[drive]]` and `[sweep]`, as `read_linkage_study` reads them; `at_change_point` only for
+/// those who follow branches.
+void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bool at_change_point);
 
 /// A key of a driven joint: an angle or a length, or its derivative of that order by time.
 Field drive_field(bool rotary, int order, std::string_view key, std::string_view summary,

@@ -223,7 +223,9 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   return prepared;
 }
 
-void describe(study::SchemaWriter& document, LinkageType type) {
+}  // namespace
+
+void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bool at_change_point) {
   describe_linkage(document, type);
   study::SchemaWriter drive;
   drive(Field{.key = "joint", .summary = "driven joint"}, std::string());
@@ -245,10 +247,16 @@ void describe(study::SchemaWriter& document, LinkageType type) {
   sweep(Field{.key = "type", .summary = "how rows are placed"}, SweepType::grid);
   sweep.property(Field{.key = "input", .summary = "axes of a grid"},
                  study::schema_array(std::move(axis).finish()));
-  sweep(change_point_field, AtChangePoint::smooth);
+  if (at_change_point) sweep(change_point_field, AtChangePoint::smooth);
   sweep.property(Field{.key = "time", .summary = "times of the rows"},
                  study::schema_fields<study::TimeSamples>());
   document.property(Field{.key = "sweep", .summary = "where it is evaluated"}, std::move(sweep).finish());
+}
+
+namespace {
+
+void describe(study::SchemaWriter& document, LinkageType type) {
+  describe_linkage_motion(document, type, true);
   document.property(Field{.key = "quality", .summary = "what is asked beyond the table"},
                     study::schema_fields<LinkageQuality>());
 }

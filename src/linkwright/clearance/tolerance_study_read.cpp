@@ -1,0 +1,448 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "linkwright/clearance/clearance_study.h"
+#include "linkwright/clearance/tolerance_study.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::clearance {
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+constexpr Field range(std::string_view key, std::string_view summary, Dimension dimension,
+                      bool required = true) {
+  return {.key = key,
+          .summary = summary,
+          .dimension = dimension,
+          .minimum = 0,
+          .maximum = 1e9,
+          .exclusive_minimum = true,
+          .required = required};
+}
+
+struct LoosePinForm {
+  std::string joint;
+  double clearance = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, LoosePinForm& p) {
+  visit(Field{.key = "joint", .summary = "revolute joint that has clearance", .required = true}, p.joint);
+  visit(range("clearance", "radius of the bush less radius of the pin", Dimension::length), p.clearance);
+}
+
+struct LengthForm {
+  std::string body, from, to;
+  double tolerance = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, LengthForm& t) {
+  visit(Field{.key = "body", .summary = "body whose length errs", .required = true}, t.body);
+  visit(Field{.key = "from", .summary = "point of the body that stays", .required = true}, t.from);
+  visit(Field{.key = "to", .summary = "point of the body that is nearer to it or farther", .required = true},
+        t.to);
+  visit(range("tolerance", "the distance errs by at most this, either way", Dimension::length), t.tolerance);
+}
+
+struct WatchForm {
+  std::vector<std::string> coordinates, forces;
+  bool drives = false;
+};
+template <class Visitor>
+void fields(Visitor&& visit, WatchForm& w) {
+  visit(Field{.key = "coordinates", .summary = "joints whose angle or way is looked at"}, w.coordinates);
+  visit(Field{.key = "forces", .summary = "joints whose force is looked at"}, w.forces);
+  visit(Field{.key = "drives", .summary = "whether torques and forces of the drives are looked at"},
+        w.drives);
+}
+
+struct MonteCarloForm {
+  int draws = 2000;
+  std::int64_t seed = 1;
+};
+template <class Visitor>
+void fields(Visitor&& visit, MonteCarloForm& m) {
+  visit(Field{.key = "draws", .summary = "random linkages", .minimum = 100, .maximum = 100000}, m.draws);
+  visit(Field{.key = "seed", .summary = "seed of the random numbers", .minimum = 0}, m.seed);
+}
+
+struct LimitForm {
+  std::string point, joint;
+};
+template <class Visitor>
+void fields(Visitor&& visit, LimitForm& l) {
+  visit(Field{.key = "point", .summary = "traced point, \"body.point\""}, l.point);
+  visit(Field{.key = "joint", .summary = "or joint whose coordinate is watched"}, l.joint);
+}
+constexpr Field limit_field(bool angle) {
+  return range("error", "its error is to keep to this at every sample",
+               angle ? Dimension::angle : Dimension::length);
+}
+
+std::string hint_for(std::string_view name, const std::vector<std::string_view>& known) {
+  const std::string_view nearest = nearest_word(name, known);
+  return nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest);
+}
+
+// ---- what is loose
+// ----------------------------------------------------------------------------------------------------
+
+void read_pins(study::ObjectReader& document, ToleranceStudy& s, Value& canonical) {
+  Value::Array all;
+  for (study::ObjectReader& table : document.tables("clearance")) {
+    LoosePinForm form;
+    table.read(form);
+    all.push_back(study::write_fields(form));
+    if (form.joint.empty() || !(form.clearance > 0)) continue;
+    const auto joint = loose_joint(table, form.joint, form.clearance, s.motion.linkage);
+    if (!joint) continue;
+    std::vector<PinTolerance>& pins = s.tolerances.pins;
+    if (std::any_of(pins.begin(), pins.end(), [&](const PinTolerance& p) { return p.joint == *joint; }))
+      table.error("joint", fmt::format("joint '{}' is given twice", form.joint));
+    else
+      pins.push_back({*joint, form.clearance});
+  }
+  if (!all.empty()) canonical["clearance"] = Value(std::move(all));
+}
+
+std::optional<int> point_of(study::ObjectReader& table, std::string_view key, const std::string& name,
+                            const planar::LinkageBody& body) {
+  const int point = planar::point_index(body, name);
+  if (point >= 0) return point;
+  std::vector<std::string_view> known;
+  for (const planar::LinkagePoint& p : body.points) known.push_back(p.name);
+  table.error(key, fmt::format("body '{}' has no point '{}'", body.name, name), hint_for(name, known));
+  return std::nullopt;
+}
+
+std::optional<LengthTolerance> length_of(study::ObjectReader& table, const LengthForm& form,
+                                         const planar::Linkage& l) {
+  const int b = planar::body_index(l, form.body);
+  if (b < 0) {
+    std::vector<std::string_view> known;
+    for (const planar::LinkageBody& body : l.bodies) known.push_back(body.name);
+    table.error("body", fmt::format("there is no body '{}'", form.body), hint_for(form.body, known));
+    return std::nullopt;
+  }
+  const planar::LinkageBody& body = l.bodies[at(b)];
+  const auto from = point_of(table, "from", form.from, body), to = point_of(table, "to", form.to, body);
+  if (!from || !to) return std::nullopt;
+  const double length = std::abs(body.points[at(*to)].at - body.points[at(*from)].at);
+  if (!(length > 0)) {
+    table.error("to", fmt::format("'{}' and '{}' of body '{}' are at one place: they have no distance",
+                                  form.from, form.to, form.body));
+    return std::nullopt;
+  }
+  if (form.tolerance > length / 2) {
+    table.error("tolerance", fmt::format("{:.6g} mm is more than half of the length, {:.6g} mm",
+                                         1e3 * form.tolerance, 1e3 * length));
+    return std::nullopt;
+  }
+  return LengthTolerance{b, *from, *to, form.tolerance};
+}
+
+void read_lengths(study::ObjectReader& document, ToleranceStudy& s, Value& canonical) {
+  Value::Array all;
+  for (study::ObjectReader& table : document.tables("tolerance")) {
+    LengthForm form;
+    table.read(form);
+    all.push_back(study::write_fields(form));
+    if (form.body.empty() || form.from.empty() || form.to.empty() || !(form.tolerance > 0)) continue;
+    const auto length = length_of(table, form, s.motion.linkage);
+    if (!length) continue;
+    std::vector<LengthTolerance>& lengths = s.tolerances.lengths;
+    if (std::any_of(lengths.begin(), lengths.end(), [&](const LengthTolerance& t) {
+          return t.body == length->body && std::minmax(t.from, t.to) == std::minmax(length->from, length->to);
+        }))
+      table.error("to", fmt::format("the length from '{}' to '{}' of body '{}' is given twice", form.from,
+                                    form.to, form.body));
+    else
+      lengths.push_back(*length);
+  }
+  if (!all.empty()) canonical["tolerance"] = Value(std::move(all));
+}
+
+// ---- what is looked at
+// ----------------------------------------------------------------------------------------------------
+
+void read_watch(study::ObjectReader& document, ToleranceStudy& s, Value& canonical) {
+  WatchForm form;
+  auto table = document.table("watch");
+  if (table) table->read(form);
+  canonical["watch"] = study::write_fields(form);
+  const planar::Linkage& l = s.motion.linkage;
+  const auto add = [&](std::string_view key, const std::string& name, std::vector<int>& joints, auto&& fits) {
+    const auto j = joint_named(*table, key, name, l);
+    if (!j || !fits(*j)) return;
+    if (std::find(joints.begin(), joints.end(), *j) != joints.end())
+      table->error(key, fmt::format("joint '{}' is given twice", name));
+    else
+      joints.push_back(*j);
+  };
+  for (const std::string& name : form.coordinates)
+    add("coordinates", name, s.outputs.coordinates, [&](int j) {
+      const planar::JointType type = l.joints[at(j)].type;
+      const bool has_one = type == planar::JointType::revolute || type == planar::JointType::prismatic;
+      const bool driven = std::find(l.driven.begin(), l.driven.end(), j) != l.driven.end();
+      if (!has_one)
+        table->error("coordinates", fmt::format("joint '{}' is {}; only revolute and prismatic joints have "
+                                                "an angle or a way",
+                                                name, name_of(type)));
+      else if (driven)
+        table->error("coordinates", fmt::format("joint '{}' is driven: its coordinate is given", name));
+      return has_one && !driven;
+    });
+  for (const std::string& name : form.forces)
+    add("forces", name, s.outputs.forces, [&](int j) {
+      const bool has_one = l.joints[at(j)].type != planar::JointType::gear;
+      if (!has_one) table->error("forces", fmt::format("joint '{}' is a gear: no force is told of it", name));
+      return has_one;
+    });
+  s.outputs.drives = form.drives;
+  s.outputs.points = s.motion.traces;
+  if ((form.drives || !form.forces.empty()) && !s.motion.plan.has_masses) {
+    std::string bodies;
+    for (const std::string& b : s.motion.plan.massless) bodies += (bodies.empty() ? "'" : ", '") + b + "'";
+    table->error(form.forces.empty() ? "drives" : "forces",
+                 fmt::format("forces and torques need the mass of every body: {} {} none", bodies,
+                             s.motion.plan.massless.size() == 1 ? "has" : "have"),
+                 "give mass_kg, or look at coordinates and traced points only");
+  }
+  if (quantity_count(l, s.outputs) == 0 && !document.document().has_errors())
+    document.error("watch", "nothing is looked at",
+                   "add [[trace]] with a point, or [watch] with coordinates, forces or drives");
+}
+
+// ---- what is asked
+// ----------------------------------------------------------------------------------------------------
+
+// The quantity that a table means, and whether it is an angle.
+std::optional<std::pair<std::size_t, bool>> limited(study::ObjectReader& table, const LimitForm& form,
+                                                    const ToleranceStudy& s) {
+  const planar::Linkage& l = s.motion.linkage;
+  if (form.point.empty() == form.joint.empty()) {
+    table.error("point", "a limit is for one thing", "give either point or joint");
+    return std::nullopt;
+  }
+  if (!form.point.empty()) {
+    for (std::size_t p = 0; p < s.outputs.points.size(); ++p) {
+      const planar::LinkageBody& body = l.bodies[at(s.outputs.points[p].body)];
+      if (form.point == body.name + "." + body.points[at(s.outputs.points[p].point)].name)
+        return std::pair{p, false};
+    }
+    table.error("point", fmt::format("'{}' is not traced", form.point), "add it as a [[trace]]");
+    return std::nullopt;
+  }
+  for (std::size_t k = 0; k < s.outputs.coordinates.size(); ++k) {
+    const planar::LinkageJoint& joint = l.joints[at(s.outputs.coordinates[k])];
+    if (joint.name == form.joint)
+      return std::pair{s.outputs.points.size() + k, joint.type == planar::JointType::revolute};
+  }
+  table.error("joint", fmt::format("the coordinate of joint '{}' is not watched", form.joint),
+              "add it to watch.coordinates");
+  return std::nullopt;
+}
+
+void read_limits(study::ObjectReader& document, ToleranceStudy& s, Value& canonical) {
+  s.limits.assign(quantity_count(s.motion.linkage, s.outputs), nan);
+  Value::Array all;
+  for (study::ObjectReader& table : document.tables("limit")) {
+    LimitForm form;
+    table.read(form);
+    const auto what = limited(table, form, s);
+    if (!what) {
+      table.members();
+      continue;
+    }
+    double limit = nan;
+    Field field = limit_field(what->second);
+    if (table(field, limit) && !std::isnan(s.limits[what->first]))
+      table.error(form.point.empty() ? "joint" : "point", "has a limit already");
+    s.limits[what->first] = limit;
+    Value one;
+    one[form.point.empty() ? "joint" : "point"] = form.point.empty() ? form.joint : form.point;
+    study::ObjectWriter(one).operator()(field, limit);
+    all.push_back(std::move(one));
+  }
+  if (!all.empty()) canonical["limit"] = Value(std::move(all));
+}
+
+study::Prepared prepare(study::ObjectReader& document, const study::Common& common) {
+  study::Prepared prepared;
+  ToleranceStudy s;
+  MonteCarloForm random;
+  if (auto table = document.table("monte_carlo")) table->read(random);
+  s.draws = random.draws;
+  s.seed = random.seed;
+  // Nothing that needs masses by itself.
+  study::Common positions = common;
+  positions.output.quantities = {"position"};
+  auto motion =
+      planar::read_linkage_study(document, positions, planar::LinkageType::linkage, &prepared.canonical);
+  if (!motion) {
+    for (const char* key : {"clearance", "tolerance", "limit"})
+      for (study::ObjectReader& table : document.tables(key)) table.members();
+    if (auto table = document.table("watch")) table->members();
+    return prepared;
+  }
+  s.motion = std::move(*motion);
+  if (document.has("quality"))
+    document.error("quality", "belongs to the analysis of planar.linkage",
+                   "leave it out, or take mechanism.type = \"planar.linkage\"");
+  if (auto sweep = document.table("sweep"); sweep && sweep->has("at_change_point"))
+    sweep->error("at_change_point",
+                 "a linkage whose lengths err has no change points: its ways part there, and the linear "
+                 "theory ends",
+                 "leave it out, and sweep up to the change point");
+  std::erase_if(prepared.canonical["sweep"].as_object(),
+                [](const Value::Member& m) { return m.key == "at_change_point"; });
+  read_pins(document, s, prepared.canonical);
+  read_lengths(document, s, prepared.canonical);
+  if (s.tolerance_count() == 0 && !document.document().has_errors())
+    document.error("clearance", "nothing errs",
+                   "add [[clearance]] tables for loose pins or [[tolerance]] tables for lengths");
+  read_watch(document, s, prepared.canonical);
+  read_limits(document, s, prepared.canonical);
+  prepared.canonical["monte_carlo"] = study::write_fields(random);
+  prepared.run = [s = std::move(s)](RunContext& context) { return run_tolerance_study(s, context); };
+  return prepared;
+}
+
+void describe(study::SchemaWriter& document) {
+  planar::describe_linkage_motion(document, planar::LinkageType::linkage, false);
+  document.property(Field{.key = "clearance", .summary = "pins that have clearance"},
+                    study::schema_array(study::schema_fields<LoosePinForm>()));
+  document.property(Field{.key = "tolerance", .summary = "lengths that err"},
+                    study::schema_array(study::schema_fields<LengthForm>()));
+  document.property(Field{.key = "watch", .summary = "what is looked at beside the traced points"},
+                    study::schema_fields<WatchForm>());
+  study::SchemaWriter limit;
+  LimitForm form;
+  fields(limit, form);
+  for (const bool angle : {false, true}) {
+    Field field = limit_field(angle);
+    field.required = false;  // one of them, by the joint
+    limit.property(field, study::schema_number());
+  }
+  document.property(Field{.key = "limit", .summary = "errors to keep to: the share of linkages that do"},
+                    study::schema_array(std::move(limit).finish()));
+  document.property(Field{.key = "monte_carlo", .summary = "random linkages"},
+                    study::schema_fields<MonteCarloForm>());
+}
+
+}  // namespace
+
+study::Kind tolerance_kind() {
+  study::Kind kind;
+  kind.kind = "analysis";
+  kind.mechanism = "clearance.linkage";
+  kind.summary =
+      "what clearances and length errors do to path, function and forces of any planar linkage: worst case, "
+      "random linkages, which tolerance to tighten";
+  kind.schema = describe;
+  kind.prepare = prepare;
+  kind.example = R"(# linkwright study: clearances and length errors of a planar linkage
+schema = 1
+kind   = "analysis"
+title  = "How well does my four-bar keep to its path?"
+
+[mechanism]
+type = "clearance.linkage"
+
+# The first body is the ground. Points are in the frame of the body.
+[[mechanism.body]]
+name      = "ground"
+points_mm = { O = [0, 0], B0 = [200, 0] }
+
+[[mechanism.body]]
+name      = "crank"
+points_mm = { O = [0, 0], A = [50, 0] }
+
+[[mechanism.body]]
+name      = "coupler"
+points_mm = { A = [0, 0], B = [160, 0], P = [80, 90] }
+
+[[mechanism.body]]
+name      = "rocker"
+points_mm = { B0 = [0, 0], B = [120, 0] }
+
+[[mechanism.joint]]
+name   = "O"
+first  = "ground.O"
+second = "crank.O"
+
+[[mechanism.joint]]
+name   = "A"
+first  = "crank.A"
+second = "coupler.A"
+
+[[mechanism.joint]]
+name   = "B"
+first  = "coupler.B"
+second = "rocker.B"
+
+[[mechanism.joint]]
+name   = "B0"
+first  = "ground.B0"
+second = "rocker.B0"
+
+# A pair of bodies can be assembled two ways: plus = the inner pin lies to the left.
+[[mechanism.assembly]]
+bodies = ["coupler", "rocker"]
+mode   = "plus"
+
+[[drive]]
+joint     = "O"
+speed_rpm = 60.0
+
+[sweep]
+type = "grid"
+
+[[sweep.input]]
+joint    = "O"
+from_deg = 0.0
+to_deg   = 360.0
+samples  = 181
+
+# Loose pins: the pin lies anywhere within its clearance.
+[[clearance]]
+joint        = "A"
+clearance_mm = 0.05                 # radius of the bush less radius of the pin
+
+[[clearance]]
+joint        = "B"
+clearance_mm = 0.05
+
+# Lengths: the distance of two points of a body errs by at most this.
+[[tolerance]]
+body         = "coupler"
+from         = "A"
+to           = "B"
+tolerance_mm = 0.1
+
+# What is looked at: points, and angles, ways, forces and drives of joints.
+[[trace]]
+point = "coupler.P"
+
+[watch]
+coordinates = ["B0"]
+
+# How many linkages keep to an error?
+[[limit]]
+point    = "coupler.P"
+error_mm = 0.15
+
+[monte_carlo]
+draws = 2000
+seed  = 1
+)";
+  return kind;
+}
+
+}  // namespace linkwright::clearance

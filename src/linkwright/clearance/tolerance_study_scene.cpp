@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/clearance/tolerance_study.h"
+#include "linkwright/planar/linkage_columns.h"
+
+namespace linkwright::clearance {
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+double tolerance_scale(const ToleranceStudy& s, const std::vector<PathBand>& bands) {
+  double largest = 0;
+  for (const PathBand& band : bands)
+    for (const double across : band.across) largest = std::max(largest, std::isnan(across) ? 0 : across);
+  for (const PinTolerance& p : s.tolerances.pins) largest = std::max(largest, p.clearance);
+  // 1, 2, 5, 10, ...: the largest that is not more.
+  const double scale = 0.05 * s.motion.plan.size / largest;
+  if (!(scale > 1) || !std::isfinite(scale)) return 1;
+  const double tens = std::pow(10, std::floor(std::log10(scale) * (1 + 1e-12)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * tens <= scale) return digit * tens;
+  return tens;
+}
+
+study::Scene tolerance_scene(const ToleranceStudy& s, const ToleranceRecording& r,
+                             const std::vector<PathBand>& bands, double scale) {
+  const planar::Linkage& l = s.motion.linkage;
+  const bool time = std::holds_alternative<study::TimeSamples>(s.motion.sweep);
+  const std::size_t axis = s.motion.plan.inputs() - 1;
+  const std::string& driven = planar::input_joint(l, axis).name;
+  study::Scene scene =
+      planar::linkage_scene(l, s.motion.plan, r.records, s.outputs.points, tolerance_input_key(s),
+                            time ? "time" : driven + (s.motion.plan.rotary[axis] ? " angle" : " way"));
+  scene.title = fmt::format("motion; play and bands drawn {:g} x", scale);
+  // The two edges of each band, as far as the worst error across the path carries the point.
+  for (std::size_t p = 0; p < bands.size(); ++p) {
+    const std::size_t i = r.quantities[p].first;
+    for (const double side : {1.0, -1.0}) {
+      study::Scene::Point edge;
+      for (std::size_t row = 0; row < r.run_length; ++row) {
+        const double by = side * scale * bands[p].across[row];
+        edge.x.push_back(r.linear[row].values[i] + by * bands[p].normal[row].x);
+        edge.y.push_back(r.linear[row].values[i + 1] + by * bands[p].normal[row].y);
+      }
+      const std::string name =
+          fmt::format("worst case of {}, to the {}", r.quantities[p].name, side > 0 ? "left" : "right");
+      const auto point = static_cast<int>(scene.points.size());
+      bool closed = false;
+      for (const study::Scene::Trace& t : scene.traces)
+        closed = closed || (t.closed && t.name == "path of " + r.quantities[p].name);
+      scene.points.push_back(std::move(edge));
+      scene.traces.push_back({point, name, closed});
+    }
+  }
+  // A circle at each loose pin, as large as its play.
+  for (const PinTolerance& pin : s.tolerances.pins) {
+    const planar::LinkageJoint& joint = l.joints[at(pin.joint)];
+    int centre = joint.first.point;
+    for (int b = 0; b < joint.first.body; ++b) centre += static_cast<int>(l.bodies[at(b)].points.size());
+    const study::Scene::Point& middle = scene.points[at(centre)];
+    study::Scene::Point rim;
+    for (std::size_t i = 0; i < r.records.size(); ++i) {
+      const std::size_t k = middle.x.size() == 1 ? 0 : i;
+      const planar::LinkageRecord& record = r.records[i];
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      const planar::Vec<double> along = record.bodies.empty() ? planar::Vec<double>{nan, nan}
+                                                              : record.bodies[at(joint.first.body)].direction;
+      rim.x.push_back(middle.x.empty() ? nan : middle.x[k] + scale * pin.clearance * along.x);
+      rim.y.push_back(middle.y.empty() ? nan : middle.y[k] + scale * pin.clearance * along.y);
+    }
+    scene.points.push_back(std::move(rim));
+    scene.circles.push_back({fmt::format("clearance of {}, {:.4g} mm", joint.name, 1e3 * pin.clearance),
+                             centre, static_cast<int>(scene.points.size()) - 1});
+  }
+  return scene;
+}
+
+}  // namespace linkwright::clearance
