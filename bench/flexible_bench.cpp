@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "linkwright/flexible/arm.h"
 #include "linkwright/flexible/modes.h"
 #include "linkwright/flexible/reference_beam.h"
 #include "linkwright/flexible/samples.h"
@@ -73,6 +74,21 @@ void extrapolated_spin_up(benchmark::State& state) {
         {.end = 20, .output_interval = 0.1, .step = 0.005, .breaks = breaks, .extrapolate = true}));
 }
 BENCHMARK(extrapolated_spin_up)->Arg(2)->Arg(8)->Unit(benchmark::kMillisecond);
+
+// Two links, both driven, 1 s in steps of 2 ms.
+void two_links(benchmark::State& state) {
+  Beam inner = torque_beam(), outer = torque_beam();
+  inner.length = outer.length = 0.9;
+  inner.tip_mass = outer.hub_radius = outer.hub_inertia = 0;
+  const ArmLink links[] = {{inner, int(state.range(0)), {}}, {outer, int(state.range(0)), Hinge{}}};
+  const ArmChain arm = arm_chain(links);
+  const SpinUp hub{1, 1}, elbow{-2, 1};
+  const HingeDrive motor[] = {{.hinge = 0, .motion = AngleLaw(elbow)}};
+  for (auto _ : state)
+    benchmark::DoNotOptimize(
+        simulate_motion(arm.chain, hub, {.end = 1, .output_interval = 0.1, .step = 0.002, .hinges = motor}));
+}
+BENCHMARK(two_links)->Arg(4)->Unit(benchmark::kMillisecond);
 
 void reference_spin_up(benchmark::State& state) {
   const double breaks[] = {15};

@@ -319,5 +319,33 @@ TEST(ChainEquations, AllocateNothingAfterTheFirstTime) {
   EXPECT_EQ(test::allocations(), before);
 }
 
+TEST(ChainEquations, CutsOfADampedLinkCarryWhatItsJointsDo) {
+  // A damper by mass between link and hub loads the joints as inertia does: their springs tell the moment.
+  Beam beam = torque_beam();
+  beam.mass_damping = 20;
+  const Chain chain = discretise(beam, 3);
+  ChainState state = state_at_rest(chain);
+  for (std::size_t s = 0; s < chain.cells.size(); ++s) {
+    state.q[coordinates_per_cell * s + turn] = 1e-5 * (1 + double(s));
+    state.v[coordinates_per_cell * s + turn] = 1e-3;
+  }
+  ChainEquations equations(chain);
+  // Accelerations that leave no residual.
+  equations.evaluate(state);
+  std::vector<double> change(state.q.size());
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(equations.factor({.acceleration = 1e18}, false));
+    equations.solve(equations.residual(), 0, change);
+    for (std::size_t k = 0; k < change.size(); ++k) state.a[k] += 1e18 * change[k];
+    equations.evaluate(state);
+  }
+  const auto cuts = equations.sections();
+  // To the second order of the angles, 1e-4, and the rounding of the solution.
+  for (std::size_t s = 0; s < chain.cells.size(); ++s) {
+    const double elastic = chain.cells[s].bending * state.q[coordinates_per_cell * s + turn];
+    EXPECT_NEAR(cuts[s + 1].moment, elastic, 1e-3 * elastic) << s;
+  }
+}
+
 }  // namespace
 }  // namespace linkwright::flexible

@@ -73,7 +73,7 @@ Recording record(const ArmStudy& s, const ArmChain& arm, const Simulation& run) 
   add("potential_energy_J", "potential energy (J)");
   add("work_J", "work of the drives (J)");
   add("dissipated_J", "dissipated energy (J)");
-  add("energy_balance_J", "energy less work (J)");
+  add("energy_balance_J", "energy less work since the start (J)");
 
   ChainEquations equations(arm.chain);
   for (std::size_t i = 0; i < run.states.size(); ++i) {
@@ -116,16 +116,17 @@ Recording record(const ArmStudy& s, const ArmChain& arm, const Simulation& run) 
       if (moment > out.worst[k].moment) out.worst[k] = {moment, most.position, sample.time};
     }
     column = energies;
-    for (const double value :
-         {sample.kinetic, sample.potential, sample.work, sample.dissipated, sample.energy_balance()})
+    for (const double value : {sample.kinetic, sample.potential, sample.work, sample.dissipated,
+                               sample.energy_balance() - run.samples.front().energy_balance()})
       push(column++, value);
   }
   return out;
 }
 
 std::vector<ChainPlot> plots_of(const ArmStudy& s) {
-  std::vector<std::string> angles{"hub_angle_rad"}, speeds{"hub_speed_rad_per_s"}, torques{"hub_torque_N_m"},
-      moments, stresses, hinge_forces;
+  std::vector<std::string> angles{"hub_angle_rad"}, speeds{"hub_speed_rad_per_s"}, torques, moments, stresses,
+      hinge_forces;
+  if (!std::holds_alternative<FreeForm>(s.drives[0])) torques.push_back("hub_torque_N_m");
   for (const ArmLinkForm& link : s.mechanism.links) {
     if (link.hinge) {
       angles.push_back(link.name + "_angle_rad");
@@ -216,7 +217,8 @@ study::Result run_arm_study(const ArmStudy& s, RunContext& context) {
   }
   fact("largest displacement of the tip against the rigid arm",
        fmt::format("{} at {:.4g} s", millimetres(peak), when));
-  fact("largest torque on the hub", fmt::format("{:.4g} N m", largest_of(motion, "hub_torque_N_m")));
+  if (!std::holds_alternative<FreeForm>(s.drives[0]))
+    fact("largest torque on the hub", fmt::format("{:.4g} N m", largest_of(motion, "hub_torque_N_m")));
   Table sections{.name = "sections", .names = {}, .columns = {}, .status = {}};
   sections.add("bending_moment_N_m", "largest bending moment (N m)");
   sections.add("bending_stress_Pa", "largest bending stress (Pa)");
@@ -230,7 +232,9 @@ study::Result run_arm_study(const ArmStudy& s, RunContext& context) {
     if (link.hinge && motion.find(link.name + "_torque_N_m"))
       fact("largest torque in the hinge of " + link.name,
            fmt::format("{:.4g} N m", largest_of(motion, link.name + "_torque_N_m")));
-    const std::string where = fmt::format("{:.4g} mm from its root, at {:.4g} s", 1e3 * w.position, w.time);
+    const std::string where =
+        fmt::format("{} its root, at {:.4g} s",
+                    w.position == 0 ? "at" : fmt::format("{:.4g} mm from", 1e3 * w.position), w.time);
     double stress = std::numeric_limits<double>::quiet_NaN();
     if (link.fibre_distance) {
       stress = bending_stress(link.beam, w.moment, *link.fibre_distance);

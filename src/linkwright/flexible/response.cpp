@@ -78,8 +78,9 @@ Table table_of(std::span<const Sample> samples) {
     Column& column = out.add(e.key, e.label);
     for (const Sample& s : samples) column.values.push_back(s.*e.quantity);
   }
-  Column& balance = out.add("energy_balance_J", "energy less work (J)");
-  for (const Sample& s : samples) balance.values.push_back(s.energy_balance());
+  Column& balance = out.add("energy_balance_J", "energy less work since the start (J)");
+  for (const Sample& s : samples)
+    balance.values.push_back(s.energy_balance() - samples.front().energy_balance());
   return out;
 }
 

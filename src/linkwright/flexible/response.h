@@ -36,7 +36,8 @@ Extreme largest(std::span<const Sample> samples, double Sample::*quantity, doubl
 /// Bending stress (Pa) of a moment (N m) at the distance of the outer fibre (m).
 double bending_stress(const Beam& beam, double moment, double fibre_distance);
 
-/// One row a sample; columns time_s, hub_angle_rad, ..., energy_balance_J.
+/// One row a sample; columns time_s, hub_angle_rad, ..., energy_balance_J, the last from what it was in the
+/// first sample.
 Table table_of(std::span<const Sample> samples);
 
 }  // namespace linkwright::flexible
