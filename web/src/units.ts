@@ -21,12 +21,18 @@ export interface Unit {
   symbol: string;
 }
 
+// Longer ones first: each ends with units of its own.
 const suffixes: [string, Unit][] = [
+  ["_N_m_per_rad", { factor: 1, symbol: "N m/rad" }],
+  ["_rad_per_s3", { factor: 1, symbol: "rad/s³" }],
   ["_rad_per_s2", { factor: 1, symbol: "rad/s²" }],
+  ["_rad_per_m2", { factor: 180 / Math.PI, symbol: "°/m²" }],
   ["_rad_per_m", { factor: 180 / Math.PI, symbol: "°/m" }],
   ["_rad_per_s", { factor: 1, symbol: "rad/s" }],
+  ["_m_per_s3", { factor: 1, symbol: "m/s³" }],
   ["_m_per_s2", { factor: 1, symbol: "m/s²" }],
   ["_m_per_s", { factor: 1, symbol: "m/s" }],
+  ["_kg_per_m3", { factor: 1, symbol: "kg/m³" }],
   ["_kg_m2", { factor: 1, symbol: "kg m²" }],
   ["_m3", { factor: 1, symbol: "m³" }],
   ["_m2", { factor: 1, symbol: "m²" }],
@@ -37,6 +43,8 @@ const suffixes: [string, Unit][] = [
   ["_N_per_m", { factor: 1, symbol: "N/m" }],
   ["_N_m", { factor: 1, symbol: "N m" }],
   ["_N", { factor: 1, symbol: "N" }],
+  ["_MPa", { factor: 1, symbol: "MPa" }],
+  ["_Pa", { factor: 1, symbol: "Pa" }],
   ["_Hz", { factor: 1, symbol: "Hz" }],
   ["_W", { factor: 1, symbol: "W" }],
   ["_J", { factor: 1, symbol: "J" }],
@@ -45,11 +53,12 @@ const suffixes: [string, Unit][] = [
   ["_m", { factor: 1, symbol: "m" }],
 ];
 
-/** Unit of a key by its suffix; lengths in millimetres when `size`, the largest of the numbers, is below a metre. */
+/** Unit of a key by its suffix; with `size`, the largest of the numbers, lengths below a metre in millimetres, stresses from a hundredth of a megapascal on in megapascals. */
 export function unitOf(key: string, size = Infinity): Unit {
   const found = suffixes.find(([suffix]) => key.endsWith(suffix));
   if (!found) return { factor: 1, symbol: "" };
   if (found[0] === "_m" && size < 1) return { factor: 1000, symbol: "mm" };
+  if (found[0] === "_Pa" && size >= 1e4 && size < Infinity) return { factor: 1e-6, symbol: "MPa" };
   return found[1];
 }
 

@@ -22,6 +22,11 @@ describe("units", () => {
     expect(unitOf("speed_m_per_s").symbol).toBe("m/s");
     expect(unitOf("drive_torque_N_m", 0.5).symbol).toBe("N m");
     expect(unitOf("power_W").symbol).toBe("W");
+    expect(unitOf("stress_Pa", 3e7)).toEqual({ factor: 1e-6, symbol: "MPa" });
+    expect(unitOf("stress_Pa", 3e3)).toEqual({ factor: 1, symbol: "Pa" });
+    // Not the angle that it ends with.
+    expect(unitOf("stiffness_N_m_per_rad", 1e3)).toEqual({ factor: 1, symbol: "N m/rad" });
+    expect(unitOf("spin_bend_above_rad_per_m2").symbol).toBe("°/m²");
     expect(quantity("kinetic_energy_J", 2.5)).toBe("2.5\u202fJ");
     expect(unitOf("coupler_acceleration_rad_per_s2").symbol).toBe("rad/s²");
     expect(nameOf("path_error_sum_sq_m2")).toBe("path error sum sq");
