@@ -4,12 +4,13 @@
 #include <numbers>
 #include <vector>
 
+#include "linkwright/clearance/automatic_contact.h"
 #include "linkwright/clearance/clearance_mass_synthesis.h"
 #include "linkwright/clearance/clearance_sensitivity.h"
-#include "linkwright/clearance/contact_simulation.h"
-#include "linkwright/clearance/joint_clearance.h"
+#include "linkwright/clearance/joint_orbit.h"
 #include "linkwright/clearance/published_clearance.h"
 #include "linkwright/planar/linkage_build.h"
+#include "linkwright/planar/linkage_dynamics.h"
 #include "linkwright/planar/linkage_samples.h"
 
 namespace linkwright::clearance {
@@ -75,17 +76,89 @@ void clearance_contact_slider_crank(benchmark::State& state) {
   const std::vector<double> times{0, 0.012};
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
   std::size_t contacts = 0;
-  long steps = 0;
+  long steps = 0, evaluations = 0;
   for (auto _ : state) {
     const ContactRun run =
         simulate_contact(l, std::span(&joint, 1), std::span(&crank, 1), times, {.tolerance = tolerance});
     contacts = run.events.size();
     steps = run.steps;
+    evaluations = run.evaluations;
   }
   state.counters["contacts"] = static_cast<double>(contacts);
   state.counters["steps"] = static_cast<double>(steps);
+  state.counters["evaluations"] = static_cast<double>(evaluations);
 }
 BENCHMARK(clearance_contact_slider_crank)->Arg(7)->Arg(9)->Unit(benchmark::kMillisecond);
+
+// The limit of the one before: its equations of motion once, which every step needs six times.
+void clearance_contact_equations(benchmark::State& state) {
+  const planar::Linkage l = slider_crank();
+  OpenLinkage open = open_linkage(l, std::vector{planar::joint_index(l, "B")}, std::vector{0.0});
+  std::vector<bool> free(open.plan.inputs(), true);
+  free[0] = false;
+  planar::LinkageDynamics dynamics(open.linkage, open.plan, free);
+  std::vector<planar::InputMotion> inputs;
+  for (const double value : open.start) inputs.push_back({value, 1, 0});
+  for (auto _ : state) {
+    inputs[0].value += 1e-3;
+    benchmark::DoNotOptimize(dynamics.solve(0, inputs));
+  }
+}
+BENCHMARK(clearance_contact_equations);
+
+// A turn of the design that loses contact: continuous contact, the loss, five impacts.
+planar::Linkage loose_four_bar(const ClearanceFourBar& m) {
+  using namespace planar;
+  const FourBar& f = m.linkage;
+  Linkage l = grounded({{"O2", {0, 0}}, {"O4", std::polar(f.ground, f.frame_angle)}});
+  add_bar(l, "crank", "O2", "A", f.crank);
+  add_bar(l, "coupler", "A", "B", f.coupler);
+  add_bar(l, "rocker", "O4", "B", f.rocker);
+  add_pin(l, "O2", "ground.O2", "crank.O2");
+  add_pin(l, "A", "crank.A", "coupler.A");
+  add_pin(l, "B", "coupler.B", "rocker.B");
+  add_pin(l, "O4", "ground.O4", "rocker.O4");
+  add_drive(l, "O2");
+  set_mode(l, "coupler", "rocker", AssemblyMode::plus);
+  l.bodies[1].mass = BodyMass{};
+  l.bodies[2].mass = m.coupler;
+  l.bodies[3].mass = m.rocker;
+  l.gravity = 0;
+  return l;
+}
+void clearance_automatic_four_bar(benchmark::State& state) {
+  ClearanceFourBar design = published_design_1();
+  const planar::Linkage l = loose_four_bar(design);
+  const AutomaticPin pin{.contact = {.joint = planar::joint_index(l, "A"),
+                                     .clearance = 1e-3,
+                                     .bush_radius = 0.01,
+                                     .law = {.stiffness = pin_stiffness(0.01, 0.009, {2e9, 0.4}, {2e9, 0.4}),
+                                             .restitution = 0.5}},
+                         .angle = turn / 36,
+                         .rate = 10};
+  const planar::InputCourse crank{math::ConstantSpeed{0, 10}, 0, 0};
+  AutomaticContactRun run;
+  for (auto _ : state)
+    run =
+        simulate_automatic_contact(l, std::span(&pin, 1), std::span(&crank, 1), std::vector{0.0, turn / 10});
+  state.counters["contacts"] = static_cast<double>(run.contact.events.size());
+  state.counters["evaluations"] = static_cast<double>(run.evaluations);
+}
+BENCHMARK(clearance_automatic_four_bar)->Unit(benchmark::kMillisecond);
+
+// The periodic motion of clearance_four_bar_orbit by the general model.
+void clearance_joint_orbit(benchmark::State& state) {
+  const planar::Linkage l = loose_four_bar(published_design_2());
+  const JointClearance pin{.joint = planar::joint_index(l, "A"), .clearance = 1e-3, .angle = 0.15, .rate = 7};
+  const planar::InputCourse crank{math::ConstantSpeed{0, 10}, 0, 0};
+  long evaluations = 0;
+  for (auto _ : state)
+    evaluations = find_joint_orbit(l, std::span(&pin, 1), std::span(&crank, 1), 0, turn / 10,
+                                   {.relative_tolerance = 1e-10, .absolute_tolerance = 1e-12})
+                      .evaluations;
+  state.counters["evaluations"] = static_cast<double>(evaluations);
+}
+BENCHMARK(clearance_joint_orbit)->Unit(benchmark::kMillisecond);
 
 void clearance_path_synthesis(benchmark::State& state) {
   const ClearancePathProblem p = published_path_problem();

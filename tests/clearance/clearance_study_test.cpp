@@ -228,11 +228,162 @@ TEST(ClearanceStudy, KeepsWhatItHasWhenTheMotionEnds) {
   EXPECT_EQ(values(stopped, "motion", "slider_B_x_m").back(),
             values(r, "motion", "slider_B_x_m")[time.size() - 1]);
   EXPECT_THAT(stopped.headline, HasSubstr("It ends at"));
-  EXPECT_THAT(to_string(stopped.diagnostics.at(0)), HasSubstr("steps used up"));
+  // All steps, not those of the last stretch.
+  EXPECT_THAT(to_string(stopped.diagnostics.at(0)), HasSubstr("300 steps used up"));
+}
+
+TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
+  const study::Result r = run_text(example("loose-four-bar-automatic"));
+  ASSERT_EQ(r.status, Status::done) << r.headline;
+  for (const study::Check& check : r.checks)
+    EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
+  EXPECT_EQ(fact(r, "model"),
+            "pin A parted from its bush at 0.153847 s, O2 at 88.15 deg; from there on real contact");
+  EXPECT_THAT(r.headline, HasSubstr("Pin A parts from its bush at 0.1538 s, O2 at 88.15 deg, and"));
+  EXPECT_THAT(r.diagnostics, IsEmpty());
+  // One motion: all rows, without a jump of the pin where the models meet (10 mm/s for 0.44 ms).
+  const std::vector<double>&time = values(r, "motion", "time_s"),
+        &x = values(r, "pins", "A_eccentricity_x_m"), &y = values(r, "pins", "A_eccentricity_y_m"),
+        &touches = values(r, "pins", "A_touches"), &force = values(r, "pins", "A_contact_N");
+  ASSERT_EQ(time.size(), 1441u);
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    if (time[i] < 0.153847) {
+      EXPECT_EQ(touches[i], 1) << i;
+      EXPECT_GT(force[i], 0) << i;
+      EXPECT_NEAR(std::hypot(x[i], y[i]), 1e-3, 1e-15) << i;
+    }
+    if (i > 0 && std::abs(time[i] - 0.153847) < 1e-3) {
+      EXPECT_LT(std::hypot(x[i] - x[i - 1], y[i] - y[i - 1]), 4e-5) << i;
+    }
+  }
+  EXPECT_EQ(std::count(touches.begin(), touches.end(), 0) > 0, true);
+  EXPECT_LT(largest(values(r, "motion", "energy_drift_J")), 1e-7);
+  // Peaks of the table of contacts are in the map, too.
+  EXPECT_EQ(largest(values(r, "contact_map", "A_force_N")), largest(values(r, "contacts", "force_N")));
+}
+
+TEST(ClearanceStudy, AutomaticContactIsContinuousWhereThatHolds) {
+  const std::string text = example("loose-four-bar-design-2");
+  const study::Result continuous = run_text(text);
+  std::string other =
+      replaced(text, "model                = \"continuous\"", "model = \"automatic\"\nbush_radius_mm = 10.0");
+  other.erase(other.find("[[check]]"));
+  const study::Result automatic = run_text(other);
+  ASSERT_EQ(automatic.status, Status::done) << automatic.headline;
+  EXPECT_EQ(fact(automatic, "model"), "continuous contact holds throughout");
+  EXPECT_EQ(fact(automatic, "contact of A"), fact(continuous, "contact of A"));
+  EXPECT_EQ(automatic.headline, continuous.headline);
+  EXPECT_EQ(values(automatic, "pins", "A_contact_N"), values(continuous, "pins", "A_tension_N"));
+  for (const char* key : {"A_x_N", "O2_drive_torque_N_m", "coupler_P_x_m",
+                          "coupler_P_acceleration_x_m_per_s2", "kinetic_energy_J", "work_J"})
+    EXPECT_EQ(values(automatic, "motion", key), values(continuous, "motion", key)) << key;
+}
+
+TEST(ClearanceStudy, FindsThePeriodicRegimeByShooting) {
+  const study::Result r = run_text(example("loose-four-bar-regime"));
+  ASSERT_EQ(r.status, Status::done) << r.headline;
+  for (const study::Check& check : r.checks)
+    EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
+  EXPECT_THAT(r.headline, HasSubstr("The periodic motion is neutral: pin and bush stay in contact"));
+  EXPECT_THAT(fact(r, "periodic regime"), HasSubstr("found in 4 steps of Newton's method"));
+  EXPECT_THAT(fact(r, "stability"), HasSubstr("Floquet multipliers 0.87793"));
+  EXPECT_EQ(table(r, "orbit").names, std::vector<std::string>{"A"});
+  // It does repeat: everything at the end is what it is at the start.
+  const std::vector<double>&lead = values(r, "pins", "A_lead_rad"),
+        &tension = values(r, "pins", "A_tension_N"), &torque = values(r, "motion", "O2_drive_torque_N_m");
+  EXPECT_NEAR(lead.front(), 0.17282458, 1e-7);
+  EXPECT_NEAR(lead.back(), lead.front(), 1e-9);
+  EXPECT_NEAR(tension.back(), tension.front(), 1e-9);
+  EXPECT_NEAR(torque.back(), torque.front(), 1e-9);
+}
+
+std::string regime_of(std::string text, const std::string& run) {
+  const auto from = text.find("[simulation]");
+  return text.replace(from, text.find("[[trace]]") - from,
+                      "[simulation]\nregime = \"periodic\"\n" + run + "\n\n");
+}
+TEST(ClearanceStudy, GoesOnUntilContactsRepeat) {
+  const study::Result r =
+      run_text(replaced(example("loose-slider-crank-regime"), "samples = 721", "samples = 361"));
+  ASSERT_EQ(r.status, Status::done) << r.headline;
+  EXPECT_THAT(r.headline, HasSubstr("The motion repeats every turn after"));
+  EXPECT_THAT(fact(r, "periodic regime"), HasSubstr("repeats every turn (0.03 s) after"));
+  // One turn of it is reported, and what was found to repeat does.
+  const std::vector<double>&time = values(r, "motion", "time_s"),
+        &x = values(r, "pins", "B_eccentricity_x_m"), &y = values(r, "pins", "B_eccentricity_y_m");
+  ASSERT_EQ(time.size(), 361u);
+  EXPECT_NEAR(time.back() - time.front(), 0.03, 1e-12);
+  EXPECT_NEAR(std::hypot(x.back() - x.front(), y.back() - y.front()), 0, 1e-5 * 5e-4 * 1.5);
+  const std::vector<double>& turns = values(r, "section", "turn");
+  EXPECT_NEAR(turns.back() * 0.03, time.back(), 1e-9);
+  for (const double end : values(r, "contacts", "end_s")) {
+    if (!std::isnan(end)) {
+      EXPECT_GT(end, time.front());
+    }
+  }
+}
+
+TEST(ClearanceStudy, SaysWhenTheMotionDoesNotBecomePeriodic) {
+  const study::Result r = run_text(regime_of(slider_crank(), "samples = 101\nmax_turns = 5"));
+  EXPECT_EQ(r.status, Status::not_converged);
+  EXPECT_THAT(r.headline, HasSubstr("The motion did not become periodic within 5 turns: in 0.06 s"));
+  ASSERT_FALSE(r.diagnostics.empty());
+  EXPECT_THAT(to_string(r.diagnostics[0]),
+              HasSubstr("the motion did not become periodic within 5 turns: the last one changed it by"));
+  EXPECT_THAT(fact(r, "periodic regime"), HasSubstr("not found within 5 turns"));
+  // The section of all turns, the last turn, and all contacts are there.
+  EXPECT_EQ(values(r, "section", "turn").size(), 6u);
+  EXPECT_EQ(values(r, "motion", "time_s").size(), 101u);
+  EXPECT_NEAR(values(r, "contacts", "start_s").front(), 2.2e-4, 1e-4);
+  EXPECT_EQ(r.scenes.size(), 1u);
+}
+
+// Of design 1 continuous contact has no motion that keeps it: it goes over to real contact turn after turn.
+TEST(ClearanceStudy, AutomaticRegimesGoOnWhereContactIsLost) {
+  const study::Result r = run_text(regime_of(example("loose-four-bar-automatic"),
+                                             "samples = 181\nmax_turns = 2\nregime_tolerance = 1e-9"));
+  EXPECT_EQ(r.status, Status::not_converged) << r.headline;
+  EXPECT_THAT(fact(r, "model"), HasSubstr("pin A parted from its bush at 0.153847 s"));
+  EXPECT_THAT(fact(r, "shooting"), ::testing::AnyOf(HasSubstr("no periodic motion in continuous contact"),
+                                                    HasSubstr("but pins part on it")));
+}
+
+TEST(ClearanceStudy, NamesWhatRegimesCannotDo) {
+  const std::string text = regime_of(slider_crank(), "");
+  const auto problems = [&](const std::string& what, const std::string& by) {
+    return problems_of(replaced(text, what, by));
+  };
+  EXPECT_THAT(problems("law       = \"constant_speed\"\nspeed_rpm = 5000.0",
+                       "law = \"cycloidal\"\nfrom_deg = 0.0\nto_deg = 90.0\nduration_s = 1.0"),
+              HasSubstr("no drive repeats itself with all the others: that of 'O'"));
+  EXPECT_THAT(problems("law       = \"constant_speed\"\nspeed_rpm = 5000.0", "start_speed_rpm = 100.0"),
+              HasSubstr("no drive repeats itself"));
+  EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodik\""),
+              HasSubstr("did you mean 'periodic'?"));
+  EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nto_s = 1.0"), HasSubstr("to_s"));
+  EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nmax_turns = 1"),
+              HasSubstr("must be at least 2"));
+  EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nsamples = 100001\nmax_turns = 1000"),
+              HasSubstr("100001 rows a period for up to 1000 periods are more than 1e+07"));
+  EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nregime_tolerance = 0.0"),
+              HasSubstr("must be at least 1e-12"));
+  EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nrtol = 1e-20"),
+              HasSubstr("must be at least 1e-13"));
+  EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nmax_steps = 0"),
+              HasSubstr("must be at least 1"));
+  EXPECT_THAT(
+      problems_of(text + "\n[[mechanism.force]]\nname = \"push\"\npoint = \"slider.B\"\nforce_N = [1.0, "
+                         "0.0]\nagainst = \"time\"\nargument = [0.0, 1.0]\nfactor = [0.0, 1.0]\n"),
+      HasSubstr("load 'push' depends on the time, so the motion has no period"));
+  EXPECT_THAT(problems("model          = \"contact\"", "model = \"automatic\"\nstart_mm = [0.0, 0.0]"),
+              HasSubstr("start_mm"));
+  EXPECT_THAT(problems("bush_radius_mm = 10.0", ""), HasSubstr("bush_radius"));
+  EXPECT_THAT(problems("modulus_GPa    = 207.0", "modulus_GPa = 0.0"), HasSubstr("must be more than 0"));
 }
 
 TEST(ClearanceStudy, WritesWhatItReads) {
-  for (const std::string& text : {slider_crank(), example("loose-four-bar-design-2")}) {
+  for (const std::string& text : {slider_crank(), example("loose-four-bar-design-2"),
+                                  example("loose-four-bar-automatic"), example("loose-four-bar-regime")}) {
     std::string messages;
     const auto first = prepare(text, messages);
     ASSERT_TRUE(first) << messages;

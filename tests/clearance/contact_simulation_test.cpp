@@ -257,6 +257,43 @@ TEST(ContactSimulation, AnyPinsOfAFourBar) {
   }
 }
 
+// A pin that grazes its bush at the start: pressed on by its motion around it, it is in contact with an
+// approach of zero, which least_approach keeps finite; moving away it is free.
+TEST(ContactSimulation, GrazingStarts) {
+  const planar::Linkage l = contact_slider_crank();
+  const planar::InputCourse crank{math::ConstantSpeed{0, 0}, 0, 0};
+  for (const bool pressed : {true, false}) {
+    ContactJoint joint = slider_crank_joint(l);
+    joint.start.eccentricity = -5e-4;
+    joint.start.rate = pressed ? std::complex<double>(0, 0.5) : std::complex<double>(1e-3, 0);
+    double force = 0;
+    const ContactRun run = simulate_contact(l, std::span(&joint, 1), std::span(&crank, 1),
+                                            evenly_spaced(0, 2e-4, 21), {}, [&](const ContactRow& row) {
+                                              if (row.time > 0) force = std::max(force, row.joints[0].normal);
+                                              return true;
+                                            });
+    ASSERT_EQ(run.status, Status::done) << run.message;
+    ASSERT_EQ(run.events.size(), pressed ? 1u : 0u);
+    if (!pressed) continue;
+    EXPECT_EQ(run.events[0].start, 0);
+    EXPECT_LT(run.events[0].approach, least_approach);
+    // On the circle about the end of the rod: m v^2 / c at most, with the mass that the slider and the rod
+    // have along the force, 0.35 kg together at most.
+    EXPECT_GT(force, 1);
+    EXPECT_LT(force, 0.35 * 0.25 / 5e-4);
+    EXPECT_LT(run.largest_drift, 1e-6 * run.peak_energy);
+  }
+}
+
+TEST(ContactSimulation, CountsAllStepsWhenTheyAreUsedUp) {
+  const ContactRun run = slider_crank(0, 4e-3, {.max_steps = 300});
+  EXPECT_EQ(run.status, Status::not_converged);
+  EXPECT_EQ(run.steps, 300);
+  EXPECT_THAT(run.message, ::testing::HasSubstr(": 300 steps used up"));
+  ASSERT_GE(run.events.size(), 2u) << "what had happened is kept";
+  EXPECT_NEAR(run.events[0].start, 2.2728603e-4, 2e-9);
+}
+
 TEST(ContactSimulation, RefusesWhatIsNoBush) {
   const planar::Linkage l = contact_slider_crank();
   const planar::InputCourse crank = even_crank(1);
@@ -272,6 +309,18 @@ TEST(ContactSimulation, RefusesWhatIsNoBush) {
   joint.start.eccentricity = 1e-3;
   EXPECT_THAT(text(joint),
               ::testing::HasSubstr("pin 0.001 m off the middle of its bush, clearance 0.0005 m"));
+  joint = slider_crank_joint(l);
+  joint.law.stiffness = 0;
+  EXPECT_THAT(text(joint), ::testing::HasSubstr("stiffness 0"));
+  joint = slider_crank_joint(l);
+  joint.law.restitution = 1.5;
+  EXPECT_THAT(text(joint), ::testing::HasSubstr("restitution 1.5"));
+  joint = slider_crank_joint(l);
+  EXPECT_THAT(test::message([&] {
+                simulate_contact(l, std::span(&joint, 1), std::span(&crank, 1), std::vector{0.0, 1.0},
+                                 {.tolerance = 0});
+              }),
+              ::testing::HasSubstr("tolerance 0, step in contact 0.05"));
   joint = slider_crank_joint(l, 0, "guide");
   EXPECT_THAT(text(joint),
               ::testing::HasSubstr("joint 'guide' must be a revolute joint without drive and friction"));

@@ -225,6 +225,46 @@ TEST(JointClearance, AnyLinkage) {
   EXPECT_LT(run.simulation.largest_drift, 1e-7 * run.simulation.peak_energy);
 }
 
+// With a vanishing clearance the tension becomes the force of the ideal joint, and the path its path, both
+// with the first power of the clearance: the start is where that force presses, turning as it does.
+TEST(JointClearance, TheIdealJointIsTheLimit) {
+  const ClearanceFourBar model = published_four_bar("gamma-design2-table3-g9.81-w50");
+  ClearanceFourBar ideal = model;
+  ideal.clearance = 0;
+  const double direction = force_direction(model, 0, 50, 0), h = 1e-5;
+  const double pace = 50 * math::angle_difference(force_direction(model, h, 50, 0), direction) / h;
+  const planar::InputCourse crank{math::ConstantSpeed{0, 50}, 0, 0};
+  double force_before = 0, path_before = 0;
+  for (const double c : {1e-3, 2.5e-4}) {
+    ClearanceFourBar loose = model;
+    loose.clearance = c;
+    const planar::Linkage l = as_linkage(loose);
+    const std::size_t p = 2;  // "P" of the coupler
+    const JointClearance pin{
+        .joint = planar::joint_index(l, "A"), .clearance = c, .angle = direction, .rate = pace};
+    const ClearedLinkage cleared = with_clearance(l, std::span(&pin, 1), std::vector{0.0});
+    double force = 0, path = 0;
+    const JointClearanceRun run = simulate_joint_clearance(
+        l, std::span(&pin, 1), std::span(&crank, 1), evenly_spaced(0, 0.03, 61),
+        {.relative_tolerance = 1e-11, .absolute_tolerance = 1e-12}, [&](const JointClearanceRow& row) {
+          const ClearanceInstant wanted = clearance_instant(ideal, 50 * row.instant.time, 50, 0, {});
+          force = std::max(force, std::abs(row.joints[0].tension / std::abs(wanted.pin_force) - 1));
+          const std::complex<double> point = number(
+              planar::point_motion(cleared.plan, *row.instant.motion, 2, l.bodies[2].points[p].at).position);
+          path = std::max(path, std::abs(point - wanted.position.point));
+          return true;
+        });
+    ASSERT_EQ(run.status, Status::done) << run.message;
+    EXPECT_LT(run.simulation.largest_drift, 1e-6 * run.simulation.peak_energy);
+    if (force_before > 0) {
+      EXPECT_NEAR(std::log(path_before / path) / std::log(4.0), 1, 0.2) << c;
+      EXPECT_GT(std::log(force_before / force) / std::log(4.0), 0.7) << c;
+    }
+    force_before = force;
+    path_before = path;
+  }
+}
+
 TEST(JointClearance, RefusesWhatIsNoFreePin) {
   const planar::Linkage l = as_linkage(published_four_bar("gamma-design2-table3-g9.81-w20"));
   const auto text = [&](std::vector<JointClearance> c) {

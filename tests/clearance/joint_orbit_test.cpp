@@ -125,6 +125,10 @@ TEST(JointOrbit, SectionsThatRepeat) {
   EXPECT_EQ(repeating_period(states, 0.01, 1), 0);
   EXPECT_EQ(repeating_period(states, 10, 8), 1);
   EXPECT_EQ(repeating_period({}, 1, 8), 0);
+  // Settling: that it is nearer to the state of two periods ago says nothing.
+  const std::vector<std::vector<double>> settling{{1.00}, {1.05}, {1.001}};
+  EXPECT_EQ(repeating_period(settling, 0.01, 8), 0);
+  EXPECT_EQ(repeating_period(settling, 0.001, 8), 2);
 }
 
 TEST(JointOrbit, SaysWhatItCannotDo) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <limits>
 #include <optional>
@@ -36,7 +37,7 @@ struct TransientRun {
 constexpr Word choice_word(const TransientRun&) { return {"transient", "from the start to an end"}; }
 struct PeriodicRun {
   int max_turns = 200;      ///< periods of the drives after which it is given up
-  double tolerance = 1e-6;  ///< for states of a section, see ClearanceRegime::change
+  double tolerance = 1e-5;  ///< for states of a section, see ClearanceRegime::change
 };
 constexpr Word choice_word(const PeriodicRun&) {
   return {"periodic", "what the motion comes to: one that repeats itself with the drives"};
@@ -127,6 +128,7 @@ struct ClearanceRecording {
   double switched = std::numeric_limits<double>::quiet_NaN();  ///< s; NaN: never
   int parted = -1;
   std::vector<planar::InputMotion> switched_inputs;
+  bool went_over() const { return !std::isnan(switched); }
   double largest_drift = 0, peak_energy = 0;
   long steps = 0, evaluations = 0;
   std::vector<planar::LinkageColumn> columns;  ///< of the linkage without clearance that are known with it
@@ -150,6 +152,16 @@ Table section_table(const ClearanceStudy& study, const ClearanceRecording& recor
 /// The start of a periodic motion in continuous contact, one row a pin, and its Floquet multipliers.
 Table orbit_table(const ClearanceStudy& study, const JointOrbit& orbit);
 Table multipliers_table(const JointOrbit& orbit);
+
+/// How far traced points are off; NaN: nothing is known.
+struct PathErrors {
+  double path = std::numeric_limits<double>::quiet_NaN();   ///< m, from the ideal path, at most
+  double place = std::numeric_limits<double>::quiet_NaN();  ///< m, from the ideal place, at most
+  std::string point;                                        ///< that is farthest from its path
+};
+/// Facts, warnings and the headline.
+void add_facts(const ClearanceStudy& study, const ClearanceRecording& recording, const PathErrors& errors,
+               study::Result& result);
 
 /// Tables, plots and facts.
 study::Result report_clearance(const ClearanceStudy& study, ClearanceRecording recording);

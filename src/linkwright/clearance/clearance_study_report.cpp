@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "linkwright/clearance/clearance_study.h"
-#include "linkwright/clearance/contact_analysis.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::clearance {
@@ -13,8 +12,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-// A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
-constexpr double poor_balance = 1e-5;
 // Rows beyond which not every one is compared with the ideal path.
 constexpr std::size_t most_compared = 20000;
 
@@ -50,8 +47,7 @@ class Reporter {
     }
     if (!r_.rows.empty()) result_.scenes.push_back(clearance_scene(s_, r_));
     plots();
-    facts();
-    headline();
+    add_facts(s_, r_, errors_, result_);
     return std::move(result_);
   }
 
@@ -61,8 +57,7 @@ class Reporter {
   }
   bool contact() const { return s_.model != PinModel::continuous; }
   // Whether there was real contact.
-  bool real() const { return s_.model == PinModel::contact || switched(); }
-  bool switched() const { return !std::isnan(r_.switched); }
+  bool real() const { return s_.model == PinModel::contact || r_.went_over(); }
   std::size_t rows() const { return r_.rows.size(); }
   const std::string& name(std::size_t pin) const { return s_.linkage.joints[at(s_.joint_of(pin))].name; }
   std::string key(std::size_t pin) const { return planar::identifier(name(pin)); }
@@ -147,9 +142,9 @@ class Reporter {
       error[i] = std::abs(place - std::complex<double>(ideal_x[i], ideal_y[i]));
     }
     for (const double d : off)
-      if (d > path_error_ || std::isnan(path_error_)) path_error_ = d, farthest_ = k;
+      if (d > errors_.path || std::isnan(errors_.path)) errors_.path = d, errors_.point = trace_name(k);
     for (const double d : error)
-      if (d > place_error_ || std::isnan(place_error_)) place_error_ = d;
+      if (d > errors_.place || std::isnan(errors_.place)) errors_.place = d;
     table.add(key + "_ideal_x_m", label + " x without clearance (m)", std::move(ideal_x));
     table.add(key + "_ideal_y_m", label + " y without clearance (m)", std::move(ideal_y));
     table.add(key + "_place_error_m", label + " distance from where it is without clearance (m)",
@@ -281,14 +276,18 @@ class Reporter {
         hodograph.push_back(key(k) + end);
       forces.push_back(key(k) + (contact() ? "_contact_N" : "_tension_N"));
       spectrum.push_back(key(k) + "_amplitude_N");
-      for (const char* end : {"_force_x_N", "_force_y_N"}) map.push_back(key(k) + end);
+      for (const char* end : {"_force_ring_x_m", "_force_ring_y_m", "_time_ring_x_m", "_time_ring_y_m",
+                              "_bush_ring_x_m", "_bush_ring_y_m"})
+        map.push_back(key(k) + end);
       angles.push_back(key(k) + (contact() ? "_contact_angle_rad" : "_lead_rad"));
     }
     plot("hodograph", "Ways of the pins in their bushes", "hodograph", "", hodograph, Style::polar);
     plot("contact-forces",
          contact() ? "Contact forces" : "Tension of the clearance links: contact while positive", "pins",
          "time_s", forces);
-    plot("contact-map", "Contact map: the largest force on each place of the bush, in the frame of the bush",
+    plot("contact-map",
+         "Contact map: how hard and how long the pins press on each place of their bushes, as seen from the "
+         "bush",
          "contact_map", "", map, Style::polar);
     plot("contact-angles",
          contact() ? "Where the pins touch: directions in their bushes" : "Leads of the clearance links",
@@ -326,215 +325,9 @@ class Reporter {
     plot("energy-audit", "Energy audit: what does not balance", "motion", "time_s", {"energy_drift_J"});
   }
 
-  // ---- facts
-  // --------------------------------------------------------------------------------------------------
-
-  using Verdict = study::Fact::Verdict;
-  void fact(std::string label, std::string text, Verdict verdict = Verdict::plain) {
-    result_.facts.push_back({std::move(label), std::move(text), verdict});
-  }
-  void warn(std::string message, std::string hint) {
-    result_.diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
-  }
-  double duration() const { return r_.time - r_.from; }
-
-  void facts() {
-    if (r_.regime) regime_facts();
-    if (s_.model == PinModel::automatic) switch_fact();
-    if (real())
-      contact_facts();
-    else
-      continuous_facts();
-    if (!std::isnan(path_error_))
-      fact("path error",
-           fmt::format("{} is at most {:.4g} mm from the ideal path{}", trace_name(farthest_),
-                       1e3 * path_error_,
-                       std::isnan(place_error_)
-                           ? ""
-                           : fmt::format(", {:.4g} mm from its ideal place", 1e3 * place_error_)));
-    if (rows() > 0) {
-      const double share = r_.peak_energy > 0 ? r_.largest_drift / r_.peak_energy : 0;
-      const std::string text = fmt::format("within {:.2g} J ({:.2g} of the peak energy {:.4g} J)",
-                                           r_.largest_drift, share, r_.peak_energy);
-      fact("energy balance", text, share > poor_balance ? Verdict::bad : Verdict::good);
-      if (share > poor_balance) warn("the energies do not balance: " + text, "take a smaller rtol");
-    }
-    fact("integration",
-         fmt::format("{} steps, {} evaluations of the equations of motion", r_.steps, r_.evaluations));
-    if (!r_.message.empty()) warn(r_.message, "");
-  }
-  void regime_facts() {
-    const ClearanceRegime& regime = *r_.regime;
-    if (regime.orbit) orbit_facts(*regime.orbit);
-    if (regime.turns > 0 && regime.waited > 0)
-      fact("periodic regime",
-           fmt::format("repeats every {} ({:.6g} s) after {}, within {:.2g}", periods(regime.turns),
-                       regime.turns * s_.period, periods(regime.waited), regime.change),
-           Verdict::good);
-    else if (regime.turns == 0)
-      fact("periodic regime",
-           std::isnan(regime.change)
-               ? std::string("not found")
-               : fmt::format("not found within {}: the last one changed the motion by {:.3g}",
-                             periods(regime.waited), regime.change),
-           Verdict::bad);
-  }
-  static std::string periods(int count) {
-    return count == 1 ? std::string("turn") : fmt::format("{} turns", count);
-  }
-  void orbit_facts(const JointOrbit& orbit) {
-    const bool taken = r_.regime->waited == 0;
-    if (orbit.status != Status::done) {
-      fact("shooting", "no periodic motion in continuous contact: " + orbit.message);
-      return;
-    }
-    fact(taken ? "periodic regime" : "shooting",
-         fmt::format(
-             "{:.6g} s, in continuous contact; found in {} steps of Newton's method, a period changes it by "
-             "{:.2g}{}",
-             s_.period, orbit.iterations, orbit.residual,
-             taken ? "" : "; but pins part on it, or it is unstable"),
-         taken ? Verdict::good : Verdict::plain);
-    std::string multipliers;
-    for (const std::complex<double>& m : orbit.multipliers)
-      multipliers += fmt::format("{}{:.6f}{:+.6f}i", multipliers.empty() ? "" : ", ", m.real(), m.imag());
-    const bool unstable = orbit.stability == OrbitStability::unstable;
-    fact("stability",
-         fmt::format("{}: {}; Floquet multipliers {}", name_of(orbit.stability), summary_of(orbit.stability),
-                     multipliers),
-         unstable ? Verdict::bad : Verdict::good);
-    if (unstable && taken)
-      warn("the periodic motion is unstable: a real linkage leaves it",
-           "model = \"automatic\" goes on turn after turn to the motion that it comes to");
-  }
-  static std::string_view summary_of(OrbitStability stability) {
-    for (const auto& word : names(OrbitStability{}))
-      if (word.value == stability) return word.summary;
-    return {};
-  }
-  // Where the first input was when pins parted: "O2 at 71 deg".
-  std::string where_switched() const {
-    if (r_.switched_inputs.empty()) return {};
-    const double value = r_.switched_inputs[0].value;
-    const std::string& joint = planar::input_joint(s_.linkage, 0).name;
-    return s_.plan.rotary[0]
-               ? fmt::format(", {} at {:.4g} deg", joint, math::degrees(math::wrap_angle(value)))
-               : fmt::format(", {} at {:.4g} mm", joint, 1e3 * value);
-  }
-  void switch_fact() {
-    if (!(duration() > 0)) return;
-    if (!switched()) {
-      fact("model", "continuous contact holds throughout", Verdict::good);
-      return;
-    }
-    fact("model", fmt::format("pin {} parted from its bush at {:.6g} s{}; from there on real contact{}",
-                              name(at(r_.parted)), r_.switched, where_switched(),
-                              s_.pins() > 1 ? " of all loose pins" : ""));
-  }
-  void contact_facts() {
-    if (!(duration() > 0)) return;
-    double shortest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < s_.pins(); ++k) {
-      std::size_t count = 0;
-      double touching = switched() ? std::max(r_.switched - r_.from, 0.0) : 0;
-      double force = 0, approach = 0, depth = 0;
-      for (const ContactEvent& e : r_.events) {
-        if (at(e.joint) != k) continue;
-        ++count;
-        touching += (std::isnan(e.end) ? r_.time : e.end) - std::max(e.start, r_.from);
-        force = std::max(force, e.force);
-        approach = std::max(approach, e.approach);
-        depth = std::max(depth, e.depth);
-        if (!std::isnan(e.end)) shortest = std::min(shortest, e.end - e.start);
-      }
-      fact(fmt::format("contacts of {}", name(k)),
-           count == 0 ? std::string("none: the pin stays free in its bush")
-                      : fmt::format("{}, {:.3g} % of the time in contact; at most {:.4g} N, {:.3g} um deep, "
-                                    "approach of {:.3g} m/s",
-                                    count, 100 * touching / duration(), force, 1e6 * depth, approach));
-      largest_force_ = std::max(largest_force_, force);
-    }
-    if (rows() < 2) return;
-    const double interval = (r_.rows.back().time - r_.rows.front().time) / double(rows() - 1);
-    if (shortest < interval)
-      fact("shortest contact",
-           fmt::format("{:.3g} s, less than the {:.3g} s between rows: plots and spectrum miss peaks of the "
-                       "forces, the table of contacts has them",
-                       shortest, interval));
-    else if (std::isfinite(shortest))
-      fact("shortest contact", fmt::format("{:.3g} s, rows every {:.3g} s", shortest, interval));
-  }
-  void continuous_facts() {
-    if (!(duration() > 0)) return;
-    for (std::size_t k = 0; k < r_.validity.size(); ++k) {
-      const ContactValidity& v = r_.validity[k];
-      const bool lost = !std::isnan(v.first_separation);
-      lost_ = lost_ || lost;
-      if (!lost) {
-        fact(fmt::format("contact of {}", name(k)),
-             fmt::format("kept: least tension {:.4g} N", v.least_tension), Verdict::good);
-        continue;
-      }
-      fact(fmt::format("contact of {}", name(k)),
-           fmt::format("lost at {:.4g} s; without contact {:.3g} % of the time, least tension {:.4g} N",
-                       v.first_separation, 100 * v.separated, v.least_tension),
-           Verdict::bad);
-      warn(fmt::format("the pin of '{}' is taken to touch its bush always, but they part at {:.4g} s: what "
-                       "follows is outside of the model",
-                       name(k), v.first_separation),
-           "model = \"contact\" computes flights and impacts, model = \"automatic\" from there on");
-    }
-  }
-
-  void headline() {
-    std::string& text = result_.headline;
-    if (rows() == 0) {
-      const bool interrupted = r_.status == Status::cancelled || r_.status == Status::deadline;
-      text =
-          (interrupted ? "Ended before its first row: " : "The linkage does not start: ") + r_.message + ".";
-      return;
-    }
-    if (r_.regime) text = regime_headline();
-    text += motion_headline();
-    if (!std::isnan(path_error_))
-      text +=
-          fmt::format("; {} leaves its path by up to {:.4g} mm", trace_name(farthest_), 1e3 * path_error_);
-    text += ".";
-    if (r_.status != Status::done && !(r_.regime && r_.time >= s_.to()))
-      text +=
-          fmt::format(" It ends at {:.6g} s, before {:.6g} s: {}.", r_.time, s_.to(), to_string(r_.status));
-  }
-  std::string regime_headline() const {
-    const ClearanceRegime& regime = *r_.regime;
-    if (regime.turns == 0)
-      return fmt::format("The motion did not become periodic within {} turns: ", s_.periodic()->max_turns);
-    if (regime.waited == 0)
-      return fmt::format("The periodic motion is {}: ", name_of(regime.orbit->stability));
-    return fmt::format("The motion repeats every {} after {}: ", periods(regime.turns),
-                       periods(regime.waited));
-  }
-  std::string motion_headline() const {
-    const bool begins = result_.headline.empty();
-    if (switched())
-      return fmt::format(
-          "{} {} parts from its bush at {:.4g} s{}, and {} contacts with up to {:.4g} N follow",
-          begins ? "Pin" : "pin", name(at(r_.parted)), r_.switched, where_switched(), r_.events.size(),
-          largest_force_);
-    if (real())
-      return fmt::format("{} {:.4g} s {} contacts of pin and bush, with up to {:.4g} N", begins ? "In" : "in",
-                         duration(), r_.events.size(), largest_force_);
-    if (lost_)
-      return begins ? "Pin and bush do not stay in contact: the motion is outside of the model"
-                    : "pin and bush do not stay in contact, so it is outside of the model";
-    return fmt::format("{} and bush stay in contact for all {:.4g} s", begins ? "Pin" : "pin", duration());
-  }
-
   const ClearanceStudy& s_;
   ClearanceRecording r_;
-  double path_error_ = nan, place_error_ = nan, largest_force_ = 0;
-  std::size_t farthest_ = 0;
-  bool lost_ = false;
+  PathErrors errors_;
   study::Result result_;
 };
 

@@ -52,6 +52,7 @@ class Simulation {
   }
 
   ContactRun run(std::span<const double> times, const RunContext* context) {
+    duration_ = times.back() - times.front();
     if (!start(times.front())) return std::move(run_);
     std::vector<double> y = state();
     const std::vector<double> tolerances = absolute_tolerances();
@@ -60,7 +61,7 @@ class Simulation {
     double t = times.front(), length = 0;
     std::size_t shown = 0;
     while (true) {
-      const double longest = longest_step(times.back() - times.front());
+      const double longest = longest_step();
       for (std::size_t k = 0; k < joints_.size(); ++k)
         events[k].crossing = contact_[k].on ? math::OdeCrossing::falling : math::OdeCrossing::rising;
       stiff_ = stiffness() * longest > (stiff_ ? 1 : 5);
@@ -293,8 +294,8 @@ class Simulation {
       if (!c.on) c.mass = 0;
     }
   }
-  double longest_step(double duration) {
-    double longest = duration / 20;
+  double longest_step() {
+    double longest = duration_ / 20;
     for (std::size_t k = 0; k < joints_.size(); ++k) {
       const Contact& c = contact_[k];
       if (c.on) {
@@ -391,8 +392,8 @@ class Simulation {
     const double rate = stiffness() * longest;
     if (stiff_ ? rate < 1 : rate > 5) return false;
     // A new pace of the flight needs another length of the steps.
-    const double wanted = longest_step(std::numeric_limits<double>::infinity());
-    return wanted > longest / 2 && (wanted < 4 * longest || !std::isfinite(wanted));
+    const double wanted = longest_step();
+    return wanted > longest / 2 && wanted < 4 * longest;
   }
 
   bool show(double t, std::span<const double> y) {
@@ -443,6 +444,7 @@ class Simulation {
   std::vector<Contact> contact_;
   std::vector<PinForce> forces_;
   std::vector<ContactState> rows_;
+  double duration_ = 0;  // s
   double start_kinetic_ = 0, start_potential_ = 0, start_elastic_ = 0;
   double noise_ = 0;  // m, rounding of the depth: a contact ends that much behind zero
   Status last_status_ = Status::done;

@@ -162,13 +162,14 @@ JointOrbit find_joint_orbit(const planar::Linkage& linkage, std::span<const Join
 
 int repeating_period(std::span<const std::vector<double>> states, double tolerance, int most) {
   for (int p = 1; p <= most && static_cast<std::size_t>(p) < states.size(); ++p) {
-    const std::vector<double>&last = states.back(),
-          &before = states[states.size() - 1 - static_cast<std::size_t>(p)];
+    const std::vector<double>& last = states.back();
+    const std::vector<double>& before = states[states.size() - 1 - static_cast<std::size_t>(p)];
     LINKWRIGHT_REQUIRE(last.size() == before.size(), "states of {} and {} numbers", before.size(),
                        last.size());
-    bool same = true;
-    for (std::size_t k = 0; k < last.size(); ++k) same = same && std::abs(last[k] - before[k]) <= tolerance;
-    if (same) return p;
+    double change = 0;
+    for (std::size_t k = 0; k < last.size(); ++k) change = std::max(change, std::abs(last[k] - before[k]));
+    if (change <= tolerance) return p;
+    if (change <= 10 * tolerance) return 0;
   }
   return 0;
 }

@@ -1,0 +1,243 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/clearance/clearance_study.h"
+#include "linkwright/math/angles.h"
+
+namespace linkwright::clearance {
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+// A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
+constexpr double poor_balance = 1e-5;
+
+class Facts {
+ public:
+  Facts(const ClearanceStudy& s, const ClearanceRecording& r, const PathErrors& errors, study::Result& result)
+      : s_(s), r_(r), errors_(errors), result_(result) {}
+
+  void add() {
+    if (r_.regime) regime_facts();
+    if (s_.model == PinModel::automatic) switch_fact();
+    if (real())
+      contact_facts();
+    else
+      continuous_facts();
+    if (!std::isnan(errors_.path))
+      fact("path error",
+           fmt::format("{} is at most {:.4g} mm from the ideal path{}", errors_.point, 1e3 * errors_.path,
+                       std::isnan(errors_.place)
+                           ? ""
+                           : fmt::format(", {:.4g} mm from its ideal place", 1e3 * errors_.place)));
+    if (rows() > 0) {
+      const double share = r_.peak_energy > 0 ? r_.largest_drift / r_.peak_energy : 0;
+      const std::string text = fmt::format("within {:.2g} J ({:.2g} of the peak energy {:.4g} J)",
+                                           r_.largest_drift, share, r_.peak_energy);
+      fact("energy balance", text, share > poor_balance ? Verdict::bad : Verdict::good);
+      if (share > poor_balance) warn("the energies do not balance: " + text, "take a smaller rtol");
+    }
+    fact("integration",
+         fmt::format("{} steps, {} evaluations of the equations of motion", r_.steps, r_.evaluations));
+    if (!r_.message.empty()) warn(r_.message, "");
+  }
+  void headline() {
+    std::string& text = result_.headline;
+    if (rows() == 0) {
+      const bool interrupted = r_.status == Status::cancelled || r_.status == Status::deadline;
+      text =
+          (interrupted ? "Ended before its first row: " : "The linkage does not start: ") + r_.message + ".";
+      return;
+    }
+    if (r_.regime) text = regime_headline();
+    text += motion_headline();
+    if (!std::isnan(errors_.path))
+      text += fmt::format("; {} leaves its path by up to {:.4g} mm", errors_.point, 1e3 * errors_.path);
+    text += ".";
+    if (r_.status != Status::done && !(r_.regime && r_.time >= s_.to()))
+      text +=
+          fmt::format(" It ends at {:.6g} s, before {:.6g} s: {}.", r_.time, s_.to(), to_string(r_.status));
+  }
+
+ private:
+  using Verdict = study::Fact::Verdict;
+  void fact(std::string label, std::string text, Verdict verdict = Verdict::plain) {
+    result_.facts.push_back({std::move(label), std::move(text), verdict});
+  }
+  void warn(std::string message, std::string hint) {
+    result_.diagnostics.push_back(
+        {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
+  }
+  double duration() const { return r_.time - r_.from; }
+  std::size_t rows() const { return r_.rows.size(); }
+  const std::string& name(std::size_t pin) const { return s_.pin_name(pin); }
+  // Whether there was real contact.
+  bool real() const { return s_.model == PinModel::contact || r_.went_over(); }
+
+  void regime_facts() {
+    const ClearanceRegime& regime = *r_.regime;
+    if (regime.orbit) orbit_facts(*regime.orbit);
+    if (regime.turns > 0 && regime.waited > 0)
+      fact("periodic regime",
+           fmt::format("repeats every {} ({:.6g} s) after {}, within {:.2g}", periods(regime.turns),
+                       regime.turns * s_.period, periods(regime.waited), regime.change),
+           Verdict::good);
+    else if (regime.turns == 0)
+      fact("periodic regime",
+           std::isnan(regime.change)
+               ? std::string("not found")
+               : fmt::format("not found within {}: the last one changed the motion by {:.3g}",
+                             periods(regime.waited), regime.change),
+           Verdict::bad);
+  }
+  static std::string periods(int count) {
+    return count == 1 ? std::string("turn") : fmt::format("{} turns", count);
+  }
+  void orbit_facts(const JointOrbit& orbit) {
+    const bool taken = r_.regime->waited == 0;
+    if (orbit.status != Status::done) {
+      fact("shooting", "no periodic motion in continuous contact: " + orbit.message);
+      return;
+    }
+    fact(taken ? "periodic regime" : "shooting",
+         fmt::format(
+             "{:.6g} s, in continuous contact; found in {} steps of Newton's method, a period changes it by "
+             "{:.2g}{}",
+             s_.period, orbit.iterations, orbit.residual,
+             taken ? "" : "; but pins part on it, or it is unstable"),
+         taken ? Verdict::good : Verdict::plain);
+    std::string multipliers;
+    for (const std::complex<double>& m : orbit.multipliers)
+      multipliers += fmt::format("{}{:.6f}{:+.6f}i", multipliers.empty() ? "" : ", ", m.real(), m.imag());
+    const bool unstable = orbit.stability == OrbitStability::unstable;
+    fact("stability",
+         fmt::format("{}: {}; Floquet multipliers {}", name_of(orbit.stability), summary_of(orbit.stability),
+                     multipliers),
+         unstable ? Verdict::bad : Verdict::good);
+    if (unstable && taken)
+      warn("the periodic motion is unstable: a real linkage leaves it",
+           "model = \"automatic\" goes on turn after turn to the motion that it comes to");
+  }
+  static std::string_view summary_of(OrbitStability stability) {
+    for (const auto& word : names(OrbitStability{}))
+      if (word.value == stability) return word.summary;
+    return {};
+  }
+  // Where the first input was when pins parted: "O2 at 71 deg".
+  std::string where_switched() const {
+    if (r_.switched_inputs.empty()) return {};
+    const double value = r_.switched_inputs[0].value;
+    const std::string& joint = planar::input_joint(s_.linkage, 0).name;
+    return s_.plan.rotary[0]
+               ? fmt::format(", {} at {:.4g} deg", joint, math::degrees(math::wrap_angle(value)))
+               : fmt::format(", {} at {:.4g} mm", joint, 1e3 * value);
+  }
+  void switch_fact() {
+    if (!(duration() > 0)) return;
+    if (!r_.went_over()) {
+      fact("model", "continuous contact holds throughout", Verdict::good);
+      return;
+    }
+    fact("model", fmt::format("pin {} parted from its bush at {:.6g} s{}; from there on real contact{}",
+                              name(at(r_.parted)), r_.switched, where_switched(),
+                              s_.pins() > 1 ? " of all loose pins" : ""));
+  }
+  void contact_facts() {
+    if (!(duration() > 0)) return;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < s_.pins(); ++k) {
+      std::size_t count = 0;
+      double touching = r_.went_over() ? std::max(r_.switched - r_.from, 0.0) : 0;
+      double force = 0, approach = 0, depth = 0;
+      for (const ContactEvent& e : r_.events) {
+        if (at(e.joint) != k) continue;
+        ++count;
+        touching += (std::isnan(e.end) ? r_.time : e.end) - std::max(e.start, r_.from);
+        force = std::max(force, e.force);
+        approach = std::max(approach, e.approach);
+        depth = std::max(depth, e.depth);
+        if (!std::isnan(e.end)) shortest = std::min(shortest, e.end - e.start);
+      }
+      fact(fmt::format("contacts of {}", name(k)),
+           count == 0 ? std::string("none: the pin stays free in its bush")
+                      : fmt::format("{}, {:.3g} % of the time in contact; at most {:.4g} N, {:.3g} um deep, "
+                                    "approach of {:.3g} m/s",
+                                    count, 100 * touching / duration(), force, 1e6 * depth, approach));
+      largest_force_ = std::max(largest_force_, force);
+    }
+    if (rows() < 2) return;
+    const double interval = (r_.rows.back().time - r_.rows.front().time) / double(rows() - 1);
+    if (shortest < interval)
+      fact("shortest contact",
+           fmt::format("{:.3g} s, less than the {:.3g} s between rows: plots and spectrum miss peaks of the "
+                       "forces, the table of contacts has them",
+                       shortest, interval));
+    else if (std::isfinite(shortest))
+      fact("shortest contact", fmt::format("{:.3g} s, rows every {:.3g} s", shortest, interval));
+  }
+  void continuous_facts() {
+    if (!(duration() > 0)) return;
+    for (std::size_t k = 0; k < r_.validity.size(); ++k) {
+      const ContactValidity& v = r_.validity[k];
+      const bool lost = !std::isnan(v.first_separation);
+      lost_ = lost_ || lost;
+      if (!lost) {
+        fact(fmt::format("contact of {}", name(k)),
+             fmt::format("kept: least tension {:.4g} N", v.least_tension), Verdict::good);
+        continue;
+      }
+      fact(fmt::format("contact of {}", name(k)),
+           fmt::format("lost at {:.4g} s; without contact {:.3g} % of the time, least tension {:.4g} N",
+                       v.first_separation, 100 * v.separated, v.least_tension),
+           Verdict::bad);
+      warn(fmt::format("the pin of '{}' is taken to touch its bush always, but they part at {:.4g} s: what "
+                       "follows is outside of the model",
+                       name(k), v.first_separation),
+           "model = \"contact\" computes flights and impacts, model = \"automatic\" from there on");
+    }
+  }
+
+  std::string regime_headline() const {
+    const ClearanceRegime& regime = *r_.regime;
+    if (regime.turns == 0)
+      return fmt::format("The motion did not become periodic within {} turns: ", s_.periodic()->max_turns);
+    if (regime.waited == 0)
+      return fmt::format("The periodic motion is {}: ", name_of(regime.orbit->stability));
+    return fmt::format("The motion repeats every {} after {}: ", periods(regime.turns),
+                       periods(regime.waited));
+  }
+  std::string motion_headline() const {
+    const bool begins = result_.headline.empty();
+    if (r_.went_over())
+      return fmt::format(
+          "{} {} parts from its bush at {:.4g} s{}, and {} contacts with up to {:.4g} N follow",
+          begins ? "Pin" : "pin", name(at(r_.parted)), r_.switched, where_switched(), r_.events.size(),
+          largest_force_);
+    if (real())
+      return fmt::format("{} {:.4g} s {} contacts of pin and bush, with up to {:.4g} N", begins ? "In" : "in",
+                         duration(), r_.events.size(), largest_force_);
+    if (lost_)
+      return begins ? "Pin and bush do not stay in contact: the motion is outside of the model"
+                    : "pin and bush do not stay in contact, so it is outside of the model";
+    return fmt::format("{} and bush stay in contact for all {:.4g} s", begins ? "Pin" : "pin", duration());
+  }
+
+  const ClearanceStudy& s_;
+  const ClearanceRecording& r_;
+  const PathErrors& errors_;
+  study::Result& result_;
+  double largest_force_ = 0;
+  bool lost_ = false;
+};
+
+}  // namespace
+
+void add_facts(const ClearanceStudy& study, const ClearanceRecording& recording, const PathErrors& errors,
+               study::Result& result) {
+  Facts facts(study, recording, errors, result);
+  facts.add();
+  facts.headline();
+}
+
+}  // namespace linkwright::clearance
