@@ -88,8 +88,8 @@ std::vector<double> spun_up(int segments, std::span<const double> times) {
   return found;
 }
 
-// The tip lags by up to 0.62 m of 8. Eight segments are off by 1.5 % of that, of second order again, but for the
-// phase of what it swings beside.
+// The tip lags by up to 0.62 m of 8. Eight segments are off by 1.5 % of that, of second order again, but for
+// the phase of what it swings beside.
 TEST(ElasticArm, SpinsUpAsTheContinuumDoes) {
   const std::vector<double> eta = numbers(figure("spinup-omega0-4", "computed.continuum.tip_eta_m"));
   const std::vector<double> times = numbers(figure("spinup-omega0-4", "computed.continuum.t_s"));

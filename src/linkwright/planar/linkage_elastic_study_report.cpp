@@ -65,8 +65,7 @@ class ElasticReporter {
       math::Spectrum lines = math::spectrum(r_.beams[e].middle, step);
       if (lines.frequency.empty()) return;
       if (e == 0) table.add("frequency_Hz", "frequency (Hz)", std::move(lines.frequency));
-      table.add(beam_key(e) + "_middle_deflection_m",
-                name_of_beam(r_.elastic.pieces[e]) + " amplitude (m)",
+      table.add(beam_key(e) + "_middle_deflection_m", name_of_beam(r_.elastic.pieces[e]) + " amplitude (m)",
                 std::move(lines.amplitude));
     }
     result_.tables.push_back(std::move(table));
