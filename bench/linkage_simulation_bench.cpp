@@ -27,8 +27,8 @@ void linkage_dynamics_andrews(benchmark::State& state) {
 }
 BENCHMARK(linkage_dynamics_andrews);
 
-// The same of a slider-crank whose rod bends in `range` segments: as many equations, in closed form.
-void linkage_dynamics_elastic_rod(benchmark::State& state) {
+// The same of a slider-crank whose rod bends in `range` segments: as many equations, by either route.
+void elastic_rod(benchmark::State& state, AccelerationRoute route) {
   Linkage l = grounded({{"O", {0, 0}}});
   add_bar(l, "crank", "O", "A", 0.05);
   add_bar(l, "rod", "A", "B", 0.3);
@@ -53,10 +53,17 @@ void linkage_dynamics_elastic_rod(benchmark::State& state) {
     inputs.push_back({c.value, c.rate, 0});
     free.push_back(true);
   }
-  LinkageDynamics dynamics(e.linkage, e.plan, free);
+  LinkageDynamics dynamics(e.linkage, e.plan, free, route);
   for (auto _ : state) benchmark::DoNotOptimize(dynamics.solve(0, inputs));
 }
-BENCHMARK(linkage_dynamics_elastic_rod)->Arg(4)->Arg(8)->Arg(16)->Arg(32)->Arg(64);
+void linkage_dynamics_elastic_rod_masses(benchmark::State& s) {
+  elastic_rod(s, AccelerationRoute::mass_matrix);
+}
+void linkage_dynamics_elastic_rod_forces(benchmark::State& s) {
+  elastic_rod(s, AccelerationRoute::joint_forces);
+}
+BENCHMARK(linkage_dynamics_elastic_rod_masses)->Arg(2)->Arg(3)->Arg(4)->Arg(8)->Arg(16)->Arg(32)->Arg(64);
+BENCHMARK(linkage_dynamics_elastic_rod_forces)->Arg(2)->Arg(3)->Arg(4)->Arg(8)->Arg(16)->Arg(32)->Arg(64);
 
 // Andrews' squeezer over 0.03 s at a relative tolerance of 10^-range, search for change points included;
 // `digits` against the published angle of the crank.

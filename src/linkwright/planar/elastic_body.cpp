@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "linkwright/core/check.h"
 #include "linkwright/planar/linkage_plan.h"
@@ -300,31 +301,62 @@ ElasticLinkage with_elastic_bodies(const Linkage& linkage, std::span<const Elast
   return Builder(linkage, bodies).run(inputs);
 }
 
-BentBody bent_body(const ElasticLinkage& elastic, const ElasticPieces& pieces, const LinkageMotion& motion) {
+BentBody bent_body(const ElasticLinkage& elastic, const ElasticPieces& pieces, const LinkageMotion& motion,
+                   const LinkageForces* forces) {
   BentBody out;
   const std::size_t n = pieces.joints.size();
-  std::vector<Vec<double>> nodes;
-  for (std::size_t i = 0; i <= n; ++i)
-    nodes.push_back(point_motion(elastic.plan, motion, pieces.bodies[i], pieces.nodes[i]).position);
-  const Vec<double> way = nodes[n] - nodes[0];
+  const auto place_of = [&](std::size_t i, std::complex<double> there) {
+    return point_motion(elastic.plan, motion, pieces.bodies[i], there).position;
+  };
+  const Vec<double> first = place_of(0, pieces.nodes[0]), way = place_of(n, pieces.nodes[n]) - first;
   const double length = norm(way);
-  for (const Vec<double>& node : nodes) out.deflections.push_back(cross(way, node - nodes[0]) / length);
-  out.deflections.back() = 0;
-  const double cell = pieces.length / static_cast<double>(n);
-  double largest = -1;
+  const auto from_line = [&](std::size_t i, std::complex<double> there) {
+    return cross(way, place_of(i, there) - first) / length;
+  };
+  for (std::size_t i = 0; i <= n; ++i) {
+    out.deflections.push_back(i % n == 0 ? 0 : from_line(i, pieces.nodes[i]));
+    if (std::abs(out.deflections[i]) > std::abs(out.largest)) out.largest = out.deflections[i];
+  }
+  // Of an odd number of cells the middle is where two pieces meet.
+  out.middle = from_line(n / 2, (pieces.nodes[0] + pieces.nodes[n]) / 2.0);
+
+  const Vec<double> along = vec((pieces.nodes[n] - pieces.nodes[0]) / pieces.length);
+  const ElasticBody& beam = pieces.beam;
+  double worst = -1;
   for (std::size_t i = 0; i < n; ++i) {
     const TorsionSpring& s = elastic.linkage.torsion_springs[at(pieces.springs[i])];
     const PartState<double> a = body_state(elastic.plan, motion, s.first),
                             b = body_state(elastic.plan, motion, s.second);
-    const double bend = angle_of(unturn(a.direction, b.direction));
-    out.moments.push_back(s.stiffness * bend + s.damping * (b.speed - a.speed));
-    if (std::abs(out.moments.back()) <= largest) continue;
-    largest = std::abs(out.moments.back());
+    const double moment =
+        s.stiffness * angle_of(unturn(a.direction, b.direction)) + s.damping * (b.speed - a.speed);
+    out.moments.push_back(moment);
+    const double bending = std::abs(moment) * beam.fibre_distance / beam.second_moment;
+    out.bending_stress = std::max(out.bending_stress, bending);
+    // Without a fibre distance and forces the section with the largest moment is the worst, too.
+    double measure = beam.fibre_distance > 0 || forces ? bending : std::abs(moment), stress = bending;
+    if (forces) {
+      const Vec<double> mean = turn(a.direction + b.direction, along);
+      const double pull = -dot(forces->joints[at(pieces.joints[i])].force, mean) / norm(mean);
+      out.normal_forces.push_back(pull);
+      stress += std::abs(pull) / beam.area;
+      measure = stress;
+    }
+    if (measure <= worst) continue;
+    worst = measure;
+    out.stress = stress;
     out.spring = static_cast<int>(i);
   }
-  out.stress = largest * pieces.beam.fibre_distance / pieces.beam.second_moment;
-  out.place = (out.spring + 0.5) * cell;
+  out.place = (out.spring + 0.5) * pieces.length / static_cast<double>(n);
   return out;
+}
+
+double first_frequency(const ElasticBody& b, double length) {
+  return std::pow(std::numbers::pi / length, 2) *
+         std::sqrt(b.elastic_modulus * b.second_moment / (b.density * b.area));
+}
+double highest_frequency(const ElasticBody& b, double length) {
+  return std::pow(b.segments / length, 2) *
+         std::sqrt(48 * b.elastic_modulus * b.second_moment / (b.density * b.area));
 }
 
 }  // namespace linkwright::planar

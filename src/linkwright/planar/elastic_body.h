@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
-#include "linkwright/planar/linkage_motion.h"
+#include "linkwright/planar/linkage_reactions.h"
 #include "linkwright/planar/linkage_simulation.h"
 
 // Bodies of a linkage that bend: couplers, rods, rockers. A slender uniform beam between two points of a body
@@ -83,8 +83,9 @@ struct ElasticLinkage {
 /// explicit methods for few segments without damping, `bdf` where damping makes that vibration die out at
 /// once.
 ///
-/// An evaluation of the equations of motion takes 8 times as long for 16 segments as for 4, and 300 times
-/// for 64.
+/// An evaluation of the equations of motion takes a time that goes with the number of segments from 9 free
+/// inputs on (LinkageElimination): 2.7 times as long for 16 as for 4, and 4 times as long again for 64. Steps
+/// get shorter by the square of that number, which is what limits it.
 ///
 /// Problems have the key "elastic_body.<name>" or are those of `plan`. Throws ContractError when the number
 /// of inputs is not that of the drives.
@@ -96,14 +97,29 @@ struct BentBody {
   /// Of the nodes from the straight line from the first to the last, m: positive to its left. segments + 1,
   /// with 0 at both ends.
   std::vector<double> deflections;
+  double middle = 0;   ///< of the middle of the beam from that line, m
+  double largest = 0;  ///< that of the node with the largest size, m
   /// Bending moments at the springs, that of their dampers included, N m: positive bends the beam to the left
   /// (anticlockwise) from `from` to `to`. One a segment, in the middle of its cell.
   std::vector<double> moments;
-  double stress = 0;  ///< Pa, >= 0: largest |moment| fibre_distance / second_moment (no normal force in it)
-  int spring = 0;     ///< where
-  double place = 0;   ///< of that spring along the unbent beam, from `from`, m
+  /// Normal forces there, along the mean of the two pieces, N: positive pulls. Empty without joint forces.
+  std::vector<double> normal_forces;
+  double bending_stress = 0;  ///< Pa, >= 0: largest |moment| fibre_distance / second_moment
+  /// Pa, >= 0: largest |moment| fibre_distance / second_moment + |normal force| / area; without joint forces
+  /// that of bending alone.
+  double stress = 0;
+  int spring = 0;    ///< where
+  double place = 0;  ///< of that spring along the unbent beam, from `from`, m
 };
-/// `motion` is that of `elastic.plan`, velocities included; pieces that of one of its bodies.
-BentBody bent_body(const ElasticLinkage& elastic, const ElasticPieces& pieces, const LinkageMotion& motion);
+/// `motion` is that of `elastic.plan`, velocities included; pieces that of one of its bodies; `forces`, which
+/// may be null, those of `elastic.linkage` with that motion.
+BentBody bent_body(const ElasticLinkage& elastic, const ElasticPieces& pieces, const LinkageMotion& motion,
+                   const LinkageForces* forces = nullptr);
+
+/// First frequency of the beam on two pins, by itself: pi^2 sqrt(E I / (density area L^4)), rad/s.
+double first_frequency(const ElasticBody& beam, double length);
+/// Its highest in pieces: (n / L)^2 sqrt(48 E I / (density area)) (see above, j = n), rad/s; what bounds
+/// explicit steps.
+double highest_frequency(const ElasticBody& beam, double length);
 
 }  // namespace linkwright::planar

@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+// Free inputs from which on the joint forces are the cheaper route (measured).
+constexpr std::size_t many_inputs = 9;
 
 struct Springy {
   double stretch, rate;  // from the free length or angle
@@ -84,7 +86,15 @@ double lasting_power(const Linkage& l, const LinkagePlan& plan, const LinkageMot
   return sum;
 }
 
-LinkageDynamics::LinkageDynamics(const Linkage& linkage, const LinkagePlan& plan, std::vector<bool> free)
+AccelerationRoute cheaper_route(const Linkage& linkage, const LinkagePlan& plan, std::size_t free) {
+  const bool friction = std::any_of(linkage.joints.begin(), linkage.joints.end(),
+                                    [](const LinkageJoint& j) { return j.friction > 0; });
+  return free < many_inputs || friction || !LinkageElimination::takes(plan) ? AccelerationRoute::mass_matrix
+                                                                            : AccelerationRoute::joint_forces;
+}
+
+LinkageDynamics::LinkageDynamics(const Linkage& linkage, const LinkagePlan& plan, std::vector<bool> free,
+                                 AccelerationRoute route)
     : motion(plan), linkage_(linkage), plan_(plan) {
   LINKWRIGHT_REQUIRE(free.size() == plan.inputs(), "the linkage has {} inputs, got {}", plan.inputs(),
                      free.size());
@@ -94,6 +104,7 @@ LinkageDynamics::LinkageDynamics(const Linkage& linkage, const LinkagePlan& plan
     if (free[k]) free_.push_back(k);
     all_.push_back(k);
   }
+  is_free_ = free;
   prescribed_ = free_.size() < free.size();
   friction_ = std::any_of(linkage.joints.begin(), linkage.joints.end(),
                           [](const LinkageJoint& j) { return j.friction > 0; });
@@ -105,6 +116,11 @@ LinkageDynamics::LinkageDynamics(const Linkage& linkage, const LinkagePlan& plan
   bias_.resize(free.size());
   unit_rates_.resize(free.size() * plan.parts.size());
   needed_.resize(plan.parts.size());
+  if (route == AccelerationRoute::joint_forces) {
+    LINKWRIGHT_REQUIRE(!friction_, "joint forces are wanted of a linkage with friction");
+    elimination_.emplace(plan, free);
+    return;
+  }
   mass_.resize(free_.size() * free_.size());
   factor_ = mass_;
   right_.resize(free_.size());
@@ -183,43 +199,29 @@ bool LinkageDynamics::settle_friction(double time, std::span<InputMotion> inputs
     if (change <= 1e-12 * largest) {
       power = lasting_power(linkage_, plan_, motion, forces_.loads);
       for (const std::size_t k : all_)
-        if (std::find(free_.begin(), free_.end(), k) == free_.end())
-          power += forces_.drives[k] * inputs[k].rate;
+        if (!is_free_[k]) power += forces_.drives[k] * inputs[k].rate;
       return true;
     }
   }
   return false;
 }
 
-Status LinkageDynamics::solve(double time, std::span<InputMotion> inputs) {
-  LINKWRIGHT_REQUIRE(inputs.size() == plan_.inputs(), "the linkage has {} inputs, got {}", plan_.inputs(),
-                     inputs.size());
-  for (const std::size_t k : free_) inputs[k].acceleration = 0;
-  const auto failed = [&](Status status) {
-    for (const std::size_t k : free_) inputs[k].acceleration = nan;
-    return status;
-  };
-  power = 0;
-  solve_position(plan_, inputs, motion);
-  if (motion.status != Status::done) return failed(motion.status);
-  unit_velocities(inputs);
-  if (plan_.inputs() == 1)
-    scale_velocities(inputs[0].rate);
-  else
-    solve_velocity(plan_, inputs, motion);
-  solve_acceleration(plan_, inputs, motion);
-
+void LinkageDynamics::needed_wrenches(double time, double input) {
   loads_.clear();
-  applied_loads(linkage_, plan_, motion, time, inputs[0].value, loads_);
+  applied_loads(linkage_, plan_, motion, time, input, loads_);
   const Vec<double> gravity = vec(linkage_.gravity);
-  const std::size_t parts = plan_.parts.size(), n = free_.size();
-  for (std::size_t p = 1; p < parts; ++p)
+  for (std::size_t p = 1; p < plan_.parts.size(); ++p)
     needed_[p] = needed_wrench(plan_.masses[p], motion.parts[p], gravity);
   for (const AppliedLoad& load : loads_) {
     const int p = plan_.bodies[at(load.body)].part;
     needed_[at(p)] = needed_[at(p)] - shifted(Wrench<double>{load.force, load.torque},
                                               load.point - motion.parts[at(p)].origin);
   }
+}
+
+// Accelerations of the free inputs by their mass matrix, and the power of the prescribed drives.
+bool LinkageDynamics::solve_masses(std::span<InputMotion> inputs) {
+  const std::size_t parts = plan_.parts.size(), n = free_.size();
   const auto virtual_power = [&](std::size_t k) {
     const PartRate* rates = &unit_rates_[k * parts];
     double sum = 0;
@@ -242,24 +244,58 @@ Status LinkageDynamics::solve(double time, std::span<InputMotion> inputs) {
     right_[j] = -virtual_power(free_[j]);
     for (std::size_t k = 0; k <= j; ++k) mass_[j * n + k] = mass_[k * n + j] = coupling(free_[j], free_[k]);
   }
-  if (!factorise()) return failed(Status::singular);
+  if (!factorise()) return false;
   resolve(right_);
   for (std::size_t j = 0; j < n; ++j) inputs[free_[j]].acceleration = right_[j];
-  if (friction_) return settle_friction(time, inputs) ? Status::done : failed(Status::not_converged);
-
-  if (damped_)
-    power = lasting_power(linkage_, plan_, motion, loads_);
-  else if (lasting_)  // what springs do is in their potential energy; their loads come first, two each
-    for (std::size_t i = 2 * (linkage_.springs.size() + linkage_.torsion_springs.size()); i < loads_.size();
-         ++i)
-      power += power_of(plan_, motion, loads_[i]);
-  if (prescribed_)
+  if (prescribed_ && !friction_)
     for (const std::size_t k : all_) {
-      if (std::find(free_.begin(), free_.end(), k) != free_.end()) continue;
+      if (is_free_[k]) continue;
       double force = virtual_power(k);
       for (const std::size_t j : free_) force += coupling(k, j) * inputs[j].acceleration;
       power += force * inputs[k].rate;
     }
+  return true;
+}
+
+void LinkageDynamics::power_of_loads() {
+  if (damped_)
+    power += lasting_power(linkage_, plan_, motion, loads_);
+  else if (lasting_)  // what springs do is in their potential energy; their loads come first, two each
+    for (std::size_t i = 2 * (linkage_.springs.size() + linkage_.torsion_springs.size()); i < loads_.size();
+         ++i)
+      power += power_of(plan_, motion, loads_[i]);
+}
+
+Status LinkageDynamics::solve(double time, std::span<InputMotion> inputs) {
+  LINKWRIGHT_REQUIRE(inputs.size() == plan_.inputs(), "the linkage has {} inputs, got {}", plan_.inputs(),
+                     inputs.size());
+  for (const std::size_t k : free_) inputs[k].acceleration = 0;
+  const auto failed = [&](Status status) {
+    for (const std::size_t k : free_) inputs[k].acceleration = nan;
+    return status;
+  };
+  power = 0;
+  solve_position(plan_, inputs, motion);
+  if (motion.status != Status::done) return failed(motion.status);
+  if (!elimination_) unit_velocities(inputs);
+  if (!elimination_ && plan_.inputs() == 1)
+    scale_velocities(inputs[0].rate);
+  else
+    solve_velocity(plan_, inputs, motion);
+  solve_acceleration(plan_, inputs, motion);
+  needed_wrenches(time, inputs[0].value);
+  if (elimination_) {
+    if (!elimination_->solve(motion, needed_)) return failed(Status::singular);
+    for (const std::size_t k : all_)
+      if (is_free_[k])
+        inputs[k].acceleration = elimination_->acceleration(k);
+      else
+        power += elimination_->drive(k) * inputs[k].rate;
+  } else if (!solve_masses(inputs)) {
+    return failed(Status::singular);
+  }
+  if (friction_) return settle_friction(time, inputs) ? Status::done : failed(Status::not_converged);
+  power_of_loads();
   return Status::done;
 }
 

@@ -38,7 +38,7 @@ class Simulation {
         options_(options),
         output_(output),
         watch_(watch),
-        dynamics_(l, plan, free_of(courses)),
+        dynamics_(l, plan, free_of(courses), cheaper_route(l, plan, count_free(courses))),
         inputs_(plan.inputs()),
         last_sines_(plan.groups.size(), 0.0) {
     for (std::size_t k = 0; k < courses.size(); ++k) {
@@ -111,6 +111,12 @@ class Simulation {
     for (const InputCourse& c : courses) free.push_back(!c.law);
     return free;
   }
+  static std::size_t count_free(std::span<const InputCourse> courses) {
+    return static_cast<std::size_t>(
+        std::count_if(courses.begin(), courses.end(), [](const InputCourse& c) { return !c.law; }));
+  }
+  // Of an only input; many have no use for it.
+  double first_inertia() const { return dynamics_.inertia().empty() ? 0 : dynamics_.inertia()[0]; }
   bool stops_at_changes() const {
     return branch_ && branch_->has_change_points() && options_.at_change_point != AtChangePoint::smooth;
   }
@@ -153,7 +159,7 @@ class Simulation {
     if (!branch_) {
       const Status status = dynamics_.solve(t, inputs_);
       return {status == Status::done && changed_side() ? Status::branch_lost : status, dynamics_.power,
-              dynamics_.inertia()[0]};
+              first_inertia()};
     }
     const double value = inputs_[0].value;
     if (branch_->has_change_points()) {
@@ -163,7 +169,7 @@ class Simulation {
       branch_->set_modes(value, dynamics_.motion);
     }
     const Status status = dynamics_.solve(t, inputs_);
-    return {status, dynamics_.power, dynamics_.inertia()[0]};
+    return {status, dynamics_.power, first_inertia()};
   }
   Answer interpolated(double t, double centre, double x) {
     const ChangeZone::Weights weights = ChangeZone::interpolation(x);
@@ -176,7 +182,7 @@ class Simulation {
       out.status = dynamics_.solve(t, inputs_);
       acceleration += weights[i] * inputs_[0].acceleration;
       out.power += weights[i] * dynamics_.power;
-      out.inertia += weights[i] * dynamics_.inertia()[0];
+      out.inertia += weights[i] * first_inertia();
     }
     inputs_[0].value = value;
     inputs_[0].acceleration = acceleration;

@@ -1,9 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "linkwright/planar/linkage_simulation.h"
+#include "linkwright/planar/elastic_body.h"
 #include "linkwright/planar/linkage_study.h"
 
 // The simulation of a linkage under forces: what its file holds, how it is read, run and reported.
@@ -30,6 +31,10 @@ struct LinkageSimulationStudy {
   SimulationOptions options;
   std::vector<BodyPoint> traces;
   LinkageQuantities quantities;
+  std::vector<ElasticBody> elastic;        ///< bodies that bend; empty = none
+  std::string method_reason;               ///< why the method was taken; empty: the file names it
+  std::optional<double> deflection_scale;  ///< of drawings; absent: chosen
+  int scene_samples = 361;                 ///< of drawings of elastic bodies, at most about
 };
 
 /// "simulation" of "planar.linkage" and of "planar.slider_crank".

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "linkwright/planar/linkage_simulation_study.h"
+#include "linkwright/planar/linkage_elastic_study.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
@@ -27,11 +27,17 @@ void fields(Visitor&& visit, LinkageSimulationStudy& s) {
           .key = "samples", .summary = "rows of the table, both ends included", .minimum = 2, .maximum = 1e6},
       s.samples);
   visit(Field{.key = "route", .summary = "coordinates of the equations of motion"}, s.route);
-  visit(Field{.key = "method", .summary = "how they are integrated"}, s.options.method);
-  visit(Field{.key = "rtol", .summary = "relative tolerance of a step", .minimum = 1e-14, .maximum = 1e-2},
+  visit(Field{.key = "method",
+              .summary = "how they are integrated; with elastic bodies chosen by their damping"},
+        s.options.method);
+  visit(Field{.key = "rtol",
+              .summary = "relative tolerance of a step; default with elastic bodies: 1e-7",
+              .minimum = 1e-14,
+              .maximum = 1e-2},
         s.options.relative_tolerance);
   visit(Field{.key = "atol",
-              .summary = "absolute tolerance of a step: rad, rad/s; of ways times the size of the linkage",
+              .summary = "absolute tolerance of a step: rad, rad/s; of ways times the size of the linkage; "
+                         "default with elastic bodies: 1e-7",
               .minimum = 1e-16,
               .maximum = 1e-2},
         s.options.absolute_tolerance);
@@ -41,10 +47,20 @@ void fields(Visitor&& visit, LinkageSimulationStudy& s) {
   visit(
       Field{.key = "at_change_point", .summary = "where assembly modes meet, as of a parallelogram in line"},
       s.options.at_change_point);
+  visit(Field{.key = "deflection_scale",
+              .summary = "how many times too large deflections of elastic bodies are drawn; default: chosen "
+                         "from 1, 2, 5, 10, ...",
+              .minimum = 1,
+              .maximum = 1e12},
+        s.deflection_scale);
 }
 
 namespace {
 
+// Of steps with bodies that bend, rtol and atol: pieces turn against each other by differences of large
+// angles, whose rounding their stiffness makes accelerations of; below 1e-8 steps get shorter without being
+// better.
+constexpr double elastic_tolerance = 1e-7;
 constexpr Field free_field{.key = "free", .summary = "no drive: forces move the joint"};
 
 }  // namespace
@@ -109,21 +125,45 @@ void describe_courses(study::SchemaWriter& document) {
 
 namespace {
 
+// The bodies that bend, with their masses, and how the motion is to be integrated.
+bool add_elastic(study::ObjectReader& document, LinkageType type, LinkageDescription& d,
+                 LinkageSimulationStudy& s) {
+  const std::vector<ElasticPieces> pieces =
+      place_elastic(document, d.linkage, s.elastic, inputs_at(s.courses, s.from));
+  if (pieces.empty()) return false;
+  d.plan = plan(d.linkage).plan;
+  if (!require_masses(document, type, d.plan)) return false;
+  auto table = document.table("simulation");
+  if (!table->has("rtol")) s.options.relative_tolerance = elastic_tolerance;
+  if (!table->has("atol")) s.options.absolute_tolerance = elastic_tolerance;
+  if (table->has("method")) return true;
+  SuggestedMethod suggested = suggested_method(d.linkage, pieces);
+  s.options.method = suggested.method;
+  s.method_reason = std::move(suggested.why);
+  return true;
+}
+
 study::Prepared prepare(study::ObjectReader& document, const study::Common& common, LinkageType type) {
   study::Prepared prepared;
   LinkageSimulationStudy s;
   s.quantities = chosen_quantities(common.output.quantities);
-  auto description = read_linkage(document, type, true);
+  s.scene_samples = common.output.samples;
+  const bool elastic = !document.tables("elastic").empty();
+  // A beam brings its own mass.
+  auto description = read_linkage(document, type, !elastic);
   if (auto table = document.table(Field{.key = "simulation", .summary = {}, .required = true})) {
     table->read(s);
     if (!(s.to > s.from) && !document.document().has_errors())
       table->error("to", fmt::format("the simulation ends at {} s, but starts at {} s", s.to, s.from), {});
+    if (s.deflection_scale && !elastic)
+      table->error("deflection_scale", "no body bends", "add an [[elastic]] table, or leave the key out");
   }
   if (s.route == SimulationRoute::all_coordinates && s.options.method == math::OdeMethod::adams)
     document.error("simulation", "all_coordinates are projected after every step, which adams does not allow",
                    "take another method");
   if (!description) {
     for (study::ObjectReader& drive : document.tables("drive")) drive.members();
+    for (study::ObjectReader& entry : document.tables("elastic")) entry.members();
     return prepared;
   }
   if (s.route == SimulationRoute::all_coordinates)
@@ -132,20 +172,27 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
         document.error("simulation",
                        fmt::format("joint '{}' has friction, which all_coordinates do not take", j.name),
                        "route = \"free_joints\" does");
-  Value::Array drives;
+  Value::Array drives, beams;
   s.courses = read_courses(document, *description, drives);
+  s.elastic = read_elastic(document, description->linkage, beams);
   const bool any_free =
       std::any_of(s.courses.begin(), s.courses.end(), [](const InputCourse& c) { return !c.law; });
-  if (!any_free && !document.document().has_errors())
+  if (!any_free && !elastic && !document.document().has_errors())
     document.error("drive", "every drive has a motion law: nothing is left for forces to move",
-                   "write free = true in a [[drive]], or take kind = \"analysis\" with a sweep over time");
+                   "write free = true in a [[drive]], let a body bend by [[elastic]], or take kind = "
+                   "\"analysis\" with a sweep over time");
+  if (elastic && !document.document().has_errors() && !add_elastic(document, type, *description, s))
+    return prepared;
   write_linkage(*description, prepared.canonical);
   prepared.canonical["drive"] = Value(std::move(drives));
+  if (elastic) prepared.canonical["elastic"] = Value(std::move(beams));
   prepared.canonical["simulation"] = study::write_fields(s);
   s.linkage = std::move(description->linkage);
   s.plan = std::move(description->plan);
   s.traces = std::move(description->traces);
-  prepared.run = [s = std::move(s)](RunContext& context) { return run_linkage_simulation(s, context); };
+  prepared.run = [s = std::move(s)](RunContext& context) {
+    return s.elastic.empty() ? run_linkage_simulation(s, context) : run_elastic_simulation(s, context);
+  };
   return prepared;
 }
 
@@ -156,6 +203,7 @@ study::Kind kind_of(LinkageType type) {
   kind.schema = [type](study::SchemaWriter& document) {
     describe_linkage(document, type);
     describe_courses(document);
+    describe_elastic(document);
     document.property(Field{.key = "simulation", .summary = "time and tolerances", .required = true},
                       study::schema_fields<LinkageSimulationStudy>());
   };

@@ -101,6 +101,8 @@ struct LinkageDescription {
 /// Reads and plans; nothing when there are problems, which go to the reader.
 std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
                                                bool needs_masses);
+/// Whether every body has its mass; tells which do not.
+bool require_masses(study::ObjectReader& document, LinkageType type, const LinkagePlan& plan);
 /// The tables of `read_linkage` as a canonical study holds them.
 void write_linkage(const LinkageDescription& description, Value& canonical);
 void describe_linkage(study::SchemaWriter& document, LinkageType type);

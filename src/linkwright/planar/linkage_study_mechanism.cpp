@@ -172,18 +172,23 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
     return std::nullopt;
   }
   out.plan = std::move(planned.plan);
-  if (needs_masses && !out.plan.has_masses) {
-    std::string bodies;
-    for (const std::string& b : out.plan.massless) bodies += (bodies.empty() ? "'" : ", '") + b + "'";
-    mechanism->error(
-        type == LinkageType::slider_crank ? "mass" : "body",
-        fmt::format("forces and torques need the mass of every body: {} {} none", bodies,
-                    out.plan.massless.size() == 1 ? "has" : "have"),
-        "give mass_kg, or list quantities that need no masses: output.quantities = [\"position\", "
-        "\"rates\", \"transmission_angle\"]");
-    return std::nullopt;
-  }
+  if (needs_masses && !require_masses(document, type, out.plan)) return std::nullopt;
   return out;
+}
+
+bool require_masses(study::ObjectReader& document, LinkageType type, const LinkagePlan& plan) {
+  if (plan.has_masses) return true;
+  std::string bodies;
+  for (const std::string& b : plan.massless) bodies += (bodies.empty() ? "'" : ", '") + b + "'";
+  const char* key = type == LinkageType::slider_crank ? "mass" : "body";
+  auto mechanism = document.table("mechanism");
+  (mechanism ? *mechanism : document)
+      .error(key,
+             fmt::format("forces and torques need the mass of every body: {} {} none", bodies,
+                         plan.massless.size() == 1 ? "has" : "have"),
+             "give mass_kg, or list quantities that need no masses: output.quantities = [\"position\", "
+             "\"rates\", \"transmission_angle\"]");
+  return false;
 }
 
 void write_linkage(const LinkageDescription& d, Value& canonical) {

@@ -1,0 +1,48 @@
+#include "linkwright/math/spectrum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <unsupported/Eigen/FFT>
+
+#include "linkwright/core/check.h"
+
+namespace linkwright::math {
+namespace {
+
+// The largest number up to n without prime factors above 5.
+std::size_t smooth_below(std::size_t n) {
+  for (;; --n) {
+    std::size_t rest = n;
+    for (const std::size_t p : {2, 3, 5})
+      while (rest % p == 0) rest /= p;
+    if (rest == 1) return n;
+  }
+}
+
+}  // namespace
+
+Spectrum spectrum(std::span<const double> values, double step) {
+  LINKWRIGHT_REQUIRE(step > 0 && std::isfinite(step), "values {} s apart", step);
+  Spectrum out;
+  if (values.size() < 8) return out;
+  const std::size_t n = smooth_below(values.size());
+  const auto count = static_cast<double>(n);
+  double mean = 0;
+  std::vector<double> windowed(n);
+  for (std::size_t i = 0; i < n; ++i) mean += values[i] / count;
+  if (!std::isfinite(mean)) return out;
+  for (std::size_t i = 0; i < n; ++i)
+    windowed[i] = (values[i] - mean) * (1 - std::cos(2 * std::numbers::pi * static_cast<double>(i) / count));
+  Eigen::FFT<double> transform;
+  std::vector<std::complex<double>> lines;
+  transform.fwd(lines, windowed);
+  for (std::size_t k = 1; 2 * k < n; ++k) {
+    out.frequency.push_back(static_cast<double>(k) / (count * step));
+    out.amplitude.push_back(2 * std::abs(lines[k]) / count);
+  }
+  return out;
+}
+
+}  // namespace linkwright::math

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace linkwright::math {
+
+/// Amplitudes of the vibrations in evenly spaced values.
+struct Spectrum {
+  std::vector<double> frequency;  ///< Hz, from one over the interval up to half the rate of the values
+  std::vector<double> amplitude;  ///< in the unit of the values
+};
+
+/// Spectrum of values that are `step` seconds apart, without their mean, under Hann's window: a sine of
+/// amplitude A reads A at its frequency, or up to 15 % less between two of them, and 4 of them wide. Values
+/// at the end that would make the number have prime factors above 5 are left out. Empty for fewer than 8
+/// values, or when one is not finite. Throws ContractError unless step > 0.
+Spectrum spectrum(std::span<const double> values, double step);
+
+}  // namespace linkwright::math

@@ -1,0 +1,63 @@
+#include "linkwright/math/spectrum.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "support/message.h"
+
+namespace linkwright::math {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::vector<double> sines(std::size_t n, double step) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double t = 2 * std::numbers::pi * step * static_cast<double>(i);
+    out.push_back(7 + 3 * std::sin(20 * t + 0.4) + 0.5 * std::cos(45 * t));
+  }
+  return out;
+}
+
+TEST(Spectrum, ReadsTheAmplitudesOfSines) {
+  const Spectrum s = spectrum(sines(1000, 1e-3), 1e-3);
+  ASSERT_EQ(s.frequency.size(), 499u);
+  EXPECT_NEAR(s.frequency[0], 1, 1e-12);
+  EXPECT_NEAR(s.frequency.back(), 499, 1e-9);
+  EXPECT_NEAR(s.amplitude[19], 3, 1e-12);
+  EXPECT_NEAR(s.amplitude[44], 0.5, 1e-12);
+  // Hann's window: half as much in the lines beside, nothing beyond, nothing of the mean but rounding.
+  EXPECT_NEAR(s.amplitude[18], 1.5, 1e-12);
+  EXPECT_NEAR(s.amplitude[30], 0, 1e-12);
+  EXPECT_NEAR(s.amplitude[0], 0, 1e-12);
+}
+
+TEST(Spectrum, LosesLittleBetweenItsLines) {
+  // 20.5 lines in the interval: the worst case reads 8 / (3 pi) of the amplitude.
+  const Spectrum s = spectrum(sines(1024, 1.025 / 1024), 1.025 / 1024);
+  EXPECT_NEAR(*std::max_element(s.amplitude.begin(), s.amplitude.end()), 3 * 8 / (3 * std::numbers::pi),
+              0.01);
+}
+
+TEST(Spectrum, LeavesValuesOutForTheSakeOfSpeed) {
+  const std::vector<double> values = sines(1009, 1e-3);  // a prime number
+  const Spectrum s = spectrum(values, 1e-3), of_1000 = spectrum(std::span(values).first(1000), 1e-3);
+  EXPECT_EQ(s.frequency, of_1000.frequency);
+  EXPECT_EQ(s.amplitude, of_1000.amplitude);
+}
+
+TEST(Spectrum, IsEmptyWithoutValues) {
+  EXPECT_THAT(spectrum(sines(7, 1), 1).frequency, IsEmpty());
+  std::vector<double> holed = sines(100, 1);
+  holed[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(spectrum(holed, 1).frequency, IsEmpty());
+  EXPECT_THAT(linkwright::test::message([] { spectrum(sines(100, 1), 0); }), HasSubstr("values 0 s apart"));
+}
+
+}  // namespace
+}  // namespace linkwright::math
