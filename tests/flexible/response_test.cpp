@@ -44,11 +44,13 @@ TEST(Response, StressOfAStrip) {
 }
 
 TEST(Response, Tables) {
-  const std::vector<Sample> samples = {{.time = 0.5, .tip_eta = -2, .kinetic = 3, .work = 1}};
+  const std::vector<Sample> samples = {{.time = 0.5, .tip_eta = -2, .kinetic = 3, .work = 1},
+                                       {.time = 0.6, .tip_eta = -3, .kinetic = 4, .work = 1.5}};
   const Table table = table_of(samples);
-  EXPECT_EQ(table.rows(), 1);
+  EXPECT_EQ(table.rows(), 2);
   EXPECT_EQ(table.find("tip_eta_m")->values[0], -2);
-  EXPECT_EQ(table.find("energy_balance_J")->values[0], 2);
+  // 2 J at the start, 2.5 J later.
+  EXPECT_EQ(table.find("energy_balance_J")->values, (std::vector<double>{0, 0.5}));
 }
 
 }  // namespace
