@@ -9,11 +9,14 @@ namespace {
 
 TEST(FlexibleStudies, AreThoseOfLinksThatBendAndTheirExamplesRun) {
   const auto kinds = studies();
-  ASSERT_EQ(kinds.size(), 1u);
+  ASSERT_EQ(kinds.size(), 2u);
   EXPECT_EQ(study::name_of(kinds[0]), "simulation/flexible.hub_link");
-  const auto result = testing::run_text(kinds, kinds[0].example);
-  EXPECT_EQ(result.status, Status::done) << result.headline;
-  EXPECT_EQ(result.scenes.size(), 1u);
+  EXPECT_EQ(study::name_of(kinds[1]), "analysis/flexible.hub_link");
+  for (const study::Kind& kind : kinds) {
+    const auto result = testing::run_text(kinds, kind.example);
+    EXPECT_EQ(result.status, Status::done) << result.headline;
+    EXPECT_FALSE(result.scenes.empty());
+  }
 }
 
 }  // namespace

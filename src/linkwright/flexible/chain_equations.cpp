@@ -158,6 +158,7 @@ void ChainEquations::project(const ChainState& state) {
 }
 
 void ChainEquations::balance(const ChainState& state, const TipLoad& load) {
+  load_ = load;
   gravity_ = turned_back({std::cos(state.angle), std::sin(state.angle)}, {0, -chain_->gravity});
   Vec2 force;
   double moment = 0;
@@ -282,8 +283,13 @@ std::vector<SectionForce> ChainEquations::sections() const {
   LINKWRIGHT_REQUIRE(!linearised_, "source_linearised has no forces inside the link");
   std::vector<SectionForce> out(joint_.size() + 2);
   double position = chain_->length(), couple = 0, moment = 0;  // moment of the forces about O
-  Vec2 force;
-  out.back() = {.position = position};
+  // The load pulls the tip outwards, against what inertia there does.
+  Vec2 force = -load_.force;
+  couple = -load_.couple;
+  moment = cross(node_.back().z, force);
+  const double angle = node_.back().angle;
+  const Vec2 at_tip = turned_back({std::cos(angle), std::sin(angle)}, force);
+  out.back() = {.position = position, .axial = -at_tip.x, .shear = -at_tip.y, .moment = -couple};
   for (std::size_t s = joint_.size(); s-- > 0;) {
     const Node& node = node_[s + 1];
     const Cell& cell = chain_->cells[s];

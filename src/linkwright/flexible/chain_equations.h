@@ -82,8 +82,8 @@ class ChainEquations {
 
   /// Of the state evaluated last.
   ChainEnergy energy(const ChainState& state) const;
-  /// Of the state evaluated last: cuts at the weld, at all joints and at the tip. Not of source_linearised
-  /// (ContractError).
+  /// Of the state evaluated last, with its load: cuts at the weld, at all joints and outside of the tip mass.
+  /// Not of source_linearised (ContractError).
   std::vector<SectionForce> sections() const;
 
   /// Eliminates bp M + gp C + K at the state evaluated last: masses, dampers, stiffnesses, the stiffness that
@@ -138,6 +138,7 @@ class ChainEquations {
   double natural_force_ = 1, natural_moment_ = 1;
   double hub_rate_ = 0;
   Vec2 gravity_;
+  TipLoad load_;
   std::vector<Node> node_;
   std::vector<Joint> joint_;
   std::vector<Eliminated> eliminated_;

@@ -81,19 +81,19 @@ class Straight {
   double unit_ = 1;
 };
 
-int coordinates(const Chain& chain, bool free_hub) {
-  return int(chain.cells.size()) * (chain.extensible ? 3 : 2) + free_hub;
-}
-
 void require_count(const Chain& chain, int count, bool free_hub) {
-  // Nodes without rotary inertia have fewer frequencies than coordinates.
-  int massless = 0;
-  for (const Cell& cell : chain.cells) massless += cell.hinge || cell.inertia == 0;
-  const int most = coordinates(chain, free_hub) - massless;
+  const int most = mode_count(chain, free_hub ? Hub::free : Hub::driven);
   LINKWRIGHT_REQUIRE(count >= 1 && count <= most, "mode {} of a chain that has {}", count, most);
 }
 
 }  // namespace
+
+int mode_count(const Chain& chain, Hub hub) {
+  // Nodes without rotary inertia have fewer frequencies than coordinates.
+  int massless = 0;
+  for (const Cell& cell : chain.cells) massless += cell.hinge || cell.inertia == 0;
+  return int(chain.cells.size()) * (chain.extensible ? 3 : 2) + (hub == Hub::free) - massless;
+}
 
 int modes_below(const Chain& chain, double square, const Vibration& about) {
   return Straight(chain, about.speed, about.hub == Hub::free).below(square);

@@ -31,6 +31,9 @@ struct Mode {
 /// that turns, and for modes of one that is unstable.
 std::vector<Mode> modes(const Chain& chain, int count, const Vibration& about = {});
 
+/// How many modes a chain has.
+int mode_count(const Chain& chain, Hub hub = Hub::driven);
+
 /// Number of modes with omega^2 < square (rad2/s2).
 int modes_below(const Chain& chain, double square, const Vibration& about = {});
 

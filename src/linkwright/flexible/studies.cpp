@@ -1,9 +1,10 @@
 #include "linkwright/flexible/studies.h"
 
 #include "linkwright/flexible/hub_link_study.h"
+#include "linkwright/flexible/vibration_study.h"
 
 namespace linkwright::flexible {
 
-std::vector<study::Kind> studies() { return {hub_link_kind()}; }
+std::vector<study::Kind> studies() { return {hub_link_kind(), vibration_kind()}; }
 
 }  // namespace linkwright::flexible
