@@ -74,5 +74,18 @@ TEST(Continuum, RefusesBeamsThatAreNone) {
             std::string::npos);
 }
 
+TEST(Continuum, FrequenciesAlongTheLink) {
+  Beam beam = stub();
+  const double wave = std::sqrt(beam.elastic_modulus / beam.density);
+  beam.tip_mass = 0;
+  const auto bare = axial_frequencies(beam, 3);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(bare[k] / (wave * (k + 0.5) * 3.14159265358979), 1, 1e-14);
+  // A heavy tip on a spring E A / L; a third of the link moves along: relative error (m / 3 m_p)^2 / 10.
+  beam.tip_mass = 1e5 * beam.mass();
+  EXPECT_NEAR(axial_frequencies(beam, 1)[0] / std::sqrt(beam.elastic_modulus * beam.area / beam.length /
+                                                        (beam.tip_mass + beam.mass() / 3)),
+              1, 1e-10);
+}
+
 }  // namespace
 }  // namespace linkwright::flexible

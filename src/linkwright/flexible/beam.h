@@ -29,6 +29,11 @@ enum class Hub {
   free,    ///< a torque is given, or none
 };
 
+constexpr std::array<EnumName<Hub>, 2> names(Hub) {
+  return {{{Hub::driven, "driven", "its angle is given: it does not yield to the link"},
+           {Hub::free, "free", "it turns with the link: rest, a torque, or none"}}};
+}
+
 struct Beam {
   double length = 0;             ///< L (m)
   double density = 0;            ///< rho (kg/m3)

@@ -158,6 +158,7 @@ void ChainEquations::project(const ChainState& state) {
 }
 
 void ChainEquations::balance(const ChainState& state, const TipLoad& load) {
+  load_ = load;
   gravity_ = turned_back({std::cos(state.angle), std::sin(state.angle)}, {0, -chain_->gravity});
   Vec2 force;
   double moment = 0;
@@ -283,7 +284,10 @@ std::vector<SectionForce> ChainEquations::sections() const {
   std::vector<SectionForce> out(joint_.size() + 2);
   double position = chain_->length(), couple = 0, moment = 0;  // moment of the forces about O
   Vec2 force;
-  out.back() = {.position = position};
+  // Outside of the tip mass only the load is left.
+  const double angle = node_.back().angle;
+  const Vec2 load = turned_back({std::cos(angle), std::sin(angle)}, load_.force);
+  out.back() = {.position = position, .axial = load.x, .shear = load.y, .moment = load_.couple};
   for (std::size_t s = joint_.size(); s-- > 0;) {
     const Node& node = node_[s + 1];
     const Cell& cell = chain_->cells[s];

@@ -82,9 +82,9 @@ class ChainEquations {
 
   /// Of the state evaluated last.
   ChainEnergy energy(const ChainState& state) const;
-  /// Of the state evaluated last: cuts at the weld, at all joints and at the tip. Damping by mass acts on the
-  /// link from outside and counts at the joints; at the weld stands what the hub does to the whole. Not of
-  /// source_linearised (ContractError).
+  /// Of the state evaluated last, with its load: cuts at the weld, at all joints and outside of the tip mass.
+  /// Damping by mass acts on the link from outside and counts at the joints; at the weld stands what the hub
+  /// does to the whole. Not of source_linearised (ContractError).
   std::vector<SectionForce> sections() const;
 
   /// Eliminates bp M + gp C + K at the state evaluated last: masses, dampers, stiffnesses, the stiffness that
@@ -139,6 +139,7 @@ class ChainEquations {
   double natural_force_ = 1, natural_moment_ = 1;
   double hub_rate_ = 0;
   Vec2 gravity_;
+  TipLoad load_;
   std::vector<Node> node_;
   std::vector<Joint> joint_;
   std::vector<Eliminated> eliminated_;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/zero.h"
@@ -117,6 +118,22 @@ std::vector<double> continuum_frequencies(const Beam& beam, int count, Hub hub) 
     }
     z = next;
     value = next_value;
+  }
+  return out;
+}
+
+std::vector<double> axial_frequencies(const Beam& beam, int count) {
+  const auto found = problem(beam);
+  LINKWRIGHT_REQUIRE(!found, "{}", *found);
+  LINKWRIGHT_REQUIRE(count >= 1, "{} frequencies", count);
+  const double tip = beam.tip_mass / beam.mass();
+  const double unit = std::sqrt(beam.elastic_modulus / beam.density) / beam.length;
+  std::vector<double> out;
+  for (int k = 0; k < count; ++k) {
+    // One zero in each of these quarters, without a tip mass at its end: a little more has no other.
+    const double from = k * std::numbers::pi, to = from + std::numbers::pi / 2 + 0.1;
+    out.push_back(
+        unit * math::zero_between([&](double z) { return std::cos(z) - z * tip * std::sin(z); }, from, to));
   }
   return out;
 }

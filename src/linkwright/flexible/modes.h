@@ -28,7 +28,7 @@ struct Mode {
   double growth = 0;  ///< 1/s
 };
 
-/// How many modes the chain has, at most.
+/// How many modes the chain has.
 int mode_count(const Chain& chain, const Vibration& about = {});
 
 /// The first `count` modes, from the lowest omega^2 on, to 1e-12 relative or rounding. Gravity is left out.

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "linkwright/flexible/hub_link_study.h"
+
+// Vibrations and deflection of a hub with an elastic link: what its file holds, how it is read, run and
+// reported.
+namespace linkwright::flexible {
+
+/// `[vibration]`.
+struct VibrationForm {
+  int modes = 3;
+  int divisions = 8;
+  Kinematics kinematics = Kinematics::chord_consistent;
+  Hub hub = Hub::driven;
+};
+template <class Visitor>
+void fields(Visitor&& visit, VibrationForm& v) {
+  visit(Field{.key = "modes", .summary = "from the lowest on", .minimum = 1, .maximum = 20}, v.modes);
+  visit(Field{.key = "divisions", .summary = "of the link, two cells each", .minimum = 1, .maximum = 200},
+        v.divisions);
+  visit(Field{.key = "kinematics", .summary = "how the joints of the chain move"}, v.kinematics);
+  visit(Field{.key = "hub", .summary = "whether it yields to the link"}, v.hub);
+}
+
+/// `[campbell]`: frequencies over the speed of the hub.
+struct CampbellForm {
+  double from = 0, to = 0;
+  int samples = 61;
+  std::vector<double> orders;
+};
+template <class Visitor>
+void fields(Visitor&& visit, CampbellForm& c) {
+  const auto speed = [&](std::string_view key, std::string_view summary, bool required, double& value) {
+    visit(Field{.key = key,
+                .summary = summary,
+                .dimension = Dimension::speed_angular,
+                .minimum = 0,
+                .maximum = 1e6,
+                .required = required},
+          value);
+  };
+  speed("from", "least speed of the hub", false, c.from);
+  speed("to", "largest speed of the hub", true, c.to);
+  visit(
+      Field{
+          .key = "samples", .summary = "number of speeds, both ends included", .minimum = 2, .maximum = 2000},
+      c.samples);
+  visit(Field{.key = "orders",
+              .summary =
+                  "what excites the link, in multiples of the speed: where they meet a frequency is told",
+              .minimum = 0,
+              .maximum = 1e4,
+              .exclusive_minimum = true},
+        c.orders);
+}
+
+/// `[load]`: what the link carries at rest against its hub.
+struct LoadForm {
+  std::array<double, 2> force{};
+  double couple = 0, angle = 0, speed = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, LoadForm& l) {
+  const auto number = [&](std::string_view key, std::string_view summary, Dimension dimension, double most,
+                          auto& value) {
+    visit(Field{.key = key, .summary = summary, .dimension = dimension, .minimum = -most, .maximum = most},
+          value);
+  };
+  number("force", "at the tip, along the undeformed link and across it", Dimension::force, 1e12, l.force);
+  number("couple", "at the tip", Dimension::torque, 1e12, l.couple);
+  number("angle", "of the hub; matters under gravity", Dimension::angle, 1e4, l.angle);
+  number("speed", "of the hub, steady", Dimension::speed_angular, 1e6, l.speed);
+}
+
+/// An analysis as read.
+struct VibrationStudy {
+  HubLinkForm mechanism;
+  VibrationForm vibration;
+  std::optional<CampbellForm> campbell;
+  std::optional<LoadForm> load;
+};
+
+/// "analysis" of "flexible.hub_link".
+study::Kind vibration_kind();
+study::Result run_vibration(const VibrationStudy& study, RunContext& context);
+
+}  // namespace linkwright::flexible

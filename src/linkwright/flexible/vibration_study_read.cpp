@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include "linkwright/flexible/modes.h"
+#include "linkwright/flexible/vibration_study.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::flexible {
+namespace {
+
+std::optional<VibrationStudy> read_study(study::ObjectReader& document, Value& canonical) {
+  VibrationStudy s;
+  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  auto vibration = document.table("vibration");
+  auto speeds = document.table("campbell");
+  auto load = document.table("load");
+  if (mechanism) mechanism->read(s.mechanism);
+  if (vibration) vibration->read(s.vibration);
+  if (speeds) speeds->read(s.campbell.emplace());
+  if (load) load->read(s.load.emplace());
+  if (!mechanism || document.document().has_errors()) return std::nullopt;
+  const Beam& b = s.mechanism.beam;
+  if (const auto wrong = problem(b)) {
+    mechanism->error("", *wrong);
+    return std::nullopt;
+  }
+  if (s.vibration.kinematics == Kinematics::source_linearised &&
+      (b.gravity > 0 || b.mass_damping > 0 || b.stiffness_damping > 0 || b.extensible || load)) {
+    vibration->error("kinematics",
+                     "the printed equations know neither gravity nor damping nor stretching, and no large "
+                     "deflections under a load",
+                     "take chord_consistent");
+    return std::nullopt;
+  }
+  const Chain chain = discretise(b, s.vibration.divisions, s.vibration.kinematics);
+  if (const int most = mode_count(chain, {.hub = s.vibration.hub}); s.vibration.modes > most) {
+    (vibration ? *vibration : document)
+        .error("modes",
+               fmt::format("a link of {} divisions has {} modes, {} are asked for", s.vibration.divisions,
+                           most, s.vibration.modes),
+               "take more divisions");
+    return std::nullopt;
+  }
+  if (s.campbell && !(s.campbell->to > s.campbell->from)) {
+    speeds->error("to",
+                  fmt::format("the speeds end at {:.6g} rad/s, where they begin or before", s.campbell->to));
+    return std::nullopt;
+  }
+  if (s.campbell && b.extensible && s.vibration.hub == Hub::free) {
+    speeds->error("to", "the frequencies of an extensible link on a free hub that turns are not known",
+                  "take hub = \"driven\", or extensible = false");
+    return std::nullopt;
+  }
+  canonical["mechanism"] = study::write_fields(s.mechanism);
+  canonical["vibration"] = study::write_fields(s.vibration);
+  if (s.campbell) canonical["campbell"] = study::write_fields(*s.campbell);
+  if (s.load) canonical["load"] = study::write_fields(*s.load);
+  return s;
+}
+
+}  // namespace
+
+study::Kind vibration_kind() {
+  study::Kind kind;
+  kind.kind = "analysis";
+  kind.mechanism = "flexible.hub_link";
+  kind.summary =
+      "hub with an elastic link and a tip mass: frequencies and mode shapes, Campbell diagram, resonant "
+      "speeds, "
+      "deflection under load";
+  kind.example = R"(# linkwright study: frequencies and deflection of an elastic link on a hub
+schema = 1
+kind   = "analysis"
+title  = "Vibrations of my arm"
+
+[mechanism]
+type                = "flexible.hub_link"
+length_m            = 1.8
+density_kg_per_m3   = 2766
+area_mm2            = 250.0            # 100 x 2.5 mm
+second_moment_mm4   = 130.21
+elastic_modulus_GPa = 69.0
+tip_mass_kg         = 0.085
+hub_radius_mm       = 50.0
+hub_inertia_kg_m2   = 0.30
+fibre_distance_mm   = 1.25             # for the stress
+
+[vibration]
+modes     = 3
+divisions = 8                          # of the link, two cells each
+hub       = "driven"                   # or free: it turns with the link
+
+[campbell]                             # frequencies over the speed of the hub
+to_rpm  = 120.0
+samples = 61
+orders  = [1, 2, 3]                    # excitation, in multiples of the speed
+
+[load]                                 # at the tip, in axes of the hub
+force_N = [0.0, -1.0]
+)";
+  kind.schema = [](study::SchemaWriter& document) {
+    document.property(Field{.key = "mechanism", .summary = "hub and link", .required = true},
+                      study::schema_fields<HubLinkForm>());
+    document.property(Field{.key = "vibration", .summary = "what is asked of its vibrations"},
+                      study::schema_fields<VibrationForm>());
+    document.property(Field{.key = "campbell", .summary = "frequencies over the speed of the hub"},
+                      study::schema_fields<CampbellForm>());
+    document.property(Field{.key = "load", .summary = "what it carries at rest against its hub"},
+                      study::schema_fields<LoadForm>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common&) {
+    study::Prepared prepared;
+    if (auto s = read_study(document, prepared.canonical))
+      prepared.run = [s = *std::move(s)](RunContext& context) { return run_vibration(s, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::flexible
