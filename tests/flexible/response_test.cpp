@@ -48,7 +48,7 @@ TEST(Response, Tables) {
   const Table table = table_of(samples);
   EXPECT_EQ(table.rows(), 1);
   EXPECT_EQ(table.find("tip_eta_m")->values[0], -2);
-  EXPECT_EQ(table.find("energy_balance_J")->values[0], 2);
+  EXPECT_EQ(table.find("energy_balance_J")->values[0], 0);
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ function Bar({ maps, marks }: { maps: Maps; marks: number[] }) {
   const inner = span > 0 ? ticks(maps.low, maps.high, maps.logarithmic ? Math.max(1, step) : step).filter((v) => share(v) > 0.16 && share(v) < 0.84) : [];
   const text = (v: number, digits: number) => format(maps.logarithmic ? 10 ** v : v, digits);
   return (
-    <svg class="scale" viewBox={`0 0 ${width} 58`} role="img" aria-label={`Colours from ${text(maps.low, 3)} (dark) to ${text(maps.high, 3)} (light): ${maps.valueLabel}`}>
+    <svg class="colours" viewBox={`0 0 ${width} 58`} role="img" aria-label={`Colours from ${text(maps.low, 3)} (dark) to ${text(maps.high, 3)} (light): ${maps.valueLabel}`}>
       <g shape-rendering="crispEdges">
         {Array.from({ length: classes }, (_, k) => <rect x={left + (k * length) / classes} y={8} width={length / classes} height={height} fill={classColour(span > 0 ? k : classOf(0, 0, 0))} />)}
         {maps.missing && <rect class="none" x={left + length + 18} y={8} width={20} height={height} />}

@@ -30,6 +30,9 @@ const axis = (label: string, log = false): uPlot.Axis => ({
   size: (_, values, index) => (index === 0 ? 30 : Math.max(40, 14 + 6.4 * (values ?? []).reduce((n, v) => Math.max(n, v.length), 0))),
 });
 
+/** What stands beside the values: the label where the diagram is high enough for it, else the unit, for the legend has the name. */
+const beside = (label: string, symbol: string) => (6.4 * label.length <= height - 50 ? label : symbol);
+
 /** How the x of a diagram and an input of the scene follow each other. */
 interface Link {
   now: () => number;
@@ -188,7 +191,7 @@ function TablePlot({ plot, table }: { plot: Plot; table: Table }) {
       factor: xUnit.factor,
       options: () => ({
         scales: { x: { time: false }, y: { distr: plot.logarithmic_y ? (3 as const) : (1 as const) } },
-        axes: [axis(labelWith(table.columns[x]?.label ?? "", plot.x, xUnit)), axis(labels.length > 1 ? unit.symbol : (labels[0] ?? ""), plot.logarithmic_y)],
+        axes: [axis(labelWith(table.columns[x]?.label ?? "", plot.x, xUnit)), axis(labels.length > 1 ? unit.symbol : beside(labels[0] ?? "", unit.symbol), plot.logarithmic_y)],
         series: [
           {},
           ...labels.map((l, i) => {
@@ -268,7 +271,7 @@ function GroupPlot({ plot, table }: { plot: Plot; table: Table }) {
         const now = present();
         return {
           scales: { x: { time: false }, y: { distr: plot.logarithmic_y ? (3 as const) : (1 as const) } },
-          axes: [axis(labelWith(table.columns[x]?.label ?? "", plot.x, xUnit)), axis(plot.y.length === 1 ? labelWith(yColumn?.label ?? "", plot.y[0], unit) : unit.symbol, plot.logarithmic_y)],
+          axes: [axis(labelWith(table.columns[x]?.label ?? "", plot.x, xUnit)), axis(plot.y.length === 1 ? beside(labelWith(yColumn?.label ?? "", plot.y[0], unit), unit.symbol) : unit.symbol, plot.logarithmic_y)],
           series: [{}, ...lines.map((l, i) => (l.kind === "lower" || l.kind === "upper"
             ? { label: l.label, stroke: "transparent", width: 0, points: { show: false } }
             : { label: l.label, stroke: css(stroke(i)), dash: dash(i), paths: points && l.kind === "curve" ? () => null : undefined, points: { show: points && l.kind === "curve", size: 6, fill: css(stroke(i)) }, ...look(i, now) }))],

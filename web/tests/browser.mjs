@@ -254,6 +254,8 @@ test("arrows are switched and scaled one quantity at a time", async () => {
   await page.locator("body").press("w");
   assert.deepEqual([await arrows("force"), await arrows("velocity")], [2, 1]);
   const [force, speed] = [await tipOf(page, "vector 0"), await tipOf(page, "vector 2")];
+  const tops = await page.locator(".arrow-bar button").evaluateAll((all) => all.map((e) => e.getBoundingClientRect().top));
+  assert.ok(tops.length > 0 && Math.max(...tops) - Math.min(...tops) < 1, `switches in one row: ${tops}`);
   await page.locator('[data-scale="force"]').fill("1");
   const twice = await tipOf(page, "vector 0");
   assert.ok(Math.abs(twice[0] - 2 * force[0]) < 5e-3 && Math.abs(twice[1] - 2 * force[1]) < 5e-3);

@@ -8,6 +8,7 @@
 
 #include "linkwright/clearance/reproductions.h"
 #include "linkwright/clearance/studies.h"
+#include "linkwright/flexible/reproductions.h"
 #include "linkwright/flexible/studies.h"
 #include "linkwright/parallel/reproductions.h"
 #include "linkwright/parallel/studies.h"
@@ -69,6 +70,7 @@ std::span<const study::Reproduction> reproductions() {
     std::vector<study::Reproduction> joined = planar::reproductions();
     for (study::Reproduction& r : suspension::reproductions()) joined.push_back(std::move(r));
     for (study::Reproduction& r : parallel::reproductions()) joined.push_back(std::move(r));
+    for (study::Reproduction& r : flexible::reproductions()) joined.push_back(std::move(r));
     for (study::Reproduction& r : clearance::reproductions()) joined.push_back(std::move(r));
     return joined;
   }();
