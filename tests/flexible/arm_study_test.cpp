@@ -173,6 +173,10 @@ TEST(ArmStudy, TellsWhatIsWrong) {
   EXPECT_THAT(problems(replaced(example(), "mass_kg             = 0.5", "damping_N_m_s_per_rad = -1")),
               HasSubstr("mechanism.link[1].hinge.damping_N_m_s_per_rad: is -1"));
   EXPECT_THAT(problems(two + times), HasSubstr("drive"));
+  // All at once.
+  const std::string many = problems(two + pulse + pulse + replaced(times, "0.005", "9"));
+  EXPECT_THAT(many, HasSubstr("drive[1].link: 'link1' has a drive already"));
+  EXPECT_THAT(many, HasSubstr("simulation.step_s: is 9 s, longer than the 1.5 s of the motion"));
   EXPECT_THAT(problems(two + pulse + replaced(pulse, "link1", "link2") + times),
               HasSubstr("drive[1].link: 'link2' is welded on: it has no hinge to be driven"));
   EXPECT_THAT(problems(two + pulse + pulse + times), HasSubstr("drive[1].link: 'link1' has a drive already"));

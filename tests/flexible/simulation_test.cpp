@@ -335,6 +335,24 @@ TEST(Simulation, StopsWhenAsked) {
   EXPECT_EQ(run.samples.size(), 2);
 }
 
+TEST(Simulation, KeepsTheLongerStepWhenTheShorterOneIsStopped) {
+  // Cancelled as soon as the second run, with half the step, reports its beginning.
+  RunContext context;
+  double last = 0;
+  context.set_progress([&](const Progress& p) {
+    if (p.fraction < last) context.cancel();
+    last = p.fraction;
+  });
+  const Simulation run = simulate_motion(
+      discretise(spin_up_beam(), 2), SpinUp{4, 15},
+      {.end = 20, .output_interval = 0.1, .step = 0.01, .extrapolate = true, .context = &context});
+  EXPECT_EQ(run.status, Status::cancelled);
+  EXPECT_EQ(run.samples.size(), 201);
+  EXPECT_NEAR(run.step, 0.01, 1e-12);  // equal steps between samples: to rounding
+  EXPECT_TRUE(std::isnan(run.error));
+  EXPECT_NE(run.message.find("the run with half the step was stopped at"), std::string::npos) << run.message;
+}
+
 TEST(Simulation, RefusesWhatMakesNoSense) {
   const Chain chain = discretise(spin_up_beam(), 1);
   const auto told = [&](const SimulationOptions& o, const Start& start = {}) {

@@ -80,7 +80,7 @@ std::vector<DriveLaw> sorted_drives(study::ObjectReader& document, const ArmForm
     laws[k] = drive.law;
     complete = check_drive(tables[i], drive.law) && complete;
   }
-  if (!laws.empty() && !laws[0])
+  if (!laws.empty() && !laws[0] && document.has("drive"))
     document.error(
         "drive", fmt::format("nothing turns the hub with link '{}'", known[0]),
         fmt::format("add [[drive]] with link = \"{}\" and a law, or law = \"none\" to let it swing",
@@ -106,10 +106,10 @@ std::optional<ArmStudy> read_arm_study(study::ObjectReader& document, const stud
   document(Field{.key = "shaping", .summary = {}}, s.shaping);
   if (simulation) simulation->read(s.simulation);
   if (mechanism) check_links(*mechanism, s.mechanism);
-  if (!mechanism || !simulation || document.document().has_errors()) return std::nullopt;
+  if (simulation) check_times(s.simulation, *simulation);
   s.drives = sorted_drives(document, s.mechanism, drives);
-  if (s.drives.empty() || document.document().has_errors()) return std::nullopt;
-  check_chain_study(arm_chain_study(s), *simulation, document);
+  if (!mechanism || !simulation || s.drives.empty() || document.document().has_errors()) return std::nullopt;
+  check_shaping(arm_chain_study(s), document);
   if (document.document().has_errors()) return std::nullopt;
   canonical["mechanism"] = study::write_fields(s.mechanism);
   Value::Array written;

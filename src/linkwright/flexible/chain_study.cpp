@@ -202,24 +202,26 @@ std::string headline_of_end(const Simulation& run) {
                      run.message);
 }
 
-void check_chain_study(const ChainStudy& s, study::ObjectReader& simulation,
-                       study::ObjectReader& shaping_parent) {
-  const SimulationForm& form = s.simulation;
+void check_times(const SimulationForm& form, study::ObjectReader& simulation) {
+  if (!(form.end > 0)) return;  // missing or refused, and reported as such
   if (form.step > form.end)
     simulation.error("step", fmt::format("is {} s, longer than the {} s of the motion", form.step, form.end),
                      "about a hundredth of it, and a twentieth of the period of the first vibration");
   else if (form.end / form.step > 1e7)
     simulation.error("step",
                      fmt::format("makes {:.3g} steps, at most 1e7 are allowed", form.end / form.step));
+}
+
+void check_shaping(const ChainStudy& s, study::ObjectReader& parent) {
   if (!s.shaping) return;
   if (std::all_of(s.drives.begin(), s.drives.end(), [](const JointDrive& d) { return d.free(); })) {
-    shaping_parent.error("shaping", "there is no drive to be shaped", "leave it out");
+    parent.error("shaping", "there is no drive to be shaped", "leave it out");
   } else if (!s.shaping->frequency) {
     const Pose end(s, &JointDrive::last);
     const std::size_t there = vibrations(s.arm(1).chain, end, s.shaping->mode).size();
     if (there < static_cast<std::size_t>(s.shaping->mode))
-      shaping_parent.error("shaping", fmt::format("is for mode {}, but there are {}", s.shaping->mode, there),
-                           "take more divisions, or another theory of the link");
+      parent.error("shaping", fmt::format("is for mode {}, but there are {}", s.shaping->mode, there),
+                   "take more divisions, or another theory of the link");
   }
 }
 

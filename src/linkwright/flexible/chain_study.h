@@ -76,10 +76,10 @@ struct ChainStudy {
   std::vector<ChainPlot> plots;
 };
 
-/// Says what keeps the simulation from being one, with the keys of `[simulation]` and of the table that holds
-/// `shaping`.
-void check_chain_study(const ChainStudy& study, study::ObjectReader& simulation,
-                       study::ObjectReader& shaping_parent);
+/// Says what is wrong with the times, with the keys of `[simulation]`.
+void check_times(const SimulationForm& form, study::ObjectReader& simulation);
+/// Says why the drives cannot be shaped, with the keys of the table that holds `shaping`.
+void check_shaping(const ChainStudy& study, study::ObjectReader& parent);
 
 /// What the report of a kind adds to.
 struct ChainRun {

@@ -55,6 +55,7 @@ std::optional<HubLinkStudy> read_study(study::ObjectReader& document, const stud
   if (mechanism) mechanism->read(s.mechanism);
   if (drive) drive->read(s.drive);
   if (simulation) simulation->read(s.simulation);
+  if (simulation) check_times(s.simulation, *simulation);
   const bool driven = drive && check_drive(*drive, s.drive.law);
   if (!driven || !mechanism || !drive || !simulation || document.document().has_errors()) return std::nullopt;
   if (const auto wrong = problem(s.mechanism.beam)) {
@@ -70,7 +71,7 @@ std::optional<HubLinkStudy> read_study(study::ObjectReader& document, const stud
                       "take chord_consistent");
     return std::nullopt;
   }
-  check_chain_study(chain_study(s), *simulation, *drive);
+  check_shaping(chain_study(s), *drive);
   if (document.document().has_errors()) return std::nullopt;
   canonical["mechanism"] = study::write_fields(s.mechanism);
   canonical["drive"] = study::write_fields(s.drive);

@@ -423,6 +423,18 @@ Simulation simulate(const Chain& chain, const Drive& drive, const SimulationOpti
       out.factorisations += coarse.factorisations;
       const bool stopped = out.status == Status::cancelled || out.status == Status::deadline;
       const bool both = coarse.status == Status::done && out.status == Status::done;
+      if (stopped && coarse.samples.size() > out.samples.size()) {
+        // What the longer step reached is more than what is left of the shorter one.
+        coarse.status = out.status;
+        coarse.message = fmt::format(
+            "the run with half the step was {}; what is told is that of the whole step", out.message);
+        coarse.error = std::numeric_limits<double>::quiet_NaN();
+        coarse.steps = out.steps;
+        coarse.iterations = out.iterations;
+        coarse.factorisations = out.factorisations;
+        out = std::move(coarse);
+        break;
+      }
       Simulation limit = out;
       if (coarse.status == Status::done) {
         limit.error = extrapolate(coarse, limit);
