@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "linkwright/flexible/response.h"
@@ -79,6 +80,37 @@ std::optional<HubLinkStudy> read_study(study::ObjectReader& document, const stud
   return s;
 }
 
+/// What the kinematics asked for does otherwise than those that are exact in the limit: told, and drawn pale.
+void compare_kinematics(const HubLinkStudy& s, study::Result& result, std::vector<study::Fact>& facts,
+                        RunContext& context) {
+  if (s.simulation.kinematics == Kinematics::chord_consistent) return;
+  HubLinkStudy exact = s;
+  exact.simulation.kinematics = Kinematics::chord_consistent;
+  exact.simulation.compare_divisions = false;
+  ChainRun run = run_chain(chain_study(exact), context);
+  Table& other = run.result.tables.front();
+  other.name = "chord_consistent";
+  const auto& ours = result.tables.front().find("tip_eta_m")->values;
+  const auto& theirs = other.find("tip_eta_m")->values;
+  double difference = 0;
+  for (std::size_t i = 0; i < std::min(ours.size(), theirs.size()); ++i)
+    difference = std::max(difference, std::abs(ours[i] - theirs[i]));
+  facts.push_back({"difference of the tip from chord_consistent",
+                   fmt::format("{}, {:.2g} % of its largest displacement{}", millimetres(difference),
+                               100 * difference / largest_of(other, "tip_eta_m"),
+                               s.simulation.kinematics == Kinematics::source_linearised
+                                   ? ": the printed velocities know no stiffening by the speed"
+                                   : ""),
+                   study::Fact::Verdict::plain});
+  for (study::Plot& plot : result.plots)
+    if (plot.baseline.empty() &&
+        std::all_of(plot.y.begin(), plot.y.end(), [&](const std::string& key) { return other.find(key); })) {
+      plot.baseline = other.name;
+      plot.title += " (pale: chord_consistent)";
+    }
+  result.tables.push_back(std::move(other));
+}
+
 }  // namespace
 
 study::Result run_hub_link(const HubLinkStudy& s, RunContext& context) {
@@ -94,6 +126,7 @@ study::Result run_hub_link(const HubLinkStudy& s, RunContext& context) {
   if (s.mechanism.fibre_distance)
     fact("largest bending stress", fmt::format("{:.4g} MPa", 1e-6 * largest_of(motion, "bending_stress_Pa")));
   fact("largest torque of the drive", fmt::format("{:.4g} N m", largest_of(motion, "torque_N_m")));
+  compare_kinematics(s, result, facts, context);
   result.facts.insert(result.facts.begin(), facts.begin(), facts.end());
   result.headline = result.status == Status::done
                         ? fmt::format("The tip leaves the line of the hub by up to {}.", millimetres(peak))
