@@ -44,7 +44,7 @@ TEST(StaticPage, BannerCountsChecks) {
 }
 
 TEST(StaticPage, LongTablesAreThinnedAndSaySo) {
-  EXPECT_THAT(page(test::sample_result()), HasSubstr("Every 10th of 361 rows."));
+  EXPECT_THAT(page(test::sample_result()), HasSubstr("One row in 10, of 361 in all."));
 }
 
 TEST(StaticPage, FixedAndUnboundedParameters) {

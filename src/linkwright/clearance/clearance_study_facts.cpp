@@ -13,6 +13,10 @@ constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
 constexpr double poor_balance = 1e-5;
 
+std::string newtons(double force) {
+  return force < 1e4 ? fmt::format("{:.4g} N", force) : fmt::format("{:.4g} kN", 1e-3 * force);
+}
+
 class Facts {
  public:
   Facts(const ClearanceStudy& s, const ClearanceRecording& r, const PathErrors& errors, study::Result& result)
@@ -160,10 +164,11 @@ class Facts {
         if (!std::isnan(e.end)) shortest = std::min(shortest, e.end - e.start);
       }
       fact(fmt::format("contacts of {}", name(k)),
-           count == 0 ? std::string("none: the pin stays free in its bush")
-                      : fmt::format("{}, {:.3g} % of the time in contact; at most {:.4g} N, {:.3g} um deep, "
-                                    "approach of {:.3g} m/s",
-                                    count, 100 * touching / duration(), force, 1e6 * depth, approach));
+           count == 0
+               ? std::string("none: the pin stays free in its bush")
+               : fmt::format("{}, {:.3g} % of the time in contact; at most {}, {:.3g} um deep, "
+                             "approach of {:.3g} m/s",
+                             count, 100 * touching / duration(), newtons(force), 1e6 * depth, approach));
       largest_force_ = std::max(largest_force_, force);
     }
     if (rows() < 2) return;
@@ -210,13 +215,12 @@ class Facts {
   std::string motion_headline() const {
     const bool begins = result_.headline.empty();
     if (r_.went_over())
-      return fmt::format(
-          "{} {} parts from its bush at {:.4g} s{}, and {} contacts with up to {:.4g} N follow",
-          begins ? "Pin" : "pin", name(at(r_.parted)), r_.switched, where_switched(), r_.events.size(),
-          largest_force_);
+      return fmt::format("{} {} parts from its bush at {:.4g} s{}, and {} contacts with up to {} follow",
+                         begins ? "Pin" : "pin", name(at(r_.parted)), r_.switched, where_switched(),
+                         r_.events.size(), newtons(largest_force_));
     if (real())
-      return fmt::format("{} {:.4g} s {} contacts of pin and bush, with up to {:.4g} N", begins ? "In" : "in",
-                         duration(), r_.events.size(), largest_force_);
+      return fmt::format("{} {:.4g} s {} contacts of pin and bush, with up to {}", begins ? "In" : "in",
+                         duration(), r_.events.size(), newtons(largest_force_));
     if (lost_)
       return begins ? "Pin and bush do not stay in contact: the motion is outside of the model"
                     : "pin and bush do not stay in contact, so it is outside of the model";

@@ -205,7 +205,7 @@ void write_tables(std::string& out, const study::Result& result) {
   for (const auto& table : result.tables) {
     heading(out, table.name);
     const std::size_t step = std::max<std::size_t>(1, (table.rows() + longest_table - 1) / longest_table);
-    if (step > 1) put(out, "<p class=\"note\">Every {}th of {} rows.</p>\n", step, table.rows());
+    if (step > 1) put(out, "<p class=\"note\">One row in {}, of {} in all.</p>\n", step, table.rows());
     std::vector<std::string> head;
     if (!table.names.empty()) head.emplace_back("name");
     for (const auto& column : table.columns) head.push_back(column.label.empty() ? column.key : column.label);
