@@ -65,7 +65,7 @@ TEST(HubLinkStudy, TellsWhatThePrintedVelocitiesMiss) {
   // At 7.5 s -2.785605 m against -1.160206 m of exact kinematics, whose largest sample is -1.656991 m.
   EXPECT_THAT(
       fact(result, "difference of the tip from chord_consistent"),
-      HasSubstr("1625 mm, 98 % of its largest displacement: the printed velocities know no stiffening"));
+      HasSubstr("1625 mm, 0.98 times its largest displacement: the printed velocities know no stiffening"));
   EXPECT_EQ(result.tables.back().name, "chord_consistent");
   EXPECT_EQ(result.plots.front().baseline, "chord_consistent");
   for (const study::Fact& f : run(spin_up).facts) EXPECT_THAT(f.label, Not(HasSubstr("chord_consistent")));

@@ -227,6 +227,28 @@ TEST(LinkageElasticStudy, KeepsRowsWhenStepsAreUsedUp) {
             HasSubstr("take fewer segments, more max_steps, or stiffness_damping with method = \"bdf\"")));
 }
 
+TEST(LinkageElasticStudy, SettlesBeforeItsFirstRow) {
+  // 6.5 % of critical damping: half a second takes the start away to 1e-9. A turn takes 0.1 s.
+  const std::string damped = with_rod("segments            = 4", "segments = 4\nstiffness_damping_s = 2e-4");
+  const study::Result at_once = run_text(damped),
+                      settled = run_text(replaced(damped, "samples = 101", "samples = 101\nsettle_s = 0.5"));
+  ASSERT_EQ(settled.status, Status::done) << settled.headline;
+  const auto &before = column(at_once, "motion", "rod_middle_deflection_m"),
+             &after = column(settled, "motion", "rod_middle_deflection_m");
+  ASSERT_EQ(after.size(), before.size());
+  EXPECT_EQ(column(settled, "motion", "time_s").front(), 0);
+  EXPECT_NEAR(after.front(), after.back(), 1e-4 * largest(after));  // of tolerances of 1e-7 a step
+  EXPECT_GT(std::abs(before.front() - before.back()), 0.01 * largest(before));
+  EXPECT_THAT(fact(settled, "settled"), HasSubstr("0.5 s before the first row"));
+  EXPECT_THAT(problems_of(replaced(slider_crank, "samples = 101", "samples = 101\nsettle_s = 0.5")),
+              HasSubstr("settle_s: no body bends"));
+  const std::string free = replaced(replaced(damped, "law       = \"constant_speed\"\nspeed_rpm = 600.0",
+                                             "free = true\nstart_speed_rpm = 600.0"),
+                                    "samples = 101", "samples = 101\nsettle_s = 0.5");
+  EXPECT_THAT(problems_of(free),
+              HasSubstr("a joint is free: it would not be where its drive says at `from`"));
+}
+
 TEST(LinkageElasticStudy, BendsInSliderCranksAndWithFreeJoints) {
   const std::string beam = replaced(rod, "segments            = 4", "segments            = 2");
   const study::Result r = run_text(

@@ -96,8 +96,8 @@ void compare_kinematics(const HubLinkStudy& s, study::Result& result, std::vecto
   for (std::size_t i = 0; i < std::min(ours.size(), theirs.size()); ++i)
     difference = std::max(difference, std::abs(ours[i] - theirs[i]));
   facts.push_back({"difference of the tip from chord_consistent",
-                   fmt::format("{}, {:.2g} % of its largest displacement{}", millimetres(difference),
-                               100 * difference / largest_of(other, "tip_eta_m"),
+                   fmt::format("{}, {:.2f} times its largest displacement{}", millimetres(difference),
+                               difference / largest_of(other, "tip_eta_m"),
                                s.simulation.kinematics == Kinematics::source_linearised
                                    ? ": the printed velocities know no stiffening by the speed"
                                    : ""),

@@ -236,6 +236,7 @@ class ElasticReporter {
     result_.statistics["energy_drift_share"] = share;
     if (!r_.times.empty()) fact("energy balance", balance, poor ? Verdict::bad : Verdict::good);
     if (poor) warn("the energies do not balance: " + balance, "take a smaller rtol");
+    if (s_.settle > 0) fact("settled", fmt::format("{:.4g} s before the first row", s_.settle));
     fact("integration",
          fmt::format("{}{}; {} steps, {} evaluations", name_of(s_.options.method),
                      s_.method_reason.empty() ? ", as the study says" : ", as " + s_.method_reason,
@@ -243,7 +244,7 @@ class ElasticReporter {
     if (r_.report.status == Status::done) return;
     std::string hint;
     if (r_.report.status == Status::not_converged) {
-      const double needed = steps_a_period * hertz(fastest()) * (s_.to - s_.from);
+      const double needed = steps_a_period * hertz(fastest()) * (s_.to - s_.from + s_.settle);
       hint = fmt::format(
           "the fastest vibration of the pieces has {:.3g} Hz, which explicit steps must follow: about {:.2g} "
           "steps; take fewer segments, more max_steps, or stiffness_damping with method = \"bdf\"",

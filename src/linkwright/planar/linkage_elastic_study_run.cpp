@@ -19,7 +19,7 @@ class ElasticRecorder {
     for (int i = 0; i < s.samples; ++i)
       times_.push_back(i + 1 == s.samples ? s.to : s.from + (s.to - s.from) * i / (s.samples - 1));
     std::vector<InputMotion> start;
-    for (const InputMotion& i : inputs_at(s.courses, s.from)) start.push_back(i);
+    for (const InputMotion& i : inputs_at(s.courses, s.from - s.settle)) start.push_back(i);
     out_.elastic = with_elastic_bodies(s.linkage, s.elastic, start);
   }
 
@@ -223,9 +223,15 @@ class ElasticRecorder {
     std::vector<InputCourse> courses = s_.courses;
     courses.insert(courses.end(), out_.elastic.free.begin(), out_.elastic.free.end());
     const auto route = s_.route == SimulationRoute::free_joints ? simulate : simulate_all_coordinates;
+    std::vector<double> times = times_;
+    if (s_.settle > 0) times.insert(times.begin(), s_.from - s_.settle);
     out_.report = route(
-        out_.elastic.linkage, out_.elastic.plan, courses, times_, s_.options,
-        [&](const SimulationInstant& now) { return add(now), true; }, &context_);
+        out_.elastic.linkage, out_.elastic.plan, courses, times, s_.options,
+        [&](const SimulationInstant& now) {
+          if (now.time >= s_.from) add(now);
+          return true;
+        },
+        &context_);
   }
   void add(const SimulationInstant& now) {
     const bool done = now.status == Status::done;

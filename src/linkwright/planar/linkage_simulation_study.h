@@ -33,6 +33,7 @@ struct LinkageSimulationStudy {
   LinkageQuantities quantities;
   std::vector<ElasticBody> elastic;        ///< bodies that bend; empty = none
   std::string method_reason;               ///< why the method was taken; empty: the file names it
+  double settle = 0;                       ///< s: elastic bodies move so long before `from`, without rows
   std::optional<double> deflection_scale;  ///< of drawings; absent: chosen
   int scene_samples = 361;                 ///< of drawings of elastic bodies, at most about
 };

@@ -47,6 +47,13 @@ void fields(Visitor&& visit, LinkageSimulationStudy& s) {
   visit(
       Field{.key = "at_change_point", .summary = "where assembly modes meet, as of a parallelogram in line"},
       s.options.at_change_point);
+  visit(Field{.key = "settle",
+              .summary = "elastic bodies start so long before `from`, unbent, and their rows until then are "
+                         "left out: what the start excites dies out if they are damped",
+              .dimension = Dimension::time,
+              .minimum = 0,
+              .maximum = 1e9},
+        s.settle);
   visit(Field{.key = "deflection_scale",
               .summary = "how many times too large deflections of elastic bodies are drawn; default: chosen "
                          "from 1, 2, 5, 10, ...",
@@ -129,7 +136,7 @@ namespace {
 bool add_elastic(study::ObjectReader& document, LinkageType type, LinkageDescription& d,
                  LinkageSimulationStudy& s) {
   const std::vector<ElasticPieces> pieces =
-      place_elastic(document, d.linkage, s.elastic, inputs_at(s.courses, s.from));
+      place_elastic(document, d.linkage, s.elastic, inputs_at(s.courses, s.from - s.settle));
   if (pieces.empty()) return false;
   d.plan = plan(d.linkage).plan;
   if (!require_masses(document, type, d.plan)) return false;
@@ -157,6 +164,8 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
       table->error("to", fmt::format("the simulation ends at {} s, but starts at {} s", s.to, s.from), {});
     if (s.deflection_scale && !elastic)
       table->error("deflection_scale", "no body bends", "add an [[elastic]] table, or leave the key out");
+    if (s.settle > 0 && !elastic)
+      table->error("settle", "no body bends", "add an [[elastic]] table, or start earlier by from");
   }
   if (s.route == SimulationRoute::all_coordinates && s.options.method == math::OdeMethod::adams)
     document.error("simulation", "all_coordinates are projected after every step, which adams does not allow",
@@ -181,6 +190,9 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
     document.error("drive", "every drive has a motion law: nothing is left for forces to move",
                    "write free = true in a [[drive]], let a body bend by [[elastic]], or take kind = "
                    "\"analysis\" with a sweep over time");
+  if (s.settle > 0 && any_free)
+    document.error("simulation.settle", "a joint is free: it would not be where its drive says at `from`",
+                   "leave it out");
   if (elastic && !document.document().has_errors() && !add_elastic(document, type, *description, s))
     return prepared;
   write_linkage(*description, prepared.canonical);
