@@ -71,6 +71,23 @@ TEST(HubLinkStudy, TellsWhatThePrintedVelocitiesMiss) {
   for (const study::Fact& f : run(spin_up).facts) EXPECT_THAT(f.label, Not(HasSubstr("chord_consistent")));
 }
 
+TEST(HubLinkStudy, AgreesWithAnElastica) {
+  const std::string beside =
+      replaced(replaced(spin_up, "divisions = 4", "divisions = 8\ncompare_elastica = true"), "end_s = 20",
+               "end_s = 5");
+  const auto result = run(beside);
+  ASSERT_EQ(result.status, Status::done) << result.headline;
+  // 2e-6 m of the divisions at this speed, in mm.
+  const std::string told = fact(result, "difference of the tip from an elastica");
+  EXPECT_LT(std::stod(told), 5e-3) << told;
+  EXPECT_GT(std::stod(told), 0) << told;
+  EXPECT_EQ(result.tables.back().name, "elastica");
+  EXPECT_EQ(result.plots.front().baseline, "elastica");
+  EXPECT_THAT(
+      problems(replaced(beside, "tip_mass_kg = 0.085", "tip_mass_kg = 0.085\ngravity_m_per_s2 = 9.81")),
+      HasSubstr("compare_elastica: the elastica is driven from rest, without shaping, and knows no gravity"));
+}
+
 TEST(HubLinkStudy, ShapingLeavesLessVibration) {
   const std::string& example = kinds()[1].example;
   const auto amplitude = [](const study::Result& result) {

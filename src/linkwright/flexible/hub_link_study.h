@@ -39,6 +39,7 @@ void fields(Visitor&& visit, HubDriveForm& d) {
 struct HubSimulationForm : SimulationForm {
   int divisions = 4;
   Kinematics kinematics = Kinematics::chord_consistent;
+  bool compare_elastica = false;
 };
 template <class Visitor>
 void fields(Visitor&& visit, HubSimulationForm& s) {
@@ -46,6 +47,10 @@ void fields(Visitor&& visit, HubSimulationForm& s) {
   visit(Field{.key = "divisions", .summary = "of the link, two cells each", .minimum = 1, .maximum = 1000},
         s.divisions);
   visit(Field{.key = "kinematics", .summary = "how the joints of the chain move"}, s.kinematics);
+  visit(Field{.key = "compare_elastica",
+              .summary = "again as a smooth line of polynomials, by another method in time, and tell the "
+                         "difference"},
+        s.compare_elastica);
 }
 
 /// A simulation as read.

@@ -259,7 +259,7 @@ ReferenceMotion simulate(const Beam& beam, const AngleLaw* motion, const TorqueL
       if (t > to * (1 + 1e-12)) break;
       times.push_back(std::min(t, to));
     }
-    math::OdeHooks hooks;
+    math::OdeHooks hooks{.context = run.context};
     hooks.output_times = times;
     hooks.output = [&](double t, std::span<const double> at) {
       out.samples.push_back(elastica.sample(t, at, drive(t), torque_at(t)));

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/flexible/beam.h"
 #include "linkwright/flexible/drive.h"
@@ -41,6 +42,7 @@ struct ReferenceRun {
   double tolerance = 1e-9;              ///< relative, of a step of an explicit method of order 8
   std::span<const double> breaks = {};  ///< times (s) at which the drive jumps or kinks
   ReferenceOptions beam = {};
+  const RunContext* context = nullptr;  ///< looked at after every step; receives the stage "integration"
 };
 
 struct ReferenceMotion {
