@@ -4,29 +4,16 @@
 
 #include <cmath>
 #include <map>
-#include <set>
 #include <string>
+
+#include "support/reproduced.h"
 
 namespace linkwright::clearance {
 namespace {
 
-std::vector<study::Comparison> rows(std::string_view id) {
-  for (const study::Reproduction& r : reproductions())
-    if (r.id == id) {
-      RunContext context;
-      return r.run(context);
-    }
-  ADD_FAILURE() << "no table " << id;
-  return {};
-}
+std::vector<study::Comparison> rows(std::string_view id) { return testing::rows_of(reproductions(), id); }
 
-TEST(ClearanceReproductions, HaveIdsTitlesSourcesAndNotes) {
-  std::set<std::string> ids;
-  for (const study::Reproduction& r : reproductions()) {
-    EXPECT_TRUE(ids.insert(r.id).second) << r.id;
-    EXPECT_FALSE(r.title.empty() || r.source.empty() || r.notes.empty()) << r.id;
-  }
-}
+TEST(ClearanceReproductions, HaveIdsTitlesSourcesAndNotes) { testing::expect_complete(reproductions()); }
 
 TEST(ClearanceReproductions, Tables) {
   const auto table = rows("varedi-2014-tables");

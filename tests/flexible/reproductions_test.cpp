@@ -3,33 +3,19 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <set>
 #include <string>
 
 #include "linkwright/flexible/samples.h"
+#include "support/reproduced.h"
 
 namespace linkwright::flexible {
 namespace {
 
 using ::testing::HasSubstr;
 
-std::vector<study::Comparison> rows(std::string_view id) {
-  for (const study::Reproduction& r : reproductions())
-    if (r.id == id) {
-      RunContext context;
-      return r.run(context);
-    }
-  ADD_FAILURE() << "no table " << id;
-  return {};
-}
+std::vector<study::Comparison> rows(std::string_view id) { return testing::rows_of(reproductions(), id); }
 
-TEST(FlexibleReproductions, HaveIdsTitlesSourcesAndNotes) {
-  std::set<std::string> ids;
-  for (const study::Reproduction& r : reproductions()) {
-    EXPECT_TRUE(ids.insert(r.id).second) << r.id;
-    EXPECT_FALSE(r.title.empty() || r.source.empty() || r.notes.empty()) << r.id;
-  }
-}
+TEST(FlexibleReproductions, HaveIdsTitlesSourcesAndNotes) { testing::expect_complete(reproductions()); }
 
 TEST(FlexibleReproductions, SpinUp) {
   const auto table = rows("boskovic-2018-spin-up");

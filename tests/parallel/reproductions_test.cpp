@@ -3,28 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <set>
+
+#include "support/reproduced.h"
 
 namespace linkwright::parallel {
 namespace {
 
-TEST(PiJointReproductions, HaveIdsTitlesSourcesAndNotes) {
-  std::set<std::string> ids;
-  for (const study::Reproduction& r : reproductions()) {
-    EXPECT_TRUE(ids.insert(r.id).second) << r.id;
-    EXPECT_FALSE(r.title.empty() || r.source.empty() || r.notes.empty()) << r.id;
-  }
-}
+TEST(PiJointReproductions, HaveIdsTitlesSourcesAndNotes) { testing::expect_complete(reproductions()); }
 
-std::vector<study::Comparison> rows(std::string_view id) {
-  for (const study::Reproduction& r : reproductions())
-    if (r.id == id) {
-      RunContext context;
-      return r.run(context);
-    }
-  ADD_FAILURE() << "no table " << id;
-  return {};
-}
+std::vector<study::Comparison> rows(std::string_view id) { return testing::rows_of(reproductions(), id); }
 
 TEST(PiJointReproductions, Prototype) {
   const auto table = rows("milutinovic-2014-prototype");

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "linkwright/planar/published_four_bars.h"
+#include "support/reproduced.h"
 
 namespace linkwright::planar {
 namespace {
@@ -15,15 +15,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::Pair;
 
-std::vector<study::Comparison> rows(std::string_view id) {
-  for (const study::Reproduction& r : reproductions())
-    if (r.id == id) {
-      RunContext context;
-      return r.run(context);
-    }
-  ADD_FAILURE() << "no table " << id;
-  return {};
-}
+std::vector<study::Comparison> rows(std::string_view id) { return testing::rows_of(reproductions(), id); }
 
 std::map<std::string, int> verdicts(const std::vector<study::Comparison>& rows) {
   std::map<std::string, int> out;
@@ -31,13 +23,7 @@ std::map<std::string, int> verdicts(const std::vector<study::Comparison>& rows) 
   return out;
 }
 
-TEST(Reproductions, HaveIdsTitlesSourcesAndNotes) {
-  std::set<std::string> ids;
-  for (const study::Reproduction& r : reproductions()) {
-    EXPECT_TRUE(ids.insert(r.id).second) << r.id;
-    EXPECT_FALSE(r.title.empty() || r.source.empty() || r.notes.empty()) << r.id;
-  }
-}
+TEST(Reproductions, HaveIdsTitlesSourcesAndNotes) { testing::expect_complete(reproductions()); }
 
 TEST(Reproductions, TheArmOfTable21) {
   const auto table = rows("boskovic-2018-table-2.1");

@@ -4,20 +4,13 @@
 
 #include <cmath>
 #include <map>
-#include <set>
+
+#include "support/reproduced.h"
 
 namespace linkwright::suspension {
 namespace {
 
-std::vector<study::Comparison> rows(std::string_view id) {
-  for (const study::Reproduction& r : reproductions())
-    if (r.id == id) {
-      RunContext context;
-      return r.run(context);
-    }
-  ADD_FAILURE() << "no table " << id;
-  return {};
-}
+std::vector<study::Comparison> rows(std::string_view id) { return testing::rows_of(reproductions(), id); }
 
 /// Verdicts of rows whose item begins so.
 std::map<std::string, int> verdicts(const std::vector<study::Comparison>& rows, std::string_view beginning) {
@@ -29,13 +22,7 @@ std::map<std::string, int> verdicts(const std::vector<study::Comparison>& rows, 
 
 using Counts = std::map<std::string, int>;
 
-TEST(GuideReproductions, HaveIdsTitlesSourcesAndNotes) {
-  std::set<std::string> ids;
-  for (const study::Reproduction& r : reproductions()) {
-    EXPECT_TRUE(ids.insert(r.id).second) << r.id;
-    EXPECT_FALSE(r.title.empty() || r.source.empty() || r.notes.empty()) << r.id;
-  }
-}
+TEST(GuideReproductions, HaveIdsTitlesSourcesAndNotes) { testing::expect_complete(reproductions()); }
 
 const study::Comparison& row(const std::vector<study::Comparison>& rows, std::string_view item) {
   for (const study::Comparison& r : rows)

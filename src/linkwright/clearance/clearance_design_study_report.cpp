@@ -6,6 +6,7 @@
 
 #include "linkwright/clearance/clearance_design_study.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/study/run_seeds.h"
 
 namespace linkwright::clearance {
 namespace {
@@ -238,17 +239,7 @@ class Reporter {
     Value& out = result_.statistics;
     out["method"] = method();
     out["measure"] = cost_name(s_).key;
-    out["seeds"] = st.seeds;
-    out["feasible_seeds"] = st.feasible;
-    out["best"] = st.best;
-    out["quantile10"] = st.quantile10;
-    out["median"] = st.median;
-    out["quantile90"] = st.quantile90;
-    out["worst"] = st.worst;
-    out["success_threshold"] = st.threshold;
-    out["success_rate"] = st.success_rate;
-    out["evaluations"] = st.evaluations;
-    out["median_evaluations"] = st.median_evaluations;
+    study::write_statistics(out, st);
     success_ = st.success_rate;
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage_simulation_study.h"
 
 namespace linkwright::clearance {
 
@@ -30,15 +31,7 @@ double angle_in(const planar::LinkagePlan& plan, const planar::LinkageMotion& mo
 ClearanceRows::ClearanceRows(const ClearanceStudy& study, ClearanceRecording& out,
                              std::function<bool(RecordedRow&&)> keep)
     : s_(study), out_(out), keep_(std::move(keep)) {
-  out_.columns = planar::linkage_columns(s_.linkage, s_.plan, s_.quantities, s_.traces);
-  // A free joint has no drive whose force would be of interest.
-  std::erase_if(out_.columns, [&](const planar::LinkageColumn& c) {
-    for (std::size_t k = 0; k < s_.courses.size(); ++k)
-      if (!s_.courses[k].law &&
-          c.key.starts_with(planar::identifier(planar::input_joint(s_.linkage, k).name) + "_drive_"))
-        return true;
-    return false;
-  });
+  out_.columns = planar::driven_columns(s_.linkage, s_.plan, s_.quantities, s_.traces, s_.courses);
 }
 
 // ---- columns of a linkage whose joints are others ---------------------------------------------------------

@@ -11,6 +11,7 @@
 #include "linkwright/planar/balancing_masses_study.h"
 #include "linkwright/planar/balancing_study.h"
 #include "linkwright/planar/force_balance.h"
+#include "linkwright/study/run_seeds.h"
 
 namespace linkwright::planar {
 namespace {
@@ -364,17 +365,7 @@ class Report {
     Value& out = result_.statistics;
     out["method"] = method_name(s_.optimiser.method);
     out["combine"] = name_of(s_.optimiser.combine);
-    out["seeds"] = st.seeds;
-    out["feasible_seeds"] = st.feasible;
-    out["best"] = st.best;
-    out["quantile10"] = st.quantile10;
-    out["median"] = st.median;
-    out["quantile90"] = st.quantile90;
-    out["worst"] = st.worst;
-    out["success_threshold"] = st.threshold;
-    out["success_rate"] = st.success_rate;
-    out["evaluations"] = st.evaluations;
-    out["median_evaluations"] = st.median_evaluations;
+    study::write_statistics(out, st);
   }
 
   void facts() {

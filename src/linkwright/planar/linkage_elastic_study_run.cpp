@@ -38,18 +38,11 @@ class ElasticRecorder {
   const std::string& name_of_beam(const ElasticPieces& p) const {
     return s_.linkage.bodies[at(p.beam.body)].name;
   }
-  bool is_free(std::size_t k) const { return !s_.courses[k].law; }
-  bool drives_free_joint(const std::string& key) const {
-    for (std::size_t k = 0; k < s_.plan.inputs(); ++k)
-      if (is_free(k) && key.starts_with(identifier(input_joint(s_.linkage, k).name) + "_drive_")) return true;
-    return false;
-  }
 
   // ---- the rigid linkage --------------------------------------------------------------------------------
 
   void rigid_rows() {
-    rigid_columns_ = linkage_columns(s_.linkage, s_.plan, s_.quantities, s_.traces);
-    std::erase_if(rigid_columns_, [&](const LinkageColumn& c) { return drives_free_joint(c.key); });
+    rigid_columns_ = driven_columns(s_.linkage, s_.plan, s_.quantities, s_.traces, s_.courses);
     rigid_values_.resize(rigid_columns_.size());
     if (std::any_of(s_.courses.begin(), s_.courses.end(), [](const InputCourse& c) { return !c.law; })) {
       // The same route, but steps that suit a motion without vibrations.
@@ -284,19 +277,9 @@ class ElasticRecorder {
   std::string beam_key(std::size_t e) const { return identifier(name_of_beam(out_.elastic.pieces[e])); }
 
   void tables() {
-    const Linkage& l = s_.linkage;
     Table table{.name = "motion"};
     table.add("time_s", "time (s)", out_.times);
-    for (std::size_t k = 0; k < s_.plan.inputs(); ++k) {
-      const bool rotary = s_.plan.rotary[k];
-      const std::string& name = input_joint(l, k).name;
-      const char *rate = rotary ? "rad_per_s" : "m_per_s", *unit = rotary ? "rad/s" : "m/s";
-      table.add(input_key(l, s_.plan, k), input_label(l, s_.plan, k), inputs_[3 * k]);
-      table.add(fmt::format("{}_joint_speed_{}", identifier(name), rate),
-                fmt::format("{} joint speed ({})", name, unit), inputs_[3 * k + 1]);
-      table.add(fmt::format("{}_joint_acceleration_{}2", identifier(name), rate),
-                fmt::format("{} joint acceleration ({}2)", name, unit), inputs_[3 * k + 2]);
-    }
+    add_input_columns(table, s_.linkage, s_.plan, inputs_);
     for (std::size_t e = 0; e < out_.beams.size(); ++e) {
       const std::string key = beam_key(e), &name = name_of_beam(out_.elastic.pieces[e]);
       const BeamRows& v = out_.beams[e];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,5 +55,14 @@ study::Result run_linkage_simulation(const LinkageSimulationStudy& study, RunCon
 std::vector<InputCourse> read_courses(study::ObjectReader& document, const LinkageDescription& description,
                                       Value::Array& canonical);
 void describe_courses(study::SchemaWriter& document);
+
+/// Columns of a linkage without those of drives where a joint is free: there is no drive to be of interest.
+std::vector<LinkageColumn> driven_columns(const Linkage& linkage, const LinkagePlan& plan,
+                                          const LinkageQuantities& quantities,
+                                          const std::vector<BodyPoint>& traces,
+                                          std::span<const InputCourse> courses);
+/// Adds coordinate, speed and acceleration of every input: values[3 k], [3 k + 1], [3 k + 2] of input k.
+void add_input_columns(Table& table, const Linkage& linkage, const LinkagePlan& plan,
+                       const std::vector<std::vector<double>>& values);
 
 }  // namespace linkwright::planar

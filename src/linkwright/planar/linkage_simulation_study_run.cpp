@@ -21,8 +21,7 @@ constexpr double poor_balance = 1e-5;
 class SimulationRunner {
  public:
   SimulationRunner(const LinkageSimulationStudy& s, RunContext& context) : s_(s), context_(context) {
-    for (const LinkageColumn& c : linkage_columns(s.linkage, s.plan, s.quantities, s.traces))
-      if (!drives_free_joint(c.key)) columns_.push_back(c);
+    columns_ = driven_columns(s.linkage, s.plan, s.quantities, s.traces, s.courses);
   }
 
   study::Result run() {
@@ -37,12 +36,6 @@ class SimulationRunner {
 
  private:
   bool is_free(std::size_t k) const { return !s_.courses[k].law; }
-  // A free joint has no drive whose force would be of interest.
-  bool drives_free_joint(const std::string& key) const {
-    for (std::size_t k = 0; k < s_.plan.inputs(); ++k)
-      if (is_free(k) && key.starts_with(identifier(input_joint(s_.linkage, k).name) + "_drive_")) return true;
-    return false;
-  }
 
   void integrate() {
     std::vector<double> times;
@@ -81,18 +74,8 @@ class SimulationRunner {
 
   void finish_table() {
     Table table{.name = "motion"};
-    const Linkage& l = s_.linkage;
     table.add("time_s", "time (s)", times_);
-    for (std::size_t k = 0; k < s_.plan.inputs(); ++k) {
-      const bool rotary = s_.plan.rotary[k];
-      const std::string& name = input_joint(l, k).name;
-      const char *rate = rotary ? "rad_per_s" : "m_per_s", *unit = rotary ? "rad/s" : "m/s";
-      table.add(input_key(l, s_.plan, k), input_label(l, s_.plan, k), inputs_[3 * k]);
-      table.add(fmt::format("{}_joint_speed_{}", identifier(name), rate),
-                fmt::format("{} joint speed ({})", name, unit), inputs_[3 * k + 1]);
-      table.add(fmt::format("{}_joint_acceleration_{}2", identifier(name), rate),
-                fmt::format("{} joint acceleration ({}2)", name, unit), inputs_[3 * k + 2]);
-    }
+    add_input_columns(table, s_.linkage, s_.plan, inputs_);
     table.add("kinetic_energy_J", "kinetic energy (J)", kinetic_);
     table.add("potential_energy_J", "potential energy of weight and springs (J)", potential_);
     table.add("work_J", "work of drives and loads (J)", work_);
@@ -244,6 +227,33 @@ class SimulationRunner {
 };
 
 }  // namespace
+
+std::vector<LinkageColumn> driven_columns(const Linkage& l, const LinkagePlan& plan,
+                                          const LinkageQuantities& quantities,
+                                          const std::vector<BodyPoint>& traces,
+                                          std::span<const InputCourse> courses) {
+  std::vector<LinkageColumn> columns = linkage_columns(l, plan, quantities, traces);
+  std::erase_if(columns, [&](const LinkageColumn& c) {
+    for (std::size_t k = 0; k < courses.size(); ++k)
+      if (!courses[k].law && c.key.starts_with(identifier(input_joint(l, k).name) + "_drive_")) return true;
+    return false;
+  });
+  return columns;
+}
+
+void add_input_columns(Table& table, const Linkage& l, const LinkagePlan& plan,
+                       const std::vector<std::vector<double>>& values) {
+  for (std::size_t k = 0; k < plan.inputs(); ++k) {
+    const bool rotary = plan.rotary[k];
+    const std::string& name = input_joint(l, k).name;
+    const char *rate = rotary ? "rad_per_s" : "m_per_s", *unit = rotary ? "rad/s" : "m/s";
+    table.add(input_key(l, plan, k), input_label(l, plan, k), values[3 * k]);
+    table.add(fmt::format("{}_joint_speed_{}", identifier(name), rate),
+              fmt::format("{} joint speed ({})", name, unit), values[3 * k + 1]);
+    table.add(fmt::format("{}_joint_acceleration_{}2", identifier(name), rate),
+              fmt::format("{} joint acceleration ({}2)", name, unit), values[3 * k + 2]);
+  }
+}
 
 study::Result run_linkage_simulation(const LinkageSimulationStudy& study, RunContext& context) {
   return SimulationRunner(study, context).run();

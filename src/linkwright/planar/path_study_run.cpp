@@ -14,6 +14,7 @@
 #include "linkwright/planar/path_study.h"
 #include "linkwright/planar/samples.h"
 #include "linkwright/planar/scenes.h"
+#include "linkwright/study/run_seeds.h"
 
 namespace linkwright::planar {
 namespace {
@@ -274,17 +275,7 @@ double add_statistics(study::Result& result, const Run& run, double best, double
   const optimise::SeedStatistics st = optimise::statistics(outcomes, threshold);
   Value& out = result.statistics;
   out["method"] = run.method;
-  out["seeds"] = st.seeds;
-  out["feasible_seeds"] = st.feasible;
-  out["best"] = st.best;
-  out["quantile10"] = st.quantile10;
-  out["median"] = st.median;
-  out["quantile90"] = st.quantile90;
-  out["worst"] = st.worst;
-  out["success_threshold"] = st.threshold;
-  out["success_rate"] = st.success_rate;
-  out["evaluations"] = st.evaluations;
-  out["median_evaluations"] = st.median_evaluations;
+  study::write_statistics(out, st);
   return st.success_rate;
 }
 
