@@ -137,9 +137,11 @@ int exit_code(const study::Result& result) {
     case Status::not_converged:
     case Status::branch_lost:
     case Status::limit_reached:
+    case Status::self_locking:
     case Status::infeasible:
       return 3;
     case Status::done:
+    case Status::at_rest:
     case Status::deadline:
       break;
   }
