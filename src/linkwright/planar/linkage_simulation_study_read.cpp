@@ -98,7 +98,7 @@ std::vector<InputCourse> read_courses(study::ObjectReader& document, const Linka
     told[i] = true;
     const bool rotary = d.plan.rotary[i];
     bool free = false;
-    drive(free_field, free);
+    if (!drive(free_field, free) && drive.has("free")) continue;
     if (free) {
       drive(drive_field(rotary, 0, "start", "position at the start"), courses[i].value);
       drive(drive_field(rotary, 1, "start_speed", "rate at the start"), courses[i].rate);

@@ -205,6 +205,7 @@ class GuideReader {
   std::optional<GuideDescription> read() {
     mechanism_.read(form_);
     if (!form_.sample.empty()) return sample();
+    if (mechanism_.has("sample")) return std::nullopt;  // one that cannot be read: the rest is not needed
     hard_points();
     wheel();
     if (!mechanism_.has("link"))
