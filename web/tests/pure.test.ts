@@ -72,7 +72,7 @@ describe("view", () => {
 
 describe("table plots", () => {
   it("sorts rows by x and wraps inputs into the turn that is shown", () => {
-    const { xs, order } = sortedRows([3, 1, null, 2 * Math.PI + 0.5], (x) => x % (2 * Math.PI));
+    const { xs, order } = sortedRows([3, 1, null, 2 * Math.PI + 0.5], { first: 0, length: 2 * Math.PI });
     expect(order).toEqual([3, 1, 0]);
     expect(xs[0]).toBeCloseTo(0.5, 12);
     expect(xs.slice(1)).toEqual([1, 3]);
