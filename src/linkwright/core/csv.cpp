@@ -380,7 +380,9 @@ std::optional<Table> read_csv(std::string_view bytes, const std::string& file, D
   const std::size_t first = trimmed(cells[0].text) == "name" ? 1 : 0;
   for (std::size_t c = first; c + (has_status ? 1 : 0) < cells.size(); ++c) {
     const std::string key = key_of(cells[c].text);
-    if (key.empty() || is_number(key))
+    const bool control = std::any_of(key.begin(), key.end(),
+                                     [](char letter) { return static_cast<unsigned char>(letter) < 0x20; });
+    if (key.empty() || control || is_number(key))
       problem(cells[c].position, {},
               fmt::format("the header has '{}' where a column key is expected", shown(key)),
               "the first line names the columns, for example x_mm,y_mm");
