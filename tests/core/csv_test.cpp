@@ -59,6 +59,8 @@ TEST(ReadCsv, TellsWhatIsWrongAndWhere) {
   EXPECT_THAT(problems("x_m,y_m\n1,2\n3\n"),
               HasSubstr("path.csv:3:1: error: 1 values, the header has 2 columns"));
   EXPECT_THAT(problems("x_m,y_m\n1,two\n"), HasSubstr("path.csv:2:3: error: y_m: 'two' is not a number"));
+  EXPECT_THAT(problems("status\ndone\n"), HasSubstr("the header names no column of numbers"));
+  EXPECT_THAT(problems("x\x01_m,y_m\n"), HasSubstr("where a column key is expected"));
   EXPECT_THAT(problems("x_m\ninf\n"), HasSubstr("'inf' is not finite"));
   EXPECT_THAT(problems("x_m,x_m\n"), HasSubstr("this column stands twice"));
   EXPECT_THAT(problems("x_m\n\"1\n"), HasSubstr("a quote is not closed"));

@@ -390,6 +390,9 @@ std::optional<Table> read_csv(std::string_view bytes, const std::string& file, D
       problem(cells[c].position, shown(key), "this column stands twice");
     table.add(key, key);
   }
+  if (table.columns.empty())
+    problem(cells[0].position, {}, "the header names no column of numbers",
+            "the first line names the columns, for example x_mm,y_mm");
   const std::size_t expected = first + table.columns.size() + (has_status ? 1 : 0);
   NumberReader numbers(*separator);
   while (!scanner.done()) {
