@@ -229,6 +229,23 @@ TEST(LinkageStudy, TellsRatiosCentresAndRanges) {
   EXPECT_EQ(table("assembly_modes").find("coupler_rocker_mode")->values, (std::vector<double>{1, -1}));
 }
 
+// A joint and a body, or two bodies that differ in a blank, would write columns of one name.
+TEST(LinkageStudy, RefusesTwoColumnsOfOneName) {
+  std::string same = four_bar_text;
+  for (const auto& [from, to] : {std::pair{"name = \"O1\"", "name = \"crank\""},
+                                 std::pair{"joint = \"O1\"", "joint = \"crank\""}})
+    for (std::size_t i = 0; (i = same.find(from, i)) != std::string::npos;)
+      same.replace(i, std::string_view(from).size(), to);
+  EXPECT_THAT(problems_of(same),
+              HasSubstr("two columns of the results would be called 'crank_angle_rad': crank angle (rad) and "
+                        "crank angle (rad) of the drive; give bodies, joints and points names that differ"));
+  std::string blank = four_bar_text;
+  for (const auto& [from, to] : {std::pair{"coupler", "arm 1"}, std::pair{"rocker", "arm_1"}})
+    for (std::size_t i = 0; (i = blank.find(from, i)) != std::string::npos;)
+      blank.replace(i, std::string_view(from).size(), to);
+  EXPECT_THAT(problems_of(blank), HasSubstr("would be called 'arm_1_"));
+}
+
 TEST(LinkageStudy, NamesWhatIsWrongWithALinkage) {
   EXPECT_THAT(problems_of(replaced(four_bar_text, "first = \"crank.O2\"", "first = \"crnk.O2\"")),
               HasSubstr("mechanism.joint[1].first: there is no body 'crnk'; did you mean 'crank'?"));

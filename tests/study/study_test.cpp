@@ -45,7 +45,7 @@ TEST(Study, CanonicalHoldsEverythingInSiUnits) {
       to_json(p.study->canonical),
       R"({"schema":1,"kind":"synthesis","title":"A lever","mechanism":{"type":"sample.lever","length_m":0.4,"mode":"done"},)"
       R"("target":{"type":"angle","to_rad":1.5707963267948966},"optimiser":{"seeds":{"first":1,"count":2}},)"
-      R"("output":{"dir":"","formats":["json","csv","html"],"samples":361},)"
+      R"("output":{"dir":"","formats":["json","csv","html"],"samples":361,"units":"si","digits":"full"},)"
       R"("check":[{"quantity":"best.height_mm","equals":400.0,"tolerance":1e-09}]})");
 }
 
@@ -113,7 +113,7 @@ TEST(Study, UnknownKeysOnEveryLevel) {
   EXPECT_THAT(messages("first = 1", "frst = 1"),
               HasSubstr("optimiser.seeds.frst: unknown key; did you mean 'first'?"));
   EXPECT_THAT(messages("[optimiser]", "[output]\nfolder = 'x'\n[optimiser]"),
-              HasSubstr("output.folder: unknown key; allowed here: dir, formats, samples, quantities"));
+              HasSubstr("output.folder: unknown key; allowed here: dir, formats, samples, units, digits, quantities"));
 }
 
 TEST(Study, OutputWords) {

@@ -98,7 +98,7 @@ std::vector<InputCourse> read_courses(study::ObjectReader& document, const Linka
     told[i] = true;
     const bool rotary = d.plan.rotary[i];
     bool free = false;
-    drive(free_field, free);
+    if (!drive(free_field, free) && drive.has("free")) continue;
     if (free) {
       drive(drive_field(rotary, 0, "start", "position at the start"), courses[i].value);
       drive(drive_field(rotary, 1, "start_speed", "rate at the start"), courses[i].rate);
@@ -125,7 +125,7 @@ void describe_courses(study::SchemaWriter& document) {
   for (bool rotary : {true, false})
     for (const auto& [order, key] : {std::pair{0, "start"}, std::pair{1, "start_speed"}})
       drive.property(drive_field(rotary, order, key, "of a free joint"), study::schema_number());
-  drive(Field{.key = "law", .summary = "motion law of a joint that is not free"}, study::RotaryLaw{});
+  drive(Field{.key = "law", .summary = "motion law of a joint that is not free"}, std::optional<study::AnyLaw>());
   document.property(Field{.key = "drive", .summary = "joints that are free, or move as a law says"},
                     study::schema_array(std::move(drive).finish()));
 }

@@ -58,7 +58,7 @@ void write_banner(std::string& out, const ReportInput& input) {
       std::count_if(result.checks.begin(), result.checks.end(), [](const auto& c) { return !c.passed; });
   put(out, "<header><p class=\"kicker\">Linkwright report</p><h1>{}</h1>", escape(input.title));
   if (!input.source.empty()) put(out, "<p class=\"source\">{}</p>", escape(input.source));
-  const bool good = failed == 0 && result.status == Status::done;
+  const bool good = failed == 0 && (result.status == Status::done || result.status == Status::at_rest);
   put(out, "<div class=\"verdict {}\"><strong>{}</strong><span>status {}", good ? "good" : "bad",
       escape(result.headline), to_string(result.status));
   if (!result.checks.empty())

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "linkwright/core/csv.h"
+
 namespace linkwright::study {
 
 std::optional<std::string> read_beside(ObjectReader& reader, std::string_view key,
@@ -24,7 +26,10 @@ std::optional<std::string> read_beside(ObjectReader& reader, std::string_view ke
   }
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
+  std::string no_text;
+  std::optional<std::string> utf8 = to_utf8(text.str(), no_text);
+  if (!utf8) reader.error(key, fmt::format("'{}' cannot be read: {}", file, no_text));
+  return utf8;
 }
 
 }  // namespace linkwright::study

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/units.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::study {
@@ -133,6 +135,26 @@ void add_property(Value& document, std::string_view table, std::string_view key,
   if (required) described["required"].push_back(Value(key));
 }
 
+/// Two columns of one name would hide each other in plots, checks and spreadsheets.
+void make_unique(Table& table, Diagnostics& diagnostics) {
+  std::set<std::string> names;
+  for (Column& column : table.columns) {
+    if (names.insert(column.key).second) continue;
+    const auto parts = split_unit(column.key);
+    const std::string base = parts ? std::string(parts->base) : column.key;
+    const std::string unit = parts ? "_" + std::string(parts->unit->suffix) : std::string();
+    int number = 2;
+    while (!names.insert(fmt::format("{}_{}{}", base, number, unit)).second) ++number;
+    const std::string key = fmt::format("{}_{}{}", base, number, unit);
+    diagnostics.push_back({.severity = Diagnostic::Severity::warning,
+                           .key = table.name + "." + column.key,
+                           .message = fmt::format("two columns have this name; that of '{}' is now {}",
+                                                  column.label, key),
+                           .hint = "give bodies, joints and points names that differ in letters and digits"});
+    column.key = key;
+  }
+}
+
 }  // namespace
 
 std::optional<Study> prepare(const Value& document, const std::string& file,
@@ -144,6 +166,7 @@ std::optional<Study> prepare(const Value& document, const std::string& file,
   Study study;
   Common& common = study.common;
   common.folder = folder;
+  common.units = units_of(document);
   read_schema_version(root);
   root(title_field, common.title);
   root(source_field, common.source);
@@ -161,7 +184,7 @@ std::optional<Study> prepare(const Value& document, const std::string& file,
     for (const char* name : {"mechanism", "target"})
       if (root.is_table(Field{.key = name, .summary = {}})) root.table(name)->members();
   }
-  reader.finish();
+  reader.finish([&] { return study.kind ? schema_of(*study.kind) : Value(); });
   if (reader.has_errors() || !study.kind) return std::nullopt;
   LINKWRIGHT_REQUIRE(prepared.run != nullptr, "the kind '{}' accepted '{}' but cannot run it",
                      name_of(*study.kind), file);
@@ -172,6 +195,7 @@ std::optional<Study> prepare(const Value& document, const std::string& file,
 
 Result run_study(const Study& study, RunContext& context) {
   Result result = study.run(context);
+  for (Table& table : result.tables) make_unique(table, result.diagnostics);
   for (const CheckRequest& check : study.common.checks) result.checks.push_back(evaluate(check, result));
   return result;
 }

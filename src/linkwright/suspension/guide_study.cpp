@@ -205,6 +205,8 @@ class GuideReader {
   std::optional<GuideDescription> read() {
     mechanism_.read(form_);
     if (!form_.sample.empty()) return sample();
+    // A name that cannot be read: the rest is not needed.
+    if (mechanism_.has("sample") && mechanism_.document().has_errors()) return std::nullopt;
     hard_points();
     wheel();
     if (!mechanism_.has("link"))
