@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -248,6 +249,22 @@ TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
   EXPECT_LT(largest(values(r, "motion", "energy_drift_J")), 1e-7);
   // Peaks of the table of contacts are in the map, too.
   EXPECT_EQ(largest(values(r, "contact_map", "A_force_N")), largest(values(r, "contacts", "force_N")));
+  // What a map draws has the unit of what it shows: newtons, and a share of the time.
+  for (const auto& [name, of, x_key, y_key] :
+       {std::array{"contact-map", "A_force_N", "A_force_x_N", "A_force_y_N"},
+        std::array{"contact-time-map", "A_time_share", "A_time_share_x", "A_time_share_y"}}) {
+    const auto plot =
+        std::find_if(r.plots.begin(), r.plots.end(), [&](const study::Plot& p) { return p.name == name; });
+    ASSERT_NE(plot, r.plots.end()) << name;
+    EXPECT_EQ(plot->y, (std::vector<std::string>{x_key, y_key}));
+    const std::vector<double>&size = values(r, "contact_map", of), &u = values(r, "contact_map", x_key),
+          &v = values(r, "contact_map", y_key), &angle = values(r, "contact_map", "bush_angle_rad");
+    EXPECT_GT(largest(size), 0);
+    for (std::size_t i = 0; i < size.size(); ++i) {
+      EXPECT_NEAR(u[i], size[i] * std::cos(angle[i]), 1e-12 * largest(size));
+      EXPECT_NEAR(v[i], size[i] * std::sin(angle[i]), 1e-12 * largest(size));
+    }
+  }
 }
 
 TEST(ClearanceStudy, AutomaticContactIsContinuousWhereThatHolds) {

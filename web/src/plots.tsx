@@ -202,7 +202,7 @@ const scaled = (values: Num[], factor: number) => values.map((v) => (v === null 
 const largest = (lists: Num[][]) => lists.flat().reduce<number>((a, v) => Math.max(a, Math.abs(v ?? 0)), 0);
 
 /** Says that values were raised to the lower edge of a logarithmic axis. */
-const Clipped = ({ what }: { what: string }) => <p class="note">{what} below {format(rounding, 1)} of the largest lie on the lower edge: they are zero up to rounding.</p>;
+const Clipped = ({ what, why = "" }: { what: string; why?: string }) => <p class="note">{what} below {format(rounding, 1)} of the largest lie on the lower edge{why}.</p>;
 
 function TablePlot({ plot, table }: { plot: Plot; table: Table }) {
   const column = (key: string) => table.columns.findIndex((c) => c.key === key);
@@ -253,7 +253,7 @@ function TablePlot({ plot, table }: { plot: Plot; table: Table }) {
       <Chart label={plot.title} data={made.data} options={made.options} link={linked ? firstInput(made.factor) : undefined} units={made.units} pick={made.pick}
         log={plot.logarithmic_y} names={made.names} symbol={made.symbol} />
       {made.names && <p class="note">{made.names.length} curves<span class="screen-only">; point at one to read its name</span>.</p>}
-      {made.clipped && <Clipped what="Values" />}
+      {made.clipped && <Clipped what="Values" why=": they are zero up to rounding" />}
       {made.pick && <p class="note screen-only">Click a point to see its design.</p>}
     </>
   );
@@ -340,7 +340,7 @@ function GroupPlot({ plot, table }: { plot: Plot; table: Table }) {
       <Chart label={plot.title} data={made.data} options={made.options} link={made.link} units={made.legend} emphasise={made.emphasise}
         log={plot.logarithmic_y} names={made.names} symbol={made.unit.symbol} />
       {made.bundle && <p class="note">{`${made.curves.length} curves, ${groups[0].label} to ${groups[groups.length - 1].label}`}{shown.length > 0 && <>; strong: <b>{groups[now].label}</b></>}<span class="screen-only">; point at one to read its name</span></p>}
-      {made.clipped && <Clipped what="Values" />}
+      {made.clipped && <Clipped what="Values" why=": they are zero up to rounding" />}
     </>
   );
 }
