@@ -51,6 +51,7 @@ NO_TEST = {
     "optimise/swarm_base.h": "shared part of fireflies and cuckoos, tested through them",
     "planar/linkage_sweep_kernel.h": "part of linkage_sweep, compiled once per instruction set and compared by its test",
     "planar/path_objective_kernel.h": "part of path_objective, compiled once per instruction set and compared by its test",
+    "planar/slider_crank_path_objective_kernel.h": "part of slider_crank_path_objective, likewise",
 }
 
 

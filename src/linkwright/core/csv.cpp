@@ -377,7 +377,8 @@ std::optional<Table> read_csv(std::string_view bytes, const std::string& file, D
   }
   Table table;
   const bool has_status = trimmed(cells.back().text) == "status";
-  const std::size_t first = trimmed(cells[0].text) == "name" ? 1 : 0;
+  const std::string_view heading = trimmed(cells[0].text);
+  const std::size_t first = heading == "name" || heading == "Name" || heading == "NAME" ? 1 : 0;
   for (std::size_t c = first; c + (has_status ? 1 : 0) < cells.size(); ++c) {
     const std::string key = key_of(cells[c].text);
     const bool control = std::any_of(key.begin(), key.end(),
