@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "linkwright/suspension/constructions.h"
 #include "linkwright/suspension/suspension.h"
 
 /// The equations of a wheel guide: residuals of its joints and of a driver, with exact derivatives.
@@ -98,6 +99,7 @@ inline constexpr int most_unknowns = 7;
 
 /// Residuals and their derivatives with respect to the unknowns - shift of the wheel centre, small turn of
 /// the carrier, angle of the arm - and to the rack. First the constraints, in the order of links and couplers
+  GuideConstruction construction;
 /// (m; rad for directions of hinges), the driver last. A distance d that should be l has the residual (d^2 -
 /// l^2) / (2 l); a strut has two distances across its line (equation 43, two rows); an RR arm is placed by
 /// its angle, since its four distances (equation 44) lose rank where its axes meet or are parallel.

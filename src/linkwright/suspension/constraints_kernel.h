@@ -321,7 +321,8 @@ BasicGuidePlan<T> prepare(const BasicWheelGuide<T>& guide) {
   BasicGuidePlan<T> plan{.side = guide.side,
                          .wheel = guide.wheel,
                          .wheel_axis = wheel_axis(guide.side, guide.wheel.toe, guide.wheel.camber),
-                         .rack_direction = guide.rack_direction};
+                         .rack_direction = guide.rack_direction,
+                         .construction = construction_of(guide.links)};
   const Vector3<T>& centre = guide.wheel.centre;
   plan.contact = centre + contact_offset(guide.side, guide.wheel.tyre_diameter,
                                          BasicWheelAngles<T>{guide.wheel.toe, guide.wheel.camber, T(0)});

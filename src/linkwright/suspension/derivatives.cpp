@@ -227,7 +227,10 @@ WheelDerivatives by_numbers(const DerivativePlan& plan, const GuidePosition& pos
     const Columns<N> shifts = linear.shifts(pass);
     const auto place = linear.moved(shifts);
     auto parameters = kernel::parameters_at_rest(pass, place, rack);
-    if (extent == Extent::all) linear.add_rates(pass, place, rack, parameters);
+    if (extent == Extent::all) {
+      kernel::add_constructions(pass, place, rack, parameters);
+      linear.add_rates(pass, place, rack, parameters);
+    }
     const std::size_t first = i * W, count = std::min<std::size_t>(W, plan.numbers.size() - first);
     take_apart(parameters, out.parameters, std::span(out.by).subspan(first, count));
     for (std::size_t k = 0; k < count; ++k)
@@ -257,6 +260,7 @@ InputDerivatives by_inputs(const DerivativePlan& plan, const GuidePosition& posi
   linear.add_rates(plan.inputs, place, rack, parameters);
   std::array<WheelParameters, 2> by;
   take_apart(parameters, out.parameters, by);
+  kernel::add_constructions(plan.inputs, place, rack, parameters);
   out.by_travel = by[0];
   out.by_rack = by[1];
   return out;
