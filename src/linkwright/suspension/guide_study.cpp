@@ -8,6 +8,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/suspension/plausibility.h"
 #include "linkwright/suspension/samples.h"
 #include "linkwright/suspension/structure.h"
 
@@ -519,7 +520,9 @@ std::optional<GuideDescription> read_guide(study::ObjectReader& document, const 
   if (!mechanism) return std::nullopt;
   std::optional<GuideDescription> out = GuideReader(*mechanism, common, open).read();
   if (!out) return std::nullopt;
-  const Diagnostics problems = anything_open(*out) ? check(out->guide) : check_structure(out->guide);
+  Diagnostics problems = implausible(out->guide);
+  const Diagnostics structure = anything_open(*out) ? check(out->guide) : check_structure(out->guide);
+  problems.insert(problems.end(), structure.begin(), structure.end());
   report(*mechanism, problems);
   if (has_errors(problems)) return std::nullopt;
   return out;

@@ -7,6 +7,7 @@
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/suspension/indirect_study.h"
+#include "linkwright/suspension/plausibility.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -85,6 +86,9 @@ void read_poses(study::ObjectReader& target, const study::Common& common, Indire
   if (task.targets.poses.size() > most_poses)
     target.error(key,
                  fmt::format("{} positions, at most {} are allowed", task.targets.poses.size(), most_poses));
+  for (const Diagnostic& d : implausible(task.targets))
+    d.severity == Diagnostic::Severity::error ? target.error(key, d.message, d.hint)
+                                              : target.warning(key, d.message, d.hint);
   const bool elsewhere = std::any_of(
       task.targets.poses.begin(), task.targets.poses.end(),
       [&](const CarrierTarget& p) { return !(p.centre == task.targets.wheel.centre && p.rack == 0); });
