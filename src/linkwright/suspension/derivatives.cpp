@@ -33,14 +33,17 @@ BasicWheelGuide<T> constant(const WheelGuide& guide) {
     out.links.push_back({.type = link.type,
                          .body = constants(link.body),
                          .carrier = constants(link.carrier),
-                         .moved_by_rack = link.moved_by_rack});
+                         .moved_by_rack = link.moved_by_rack,
+                         .cross_axis = link.cross_axis});
     if (link.length) out.links.back().length = T(*link.length);
   }
-  for (const Coupler& coupler : guide.couplers)
+  for (const Coupler& coupler : guide.couplers) {
     out.couplers.push_back({.first = coupler.first,
                             .fraction = T(coupler.fraction),
                             .second = coupler.second,
                             .point = constant(coupler.point)});
+    if (coupler.begin) out.couplers.back().begin = constant(*coupler.begin);
+  }
   if (guide.spring)
     out.spring = {constant(guide.spring->body), constant(guide.spring->moving), guide.spring->link};
   return out;
@@ -257,10 +260,10 @@ InputDerivatives by_inputs(const DerivativePlan& plan, const GuidePosition& posi
   const auto place = linear.moved(shifts);
   const auto rack = T::variable(position.input.rack, 1);
   auto parameters = kernel::parameters_at_rest(plan.inputs, place, rack);
+  kernel::add_constructions(plan.inputs, place, rack, parameters);
   linear.add_rates(plan.inputs, place, rack, parameters);
   std::array<WheelParameters, 2> by;
   take_apart(parameters, out.parameters, by);
-  kernel::add_constructions(plan.inputs, place, rack, parameters);
   out.by_travel = by[0];
   out.by_rack = by[1];
   return out;

@@ -122,6 +122,13 @@ std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, 
     if (!open)
       mechanism->error("link", "nothing is to be found: all points are given",
                        "write body_m = { near = [x, y, z], box_m = 0.15 } for a point to be found");
+    for (const Coupler& c : guide.couplers)
+      if (c.begin)
+        mechanism->error(
+            "coupler",
+            fmt::format("'{}' begins off the line of its first link: this synthesis takes it on the line",
+                        c.name),
+            "give fraction or offset in the place of first_point");
     for (const GuideLink& l : guide.links)
       if (l.length)
         mechanism->error(
