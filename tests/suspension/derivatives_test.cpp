@@ -120,6 +120,21 @@ TEST(Derivatives, OfPrescribedLengthsAndCouplers) {
   expect_exact(right, "right wheel", {{Driver::wheel_centre_z, {0.03, -0.02}}});
 }
 
+TEST(Derivatives, OfWhatIsFixedToARodOffItsLine) {
+  for (const int link : {0, 2}) {
+    WheelGuide guide = guide_sample("5KS").guide;
+    guide.spring->link = link;
+    expect_exact(guide, "5KS, spring on a rod", {{Driver::wheel_centre_z, {0.045, 0.02}}});
+    guide.links[link].cross_axis = Vec3{0.7, 0.5, -0.6};
+    guide.links[link].length = norm(guide.links[link].carrier[0] - guide.links[link].body[0]) + 0.004;
+    expect_exact(guide, "5KS, spring on a rod of another length", {{Driver::spring, {0.01, -0.01}}});
+  }
+  WheelGuide coupled = guide_sample("interconnected").guide;
+  const GuideLink& rod = coupled.links[coupled.couplers[0].first];
+  coupled.couplers[0].begin = rod.body[0] + 0.6 * (rod.carrier[0] - rod.body[0]) + Vec3{0.02, 0.005, -0.03};
+  expect_exact(coupled, "coupler off the line", {{Driver::wheel_centre_z, {0.03, 0}}});
+}
+
 TEST(Derivatives, AlongTravelAndRackAgreeWithDifferences) {
   for (const GuideSample& sample : guide_samples()) {
     const DerivativePlan plan = prepare_derivatives(sample.guide, {});
