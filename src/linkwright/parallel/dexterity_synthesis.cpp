@@ -43,11 +43,22 @@ Drawn draw(const DexterityModel& model, std::uint64_t seed, int index, Dexterity
   return out;
 }
 
+/// Of the legs, that one does not get to a node.
+bool is_out_of_reach(const DexterityStand& stand) {
+  return (stand.limit == DexterityLimit::reach || stand.limit == DexterityLimit::input) && stand.value < 0;
+}
+
 std::string described(const DexterityStand& stand) {
+  if (is_out_of_reach(stand))
+    return fmt::format("leg {} does not reach ({:.4g}, {:.4g}, {:.4g}) m, and all of the region is asked for",
+                       stand.leg + 1, stand.place.x, stand.place.y, stand.place.z);
   std::string text = fmt::format("{} is {:.6g}, {} {:.6g} is asked for", name_of(stand.limit), stand.value,
                                  stand.at_least ? "at least" : "at most", stand.bound);
-  if (stand.leg >= 0)
-    text += fmt::format(", at leg {} in ({:.4g}, {:.4g}, {:.4g}) m", stand.leg + 1, stand.place.x,
+  const bool of_pose =
+      stand.limit == DexterityLimit::conditioning || stand.limit == DexterityLimit::constraint;
+  if (stand.leg >= 0 || of_pose)
+    text += fmt::format(", at {}({:.4g}, {:.4g}, {:.4g}) m",
+                        stand.leg >= 0 ? fmt::format("leg {} in ", stand.leg + 1) : "", stand.place.x,
                         stand.place.y, stand.place.z);
   return text;
 }
@@ -62,13 +73,13 @@ void add_stands(const DexterityModel& model, const Extremes& extremes, std::span
   const auto of_pose = [&](DexterityLimit limit, PoseLimit::Kind kind, bool at_least, auto&& extreme_of,
                            auto&& value_of, double bound) {
     DexterityStand stand{.limit = limit, .bound = bound, .at_least = at_least, .excess = -HUGE_VAL};
-    for (int i = 0; i < (kind == PoseLimit::conditioning ? 1 : model.legs()); ++i) {
+    for (int i = 0; i < model.entries(kind); ++i) {
       const Extreme& extreme = extreme_of(i);
       const double g = model.limit(kind, extreme, unknowns);
       if (g <= stand.excess) continue;
       stand.excess = g;
       stand.value = value_of(extreme.value);
-      stand.leg = kind == PoseLimit::conditioning ? -1 : i;
+      stand.leg = model.entries(kind) == 1 ? -1 : i;
       stand.place = out.origin + model.at(extreme.pose).place;
     }
     finish(stand);
@@ -86,6 +97,10 @@ void add_stands(const DexterityModel& model, const Extremes& extremes, std::span
         DexterityLimit::conditioning, PoseLimit::conditioning, true,
         [&](int) -> const Extreme& { return extremes.conditioning; }, same,
         model.bound(PoseLimit::conditioning));
+  if (model.wants(PoseLimit::constraint))
+    of_pose(
+        DexterityLimit::constraint, PoseLimit::constraint, true,
+        [&](int) -> const Extreme& { return extremes.constraint; }, same, model.bound(PoseLimit::constraint));
   if (model.wants(PoseLimit::output))
     of_pose(
         DexterityLimit::output, PoseLimit::output, true,
@@ -160,7 +175,9 @@ DexterityDesign assessed(const DexterityModel& model, std::span<const double> x)
   if (out.violation > 0) {
     const auto most = std::max_element(out.limits.begin(), out.limits.end(),
                                        [](const auto& a, const auto& b) { return a.excess < b.excess; });
-    out.reason = described(*most);
+    // Out of reach no other index has a meaning.
+    const auto reach = std::find_if(out.limits.begin(), out.limits.end(), is_out_of_reach);
+    out.reason = described(reach != out.limits.end() ? *reach : *most);
   }
   return out;
 }
@@ -173,7 +190,7 @@ void look_between(const DexterityModel& model, RunContext& context, DexteritySyn
   const auto worst_of = [&](PoseLimit::Kind kind) {
     const bool more = kind == PoseLimit::side_swing;
     double worst = more ? -HUGE_VAL : HUGE_VAL;
-    for (int i = 0; i < (kind == PoseLimit::conditioning ? 1 : model.legs()); ++i) {
+    for (int i = 0; i < model.entries(kind); ++i) {
       const double found = between_nodes(model, designed, kind, i, close, context, out.poses)[0].value;
       worst = more ? std::max(worst, found) : std::min(worst, found);
     }
@@ -183,6 +200,7 @@ void look_between(const DexterityModel& model, RunContext& context, DexteritySyn
   for (const DexterityStand& stand : best.limits) {
     double value = std::numeric_limits<double>::quiet_NaN();
     if (stand.limit == DexterityLimit::conditioning) value = out.worst_between_nodes;
+    if (stand.limit == DexterityLimit::constraint) value = worst_of(PoseLimit::constraint);
     if (stand.limit == DexterityLimit::reach) value = worst_of(PoseLimit::input);
     if (stand.limit == DexterityLimit::input) value = std::sqrt(std::max(0.0, worst_of(PoseLimit::input)));
     if (stand.limit == DexterityLimit::output) value = worst_of(PoseLimit::output);
@@ -212,6 +230,31 @@ DexterityDesign assess(const DexterityTask& task, std::span<const double> x) {
   const std::size_t count = design_variables(task).size();
   LINKWRIGHT_REQUIRE(x.size() == count, "{} values for {} design variables", x.size(), count);
   return assessed(model, x);
+}
+
+BodyProof prove_region(const DexterityTask& task, const DexterityDesign& design) {
+  const auto trouble = problem(task);
+  LINKWRIGHT_REQUIRE(!trouble, "{}", trouble.value_or(""));
+  const PrescribedRegion& r = task.region;
+  const bool round = r.shape == RegionShape::cylinder || r.shape == RegionShape::circle;
+  const Vec3 middle = design.origin + middle_of(r);
+  Body body{.shape = r.shape == RegionShape::cylinder ? InscribedShape::cylinder
+                     : r.shape == RegionShape::circle ? InscribedShape::ball
+                                                      : InscribedShape::box,
+            .centre = middle,
+            .half = {r.width / 2, round ? r.width / 2 : r.length / 2, r.height / 2}};
+  if (is_planar(r.shape)) body.half = {r.width / 2, round ? r.width / 2 : r.height / 2, 0};
+  BodyProof out{.proven = true};
+  for (const Mat3& rotation : task.orientations) {
+    const auto home =
+        trouble_task(design.robot, {middle, rotation}, task.mode, task.length, task.limits.constraint);
+    if (!home) return {.violated = middle};
+    const BodyProof found = prove(*home, body, rotation);
+    out.looks += found.looks;
+    out.proven = out.proven && found.proven;
+    if (found.violated && !out.violated) out.violated = found.violated;
+  }
+  return out;
 }
 
 DexteritySynthesis synthesise(const DexterityTask& task, const DexterityOptions& options, std::uint64_t seed,

@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/parallel/constraint.h"
 #include "linkwright/parallel/pi_range.h"
+#include "linkwright/parallel/regular_ball.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -46,7 +48,9 @@ DexterityModel::DexterityModel(const DexterityTask& task)
   LINKWRIGHT_REQUIRE(!found, "{}", *found);
   legs_ = task.family == RobotFamily::delta ? 3 : task.family == RobotFamily::hexa ? 6 : 2;
   travels_ = std::isfinite(task.limits.arm_travel) || task.pi_joint;
-  measures_ = {.length = task.length, .output = bound(PoseLimit::output) > 0};
+  measures_ = {.length = task.length,
+               .output = bound(PoseLimit::output) > 0,
+               .constraint = task.family == RobotFamily::delta};
   for (std::size_t i = 0; i < points_.size(); ++i)
     if (stands_out(task.region, points_[i])) few_points_.push_back(i);
   const std::vector<RegionPoint> cells = region_cells(task.region);
@@ -89,7 +93,12 @@ std::vector<std::size_t> DexterityModel::few() const {
 }
 
 DesignedRobot DexterityModel::designed(std::span<const double> unknowns) const {
-  return design(task_.family, unknowns.first(dimensions_));
+  DesignedRobot out = design(task_.family, unknowns.first(dimensions_));
+  if (task_.family == RobotFamily::delta) {
+    const Vec3 middle = out.offset * out.ahead + middle_of(task_.region);
+    if (regular_at(out.robot, {middle}, task_.mode, 1).marks.constraint < 0) out.constraint = -1;
+  }
+  return out;
 }
 
 Extremes DexterityModel::extremes(const DesignedRobot& designed, Work& work, bool few) const {
@@ -107,6 +116,7 @@ Extremes DexterityModel::extremes(const DesignedRobot& designed, Work& work, boo
         if (first || !(value <= extreme.value)) extreme = {value, pose};
       };
       less(work.set.conditioning[k], out.conditioning);
+      if (measures_.constraint) less(work.set.constraint[k], out.constraint);
       for (int i = 0; i < legs_; ++i) {
         less(work.set.input_square[i][k], out.input_square[i]);
         if (measures_.output) less(work.set.output[i][k], out.output[i]);
@@ -127,6 +137,7 @@ void DexterityModel::indices(const DesignedRobot& designed, PoseLimit::Kind kind
     measure(designed, task_.mode, measures_, group.all, false, work.set);
     const SetDexterity& set = work.set;
     const std::vector<double>& from = kind == PoseLimit::conditioning ? set.conditioning
+                                      : kind == PoseLimit::constraint ? set.constraint
                                       : kind == PoseLimit::input      ? set.input_square[leg]
                                       : kind == PoseLimit::output     ? set.output[leg]
                                                                       : set.side[leg];
@@ -152,14 +163,16 @@ double DexterityModel::mean(const DesignedRobot& designed, Work& work, std::span
 
 bool DexterityModel::wants(PoseLimit::Kind kind) const {
   switch (kind) {
-    case PoseLimit::conditioning:
     case PoseLimit::output:
       return bound(kind) > 0;
+    case PoseLimit::constraint:
+      return measures_.constraint;
     case PoseLimit::side_swing:
       return task_.limits.side_swing < pi / 2;
     case PoseLimit::arm_low:
     case PoseLimit::arm_high:
       return travels_;
+    case PoseLimit::conditioning:  // at least its sign, that of the assembly
     case PoseLimit::input:
       break;
   }
@@ -171,6 +184,8 @@ double DexterityModel::bound(PoseLimit::Kind kind) const {
   switch (kind) {
     case PoseLimit::conditioning:
       return l.conditioning;
+    case PoseLimit::constraint:
+      return std::max(l.constraint, constraint_floor);
     case PoseLimit::input:
       return std::max(l.input, l.transmission);
     case PoseLimit::output:
@@ -194,6 +209,9 @@ double DexterityModel::limit(const PoseLimit& which, const PoseDexterity<double>
     case PoseLimit::conditioning:
       row(-1, there.conditioning_by);
       return limit(which.kind, {there.conditioning, 0}, unknowns);
+    case PoseLimit::constraint:
+      row(-1, there.constraint_by);
+      return limit(which.kind, {there.constraint, 0}, unknowns);
     case PoseLimit::input:
       row(-1, there.input_square_by[i]);
       return limit(which.kind, {there.input_square[i], 0}, unknowns);
@@ -227,6 +245,7 @@ double DexterityModel::limit(PoseLimit::Kind kind, const Extreme& extreme,
     case PoseLimit::arm_high:
       return extreme.value - unknowns[low_angle() + 1];
     case PoseLimit::conditioning:
+    case PoseLimit::constraint:
     case PoseLimit::output:
       break;
   }
@@ -340,6 +359,7 @@ double DexterityModel::violation(std::span<const double> x, const Extremes& extr
   double sum = 0;
   const auto missed = [&](double g) { sum += g > feasible ? g : 0; };
   if (wants(PoseLimit::conditioning)) missed(limit(PoseLimit::conditioning, extremes.conditioning, unknowns));
+  if (wants(PoseLimit::constraint)) missed(limit(PoseLimit::constraint, extremes.constraint, unknowns));
   for (int i = 0; i < legs_; ++i) {
     missed(limit(PoseLimit::input, extremes.input_square[i], unknowns));
     if (wants(PoseLimit::output)) missed(limit(PoseLimit::output, extremes.output[i], unknowns));

@@ -22,6 +22,8 @@ double index_of(PoseLimit::Kind kind, int leg, const PoseDexterity<double>& ther
     case PoseLimit::arm_low:
     case PoseLimit::arm_high:
       return std::atan2(there.sine[leg], there.cosine[leg]);
+    case PoseLimit::constraint:
+      return there.constraint;
     case PoseLimit::conditioning:
       break;
   }
@@ -40,6 +42,8 @@ const Extreme& extreme_of(const Extremes& extremes, PoseLimit::Kind kind, int le
       return extremes.lowest[leg];
     case PoseLimit::arm_high:
       return extremes.highest[leg];
+    case PoseLimit::constraint:
+      return extremes.constraint;
     case PoseLimit::conditioning:
       break;
   }
@@ -69,7 +73,8 @@ class Search {
   void measure_at(std::span<const double> u);
   void fill(bool functions, std::span<const double> u, std::span<double> values, std::span<double> jacobian);
   optimise::LocalReport improve(std::vector<double>& u);
-  bool exchange(std::span<const double> u, const Extremes& extremes);
+  /// `all`: also what is not missed yet, so that the first step knows of every limit.
+  bool exchange(std::span<const double> u, const Extremes& extremes, bool all = false);
   bool exchange_between(std::span<const double> u, const Extremes& extremes);
 
   const DexterityModel& model_;
@@ -162,7 +167,7 @@ optimise::LocalReport Search::improve(std::vector<double>& u) {
   return optimise::minimise_local(cost, m, limits, u, model_.lower(), model_.upper(), local, context_);
 }
 
-bool Search::exchange(std::span<const double> u, const Extremes& extremes) {
+bool Search::exchange(std::span<const double> u, const Extremes& extremes, bool all) {
   // The goal of the epigraph on the working set: nodes that are worse join it.
   measure_at(u);
   for (std::size_t k = 0; k < functions_.size(); ++k) {
@@ -173,11 +178,11 @@ bool Search::exchange(std::span<const double> u, const Extremes& extremes) {
   for (int k = 0; k < pose_limit_kinds; ++k) {
     const auto kind = static_cast<PoseLimit::Kind>(k);
     if (!looks_at(kind)) continue;
-    for (int i = 0; i < (kind == PoseLimit::conditioning ? 1 : model_.legs()); ++i) {
+    for (int i = 0; i < model_.entries(kind); ++i) {
       const Extreme& extreme = extreme_of(extremes, kind, i);
       const PoseLimit which{kind, i, extreme.pose};
       const double g = is_function(which) ? worst_ - extreme.value : model_.limit(kind, extreme, u);
-      if (g > feasible / 2) added |= add(which);
+      if (all || g > feasible / 2) added |= add(which);
     }
   }
   return added;
@@ -190,7 +195,7 @@ bool Search::exchange_between(std::span<const double> u, const Extremes& extreme
   for (int k = 0; k < pose_limit_kinds; ++k) {
     const auto kind = static_cast<PoseLimit::Kind>(k);
     if (!looks_at(kind)) continue;
-    for (int i = 0; i < (kind == PoseLimit::conditioning ? 1 : model_.legs()); ++i) {
+    for (int i = 0; i < model_.entries(kind); ++i) {
       const Extreme& extreme = extreme_of(extremes, kind, i);
       const bool function = is_function({kind, i, extreme.pose});
       if (!function && model_.limit(kind, extreme, u) < -close) continue;
@@ -210,7 +215,8 @@ DexterityStart Search::run(std::vector<double> u) {
   if (epigraph())
     for (const std::size_t node : model_.few()) add({PoseLimit::conditioning, 0, node});
   Extremes extremes = model_.extremes(model_.designed(u), work_);
-  exchange(u, extremes);
+  // Nothing but limits keeps a robot from the lower bounds of its size, from where few searches come back.
+  exchange(u, extremes, model_.task().goal == DexterityGoal::size);
   for (out_.exchanges = 1; out_.exchanges <= options_.exchanges; ++out_.exchanges) {
     improve(u);
     extremes = model_.extremes(model_.designed(u), work_);

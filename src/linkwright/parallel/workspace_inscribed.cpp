@@ -40,7 +40,7 @@ std::vector<double> squared_distances(const WorkspaceMap& map, const NodeSet& se
   return out;
 }
 
-struct Body {
+struct GridBody {
   Vec3 centre, half;
   double value = 0;  // product of the half sizes that are not 0
 };
@@ -48,7 +48,7 @@ struct Body {
 // Product of half sizes; in the plane of the two.
 double value_of(const Vec3& half) { return half.x * half.y * (half.z > 0 ? half.z : 1); }
 
-Body ball_on_grid(const WorkspaceMap& map, const NodeSet& set) {
+GridBody ball_on_grid(const WorkspaceMap& map, const NodeSet& set) {
   const std::vector<double> square = squared_distances(map, set, map.axes);
   const auto most = std::max_element(square.begin(), square.end());
   // The nearest node outside is a step further than what is known to pass.
@@ -58,10 +58,10 @@ Body ball_on_grid(const WorkspaceMap& map, const NodeSet& set) {
   return {map.position(static_cast<std::size_t>(most - square.begin())), half, value_of(half)};
 }
 
-Body cylinder_on_grid(const WorkspaceMap& map, const NodeSet& set, const InscribedTask& task) {
+GridBody cylinder_on_grid(const WorkspaceMap& map, const NodeSet& set, const InscribedTask& task) {
   const std::vector<double> square = squared_distances(map, set, 2);
   const double step = map.grid.step;
-  Body best;
+  GridBody best;
   double best_rank = 0;
   const std::size_t layer = map.nodes[0] * map.nodes[1];
   std::size_t first = 0, last = layer;
@@ -102,10 +102,10 @@ Body cylinder_on_grid(const WorkspaceMap& map, const NodeSet& set, const Inscrib
 }
 
 // Largest rectangle of nodes in each layer that several layers share, by the stack over a row's heights.
-Body box_on_grid(const WorkspaceMap& map, const NodeSet& set) {
+GridBody box_on_grid(const WorkspaceMap& map, const NodeSet& set) {
   const auto [nx, ny, nz] = map.nodes;
   const double step = map.grid.step;
-  Body best;
+  GridBody best;
   std::vector<std::uint8_t> shared(nx * ny);
   std::vector<std::size_t> height(nx + 1), stack;
   for (std::size_t k = 0; k < nz; ++k) {
@@ -203,7 +203,7 @@ class Search {
     free_ = {!task.axis, !task.axis, !plane_, box, (box && !plane_) || free_height};
   }
 
-  Inscribed run(const Body& start, const RunContext& context) {
+  Inscribed run(const GridBody& start, const RunContext& context) {
     Inscribed out;
     Candidate best = candidate(start);
     const auto moves = all_moves();
@@ -238,7 +238,7 @@ class Search {
     double size = 0;                    // half.x
   };
 
-  Candidate candidate(const Body& b) const {
+  Candidate candidate(const GridBody& b) const {
     Candidate out{b.centre, {b.half.y / b.half.x, b.half.z / b.half.x}, b.half.x};
     if (task_.axis) out.centre.x = task_.axis->x, out.centre.y = task_.axis->y;
     return out;
@@ -403,6 +403,41 @@ double measure(InscribedShape shape, const Vec3& half) {
   return (plane ? 4 : 8) * value_of(half);
 }
 
+// Makes the body smaller about its centre until it is proven.
+void make_proven(const InscribedTask& task, Inscribed& out) {
+  // Who asks for no assembly asks for no such proof.
+  const bool delta = task.conditions.robot.freedom == Freedom::space_translation;
+  if (task.conditions.assembly == 0 || (delta && task.conditions.constraint == 0)) return;
+  const auto home = trouble_task(task.conditions.robot, {out.centre, task.rotation}, task.conditions.mode,
+                                 task.conditions.characteristic_length, task.conditions.least_constraint);
+  if (!home) return;
+  const auto smaller = [&](double factor) {
+    Vec3 half = factor * out.half;
+    if (task.height > 0) half.z = out.half.z;  // which is given
+    return half;
+  };
+  bool settled = true;  // else the proof was given up, and would be for other sizes
+  const auto proven = [&](double factor) {
+    const BodyProof found = prove(*home, {task.shape, out.centre, smaller(factor)}, task.rotation);
+    settled = settled && (found.proven || found.violated);
+    return found.proven;
+  };
+  if ((out.proven = proven(1))) return;
+  constexpr int most = 60;
+  double fits = 1, beyond = 1;
+  for (int k = 0; k < most && settled && !out.proven; ++k) {
+    beyond = fits;
+    fits *= 0.97;
+    out.proven = proven(fits);
+  }
+  if (!out.proven) return;
+  for (int k = 0; k < 12 && settled; ++k) {
+    const double middle = (fits + beyond) / 2;
+    (proven(middle) ? fits : beyond) = middle;
+  }
+  out.half = smaller(fits);
+}
+
 }  // namespace
 
 Inscribed inscribed(const WorkspaceMap& map, const NodeSet& set, const InscribedTask& task,
@@ -417,7 +452,7 @@ Inscribed inscribed(const WorkspaceMap& map, const NodeSet& set, const Inscribed
                      "axis, height and ratio are those of a cylinder");
   LINKWRIGHT_REQUIRE(task.height >= 0 && task.ratio >= 0 && !(task.height > 0 && task.ratio > 0),
                      "height {} m and ratio {}: at most one is given", task.height, task.ratio);
-  Body start;
+  GridBody start;
   switch (task.shape) {
     case InscribedShape::cylinder:
       start = cylinder_on_grid(map, set, task);
@@ -431,6 +466,7 @@ Inscribed inscribed(const WorkspaceMap& map, const NodeSet& set, const Inscribed
   }
   if (start.value == 0) return {.status = Status::infeasible};
   Inscribed out = Search(map, set, task).run(start, context);
+  if (out.status == Status::done) make_proven(task, out);
   out.on_grid = measure(task.shape, start.half);
   out.measure = out.status == Status::infeasible ? 0 : measure(task.shape, out.half);
   return out;
