@@ -331,7 +331,16 @@ void add_verdict(study::Result& result, const PathJudge& judge, const ToolMotion
   for (const auto& failure : failures) {
     result.facts.push_back({"fails", failure.text, Verdict::bad});
     if (result.status == Status::done) result.status = failure.status;
+    // What the robot cannot pass is no share of a limit.
+    const bool blocked = failure.severity == Severity::impossible || failure.severity == Severity::stopped;
+    result.troubles.push_back({.what = std::string(to_string(failure.status)),
+                               .where = {{"time_s", failure.time}},
+                               .share = blocked ? HUGE_VAL : 1 + failure.worst,
+                               .why = failure.text});
   }
+  std::stable_sort(
+      result.troubles.begin(), result.troubles.end(),
+      [](const auto& a, const auto& b) { return a.where.front().value < b.where.front().value; });
   const DriveUse* most = nullptr;
   for (const DriveUse& u : uses)
     if (!most || u.share > most->share) most = &u;

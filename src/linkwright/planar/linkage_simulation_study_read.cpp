@@ -108,10 +108,12 @@ std::vector<InputCourse> read_courses(study::ObjectReader& document, const Linka
       write_start(i);
       continue;
     }
-    courses[i].law = read_law(drive, rotary, false, canonical[i]);
-    if (!courses[i].law && !drive.has("law"))
+    if (!drive.has("law") && !drive.has(drive_field(rotary, 1, "speed", {}))) {
       drive.error("law", fmt::format("joint '{}' has neither a motion law nor free = true", joint),
                   "free = true lets forces move it; law = \"constant_speed\" drives it");
+      continue;
+    }
+    courses[i].law = read_law(drive, rotary, false, canonical[i]);
   }
   for (std::size_t i = 0; i < told.size(); ++i)
     if (!told[i]) write_start(i);  // of samples and shorthands: free
