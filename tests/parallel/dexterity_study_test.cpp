@@ -2,11 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include "linkwright/core/memory.h"
 #include "parallel/studies.h"
 
 namespace linkwright::parallel {
 namespace {
 
+using ::testing::AllOf;
 using testing::column;
 using testing::example;
 using testing::fact;
@@ -77,6 +79,16 @@ TEST(DexterityStudy, SaysWhatCannotBe) {
   const auto result = run_text(replaced(smallest, "conditioning = 0.4", "conditioning = 0.99"));
   EXPECT_EQ(result.status, Status::infeasible);
   EXPECT_THAT(result.headline, HasSubstr("No design meets every limit"));
+}
+
+TEST(DexterityStudy, RefusesMorePointsThanThereIsMemoryFor) {
+  const MemoryLimit limit(2e9);
+  for (const char* key : {"nodes", "cells"})
+    EXPECT_THAT(problems_of(replaced(smallest, "height_mm = 250\n",
+                                     std::string("height_mm = 250\n") + key + " = [1000, 1000, 1000]\n")),
+                AllOf(HasSubstr(std::string("target.") + key + ": 1000000000 " + key + " would take 2"),
+                      HasSubstr(" GB of memory, at most 2 GB may be taken; take fewer " + std::string(key) +
+                                ", or allow more with the environment variable LINKWRIGHT_MEMORY_MB")));
 }
 
 TEST(DexterityStudy, TellsWhatIsWrong) {

@@ -226,6 +226,38 @@ TEST(DexteritySynthesis, EndsWhenCancelled) {
   EXPECT_EQ(found.best.x.size(), 4u);
 }
 
+// Many nodes: one look at all of them is what a run can be interrupted in.
+TEST(DexteritySynthesis, LooksAtAPartOfTheNodesWhenItIsToStop) {
+  DexterityTask task = dexterity_benchmark(DexterityGoal::worst);
+  task.region.nodes = {60, 61, 60};
+  task.region.cells = {60, 60, 60};
+  constexpr std::int64_t nodes = 59 * 61 * 60 + 60;
+  for (const DexterityGoal goal : {DexterityGoal::worst, DexterityGoal::mean, DexterityGoal::size}) {
+    task.goal = goal;
+    RunContext context;
+    context.cancel();
+    const DexteritySynthesis nothing = synthesise(task, {}, 1, context);
+    EXPECT_EQ(nothing.status, Status::cancelled);
+    EXPECT_TRUE(nothing.best.x.empty());
+    EXPECT_LT(nothing.poses, nodes / 10);
+    const DexterityEvolution evolved = evolve(task, {.method = optimise::Method::grey_wolf}, {}, 1, context);
+    EXPECT_EQ(evolved.report.status, Status::cancelled);
+    EXPECT_TRUE(evolved.best.x.empty());
+    EXPECT_EQ(evolved.report.evaluations, 0);
+  }
+  // In the middle: what was looked at as a whole is kept, and no further pass is made over all nodes.
+  task.goal = DexterityGoal::size;
+  RunContext context;
+  context.set_threads(1);
+  context.set_progress([&](const Progress&) { context.cancel(); });
+  const DexteritySynthesis found = synthesise(task, {.draws = 32, .confirmations = 0}, 1, context);
+  EXPECT_EQ(found.status, Status::cancelled);
+  EXPECT_EQ(found.starts.size(), 4u);
+  ASSERT_EQ(found.best.x.size(), 4u);
+  EXPECT_TRUE(std::isnan(found.best.mean));
+  EXPECT_EQ(found.best.violation, assess(task, found.best.x).violation);
+}
+
 TEST(DexteritySynthesis, SaysWhatIsWrongWithATask) {
   const DexterityTask good = dexterity_benchmark(DexterityGoal::worst);
   EXPECT_EQ(problem(good), std::nullopt);

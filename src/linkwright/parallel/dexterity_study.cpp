@@ -10,6 +10,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/robot_scene.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/memory.h"
 #include "linkwright/study/run_seeds.h"
 
 namespace linkwright::parallel {
@@ -49,11 +50,11 @@ Answer answer_of(const DexterityStudy& s, std::uint64_t seed, RunContext& contex
   std::visit(
       [&](const auto& method) {
         if constexpr (!std::is_same_v<std::decay_t<decltype(method)>, RecommendedDexterity>) {
-          const optimise::Problem problem = population_problem(s.task);
+          const optimise::Problem problem = population_problem(s.task, &context);
           const auto optimiser = optimise::make_optimiser(problem.variables, method.options, {.seed = seed});
           optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
                                                        choice_word(method).name, method.minimise, context);
-          out.best = assess(s.task, report.x);
+          if (report.violation < std::numeric_limits<double>::infinity()) out.best = assess(s.task, report.x);
           out.status = report.status == Status::done ? out.best.status : report.status;
           out.evaluations = report.evaluations;
           out.log = std::move(report.log);
@@ -423,6 +424,16 @@ std::optional<DexterityStudy> read_dexterity_study(study::ObjectReader& document
   if (const auto wrong = problem(task)) {
     target->error("type", *wrong);
     return std::nullopt;
+  }
+  // Coordinates, place and weight of a point, copied once, and its place and indices as they are measured.
+  constexpr double bytes_of_point = 2 * sizeof(RegionPoint) + 6 * sizeof(Vec3);
+  for (const auto& [key, counts] :
+       {std::pair{"nodes", &task.region.nodes}, std::pair{"cells", &task.region.cells}}) {
+    double points = 1;
+    for (std::size_t k = 0; k < count; ++k) points *= (*counts)[k];
+    if (!study::require_memory(*target, key, bytes_of_point * points, fmt::format("{:.0f} {}", points, key),
+                               fmt::format("take fewer {}", key)))
+      return std::nullopt;
   }
   out.method = optimiser.method;
   canonical["mechanism"] = written;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/parallel.h"
 #include "linkwright/parallel/dexterity_synthesis_search.h"
@@ -13,7 +14,8 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr int round_starts = 4;  ///< between looks at what was found
+constexpr int round_starts = 4;           ///< between looks at what was found
+constexpr std::size_t many_poses = 1000;  ///< of a draw: so many are worth a look at the context
 
 struct Drawn {
   std::vector<double> unknowns;
@@ -141,7 +143,7 @@ void add_drives(const DexterityModel& model, const DesignedRobot& designed, std:
   }
 }
 
-DexterityDesign assessed(const DexterityModel& model, std::span<const double> x) {
+DexterityDesign assessed(const DexterityModel& model, std::span<const double> x, const Extremes& extremes) {
   const DexterityTask& task = model.task();
   DexterityModel::Work work;
   DexterityDesign out;
@@ -158,13 +160,16 @@ DexterityDesign assessed(const DexterityModel& model, std::span<const double> x)
   const DesignedRobot designed = model.designed(x);
   out.robot = designed.robot;
   out.origin = designed.offset * designed.ahead;
-  const Extremes extremes = model.extremes(designed, work);
   const std::vector<double> unknowns = model.unknowns_of(x, extremes);
   std::tie(out.arm_lowest, out.arm_highest) = model.travel(extremes);
   out.size = x[designed.arm()] + x[designed.rod()];
   out.worst = extremes.conditioning.value;
   out.worst_place = out.origin + model.at(extremes.conditioning.pose).place;
-  out.mean = model.mean(designed, work, {});
+  try {
+    out.mean = model.mean(designed, work, {});
+  } catch (const Interrupted&) {
+    out.mean = std::numeric_limits<double>::quiet_NaN();  // the rest is known
+  }
   out.objective = task.goal == DexterityGoal::size   ? out.size
                   : task.goal == DexterityGoal::mean ? out.mean
                                                      : out.worst;
@@ -180,6 +185,11 @@ DexterityDesign assessed(const DexterityModel& model, std::span<const double> x)
     out.reason = described(reach != out.limits.end() ? *reach : *most);
   }
   return out;
+}
+
+DexterityDesign assessed(const DexterityModel& model, std::span<const double> x) {
+  DexterityModel::Work work;
+  return assessed(model, x, model.extremes(model.designed(x), work));
 }
 
 /// What the nodes overlook.
@@ -264,17 +274,20 @@ DexteritySynthesis synthesise(const DexterityTask& task, const DexterityOptions&
                      "draws {}, starts {}, confirmations {}, exchanges {}, evaluations {}, same {}",
                      options.draws, options.starts, options.confirmations, options.exchanges,
                      options.evaluations, options.same);
-  const DexterityModel model(task);
+  const DexterityModel model(task, &context);
   DexteritySynthesis out;
   std::vector<Drawn> drawn(options.draws);
   constexpr int part = 32;
   optimise::parallel_for((drawn.size() + part - 1) / part, context.threads(), [&](std::size_t p) {
     DexterityModel::Work work;
-    for (std::size_t i = p * part; i < std::min(drawn.size(), (p + 1) * part); ++i)
+    for (std::size_t i = p * part; i < std::min(drawn.size(), (p + 1) * part); ++i) {
+      if (i > 0 && model.poses(true) > many_poses && context.interrupted()) return;
       drawn[i] = draw(model, seed, static_cast<int>(i), work);
+    }
   });
-  out.evaluations = options.draws;
-  out.poses = options.draws * static_cast<std::int64_t>(model.poses(true));
+  std::erase_if(drawn, [](const Drawn& d) { return d.unknowns.empty(); });
+  out.evaluations = static_cast<std::int64_t>(drawn.size());
+  out.poses = out.evaluations * static_cast<std::int64_t>(model.poses(true));
   std::stable_sort(drawn.begin(), drawn.end(), [](const Drawn& a, const Drawn& b) {
     return optimise::better(a.cost, a.violation, b.cost, b.violation);
   });
@@ -291,11 +304,13 @@ DexteritySynthesis synthesise(const DexterityTask& task, const DexterityOptions&
   };
   Status stop = Status::done;
   std::size_t best = 0;
+  std::vector<Descent> ends(most);
   while (out.starts.size() < most && stop == Status::done) {
     const std::size_t first = out.starts.size(), count = std::min<std::size_t>(round_starts, most - first);
     out.starts.resize(first + count);
     optimise::parallel_for(count, context.threads(), [&](std::size_t i) {
-      out.starts[first + i] = descend(model, options, drawn[first + i].unknowns, context);
+      ends[first + i] = descend(model, options, drawn[first + i].unknowns, context);
+      out.starts[first + i] = ends[first + i].start;
     });
     for (std::size_t i = first; i < first + count; ++i)
       if (better(out.starts[i], out.starts[best])) best = i;
@@ -313,9 +328,17 @@ DexteritySynthesis synthesise(const DexterityTask& task, const DexterityOptions&
     out.poses += start.poses;
     start.x = model.design_of(start.x);
   }
-  out.best = assessed(model, out.starts[best].x);
-  out.poses += static_cast<std::int64_t>(model.nodes() + model.cells());
-  if (stop == Status::done) look_between(model, context, out);
+  if (ends[best].known) {
+    out.best = assessed(model, out.starts[best].x, ends[best].extremes);
+    out.poses += static_cast<std::int64_t>(model.nodes() + model.cells());
+    try {
+      if (stop == Status::done) look_between(model, context, out);
+    } catch (const Interrupted& why) {
+      stop = why.status();
+      out.between_nodes.clear();
+      out.worst_between_nodes = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
   out.status = stop != Status::done ? stop : out.best.status;
   out.reason = out.best.reason;
   return out;

@@ -194,7 +194,7 @@ struct DexteritySynthesis {
   /// done; infeasible: no start met every limit; deadline or cancelled, with the best so far.
   Status status = Status::infeasible;
   std::string reason;
-  DexterityDesign best;
+  DexterityDesign best;  ///< without x when the run ended before all nodes had been looked at once
   /// The least or most that a search between the nodes found for the goal's or limits' indices of `best`:
   /// what the nodes overlook. Same order as best.limits; NaN for limits that are not of a pose.
   std::vector<double> between_nodes;
@@ -215,10 +215,11 @@ DexteritySynthesis synthesise(const DexterityTask& task, const DexterityOptions&
 
 /// The same task for population methods: candidates rank by the sum of the limits they miss, then by the
 /// objective. All nodes are looked at for every candidate.
-optimise::Problem population_problem(const DexterityTask& task);
+/// Throws Interrupted out of an evaluation of many nodes when `context` asks for it.
+optimise::Problem population_problem(const DexterityTask& task, const RunContext* context = nullptr);
 
 struct DexterityEvolution {
-  DexterityDesign best;
+  DexterityDesign best;  ///< without x when the run ended before one was evaluated
   optimise::Report report;
   std::int64_t poses = 0;  ///< poses measured
 };

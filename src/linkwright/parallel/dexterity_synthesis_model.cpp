@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
 #include "linkwright/parallel/constraint.h"
 #include "linkwright/parallel/pi_range.h"
 #include "linkwright/parallel/regular_ball.h"
@@ -14,7 +15,15 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-void add(PoseSet& set, const Vec3& place) {
+/// Poses of a part: about a millisecond. A multiple of what registers hold, so that parts change no bits.
+constexpr std::size_t part_size = 4096;
+
+void add(std::vector<PoseSet>& parts, const Mat3& rotation, const Vec3& place) {
+  if (parts.empty() || parts.back().size() == part_size) {
+    parts.emplace_back();
+    parts.back().rotation = rotation;
+  }
+  PoseSet& set = parts.back();
   set.x.push_back(place.x);
   set.y.push_back(place.y);
   set.z.push_back(place.z);
@@ -40,8 +49,9 @@ double most_rate(const PiRequirements& l) {
 
 }  // namespace
 
-DexterityModel::DexterityModel(const DexterityTask& task)
+DexterityModel::DexterityModel(const DexterityTask& task, const RunContext* context)
     : task_(task),
+      context_(context),
       dimensions_(static_cast<int>(parallel::dimensions(task.family).size())),
       points_(region_nodes(task.region)) {
   const auto found = problem(task);
@@ -58,10 +68,9 @@ DexterityModel::DexterityModel(const DexterityTask& task)
     cell_weight_.push_back(cell.weight / static_cast<double>(task.orientations.size()));
   for (const Mat3& rotation : task.orientations) {
     Group group;
-    for (const RegionPoint& point : points_) add(group.all, point.place);
-    for (const std::size_t i : few_points_) add(group.few, points_[i].place);
-    for (const RegionPoint& cell : cells) add(group.cells, cell.place);
-    group.all.rotation = group.few.rotation = group.cells.rotation = rotation;
+    for (const RegionPoint& point : points_) add(group.all, rotation, point.place);
+    for (const std::size_t i : few_points_) add(group.few, rotation, points_[i].place);
+    for (const RegionPoint& cell : cells) add(group.cells, rotation, cell.place);
     groups_.push_back(std::move(group));
   }
   nodes_ = points_.size() * groups_.size();
@@ -105,26 +114,30 @@ Extremes DexterityModel::extremes(const DesignedRobot& designed, Work& work, boo
   Extremes out;
   bool first = true;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const PoseSet& poses = few ? groups_[g].few : groups_[g].all;
-    measure(designed, task_.mode, measures_, poses, false, work.set);
-    for (std::size_t k = 0; k < poses.size(); ++k, first = false) {
-      const std::size_t pose = g * points_.size() + (few ? few_points_[k] : k);
-      const auto less = [&](double value, Extreme& extreme) {
-        if (first || !(value >= extreme.value)) extreme = {value, pose};
-      };
-      const auto more = [&](double value, Extreme& extreme) {
-        if (first || !(value <= extreme.value)) extreme = {value, pose};
-      };
-      less(work.set.conditioning[k], out.conditioning);
-      if (measures_.constraint) less(work.set.constraint[k], out.constraint);
-      for (int i = 0; i < legs_; ++i) {
-        less(work.set.input_square[i][k], out.input_square[i]);
-        if (measures_.output) less(work.set.output[i][k], out.output[i]);
-        more(work.set.side[i][k], out.side[i]);
-        const double angle = std::atan2(work.set.sine[i][k], work.set.cosine[i][k]);
-        less(angle, out.lowest[i]);
-        more(angle, out.highest[i]);
+    std::size_t before = 0;
+    for (const PoseSet& poses : few ? groups_[g].few : groups_[g].all) {
+      if (before > 0) go_on(context_);
+      measure(designed, task_.mode, measures_, poses, false, work.set);
+      for (std::size_t k = 0; k < poses.size(); ++k, first = false) {
+        const std::size_t pose = g * points_.size() + (few ? few_points_[before + k] : before + k);
+        const auto less = [&](double value, Extreme& extreme) {
+          if (first || !(value >= extreme.value)) extreme = {value, pose};
+        };
+        const auto more = [&](double value, Extreme& extreme) {
+          if (first || !(value <= extreme.value)) extreme = {value, pose};
+        };
+        less(work.set.conditioning[k], out.conditioning);
+        if (measures_.constraint) less(work.set.constraint[k], out.constraint);
+        for (int i = 0; i < legs_; ++i) {
+          less(work.set.input_square[i][k], out.input_square[i]);
+          if (measures_.output) less(work.set.output[i][k], out.output[i]);
+          more(work.set.side[i][k], out.side[i]);
+          const double angle = std::atan2(work.set.sine[i][k], work.set.cosine[i][k]);
+          less(angle, out.lowest[i]);
+          more(angle, out.highest[i]);
+        }
       }
+      before += poses.size();
     }
   }
   return out;
@@ -133,30 +146,36 @@ Extremes DexterityModel::extremes(const DesignedRobot& designed, Work& work, boo
 void DexterityModel::indices(const DesignedRobot& designed, PoseLimit::Kind kind, int leg, Work& work,
                              std::vector<double>& out) const {
   out.clear();
-  for (const Group& group : groups_) {
-    measure(designed, task_.mode, measures_, group.all, false, work.set);
-    const SetDexterity& set = work.set;
-    const std::vector<double>& from = kind == PoseLimit::conditioning ? set.conditioning
-                                      : kind == PoseLimit::constraint ? set.constraint
-                                      : kind == PoseLimit::input      ? set.input_square[leg]
-                                      : kind == PoseLimit::output     ? set.output[leg]
-                                                                      : set.side[leg];
-    for (std::size_t k = 0; k < group.all.size(); ++k)
-      out.push_back(kind == PoseLimit::arm_low || kind == PoseLimit::arm_high
-                        ? std::atan2(set.sine[leg][k], set.cosine[leg][k])
-                        : from[k]);
-  }
+  for (const Group& group : groups_)
+    for (const PoseSet& poses : group.all) {
+      if (!out.empty()) go_on(context_);
+      measure(designed, task_.mode, measures_, poses, false, work.set);
+      const SetDexterity& set = work.set;
+      const std::vector<double>& from = kind == PoseLimit::conditioning ? set.conditioning
+                                        : kind == PoseLimit::constraint ? set.constraint
+                                        : kind == PoseLimit::input      ? set.input_square[leg]
+                                        : kind == PoseLimit::output     ? set.output[leg]
+                                                                        : set.side[leg];
+      for (std::size_t k = 0; k < poses.size(); ++k)
+        out.push_back(kind == PoseLimit::arm_low || kind == PoseLimit::arm_high
+                          ? std::atan2(set.sine[leg][k], set.cosine[leg][k])
+                          : from[k]);
+    }
 }
 
 double DexterityModel::mean(const DesignedRobot& designed, Work& work, std::span<double> by) const {
   double sum = 0;
   std::fill(by.begin(), by.end(), 0.0);
   for (const Group& group : groups_) {
-    measure(designed, task_.mode, measures_, group.cells, !by.empty(), work.set);
-    for (std::size_t k = 0; k < cell_weight_.size(); ++k) sum += cell_weight_[k] * work.set.conditioning[k];
-    for (int j = 0; !by.empty() && j < dimensions_; ++j)
-      for (std::size_t k = 0; k < cell_weight_.size(); ++k)
-        by[j] += cell_weight_[k] * work.set.conditioning_by[j][k];
+    const double* weight = cell_weight_.data();
+    for (const PoseSet& poses : group.cells) {
+      if (weight != cell_weight_.data()) go_on(context_);
+      measure(designed, task_.mode, measures_, poses, !by.empty(), work.set);
+      for (std::size_t k = 0; k < poses.size(); ++k) sum += weight[k] * work.set.conditioning[k];
+      for (int j = 0; !by.empty() && j < dimensions_; ++j)
+        for (std::size_t k = 0; k < poses.size(); ++k) by[j] += weight[k] * work.set.conditioning_by[j][k];
+      weight += poses.size();
+    }
   }
   return sum;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/run_context.h"
 #include "linkwright/parallel/dexterity.h"
 #include "linkwright/parallel/dexterity_synthesis.h"
 
@@ -37,7 +38,9 @@ struct Extremes {
 
 class DexterityModel {
  public:
-  explicit DexterityModel(const DexterityTask& task);
+  /// Passes over many nodes or cells look at `context`, if there is one, and throw Interrupted: the first
+  /// some thousand are always looked at.
+  explicit DexterityModel(const DexterityTask& task, const RunContext* context = nullptr);
 
   const DexterityTask& task() const { return task_; }
   int dimensions() const { return dimensions_; }
@@ -114,10 +117,13 @@ class DexterityModel {
   double violation(std::span<const double> x, const Extremes& extremes) const;
 
  private:
+  /// In parts, between which a pass may end; of one orientation.
+  using Parts = std::vector<PoseSet>;
   struct Group {
-    PoseSet all, few, cells;
+    Parts all, few, cells;
   };
   DexterityTask task_;
+  const RunContext* context_;
   int dimensions_, legs_;
   bool travels_;
   DexterityMeasures measures_;

@@ -164,11 +164,15 @@ std::vector<Alternative> alternatives(const RobotDescription& d, const SolvedPos
 }
 
 Table assembly_table(study::Result& result, const RobotDescription& d, const PosesForm& form,
-                     const std::vector<SolvedPose>& solved) {
+                     const std::vector<SolvedPose>& solved, const RunContext& context) {
   Table table{.name = "assembly_modes"};
   Rows row(table);
   for (std::size_t i = 0; i < solved.size(); ++i) {
     if (solved[i].angles.leg >= 0) continue;
+    if (i > 0 && context.interrupted()) {
+      result.status = context.interruption();
+      break;
+    }
     std::string note;
     const auto found = alternatives(d, solved[i], note);
     for (const Alternative& a : found) {
@@ -353,7 +357,8 @@ SolvedPose solve_pose(const RobotDescription& d, const AskedPose& asked, const P
   return out;
 }
 
-void add_poses(study::Result& result, const RobotDescription& d, const PosesForm& form, const Pose& home) {
+void add_poses(study::Result& result, const RobotDescription& d, const PosesForm& form, const Pose& home,
+               const RunContext& context) {
   if (form.poses.empty()) return;
   std::vector<SolvedPose> solved;
   std::vector<RobotSample> samples;
@@ -386,7 +391,8 @@ void add_poses(study::Result& result, const RobotDescription& d, const PosesForm
       {"poses reached", fmt::format("{} of {}", good, form.poses.size()),
        good == static_cast<int>(form.poses.size()) ? study::Fact::Verdict::good : study::Fact::Verdict::bad});
   if (form.modes && form.modes->working) result.tables.push_back(working_table(d, form, solved));
-  if (form.modes && form.modes->assembly) result.tables.push_back(assembly_table(result, d, form, solved));
+  if (form.modes && form.modes->assembly)
+    result.tables.push_back(assembly_table(result, d, form, solved, context));
   result.scenes.push_back(
       robot_scene(d.robot, d.drives, {"poses", "poses", "pose", "pose"}, numbers, samples));
 }

@@ -89,8 +89,8 @@ class Rows {
   std::size_t at_ = 0, rows_ = 0;
 };
 
-/// Tables "poses", "working_modes", "assembly_modes", facts, warnings and a scene.
+/// Tables "poses", "working_modes", "assembly_modes" (as far as there is time), facts, warnings and a scene.
 void add_poses(study::Result& result, const RobotDescription& description, const PosesForm& form,
-               const Pose& home);
+               const Pose& home, const RunContext& context);
 
 }  // namespace linkwright::parallel

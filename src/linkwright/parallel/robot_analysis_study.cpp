@@ -371,7 +371,7 @@ std::optional<RobotAnalysis> read_robot_analysis(study::ObjectReader& document, 
 study::Result run_robot_analysis(const RobotAnalysis& s, RunContext& context) {
   study::Result result;
   if (s.motion) add_motion(result, s.description, s.masses, s.limits, *s.motion, s.home, context);
-  add_poses(result, s.description, s.poses, s.home);
+  add_poses(result, s.description, s.poses, s.home, context);
   if (s.workspace) add_workspace(result, s.description, s.limits, *s.workspace, s.home, context);
   return result;
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
 #include "linkwright/core/random.h"
 
 namespace linkwright::parallel {
@@ -12,10 +13,27 @@ namespace linkwright::parallel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr std::size_t between_looks = 64;
+
+// Counts work in nodes looked at, and looks at the context from time to time.
+class Work {
+ public:
+  void done(std::size_t nodes, const RunContext& context) {
+    constexpr std::size_t much = 4'000'000;  // some milliseconds
+    if ((nodes_ += nodes) < much) return;
+    nodes_ = 0;
+    go_on(context);
+  }
+
+ private:
+  std::size_t nodes_ = 0;
+};
 
 // Squares of the distances, in steps, to the nearest node outside the set along the first `axes` axes; beyond
 // the grid all is outside.
-std::vector<double> squared_distances(const WorkspaceMap& map, const NodeSet& set, int axes) {
+std::vector<double> squared_distances(const WorkspaceMap& map, const NodeSet& set, int axes,
+                                      const RunContext& context) {
+  Work work;
   std::vector<double> out(map.count());
   for (std::size_t n = 0; n < out.size(); ++n) out[n] = set[n] ? 1e18 : 0;
   std::size_t stride = 1;
@@ -26,6 +44,7 @@ std::vector<double> squared_distances(const WorkspaceMap& map, const NodeSet& se
       if (start / stride % length != 0) continue;
       for (std::size_t i = 0; i < length; ++i) line[i] = out[start + i * stride];
       for (std::size_t i = 0; i < length; ++i) {
+        if (i % between_looks == between_looks - 1) work.done(length, context);
         double best = line[i];
         for (std::size_t t = 1; static_cast<double>(t * t) < best; ++t) {
           const double square = static_cast<double>(t * t);
@@ -48,8 +67,8 @@ struct GridBody {
 // Product of half sizes; in the plane of the two.
 double value_of(const Vec3& half) { return half.x * half.y * (half.z > 0 ? half.z : 1); }
 
-GridBody ball_on_grid(const WorkspaceMap& map, const NodeSet& set) {
-  const std::vector<double> square = squared_distances(map, set, map.axes);
+GridBody ball_on_grid(const WorkspaceMap& map, const NodeSet& set, const RunContext& context) {
+  const std::vector<double> square = squared_distances(map, set, map.axes, context);
   const auto most = std::max_element(square.begin(), square.end());
   // The nearest node outside is a step further than what is known to pass.
   const double r = std::max(std::sqrt(*most) - 1, 0.5) * map.grid.step;
@@ -58,9 +77,11 @@ GridBody ball_on_grid(const WorkspaceMap& map, const NodeSet& set) {
   return {map.position(static_cast<std::size_t>(most - square.begin())), half, value_of(half)};
 }
 
-GridBody cylinder_on_grid(const WorkspaceMap& map, const NodeSet& set, const InscribedTask& task) {
-  const std::vector<double> square = squared_distances(map, set, 2);
+GridBody cylinder_on_grid(const WorkspaceMap& map, const NodeSet& set, const InscribedTask& task,
+                      const RunContext& context) {
+  const std::vector<double> square = squared_distances(map, set, 2, context);
   const double step = map.grid.step;
+  Work work;
   GridBody best;
   double best_rank = 0;
   const std::size_t layer = map.nodes[0] * map.nodes[1];
@@ -76,6 +97,7 @@ GridBody cylinder_on_grid(const WorkspaceMap& map, const NodeSet& set, const Ins
   }
   for (std::size_t column = first; column < last; ++column)
     for (std::size_t k = 0; k < map.nodes[2]; ++k) {
+      work.done(map.nodes[2] - k, context);
       double least = 1e18;
       for (std::size_t end = k; end < map.nodes[2] && set[column + layer * end]; ++end) {
         least = std::min(least, square[column + layer * end]);
@@ -102,15 +124,17 @@ GridBody cylinder_on_grid(const WorkspaceMap& map, const NodeSet& set, const Ins
 }
 
 // Largest rectangle of nodes in each layer that several layers share, by the stack over a row's heights.
-GridBody box_on_grid(const WorkspaceMap& map, const NodeSet& set) {
+GridBody box_on_grid(const WorkspaceMap& map, const NodeSet& set, const RunContext& context) {
   const auto [nx, ny, nz] = map.nodes;
   const double step = map.grid.step;
+  Work work;
   GridBody best;
   std::vector<std::uint8_t> shared(nx * ny);
   std::vector<std::size_t> height(nx + 1), stack;
   for (std::size_t k = 0; k < nz; ++k) {
     std::fill(shared.begin(), shared.end(), std::uint8_t{1});
     for (std::size_t end = k; end < nz; ++end) {
+      work.done(nx * ny, context);
       bool any = false;
       for (std::size_t n = 0; n < nx * ny; ++n) any = (shared[n] &= set[n + nx * ny * end]) || any;
       if (!any) break;
@@ -453,16 +477,20 @@ Inscribed inscribed(const WorkspaceMap& map, const NodeSet& set, const Inscribed
   LINKWRIGHT_REQUIRE(task.height >= 0 && task.ratio >= 0 && !(task.height > 0 && task.ratio > 0),
                      "height {} m and ratio {}: at most one is given", task.height, task.ratio);
   GridBody start;
-  switch (task.shape) {
-    case InscribedShape::cylinder:
-      start = cylinder_on_grid(map, set, task);
-      break;
-    case InscribedShape::ball:
-      start = ball_on_grid(map, set);
-      break;
-    case InscribedShape::box:
-      start = box_on_grid(map, set);
-      break;
+  try {
+    switch (task.shape) {
+      case InscribedShape::cylinder:
+        start = cylinder_on_grid(map, set, task, context);
+        break;
+      case InscribedShape::ball:
+        start = ball_on_grid(map, set, context);
+        break;
+      case InscribedShape::box:
+        start = box_on_grid(map, set, context);
+        break;
+    }
+  } catch (const Interrupted& why) {
+    return {.status = why.status()};  // no body has been found yet
   }
   if (start.value == 0) return {.status = Status::infeasible};
   Inscribed out = Search(map, set, task).run(start, context);

@@ -99,7 +99,9 @@ WorkspaceParts workspace_parts(const WorkspaceMap& map, const NodeSet& set, cons
   optimise::parallel_for(ny * nz, context.threads(), [&, nx = nx, ny = ny, nz = nz](std::size_t row) {
     if (context.interrupted()) return;
     const std::size_t j = row % ny, k = row / ny;
+    constexpr std::size_t between_looks = 256;
     for (std::size_t i = 0; i < nx; ++i) {
+      if (i % between_looks == between_looks - 1 && context.interrupted()) return;
       const std::size_t n = map.number(i, j, k);
       if (!set[n]) continue;
       for (std::size_t w = 0; w < ways.size(); ++w) {

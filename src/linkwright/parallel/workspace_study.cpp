@@ -266,10 +266,12 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
     inner.height = f.inscribed->height.value_or(0);
     inner.ratio = f.inscribed->ratio.value_or(0);
     const Inscribed body = inscribed(map, passing(map), inner, context);
+    if (body.status != Status::done && body.status != Status::infeasible) result.status = body.status;
     fact(fmt::format("largest {}", name_of(f.inscribed->shape)),
-         body.status == Status::infeasible
-             ? std::string("none fits")
-             : body_text(body, *f.inscribed, planar) + (body.proven ? ", proven free of singularities" : ""));
+         body.status == Status::infeasible ? std::string("none fits")
+         : body.half.x == 0                ? std::string("not found before the run ended")
+                                           : body_text(body, *f.inscribed, planar) +
+                                                 (body.proven ? ", proven free of singularities" : ""));
   }
   if (d.tool_turns()) {
     const RotationRange range = rotation_range(

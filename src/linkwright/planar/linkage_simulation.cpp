@@ -68,9 +68,12 @@ class Simulation {
     if (!start(times.front())) return std::move(report_);
     std::vector<double> y = state();
     std::vector<double> tolerances;
-    for (std::size_t i = 0; i < 2; ++i)
-      for (const std::size_t k : dynamics_.free())
-        tolerances.push_back(options_.absolute_tolerance * (plan_.rotary[k] ? 1 : plan_.size));
+    const auto free = dynamics_.free();
+    for (const std::span<const double> coarser : {options_.value_resolution, options_.rate_resolution})
+      for (std::size_t i = 0; i < free.size(); ++i) {
+        const double asked = options_.absolute_tolerance * (plan_.rotary[free[i]] ? 1 : plan_.size);
+        tolerances.push_back(coarser.empty() ? asked : std::max(asked, coarser[i]));
+      }
     tolerances.push_back(work_tolerance());
     std::vector<math::OdeEvent> events;
     if (stops_at_changes()) events.resize(2, {.crossing = math::OdeCrossing::falling});

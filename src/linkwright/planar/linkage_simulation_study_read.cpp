@@ -6,6 +6,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/memory.h"
 
 namespace linkwright::planar {
 
@@ -197,6 +198,15 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
                    "leave it out");
   if (elastic && !document.document().has_errors() && !add_elastic(document, type, *description, s))
     return prepared;
+  if (auto table = document.table("simulation"); table && !document.document().has_errors()) {
+    // Of a linkage that bends there are the rows of the rigid one, too, and some of each beam.
+    constexpr double of_motion = 10, of_beam = 10;
+    const auto columns = static_cast<double>(
+        linkage_columns(description->linkage, description->plan, s.quantities, description->traces).size());
+    const double all = elastic ? 2 * columns + of_beam * static_cast<double>(s.elastic.size()) : columns;
+    study::require_memory(*table, "samples", study::table_bytes(s.samples, all + of_motion),
+                          fmt::format("{} rows", s.samples), "take fewer samples");
+  }
   write_linkage(*description, prepared.canonical);
   prepared.canonical["drive"] = Value(std::move(drives));
   if (elastic) prepared.canonical["elastic"] = Value(std::move(beams));
