@@ -83,15 +83,22 @@ void expect_exact(const WheelGuide& guide, const std::string& name, const std::v
     EXPECT_LT(apart(exact.parameters, values, values, unused), 1e-11);
     for (std::size_t j = 0; j < numbers.size(); ++j) {
       int count = 0;
-      const WheelParameters by = differenced(
-          [&, driver = driver, input = input](double h) {
-            WheelGuide other = guide;
-            suspension::at(other, numbers[j]) += h;
-            return solved(other, driver, input);
-          },
-          step);
-      EXPECT_LT(apart(exact.by[j], by, values, count), agreement)
-          << name << ": " << label(guide, numbers[j]) << " at " << input.value << ", " << input.rack;
+      const auto off = [&, driver = driver, input = input](double by_step) {
+        const WheelParameters by = differenced(
+            [&](double h) {
+              WheelGuide other = guide;
+              suspension::at(other, numbers[j]) += h;
+              return solved(other, driver, input);
+            },
+            by_step);
+        count = 0;
+        return apart(exact.by[j], by, values, count);
+      };
+      // What curves more than the step was chosen for has a sixteenth of the truncation at half of it.
+      double worst = off(step);
+      if (!(worst < agreement)) worst = off(step / 2);
+      EXPECT_LT(worst, agreement) << name << ": " << label(guide, numbers[j]) << " at " << input.value << ", "
+                                  << input.rack;
       EXPECT_GT(count, 30);
     }
   }

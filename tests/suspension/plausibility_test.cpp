@@ -62,10 +62,10 @@ TEST(Plausibility, ATyreOfAnotherUnitIsTold) {
 TEST(Plausibility, PointsOfAnotherUnitAreTold) {
   const WheelGuide& guide = guide_sample("2RS-KS").guide;
   EXPECT_THAT(told(implausible(enlarged(guide, 1000, true))),
-              AllOf(HasSubstr("error: hard_points: the farthest point of the guide lies 5"),
+              AllOf(HasSubstr("error: hard_points: the farthest point of the guide lies 443"),
                     HasSubstr("are these millimetres in keys of metres?")));
   EXPECT_THAT(told(implausible(enlarged(guide, 0.001, true))),
-              AllOf(HasSubstr("hard_points: the farthest point of the guide lies 0.5"),
+              AllOf(HasSubstr("error: hard_points: the farthest point of the guide lies 0.44"),
                     HasSubstr("are these metres in keys of millimetres?")));
   // One point of a list.
   WheelGuide one = guide;

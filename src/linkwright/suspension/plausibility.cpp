@@ -18,8 +18,8 @@ constexpr double unlikely = 8, absurd = 50;
 /// m: the farthest joint of a guide lies within these from the wheel centre, from a model car to a dump
 /// truck.
 constexpr double smallest = 0.02, largest = 10;
-/// m: a wheel centre nearer to the middle plane has no track.
-constexpr double no_half_track = 1e-3;
+/// A wheel centre nearer to the middle plane than this share of the distance of its joints has no track.
+constexpr double no_half_track = 3e-3;
 constexpr const char* units = "check the unit in the key: _mm, _cm, _m or _in";
 
 class Findings {
@@ -80,9 +80,9 @@ double median(std::vector<double> values) {
 }
 
 /// The wheel against the middle plane: y = 0, and axes that seem to have changed places.
-void check_side(const WheelGuide& guide, Findings& found) {
+void check_side(const WheelGuide& guide, double typical, Findings& found) {
   const Vec3& c = guide.wheel.centre;
-  if (!(std::abs(c.y) < no_half_track)) return;
+  if (!(std::abs(c.y) < no_half_track * typical)) return;
   const char across = std::abs(c.x) >= std::abs(c.z) ? 'x' : 'z';
   const double other = across == 'x' ? c.x : c.z;
   if (std::abs(other) > guide.wheel.tyre_diameter / 2)
@@ -140,11 +140,11 @@ Diagnostics implausible(const WheelGuide& guide) {
                 units);
     }
   }
-  check_side(guide, found);
+  check_side(guide, typical, found);
 
   const double farthest = *std::max_element(away.begin(), away.end()), radius = guide.wheel.tyre_diameter / 2;
   if (!strays && (farthest < smallest || farthest > largest))
-    found.add(farthest < smallest / absurd || farthest > largest * absurd, "hard_points",
+    found.add(farthest < smallest / 10 || farthest > largest * 10, "hard_points",
               fmt::format("the farthest point of the guide lies {} from the wheel centre", length(farthest)),
               farthest < smallest ? "are these metres in keys of millimetres? " + std::string(units)
                                   : "are these millimetres in keys of metres? " + std::string(units));
@@ -153,13 +153,13 @@ Diagnostics implausible(const WheelGuide& guide) {
     found.add(ratio > absurd || ratio < 1 / (3 * absurd), "wheel",
               fmt::format("the tyre's radius is {}, the joints lie {} from the wheel centre in the middle{}",
                           length(radius), length(typical),
-                          std::abs(centre.y) > no_half_track
+                          std::abs(centre.y) > no_half_track * typical
                               ? fmt::format(", and the track is {}", length(2 * std::abs(centre.y)))
                               : std::string()),
               "check tyre_diameter and the points: _mm, _cm, _m or _in");
 
   // The body stands inboard of its wheel.
-  if (!strays && std::abs(centre.y) > no_half_track) {
+  if (!strays && std::abs(centre.y) > no_half_track * typical) {
     double outboard = 0;
     int count = 0;
     for (const Point& p : points)
