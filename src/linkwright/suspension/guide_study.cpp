@@ -211,8 +211,8 @@ class GuideReader {
     hard_points();
     wheel();
     if (!mechanism_.has("link"))
-      mechanism_.error("link", "there are no links",
-                       "add [[mechanism.link]], or sample = \"2RS-KS\" for a canned wheel guide");
+      mechanism_.unreadable("link", "there are no links",
+                            "add [[mechanism.link]], or sample = \"2RS-KS\" for a canned wheel guide");
     std::vector<study::ObjectReader> tables = mechanism_.tables("link");
     for (std::size_t i = 0; i < form_.links.size() && i < tables.size(); ++i) link(form_.links[i], tables[i]);
     tables = mechanism_.tables("coupler");
