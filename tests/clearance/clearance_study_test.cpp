@@ -10,15 +10,18 @@
 #include <string>
 
 #include "clearance/studies.h"
+#include "linkwright/core/memory.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::clearance {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Each;
 using testing::fact;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using testing::prepare;
 using testing::problems_of;
 using testing::replaced;
@@ -26,6 +29,11 @@ using testing::run_text;
 using testing::table;
 using testing::values;
 
+std::string messages(const study::Result& r) {
+  std::string out;
+  for (const Diagnostic& d : r.diagnostics) out += to_string(d) + "\n";
+  return out;
+}
 double largest(const std::vector<double>& v) {
   double out = 0;
   for (const double x : v) out = std::max(out, std::abs(x));
@@ -396,6 +404,33 @@ TEST(ClearanceStudy, WritesWhatItReads) {
     ASSERT_TRUE(second) << messages;
     EXPECT_EQ(first->canonical, second->canonical);
   }
+}
+
+TEST(ClearanceStudy, RefusesMoreRowsThanThereIsMemoryFor) {
+  const MemoryLimit limit(1e9);
+  EXPECT_THAT(
+      problems_of(replaced(one_turn(), "samples = 1201", "samples = 1000000")),
+      AllOf(HasSubstr("simulation.samples: 1000000 rows would take "),
+            HasSubstr(" GB of memory, at most 1 GB may be taken; take fewer samples, or allow more")));
+}
+
+TEST(ClearanceStudy, WarnsOfDepthsThatNoBushHas) {
+  // A spring in the place of a bush of steel.
+  const study::Result r =
+      run_text(replaced(one_turn(), "modulus_GPa    = 207.0", "stiffness_N_per_m1_5 = 1e6"));
+  EXPECT_THAT(fact(r, "depth in the bush of B"), HasSubstr("% of the radius of the pin of 9.5 mm"));
+  EXPECT_THAT(messages(r), HasSubstr("the pin of 'B', 9.5 mm in radius, is pressed "));
+  EXPECT_THAT(messages(r), HasSubstr("the law of contact holds for depths of a few per cent"));
+}
+
+TEST(ClearanceStudy, WarnsOfALawThatDoesNotGiveItsRestitution) {
+  const std::string text = replaced(one_turn(), "\"lankarani_nikravesh\"", "\"flores_2011\"");
+  const study::Result poor = run_text(replaced(text, "restitution    = 0.9", "restitution = 0.05"));
+  EXPECT_THAT(messages(poor),
+              HasSubstr("restitution = 0.05 of 'B': by flores_2011 an impact gives back 0.0"));
+  EXPECT_THAT(messages(poor), HasSubstr("times the force and"));
+  EXPECT_THAT(messages(poor), HasSubstr("on the law is within 25 % of what it is told"));
+  EXPECT_THAT(messages(run_text(text)), Not(HasSubstr("restitution")));
 }
 
 TEST(ClearanceStudy, NamesWhatIsWrong) {

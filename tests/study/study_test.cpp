@@ -3,12 +3,15 @@
 #include <gmock/gmock.h>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
+#include "linkwright/core/memory.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
 #include "tests/study/sample_kind.h"
 
 namespace linkwright::study {
 namespace {
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -65,6 +68,29 @@ TEST(Study, RunsAndChecks) {
   ASSERT_EQ(result.checks.size(), 1u);
   EXPECT_TRUE(result.checks[0].passed);
   EXPECT_NEAR(result.checks[0].value, 400, 1e-12);
+}
+
+TEST(Study, ARunThatEndsWithNothingInHandHasItsStatus) {
+  Study study;
+  study.run = [](RunContext& run) -> Result {
+    go_on(run);
+    return {.status = Status::done};
+  };
+  RunContext context;
+  EXPECT_EQ(run_study(study, context).status, Status::done);
+  context.cancel();
+  const Result result = run_study(study, context);
+  EXPECT_EQ(result.status, Status::cancelled);
+  EXPECT_EQ(result.headline, "Interrupted before there was anything to tell.");
+}
+
+TEST(Study, RefusesMoreCandidatesThanThereIsMemoryFor) {
+  const MemoryLimit limit(1e8);
+  EXPECT_THAT(
+      messages("[optimiser]", "[optimiser]\npopulation = 1000000"),
+      AllOf(HasSubstr("optimiser.population: 1000000 candidates of 10 unknowns"),
+            HasSubstr("of memory, at most 100 MB may be taken; take fewer candidates, or allow more")));
+  EXPECT_THAT(messages("[optimiser]", "[optimiser]\npopulation = 1000"), Not(HasSubstr("memory")));
 }
 
 TEST(Study, VersionOfTheGrammar) {

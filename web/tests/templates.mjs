@@ -42,6 +42,7 @@ async function look(kind) {
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("request", (request) => /^(file|blob|data):/.test(request.url()) || errors.push(`asks for ${request.url()}`));
+  page.setDefaultTimeout(120_000); // a busy machine draws slowly
   await page.goto(url);
   await page.locator("#app h1").waitFor();
   const last = await page.locator("#scrub").count();

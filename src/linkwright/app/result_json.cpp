@@ -111,7 +111,7 @@ Value to_value(const std::optional<study::Trouble>& trouble) {
   v["what"] = trouble->what;
   v["where"] = Value::object();
   for (const study::Trouble::Place& place : trouble->where) v["where"][place.key] = place.value;
-  if (!std::isnan(trouble->share)) v["share_of_limit"] = trouble->share;
+  if (std::isfinite(trouble->share)) v["share_of_limit"] = trouble->share;
   v["why"] = trouble->why;
   return v;
 }

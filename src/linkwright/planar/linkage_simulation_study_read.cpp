@@ -6,6 +6,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/memory.h"
 
 namespace linkwright::planar {
 
@@ -108,10 +109,12 @@ std::vector<InputCourse> read_courses(study::ObjectReader& document, const Linka
       write_start(i);
       continue;
     }
-    courses[i].law = read_law(drive, rotary, false, canonical[i]);
-    if (!courses[i].law && !drive.has("law"))
+    if (!drive.has("law") && !drive.has(drive_field(rotary, 1, "speed", {}))) {
       drive.error("law", fmt::format("joint '{}' has neither a motion law nor free = true", joint),
                   "free = true lets forces move it; law = \"constant_speed\" drives it");
+      continue;
+    }
+    courses[i].law = read_law(drive, rotary, false, canonical[i]);
   }
   for (std::size_t i = 0; i < told.size(); ++i)
     if (!told[i]) write_start(i);  // of samples and shorthands: free
@@ -195,6 +198,15 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
                    "leave it out");
   if (elastic && !document.document().has_errors() && !add_elastic(document, type, *description, s))
     return prepared;
+  if (auto table = document.table("simulation"); table && !document.document().has_errors()) {
+    // Of a linkage that bends there are the rows of the rigid one, too, and some of each beam.
+    constexpr double of_motion = 10, of_beam = 10;
+    const auto columns = static_cast<double>(
+        linkage_columns(description->linkage, description->plan, s.quantities, description->traces).size());
+    const double all = elastic ? 2 * columns + of_beam * static_cast<double>(s.elastic.size()) : columns;
+    study::require_memory(*table, "samples", study::table_bytes(s.samples, all + of_motion),
+                          fmt::format("{} rows", s.samples), "take fewer samples");
+  }
   write_linkage(*description, prepared.canonical);
   prepared.canonical["drive"] = Value(std::move(drives));
   if (elastic) prepared.canonical["elastic"] = Value(std::move(beams));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "linkwright/planar/linkage_build.h"
 #include "linkwright/planar/linkage_columns.h"
 #include "linkwright/planar/linkage_samples.h"
 #include "linkwright/planar/linkage_study.h"
@@ -118,6 +119,8 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
     SliderCrankMechanism m;
     mechanism->read(m);
     l = slider_crank(m);
+    // The point of the rod is of interest when it is given.
+    if (traces.empty() && point_index(l.bodies[2], "C") >= 0) out.traces = points_named(l, {"rod.C"});
     if (document.document().has_errors()) return std::nullopt;
   } else if (mechanism->has(sample_field)) {
     auto sample = sample_named(*mechanism);

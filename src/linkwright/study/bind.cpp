@@ -206,8 +206,9 @@ void DocumentReader::finish_object(const Value& value, const std::vector<const V
       misspelt_.push_back(join_path(record.path, base));
     }
     report(Diagnostic::Severity::error, member.key_position,
-           join_path(record.path, member.key.empty() ? "''" : std::string_view(member.key)), "unknown key",
-           hint);
+           member.key.empty() ? record.path + (record.path.empty() ? "''" : ".''")
+                              : join_path(record.path, member.key),
+           "unknown key", hint);
   }
   for (const Known& missing : record.missing) {
     const bool bare = missing.dimension == Dimension::none;

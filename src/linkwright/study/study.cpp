@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <set>
+#include <thread>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/memory.h"
 
 namespace linkwright::study {
 namespace {
@@ -155,6 +158,39 @@ void make_unique(Table& table, Diagnostics& diagnostics) {
   }
 }
 
+/// Ranges { min, max } in a value: unknowns, for all that the study room knows.
+std::size_t ranges_in(const Value& value) {
+  std::size_t out = 0;
+  if (value.is_object()) {
+    out += value.find("min") != nullptr && value.find("max") != nullptr;
+    for (const Value::Member& member : value.as_object()) out += ranges_in(member.value);
+  } else if (value.is_array()) {
+    for (const Value& element : value.as_array()) out += ranges_in(element);
+  }
+  return out;
+}
+
+/// Every kind with an optimiser has these keys; seeds run at once on all threads.
+void require_room_for_candidates(ObjectReader& root, const Value& document, const Common& common) {
+  constexpr std::size_t usual_unknowns = 10;
+  const Value* optimiser = document.find("optimiser");
+  if (!optimiser || !optimiser->is_object()) return;
+  const std::size_t unknowns = std::max(usual_unknowns, ranges_in(document));
+  const double at_once =
+      std::min<double>(common.seeds.count, std::max(1u, std::thread::hardware_concurrency()));
+  for (const char* key : {"population", "candidates"}) {
+    const Value* count = optimiser->find(key);
+    if (!count || !count->is_integer()) continue;
+    if (auto table = root.table("optimiser"))
+      require_memory(
+          *table, key,
+          at_once * population_bytes(static_cast<double>(count->as_integer()), static_cast<double>(unknowns)),
+          fmt::format("{} candidates of {} unknowns{}", count->as_integer(), unknowns,
+                      at_once > 1 ? fmt::format(", {:.0f} seeds at once", at_once) : std::string()),
+          "take fewer candidates");
+  }
+}
+
 }  // namespace
 
 std::optional<Study> prepare(const Value& document, const std::string& file,
@@ -177,6 +213,7 @@ std::optional<Study> prepare(const Value& document, const std::string& file,
   if (study.kind) {
     if (study.kind->seeded)
       if (auto optimiser = root.table("optimiser")) (*optimiser)(seeds_field, common.seeds);
+    if (study.kind->seeded) require_room_for_candidates(root, document, common);
     prepared = study.kind->prepare(root, common);
   } else {
     // Without a kind nobody knows what else may stand here.
@@ -194,7 +231,13 @@ std::optional<Study> prepare(const Value& document, const std::string& file,
 }
 
 Result run_study(const Study& study, RunContext& context) {
-  Result result = study.run(context);
+  Result result;
+  try {
+    result = study.run(context);
+  } catch (const Interrupted& why) {
+    result.status = why.status();
+    result.headline = "Interrupted before there was anything to tell.";
+  }
   for (Table& table : result.tables) make_unique(table, result.diagnostics);
   for (const CheckRequest& check : study.common.checks) result.checks.push_back(evaluate(check, result));
   return result;

@@ -257,6 +257,8 @@ std::vector<HardPoint> points_of(const WheelGuide& guide) {
   for (std::size_t i = 0; i < guide.couplers.size(); ++i) {
     const std::string& name = guide.couplers[i].name;
     add(name.empty() ? fmt::format("coupler {}", i + 1) : name, "point", {guide.couplers[i].point});
+    if (guide.couplers[i].begin)
+      add(name.empty() ? fmt::format("coupler {}", i + 1) : name, "first point", {*guide.couplers[i].begin});
   }
   if (guide.spring) {
     add("spring", "body", {guide.spring->body});
