@@ -228,12 +228,15 @@ TEST(DexteritySynthesis, EndsWhenCancelled) {
 
 // Many nodes: one look at all of them is what a run can be interrupted in.
 TEST(DexteritySynthesis, LooksAtAPartOfTheNodesWhenItIsToStop) {
-  DexterityTask task = dexterity_benchmark(DexterityGoal::worst);
-  task.region.nodes = {60, 61, 60};
-  task.region.cells = {60, 60, 60};
+  const auto fine = [](DexterityGoal goal) {
+    DexterityTask task = dexterity_benchmark(goal);
+    task.region.nodes = {60, 61, 60};
+    task.region.cells = {60, 60, 60};
+    return task;
+  };
   constexpr std::int64_t nodes = 59 * 61 * 60 + 60;
   for (const DexterityGoal goal : {DexterityGoal::worst, DexterityGoal::mean, DexterityGoal::size}) {
-    task.goal = goal;
+    const DexterityTask task = fine(goal);
     RunContext context;
     context.cancel();
     const DexteritySynthesis nothing = synthesise(task, {}, 1, context);
@@ -246,7 +249,7 @@ TEST(DexteritySynthesis, LooksAtAPartOfTheNodesWhenItIsToStop) {
     EXPECT_EQ(evolved.report.evaluations, 0);
   }
   // In the middle: what was looked at as a whole is kept, and no further pass is made over all nodes.
-  task.goal = DexterityGoal::size;
+  const DexterityTask task = fine(DexterityGoal::size);
   RunContext context;
   context.set_threads(1);
   context.set_progress([&](const Progress&) { context.cancel(); });

@@ -250,7 +250,7 @@ std::optional<MotionStudy> read_motion(study::ObjectReader& document, const stud
     if (!text) continue;
     Diagnostics problems;
     const auto read = read_tool_table(*text, points->file, problems);
-    for (const Diagnostic& one : problems) steps[i].error("file", to_string(one));
+    for (const Diagnostic& one : problems) steps[i].unreadable("file", to_string(one));
     if (!read) continue;
     points->times = read->times;
     points->points = read->points;

@@ -75,7 +75,7 @@ class TargetReader {
       if (const auto text = study::read_beside(target_, "file", common_.folder, file)) {
         Diagnostics problems;
         table_ = read_csv(*text, file, problems);
-        for (const Diagnostic& d : problems) target_.error("file", to_string(d));
+        for (const Diagnostic& d : problems) target_.unreadable("file", to_string(d));
       }
     std::vector<study::ObjectReader> curves = target_.tables("curve");
     if (curves.empty() && !target_.has("curve"))

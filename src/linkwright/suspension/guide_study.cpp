@@ -263,7 +263,7 @@ class GuideReader {
       if (const auto text = study::read_beside(*table, "file", common_.folder, *h.file)) {
         Diagnostics problems;
         const auto points = read_hard_points(*text, *h.file, h.unit, problems);
-        for (const Diagnostic& d : problems) table->error("file", to_string(d));
+        for (const Diagnostic& d : problems) table->unreadable("file", to_string(d));
         if (points) hard_ = *points;
       }
     for (const auto& [name, at] : h.points) {

@@ -74,7 +74,7 @@ void read_poses(study::ObjectReader& target, const study::Common& common, Indire
     const std::optional<Table> table = read_csv(*text, *form.file, problems);
     std::optional<CarrierTargets> targets;
     if (table) targets = carrier_targets(task.targets, *table, *form.file, problems);
-    for (const Diagnostic& d : problems) target.error("file", to_string(d));
+    for (const Diagnostic& d : problems) target.unreadable("file", to_string(d));
     if (targets) task.targets = std::move(*targets);
   } else {
     for (const PoseEntry& p : *form.poses)

@@ -42,7 +42,7 @@ std::optional<GuideDescription> read_baseline(study::ObjectReader& document, con
     if (!out && !has_errors(problems)) table->error("file", fmt::format("'{}' has no wheel guide", file));
   }
   for (const Diagnostic& d : problems)
-    if (d.severity == Diagnostic::Severity::error) table->error("file", to_string(d));
+    if (d.severity == Diagnostic::Severity::error) table->unreadable("file", to_string(d));
   return out;
 }
 
