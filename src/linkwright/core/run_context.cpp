@@ -1,6 +1,7 @@
 #include "linkwright/core/run_context.h"
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/looks.h"
 
 namespace linkwright {
 
@@ -14,8 +15,8 @@ void RunContext::set_time_limit(std::chrono::duration<double> limit) {
 
 Status RunContext::interruption() const {
   if (cancelled_.load(std::memory_order_relaxed)) return Status::cancelled;
-  if (deadline_ != Clock::time_point::max() && Clock::now() >= deadline_) return Status::deadline;
-  return Status::done;
+  const bool late = deadline_ != Clock::time_point::max() && Clock::now() >= deadline_;
+  return counted_look(late ? Status::deadline : Status::done);
 }
 
 void RunContext::report(const Progress& progress) const {
