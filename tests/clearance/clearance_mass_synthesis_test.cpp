@@ -9,6 +9,7 @@
 
 #include "clearance/published_four_bar.h"
 #include "linkwright/clearance/published_clearance.h"
+#include "linkwright/core/looks.h"
 #include "linkwright/optimise/minimise.h"
 #include "support/message.h"
 
@@ -93,6 +94,44 @@ TEST(ClearanceMassSynthesis, BothStagesAtOnce) {
   EXPECT_LT(found.path_rms, 2e-6);
   EXPECT_GT(found.least_tension, 0);
   EXPECT_TRUE(turns_fully(found.model));
+}
+
+// Every integration looks; what any trial has shown so far is given back.
+TEST(ClearanceMassSynthesis, InterruptedKeepsTheBestThatATrialHasShown) {
+  const ClearancePathProblem path = published_path_problem();
+  const ClearanceMassProblem mass = published_mass_problem();
+  const std::vector<double> lengths = path_variables(path, published_design_2().linkage);
+  RunContext context;
+  std::int64_t all = 0;
+  {
+    const LooksAllowed looks(std::int64_t{1} << 40);
+    design_clearance_linkage(path, mass, lengths, at_the_pin, context);
+    all = looks.made();
+  }
+  EXPECT_GT(all, 10000);
+  double before = std::numeric_limits<double>::infinity();
+  for (const std::int64_t share : {2, 50, 99}) {  // per cent of the looks
+    const std::int64_t allowed = all * share / 100;
+    const LooksAllowed looks(allowed);
+    const ClearanceDesign some = design_clearance_linkage(path, mass, lengths, at_the_pin, context);
+    EXPECT_EQ(some.status, Status::cancelled);
+    EXPECT_LE(looks.made(), allowed + 1000) << "it goes on for long";
+    ASSERT_EQ(some.x.size(), lengths.size() + at_the_pin.size());
+    EXPECT_LE(some.path_rms, before);
+    before = some.path_rms;
+  }
+  EXPECT_LT(before, 2e-6);  // as BothStagesAtOnce
+}
+
+TEST(ClearanceMassSynthesis, OrbitsAreInterrupted) {
+  const ClearanceFourBar model = with_masses(published_mass_problem().model, published_masses());
+  const EvenCrank crank = published_mass_problem().crank;
+  RunContext context;
+  const LooksAllowed looks(30);
+  const ClearanceOrbit orbit = find_orbit(model, crank, 0.15, -0.3, {}, &context);
+  EXPECT_EQ(orbit.status, Status::cancelled);
+  EXPECT_EQ(looks.made(), 31);
+  EXPECT_TRUE(std::isinf(lead_error(model, crank, {0, crank.speed}, 0, 72, {}, &context)));
 }
 
 TEST(ClearanceMassSynthesis, SaysWhatIsNotThere) {

@@ -10,6 +10,7 @@
 
 #include "clearance/clearance_linkages.h"
 #include "clearance/published_four_bar.h"
+#include "linkwright/core/looks.h"
 #include "linkwright/planar/linkage_samples.h"
 #include "support/message.h"
 
@@ -51,6 +52,24 @@ TEST(ClearanceSensitivity, WorstPathErrorOfAFourBarOverAllDirections) {
     EXPECT_NEAR(rows[k].worst_error[0] / worst, 1, 1e-3) << k;
     EXPECT_NEAR(rows[k].deviation[0] / std::sqrt(sum), 1, 2e-3) << k;
   }
+}
+
+// Whole samples, the same as those of an undisturbed run.
+TEST(ClearanceSensitivity, InterruptedGivesTheSamplesSoFar) {
+  const planar::Linkage l = as_linkage(published_four_bar("gamma-design2-table3-g0-w10"));
+  const LinkageTolerances tolerances{.pins = {{planar::joint_index(l, "A"), 1e-5}}};
+  const ToleranceOutputs outputs{.points = {tracing_point(l)}};
+  const auto samples = crank_motions(10000);
+  const auto all = clearance_sensitivity(l, tolerances, outputs, samples);
+  RunContext context;
+  {
+    const LooksAllowed looks(2);  // at every 1024 samples of the nominal motion
+    const auto some = clearance_sensitivity(l, tolerances, outputs, samples, {}, &context);
+    EXPECT_EQ(some.size(), 2048u);  // of the third part; one block of derivatives
+    for (std::size_t k = 0; k < some.size(); ++k) EXPECT_EQ(some[k].worst_error, all[k].worst_error);
+  }
+  const LooksAllowed looks(9 + 3);  // after four blocks of 2048, two parameters each
+  EXPECT_EQ(clearance_sensitivity(l, tolerances, outputs, samples, {}, &context).size(), 8192u);
 }
 
 // Angle of the rocker by the lengths, from the derivatives of the closure.

@@ -10,6 +10,8 @@
 #include <string>
 
 #include "clearance/studies.h"
+#include "linkwright/core/looks.h"
+#include "linkwright/core/memory.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::clearance {
@@ -227,6 +229,28 @@ TEST(ToleranceStudy, KeepsTheLinearTheoryWhenItIsStopped) {
               "coupler.P errs by at most 0.143 mm (worst case, at 0°); 46 % of the worst case comes from "
               "pin A.");
   EXPECT_TRUE(std::isnan(values(r, "errors", "coupler_P_drawn_m")[0]));
+}
+
+TEST(ToleranceStudy, InterruptedTellsTheSamplesSoFar) {
+  const LooksAllowed looks(1);
+  const study::Result r = run_text(replaced(four_bar(), "samples  = 181", "samples  = 20000"));
+  EXPECT_EQ(r.status, Status::cancelled);
+  const Table& errors = table(r, "errors");
+  EXPECT_GT(errors.rows(), 100U);
+  EXPECT_LE(errors.rows(), 2048U);
+  EXPECT_TRUE(std::isfinite(values(r, "errors", "coupler_P_worst_m").back()));
+  EXPECT_EQ(table(r, "band").rows(), errors.rows());
+}
+
+TEST(ToleranceStudy, RefusesWhatHasNoRoom) {
+  const MemoryLimit limit(20e6);
+  EXPECT_THAT(problems_of(replaced(four_bar(), "samples  = 181", "samples  = 100000")),
+              ::testing::AllOf(
+                  HasSubstr("sweep.samples: 100000 samples of 3 tolerances and 2 quantities would take "),
+                  HasSubstr("at most 20 MB may be taken; take fewer samples, or watch less")));
+  EXPECT_THAT(problems_of(replaced(four_bar(), "draws = 2000", "draws = 100000")),
+              ::testing::AllOf(HasSubstr("monte_carlo.draws: 100000 draws of 2 quantities would take "),
+                               HasSubstr("at most 20 MB may be taken; take fewer draws, or watch less")));
 }
 
 // Several inputs, and a canned linkage with its traces.

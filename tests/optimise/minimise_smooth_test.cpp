@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "linkwright/core/checkpoint.h"
+#include "linkwright/core/looks.h"
 #include "optimise/smooth_cases.h"
 #include "support/memory_checkpoint.h"
 #include "support/message.h"
@@ -46,6 +47,21 @@ TEST(MinimiseSmooth, FindsTheMeanUnderAConstraint) {
   EXPECT_NEAR(line->price, 0.5, 1e-5);
   EXPECT_EQ(r.active.size(), 1u);
   EXPECT_LT(r.stationarity, 1e-5);
+}
+
+// Candidates are counted as far as they were evaluated, and the best of them is the start.
+TEST(MinimiseSmooth, AnInterruptionAmongTheFirstCandidatesKeepsThose) {
+  RunContext context;
+  const SmoothOptions options{.candidates = 10000, .starts = 8};
+  const LooksAllowed looks(99);
+  const SmoothReport r = minimise_smooth(interruptible(testing::two_points(), context), options, {}, context);
+  EXPECT_EQ(r.status, Status::cancelled);
+  // A hundred candidates, and what a search takes at its start.
+  EXPECT_GE(r.evaluations, 100);
+  EXPECT_LE(r.evaluations, 110);
+  // The mean of a hundred random designs of [-3, 3]^2 is far above that of their best.
+  EXPECT_LT(r.cost, 2);
+  EXPECT_GE(r.cost, 1.375 - 0.5);
 }
 
 TEST(MinimiseSmooth, FindsTheLargest) {

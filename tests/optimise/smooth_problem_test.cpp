@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "linkwright/core/interruption.h"
+#include "linkwright/core/looks.h"
 #include "optimise/smooth_cases.h"
 #include "support/message.h"
 
@@ -40,6 +42,28 @@ TEST(SmoothProblem, ViolationCountsWhatIsPositive) {
   EXPECT_EQ(violation_of(two, 1), 0.75);
   EXPECT_EQ(violation_of(none, 1), 1.5);
   EXPECT_EQ(violation_of(unknown, 1), 1.5);
+}
+
+// Three candidates, the run is to stop before the third: two are there, the third is as it was.
+TEST(SmoothProblem, AnInterruptionKeepsTheCandidatesBefore) {
+  const RunContext context;
+  const SmoothProblem smooth = interruptible(testing::two_points(), context);
+  const Problem p = to_problem(smooth);
+  const Population population = candidates();
+  std::vector<double> cost(6, 77), violation(3, 77);
+  {
+    const LooksAllowed looks(1);
+    EXPECT_THROW(p.evaluate(population.view(), cost, violation), Interrupted);
+    EXPECT_EQ(looks.made(), 2);
+  }
+  EXPECT_EQ(cost, (std::vector<double>{1, 4, 4, 1, 77, 77}));
+  EXPECT_EQ(violation, (std::vector<double>{0, 2, 77}));
+  // The first one needs no look: what asks for one candidate gets it.
+  const LooksAllowed none(0);
+  std::vector<double> values(9, untouched);
+  EXPECT_THROW(smooth.evaluate(population.view(), values), Interrupted);
+  EXPECT_TRUE(is_touched(std::span(values).first(3)));
+  EXPECT_FALSE(is_touched(std::span(values).subspan(3, 3)));
 }
 
 TEST(SmoothProblem, NeedsObjectives) {

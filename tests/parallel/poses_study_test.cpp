@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "linkwright/core/looks.h"
 #include "parallel/robots.h"
 #include "parallel/studies.h"
 
@@ -70,6 +71,36 @@ TEST(PosesStudy, ListsModes) {
   EXPECT_THAT(
       problems_of(delta + "[modes]\n[workspace]\nlower_mm=[0,0,-800]\nupper_mm=[0,0,-700]\nstep_mm=50\n"),
       HasSubstr("there is no pose whose modes could be listed"));
+}
+
+// The table of assemblies looks before each pose but the first; what it has stays.
+TEST(PosesStudy, AnInterruptedListOfAssembliesKeepsItsPoses) {
+  std::string text = delta;
+  for (int i = 0; i < 5; ++i)
+    text += "[[pose]]\nname = \"pose " + std::to_string(i) + "\"\nposition_mm = [" + std::to_string(40 * i) +
+            ", -100, -850]\n";
+  text += "[modes]\n";
+  std::int64_t all = 0;
+  {
+    const LooksAllowed looks(std::int64_t{1} << 40);
+    const auto whole = run_text(text);
+    EXPECT_EQ(whole.status, Status::done);
+    EXPECT_EQ(testing::table(whole, "assembly_modes").rows(), 10u);
+    all = looks.made();
+  }
+  ASSERT_GE(all, 4);
+  std::size_t before = 0;
+  for (std::int64_t allowed = 0; allowed <= all; ++allowed) {
+    const LooksAllowed looks(allowed);
+    const auto some = run_text(text);
+    EXPECT_EQ(some.status, allowed < all ? Status::cancelled : Status::done) << allowed;
+    const std::size_t rows = testing::table(some, "assembly_modes").rows();
+    EXPECT_GE(rows, 2u);  // the first pose always
+    EXPECT_GE(rows, before);
+    before = rows;
+    EXPECT_EQ(testing::table(some, "poses").rows(), 5u);
+  }
+  EXPECT_EQ(before, 10u);
 }
 
 TEST(PosesStudy, SaysWhyAPoseIsNoUse) {

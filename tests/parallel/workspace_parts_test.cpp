@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "linkwright/core/looks.h"
 #include "parallel/robots.h"
 
 namespace linkwright::parallel {
@@ -170,6 +171,29 @@ TEST(WorkspaceParts, DoesNotDependOnThreadsAndStops) {
   EXPECT_EQ(first.closed, second.closed);
   none.cancel();
   EXPECT_EQ(workspace_parts(map, passing(map), parts, none).status, Status::cancelled);
+}
+
+// Wherever it is interrupted it says so and gives no part; a look at each row of nodes at least.
+TEST(WorkspaceParts, IsInterruptedAnywhere) {
+  const WorkspaceTask task = crossing();
+  const WorkspaceMap map = workspace(task, RunContext());
+  RunContext context;
+  context.set_threads(1);
+  const WorkspacePartsTask parts{.conditions = task.conditions, .home = {0.05, 0.45, 0}};
+  std::int64_t all = 0;
+  {
+    const LooksAllowed looks(std::int64_t{1} << 40);
+    EXPECT_EQ(workspace_parts(map, passing(map), parts, context).status, Status::done);
+    all = looks.made();
+  }
+  EXPECT_GE(all, static_cast<std::int64_t>(2 * map.nodes[1] * map.nodes[2]));
+  for (const std::int64_t allowed : {std::int64_t{0}, std::int64_t{1}, all / 2, all - 1}) {
+    const LooksAllowed looks(allowed);
+    const WorkspaceParts found = workspace_parts(map, passing(map), parts, context);
+    EXPECT_EQ(found.status, Status::cancelled) << allowed;
+    EXPECT_TRUE(found.size.empty());
+    EXPECT_LE(looks.made(), all + 2);
+  }
 }
 
 TEST(WorkspaceParts, HomeMayBeOutsideTheSet) {

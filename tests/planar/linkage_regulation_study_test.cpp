@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 
+#include "linkwright/core/looks.h"
 #include "linkwright/study/write.h"
 #include "planar/studies.h"
 
@@ -34,6 +36,16 @@ TEST(LinkageRegulationStudy, SizesAFlywheelAndFindsTheSteadyCycle) {
     for (const std::string& y : p.y)
       EXPECT_TRUE((p.table == "cycle" ? r.tables[0] : r.tables[1]).find(y)) << p.name << " " << y;
   ASSERT_EQ(r.scenes.size(), 1u);
+}
+
+TEST(LinkageRegulationStudy, InterruptedTellsTheCycleWithoutTheFlywheel) {
+  const LooksAllowed looks(5);
+  const study::Result r = run_text(linkage_regulation_kind().example);
+  EXPECT_EQ(r.status, Status::cancelled);
+  EXPECT_THAT(r.headline, HasSubstr("of its mean of 180 rpm; interrupted before the flywheel was found."));
+  ASSERT_EQ(r.tables.size(), 1u);
+  EXPECT_FALSE(std::isnan(r.tables[0].find("speed_rad_per_s")->values[0]));
+  EXPECT_TRUE(std::isnan(r.tables[0].find("regulated_speed_rad_per_s")->values[0]));
 }
 
 TEST(LinkageRegulationStudy, TakesASliderCrankWithoutAMotor) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/looks.h"
 #include "simulations.h"
 #include "support/message.h"
 
@@ -26,6 +27,30 @@ Linkage wheel() {
   add_drive(l, "O");
   l.torques.push_back({.name = "brake", .body = 1, .from = 0, .torque = -4});
   return l;
+}
+
+TEST(Regulate, InterruptedTellsWhatItHas) {
+  const Linkage l = wheel();
+  const LinkagePlan p = planned(l);
+  const RegulationSetup setup{.start = 0.3, .mean_speed = 12, .fluctuation = 0.01, .samples = 100000};
+  const RunContext context;
+  {
+    const LooksAllowed looks(3);  // one every 1024 samples
+    const CycleRegulation r = regulate(l, p, setup, &context);
+    EXPECT_EQ(r.status, Status::cancelled);
+    EXPECT_EQ(r.message, "interrupted before the cycle was known");
+    EXPECT_TRUE(r.speed.empty());
+  }
+  const LooksAllowed looks(98 + 5);  // five trials of a flywheel
+  const CycleRegulation r = regulate(l, p, setup, &context);
+  EXPECT_EQ(looks.made(), 98 + 6);
+  EXPECT_EQ(r.status, Status::cancelled);
+  EXPECT_EQ(r.message, "interrupted before the flywheel was found");
+  EXPECT_NEAR(r.motor_torque, 4, 1e-12);
+  EXPECT_NEAR(r.energy_fluctuation, 2 * 3 * 0.5 * 9.81, 1e-6);
+  ASSERT_EQ(r.speed.size(), 100000u);
+  EXPECT_TRUE(std::isnan(r.flywheel));
+  EXPECT_TRUE(std::isnan(r.regulated[7]));
 }
 
 TEST(Regulate, AWheelWithAWeightAsByHand) {

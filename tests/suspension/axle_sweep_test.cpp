@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "linkwright/core/looks.h"
 #include "linkwright/suspension/samples.h"
 #include "support/message.h"
 #include "suspension/guides.h"
@@ -168,6 +169,18 @@ TEST(AxleSweep, ALimitOfOneWheelIsToldAndTheRestGoesOn) {
   EXPECT_TRUE(std::isnan(rows[1].parameters.roll_steer));
   EXPECT_EQ(rows[2].position.status, Status::done);
   EXPECT_NEAR(rows[2].position.left.place.carrier.centre.z - plan.left.wheel.centre.z, 0.05, 1e-14);
+}
+
+TEST(AxleSweep, InterruptedGivesTheRowsSoFar) {
+  const AxlePlan plan = prepare_axle(guide_sample("2RS-KS").guide);
+  std::vector<double> rolls;
+  for (int i = 0; i < 10000; ++i) rolls.push_back(1e-6 * i);
+  const RunContext context;
+  const LooksAllowed looks(2);  // one at every 64th row
+  const auto rows = sweep_axle(plan, AxleMotion::roll, rolls, {}, &context);
+  ASSERT_EQ(rows.size(), 128U);
+  EXPECT_EQ(rows.back().position.status, Status::done);
+  EXPECT_EQ(looks.made(), 3);
 }
 
 TEST(AxleSweep, Contract) {

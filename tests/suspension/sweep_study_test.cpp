@@ -8,6 +8,8 @@
 #include <fstream>
 #include <string>
 
+#include "linkwright/core/looks.h"
+#include "linkwright/core/memory.h"
 #include "linkwright/suspension/guide_columns.h"
 #include "linkwright/suspension/samples.h"
 #include "suspension/studies.h"
@@ -23,6 +25,7 @@ using testing::racks;
 using testing::run_text;
 using testing::sample;
 using testing::sweep;
+using testing::table;
 
 TEST(SweepStudy, TablesAGridAsTheLibrarySolvesIt) {
   const study::Result result = run_text(sample("5KS", sweep + racks));
@@ -161,6 +164,75 @@ TEST(SolveGrid, GoesOutwardsAndStopsWhenCancelled) {
   RunContext cancelled;
   cancelled.cancel();
   EXPECT_TRUE(solve_grid(plan, Driver::wheel_centre_z, travels, displacements, cancelled).positions.empty());
+}
+
+TEST(SolveGrid, LooksWithinALongRowAndKeepsItsMiddle) {
+  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  std::vector<double> travels;
+  for (int i = 0; i < 10000; ++i) travels.push_back(1e-5 * (i - 300));
+  RunContext context;
+  const LooksAllowed looks(2);  // one at the rack, one after 256 positions; the next one ends it
+  const GridPositions some =
+      solve_grid(plan, Driver::wheel_centre_z, travels, std::vector{0.0, 0.01}, context);
+  // Downwards from the middle, all 300, and then upwards.
+  EXPECT_EQ(some.first_travel, 0U);
+  ASSERT_EQ(some.travels, 512U);
+  ASSERT_EQ(some.positions.size(), some.travels);
+  ASSERT_EQ(some.wheels.size(), some.travels);
+  for (std::size_t i = 0; i < some.travels; ++i) EXPECT_EQ(some.positions[i].input.value, travels[i]);
+}
+
+TEST(SolveGrid, ARackThatWasCutShortDoesNotCountBehindAWholeOne) {
+  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  std::vector<double> travels;
+  for (int i = 0; i < 300; ++i) travels.push_back(1e-5 * i);
+  RunContext context;
+  const LooksAllowed looks(3);  // at both racks and after 256 positions: ended by that after 512
+  const GridPositions some =
+      solve_grid(plan, Driver::wheel_centre_z, travels, std::vector{0.0, 0.01}, context);
+  EXPECT_EQ(some.travels, 300U);
+  EXPECT_EQ(some.positions.size(), 300U);
+}
+
+TEST(SweepStudy, InterruptedTellsThePositionsSoFar) {
+  const std::string text = sample("2RS-KS", "[sweep.travel]\nfrom_mm = -50\nto_mm = 50\nstep_mm = 0.05\n") +
+                           "[axle.roll]\nfrom_deg = -3\nto_deg = 3\nstep_deg = 0.01\n";
+  const auto run = [&](std::int64_t allowed) {
+    const LooksAllowed looks(allowed);
+    return run_text(text);
+  };
+  // In the row: what it has of it is consistent, and is what an undisturbed run has there.
+  const study::Result whole = run_text(text), some = run(2);
+  EXPECT_EQ(some.status, Status::cancelled);
+  const std::vector<double>&travels = column(some, "travel_m"), &toe = column(some, "toe_rad");
+  ASSERT_EQ(travels.size(), 512U);
+  const std::vector<double>& all = column(whole, "travel_m");
+  const auto first = std::find(all.begin(), all.end(), travels.front()) - all.begin();
+  for (std::size_t i = 0; i < travels.size(); ++i)
+    EXPECT_EQ(toe[i], column(whole, "toe_rad")[static_cast<std::size_t>(first) + i]);
+  // In the roll of the axle: the sweep is whole, the roll is not.
+  const study::Result rolled = run(12);
+  EXPECT_EQ(rolled.status, Status::cancelled);
+  EXPECT_EQ(column(rolled, "travel_m").size(), all.size());
+  EXPECT_LT(table(rolled, "roll").rows(), table(whole, "roll").rows());
+  EXPECT_EQ(table(rolled, "roll").rows() % 64, 0U);
+}
+
+TEST(SweepStudyRead, RefusesWhatHasNoRoom) {
+  const MemoryLimit limit(10e6);
+  EXPECT_THAT(problems_of(sample("2RS-KS", "[sweep.travel]\nfrom_mm = -80\nto_mm = 80\nsamples = 50000\n")),
+              AllOf(HasSubstr("sweep.travel: 50000 travels with 1 racks would take "),
+                    HasSubstr("of memory, at most 10 MB may be taken; take fewer travels or racks")));
+  const std::string short_sweep = "[sweep.travel]\nvalues_mm = [0]\n";
+  EXPECT_THAT(problems_of(sample("2RS-KS", short_sweep) +
+                          "[axle.roll]\nfrom_deg = -3\nto_deg = 3\nsamples = 50000\n"),
+              AllOf(HasSubstr("axle.roll: 50000 positions of the axle would take "),
+                    HasSubstr("at most 10 MB may be taken; take fewer values")));
+  EXPECT_THAT(problems_of(sample("2RS-KS", short_sweep) + "[tolerances]\ntolerance_mm = 0.5\n"
+                                                          "quantities = [\"toe\", \"camber\"]\n"
+                                                          "samples = 1000000\n"),
+              AllOf(HasSubstr("tolerances.samples: 1000000 designs with 2 quantities at 1 travels would take "
+                              "16 MB of memory, at most 10 MB may be taken; take fewer samples")));
 }
 
 }  // namespace

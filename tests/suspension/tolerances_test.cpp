@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/looks.h"
 #include "linkwright/suspension/samples.h"
 #include "linkwright/suspension/wheel_parameters.h"
 
@@ -118,6 +119,23 @@ TEST(Tolerances, KeepToWhatIsThere) {
   EXPECT_EQ(none.status, Status::cancelled);
   EXPECT_EQ(none.samples, 0);
   EXPECT_TRUE(std::isfinite(none.bands[0][0].worst_case));
+}
+
+// What a round has drawn when it is cut short is not used; the rounds before it are, to the bit.
+TEST(Tolerances, InterruptedKeepTheRoundsSoFar) {
+  const ToleranceTask task = task_of("5KS", 1e-4);
+  RunContext context;
+  context.set_threads(1);
+  const ToleranceBands part = tolerance_bands(task, {.samples = 1024, .seed = 5}, context);
+  ASSERT_EQ(part.samples, 1024);
+  const LooksAllowed looks(1500);  // one before each design
+  const ToleranceBands found = tolerance_bands(task, {.samples = 100000, .seed = 5}, context);
+  EXPECT_EQ(found.status, Status::cancelled);
+  ASSERT_EQ(found.samples, 1024);
+  for (std::size_t i = 0; i < task.inputs.size(); ++i) {
+    EXPECT_EQ(found.bands[0][i].mean, part.bands[0][i].mean);
+    EXPECT_EQ(found.bands[0][i].greatest, part.bands[0][i].greatest);
+  }
 }
 
 TEST(Tolerances, ContractsAreChecked) {

@@ -44,8 +44,8 @@ bool force_residuals(const ClearanceMassProblem& p, std::span<const double> x, s
 // An orbit that is followed from trial to trial.
 class OrbitFollower {
  public:
-  OrbitFollower(const EvenCrank& crank, const ClearanceTolerances& tolerances)
-      : crank_(crank), tolerances_(tolerances) {}
+  OrbitFollower(const EvenCrank& crank, const ClearanceTolerances& tolerances, const RunContext* context)
+      : crank_(crank), tolerances_(tolerances), context_(context) {}
   bool begin(const ClearanceFourBar& model) {
     const double direction = force_direction(model, crank_.angle, crank_.speed, 0);
     if (!std::isfinite(direction)) return false;
@@ -53,7 +53,7 @@ class OrbitFollower {
     return find(model, lead, 0) || find(model, 0, 0);
   }
   bool follow(const ClearanceFourBar& model) {
-    const ClearanceOrbit found = follow_orbit(model, crank_, orbit_, tolerances_);
+    const ClearanceOrbit found = follow_orbit(model, crank_, orbit_, tolerances_, context_);
     if (found.status != Status::done) return false;
     orbit_ = found;
     return true;
@@ -62,13 +62,14 @@ class OrbitFollower {
 
  private:
   bool find(const ClearanceFourBar& model, double lead, double slope) {
-    const ClearanceOrbit found = find_orbit(model, crank_, lead, slope, tolerances_);
+    const ClearanceOrbit found = find_orbit(model, crank_, lead, slope, tolerances_, context_);
     if (found.status != Status::done) return false;
     orbit_ = found;
     return true;
   }
   EvenCrank crank_;
   ClearanceTolerances tolerances_;
+  const RunContext* context_;
   ClearanceOrbit orbit_;
 };
 
@@ -76,7 +77,7 @@ class OrbitFollower {
 template <class Row>
 ClearanceRun over_a_turn(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start,
                          std::span<const double> crank_angles, const ClearanceTolerances& tolerances,
-                         Row&& row) {
+                         const RunContext* context, Row&& row) {
   // Rows in the order of time, each angle within the turn that begins with the orbit.
   const double sense = std::copysign(1.0, crank.speed);
   std::vector<std::pair<double, std::size_t>> order;
@@ -90,12 +91,14 @@ ClearanceRun over_a_turn(const ClearanceFourBar& model, const EvenCrank& crank, 
   for (const auto& [time, k] : order) times.push_back(time);
   times.push_back(turn / std::abs(crank.speed));  // the whole turn, for the tension
   std::size_t next = 0;
-  return simulate_clearance(model, math::ConstantSpeed{crank.angle, crank.speed}, start, times, tolerances,
-                            [&](const ClearanceRow& now) {
-                              if (next > 0 && next <= order.size()) row(order[next - 1].second, now);
-                              ++next;
-                              return true;
-                            });
+  return simulate_clearance(
+      model, math::ConstantSpeed{crank.angle, crank.speed}, start, times, tolerances,
+      [&](const ClearanceRow& now) {
+        if (next > 0 && next <= order.size()) row(order[next - 1].second, now);
+        ++next;
+        return true;
+      },
+      context);
 }
 
 std::vector<double> even_angles(const EvenCrank& crank, int samples) {
@@ -179,9 +182,10 @@ ClearanceFourBar with_masses(const ClearanceFourBar& model, std::span<const doub
   return out;
 }
 
-double transient_lead_error(const ClearanceMassProblem& p, std::span<const double> x) {
+double transient_lead_error(const ClearanceMassProblem& p, std::span<const double> x,
+                            const RunContext* context) {
   return lead_error(with_masses(p.model, x), p.crank, {p.crank.angle + p.lead, p.crank.speed}, p.lead,
-                    p.samples, p.tolerances);
+                    p.samples, p.tolerances, context);
 }
 
 optimise::Problem clearance_mass_problem(const ClearanceMassProblem& p) {
@@ -218,13 +222,14 @@ std::vector<double> force_lead_errors(const ClearanceMassProblem& p, std::span<c
   return out;
 }
 
-ClearanceMassDesign clearance_mass_design(const ClearanceMassProblem& p, std::vector<double> x) {
+ClearanceMassDesign clearance_mass_design(const ClearanceMassProblem& p, std::vector<double> x,
+                                          const RunContext* context) {
   require_valid(p);
   ClearanceMassDesign out;
   const ClearanceFourBar model = with_masses(p.model, x);
-  out.transient_error = transient_lead_error(p, x);
+  out.transient_error = transient_lead_error(p, x, context);
   out.x = std::move(x);
-  OrbitFollower follower(p.crank, p.tolerances);
+  OrbitFollower follower(p.crank, p.tolerances, context);
   if (!follower.begin(model)) {
     out.status = Status::not_converged;
     out.orbit_error = infinity;
@@ -234,7 +239,7 @@ ClearanceMassDesign clearance_mass_design(const ClearanceMassProblem& p, std::ve
   double sum = 0;
   const std::vector<double> angles = even_angles(p.crank, p.samples);
   const ClearanceRun run = over_a_turn(model, p.crank, out.orbit.start(p.crank), angles, p.tolerances,
-                                       [&](std::size_t, const ClearanceRow& row) {
+                                       context, [&](std::size_t, const ClearanceRow& row) {
                                          const double off =
                                              std::remainder(row.link.angle - row.crank.value - p.lead, turn);
                                          sum += off * off;
@@ -272,7 +277,7 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
   std::vector<double> x = seeds.ends[seeds.best].x;
   std::int64_t evaluations = seeds.evaluations;
 
-  OrbitFollower follower(p.crank, p.tolerances);
+  OrbitFollower follower(p.crank, p.tolerances, &context);
   Status interrupted = context.interruption();
   if (interrupted == Status::done && follower.begin(with_masses(p.model, x))) {
     const std::vector<double> angles = even_angles(p.crank, p.samples);
@@ -281,7 +286,7 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
       if (context.interrupted()) return false;
       const ClearanceFourBar model = with_masses(p.model, at);
       if (!follower.follow(model)) return false;
-      return over_a_turn(model, p.crank, follower.orbit().start(p.crank), angles, p.tolerances,
+      return over_a_turn(model, p.crank, follower.orbit().start(p.crank), angles, p.tolerances, &context,
                          [&](std::size_t k, const ClearanceRow& row) {
                            r[k] = std::remainder(row.link.angle - row.crank.value - p.lead, turn);
                          })
@@ -293,7 +298,10 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
     minimise_shares(on_orbit, m, x, lower, upper, integrated, options);
     interrupted = context.interruption();
   }
-  ClearanceMassDesign out = clearance_mass_design(p, x);
+  // An interrupted search tells its best as far as that takes no time of its own.
+  RunContext last;
+  last.set_time_limit(std::chrono::milliseconds(200));
+  ClearanceMassDesign out = clearance_mass_design(p, x, interrupted == Status::done ? nullptr : &last);
   out.evaluations = evaluations;
   if (interrupted != Status::done) out.status = interrupted;
   return out;
@@ -352,16 +360,31 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
     }
     return true;
   };
-  OrbitFollower follower(mass.crank, mass.tolerances);
+  const auto rms = [&](std::span<const double> r) {
+    double sum = 0;
+    for (const double value : r) sum += value * value;
+    return std::sqrt(sum / static_cast<double>(path.x.size()));
+  };
+  OrbitFollower follower(mass.crank, mass.tolerances, &context);
+  // The best that any trial has shown: what an interrupted search gives back.
+  struct Seen {
+    double rms = infinity;
+    std::vector<double> x;
+    ClearanceOrbit orbit;
+    double least_tension = -infinity;
+  } seen;
   const auto on_orbit = [&](std::span<const double> at, std::span<double> r) {
     ++out.evaluations;
     if (context.interrupted()) return false;
     const ClearanceFourBar model = model_of(at);
     if (!turns_fully(model) || !follower.follow(model)) return false;
     const ClearanceRun run = over_a_turn(
-        model, mass.crank, follower.orbit().start(mass.crank), path.crank_angles, mass.tolerances,
+        model, mass.crank, follower.orbit().start(mass.crank), path.crank_angles, mass.tolerances, &context,
         [&](std::size_t k, const ClearanceRow& row) { misses(k, row.instant->position.point, r); });
-    return run.status == Status::done && run.least_tension > 0;
+    if (run.status != Status::done || !(run.least_tension > 0)) return false;
+    if (const double now = rms(r); now < seen.rms)
+      seen = {now, {at.begin(), at.end()}, follower.orbit(), run.least_tension};
+    return true;
   };
   const auto minimise = [&](auto&& misfit, double share, double decrease, int iterations) {
     const std::vector<double> scale = widths(lower, upper, share);
@@ -386,11 +409,6 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
     x = end;
     return true;
   };
-  const auto rms = [&](std::span<const double> r) {
-    double sum = 0;
-    for (const double value : r) sum += value * value;
-    return std::sqrt(sum / static_cast<double>(path.x.size()));
-  };
   std::vector<double> r(m);
   // From x, in place: the distance of the path on the orbit; infinite where there is no orbit in contact.
   const auto on_orbit_from = [&](std::vector<double> start, bool search) {
@@ -400,7 +418,19 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
     return follower.begin(model_of(x)) && on_orbit(x, r) ? rms(r) : infinity;
   };
   const std::vector<double> given = x;
-  minimise(in_the_limit, smooth, 1e-6, 200);
+  const auto stopped = [&](Status why) {
+    out.status = why;
+    out.x = seen.x.empty() ? given : seen.x;
+    out.model = model_of(out.x);
+    out.limit_rms = in_the_limit(out.x, r) ? rms(r) : infinity;
+    out.path_rms = seen.rms;
+    out.orbit = seen.orbit;
+    out.least_tension = seen.least_tension;
+    return out;
+  };
+  minimise([&](std::span<const double> at,
+               std::span<double> off) { return !context.interrupted() && in_the_limit(at, off); },
+           smooth, 1e-6, 200);
   // What is good in the limit may have no orbit that keeps contact at this clearance.
   double found = on_orbit_from(x, true);
   std::vector<double> best = x;
@@ -410,26 +440,27 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
       best = x;
     }
   }
+  if (const Status why = context.interruption(); why != Status::done) return stopped(why);
   x = best;
-  if (!std::isfinite(found) || !follower.begin(model_of(x))) out.status = Status::not_converged;
+  const bool there = std::isfinite(found) && follower.begin(model_of(x));
   out.x = x;
   out.model = model_of(x);
   out.limit_rms = in_the_limit(x, r) ? rms(r) : infinity;
   out.path_rms = infinity;
   out.least_tension = -infinity;
-  if (out.status != Status::done || !follower.follow(out.model)) {
+  if (!there || !follower.follow(out.model)) {
     out.status = Status::not_converged;
-    return out;
+    const Status why = context.interruption();
+    return why == Status::done ? out : stopped(why);
   }
-  out.orbit =
-      find_orbit(out.model, mass.crank, follower.orbit().lead, follower.orbit().slope, mass.tolerances);
-  const ClearanceRun run =
-      over_a_turn(out.model, mass.crank, out.orbit.start(mass.crank), path.crank_angles, mass.tolerances,
-                  [&](std::size_t k, const ClearanceRow& row) { misses(k, row.instant->position.point, r); });
+  out.orbit = find_orbit(out.model, mass.crank, follower.orbit().lead, follower.orbit().slope,
+                         mass.tolerances, &context);
+  const ClearanceRun run = over_a_turn(
+      out.model, mass.crank, out.orbit.start(mass.crank), path.crank_angles, mass.tolerances, &context,
+      [&](std::size_t k, const ClearanceRow& row) { misses(k, row.instant->position.point, r); });
+  if (const Status why = context.interruption(); why != Status::done) return stopped(why);
   if (run.status == Status::done) out.path_rms = rms(r);
   out.least_tension = run.least_tension;
-  if (const Status interrupted = context.interruption(); interrupted != Status::done)
-    out.status = interrupted;
   return out;
 }
 

@@ -41,8 +41,9 @@ void require_valid(const ClearanceMassProblem& problem);
 ClearanceFourBar with_masses(const ClearanceFourBar& model, std::span<const double> x);
 
 /// Objective of the source (rad), Eq. (30): of one turn that starts with the wanted lead at the speed of the
-/// crank. Infinite where the linkage does not go round.
-double transient_lead_error(const ClearanceMassProblem& problem, std::span<const double> x);
+/// crank. Infinite where the linkage does not go round, or the run is to stop.
+double transient_lead_error(const ClearanceMassProblem& problem, std::span<const double> x,
+                            const RunContext* context = nullptr);
 
 /// For population methods: cost = transient_lead_error; constraint `goes_round`.
 optimise::Problem clearance_mass_problem(const ClearanceMassProblem& problem);
@@ -58,8 +59,9 @@ struct ClearanceMassDesign {
   double least_tension = 0;    ///< N, on the orbit; not positive: pin and bush would part
   std::int64_t evaluations = 0;
 };
-/// What masses achieve; `x` is kept.
-ClearanceMassDesign clearance_mass_design(const ClearanceMassProblem& problem, std::vector<double> x);
+/// What masses achieve; `x` is kept. Without an orbit, that is not_converged, when `context` asks to stop.
+ClearanceMassDesign clearance_mass_design(const ClearanceMassProblem& problem, std::vector<double> x,
+                                          const RunContext* context = nullptr);
 
 /// The recommended method. First the limit of small clearances, where the force of the ideal joint must point
 /// along the wanted link: without integration, as that force is linear in masses, moments and inertias, by

@@ -82,8 +82,9 @@ Linkage changed(const Linkage& l, const LinkageTolerances& t, std::span<const do
 // Solves a linkage at all samples, each from the nominal motion there, so that it stays in its assembly mode.
 class Solver {
  public:
+  // Fewer samples than given when the run is to stop; those below `between_looks` always.
   Solver(const Linkage& l, const ToleranceOutputs& o, std::span<const InputMotion> samples,
-         std::span<const double> times)
+         std::span<const double> times, const RunContext* context)
       : outputs_(o), samples_(samples), times_(times), forces_wanted_(!o.forces.empty() || o.drives) {
     planar::PlanResult result = planar::plan(l);
     LINKWRIGHT_REQUIRE(result.problems.empty(), "the linkage cannot be planned: {}",
@@ -92,7 +93,9 @@ class Solver {
     const std::size_t inputs = plan_.inputs();
     LinkageMotion motion(plan_);
     std::vector<double> before;
+    constexpr std::size_t between_looks = 1024;
     for (std::size_t s = 0; s * inputs < samples.size(); ++s) {
+      if (context && s > 0 && s % between_looks == 0 && context->interrupted()) break;
       const auto now = samples.subspan(s * inputs, inputs);
       std::vector<double> values;
       for (const InputMotion& m : now) values.push_back(m.value);
@@ -117,23 +120,24 @@ class Solver {
   }
   double size() const { return plan_.size; }
 
-  /// Values of another linkage of the same structure at every sample, empty where there are none; no sample
-  /// at all when the run is to stop.
-  std::vector<std::vector<double>> of(const Linkage& l, const RunContext* context = nullptr) const {
+  /// Values of another linkage of the same structure at the samples first, ..., last - 1, empty where there
+  /// are none; no sample at all when the run is to stop.
+  std::vector<std::vector<double>> of(const Linkage& l, std::size_t first, std::size_t last,
+                                      const RunContext* context = nullptr) const {
     constexpr std::size_t between_looks = 64;
     const planar::PlanResult other = planar::plan(l);
-    std::vector<std::vector<double>> out(samples());
+    std::vector<std::vector<double>> out(last - first);
     if (!other.problems.empty()) return out;
     LinkageMotion motion(other.plan);
     motion.modes = modes_;
     const std::size_t inputs = plan_.inputs();
-    for (std::size_t s = 0; s < samples(); ++s) {
+    for (std::size_t s = first; s < last; ++s) {
       if (context && s % between_looks == between_looks - 1 && context->interrupted()) return {};
       if (status_[s] != Status::done) continue;
       motion.parts = parts_[s];
       const auto now = samples_.subspan(s * inputs, inputs);
       planar::solve_motion(other.plan, now, motion);
-      if (motion.status == Status::done) out[s] = read(l, other.plan, motion, s, values_[s]);
+      if (motion.status == Status::done) out[s - first] = read(l, other.plan, motion, s, values_[s]);
     }
     return out;
   }
@@ -251,9 +255,10 @@ std::size_t quantity_count(const Linkage& l, const ToleranceOutputs& o) {
 std::vector<SensitivitySample> clearance_sensitivity(const Linkage& l, const LinkageTolerances& t,
                                                      const ToleranceOutputs& o,
                                                      std::span<const InputMotion> samples,
-                                                     std::span<const double> times) {
+                                                     std::span<const double> times,
+                                                     const RunContext* context) {
   require_valid(l, t, o, samples.size(), times.size());
-  const Solver solver(l, o, samples, times);
+  const Solver solver(l, o, samples, times, context);
   const std::size_t pins = t.pins.size(), parameters = 2 * pins + t.lengths.size(),
                     values = value_count(l, o);
   const std::vector<std::size_t> sizes = quantity_sizes(l, o);
@@ -266,20 +271,32 @@ std::vector<SensitivitySample> clearance_sensitivity(const Linkage& l, const Lin
   }
   const double h = math::difference_step(solver.size());
   std::vector<double> by(parameters, 0.0);
-  for (std::size_t j = 0; j < parameters; ++j) {
-    by[j] = h;
-    const auto more = solver.of(changed(l, t, by));
-    by[j] = -h;
-    const auto less = solver.of(changed(l, t, by));
-    by[j] = 0;
-    for (std::size_t s = 0; s < out.size(); ++s) {
-      if (out[s].status != Status::done) continue;
-      if (more[s].empty() || less[s].empty()) {
-        out[s].status = Status::infeasible;
-        continue;
+  // Block by block of samples, so that whole samples are there when the run is to stop.
+  constexpr std::size_t solved_between_looks = 4096;
+  const std::size_t block =
+      std::max<std::size_t>(1, solved_between_looks / std::max<std::size_t>(1, parameters));
+  for (std::size_t first = 0; first < out.size(); first += block) {
+    if (context && first > 0 && context->interrupted()) {
+      out.resize(first);
+      break;
+    }
+    const std::size_t last = std::min(out.size(), first + block);
+    for (std::size_t j = 0; j < parameters; ++j) {
+      by[j] = h;
+      const auto more = solver.of(changed(l, t, by), first, last);
+      by[j] = -h;
+      const auto less = solver.of(changed(l, t, by), first, last);
+      by[j] = 0;
+      for (std::size_t s = first; s < last; ++s) {
+        const std::vector<double>&above = more[s - first], &below = less[s - first];
+        if (out[s].status != Status::done) continue;
+        if (above.empty() || below.empty()) {
+          out[s].status = Status::infeasible;
+          continue;
+        }
+        for (std::size_t i = 0; i < values; ++i)
+          out[s].derivatives[i * parameters + j] = (above[i] - below[i]) / (2 * h);
       }
-      for (std::size_t i = 0; i < values; ++i)
-        out[s].derivatives[i * parameters + j] = (more[s][i] - less[s][i]) / (2 * h);
     }
   }
   for (std::size_t s = 0; s < out.size(); ++s) {
@@ -338,12 +355,12 @@ MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances
                                        std::span<const double> times) {
   require_valid(l, t, o, samples.size(), times.size());
   LINKWRIGHT_REQUIRE(draws >= 1, "needs 1 draw at least, got {}", draws);
-  const Solver solver(l, o, samples, times);
+  const Solver solver(l, o, samples, times, &context);
   const std::size_t pins = t.pins.size(), values = value_count(l, o);
   const std::vector<std::size_t> sizes = quantity_sizes(l, o);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   MonteCarloResult out;
-  out.samples.resize(solver.samples());
+  out.samples.resize(samples.size() / l.driven.size());
   for (MonteCarloSample& s : out.samples) {
     s.mean.assign(values, 0);
     s.deviation.assign(values, 0);
@@ -363,7 +380,7 @@ MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances
     }
     for (std::size_t k = 0; k < t.lengths.size(); ++k)
       by[2 * pins + k] = t.lengths[k].tolerance * random.uniform(-1, 1);
-    const auto drawn = solver.of(changed(l, t, by), &context);
+    const auto drawn = solver.of(changed(l, t, by), 0, solver.samples(), &context);
     if (drawn.empty()) {
       out.status = context.interruption();
       break;

@@ -70,12 +70,14 @@ struct SensitivitySample {
 /// 1e-10 of a value's size, more near dead points. `samples` holds the motion of all inputs, sample after
 /// sample; forces take their rates and accelerations. Throws ContractError for tolerances, outputs and
 /// samples that do not fit, or a linkage that cannot be planned. `times` of the samples, for loads that
-/// depend on time; empty = 0 at all of them.
+/// depend on time; empty = 0 at all of them. When `context` asks to stop: the samples so far, a few hundred
+/// at least if so many are asked for.
 std::vector<SensitivitySample> clearance_sensitivity(const planar::Linkage& linkage,
                                                      const LinkageTolerances& tolerances,
                                                      const ToleranceOutputs& outputs,
                                                      std::span<const planar::InputMotion> samples,
-                                                     std::span<const double> times = {});
+                                                     std::span<const double> times = {},
+                                                     const RunContext* context = nullptr);
 
 /// What random linkages do at one sample.
 struct MonteCarloSample {

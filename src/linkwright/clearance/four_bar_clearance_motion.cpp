@@ -165,8 +165,9 @@ class Simulation {
 // The map of lead and slope over one turn of an even crank.
 class TurnMap {
  public:
-  TurnMap(const ClearanceFourBar& model, const EvenCrank& crank, const ClearanceTolerances& tolerances)
-      : model_(model), crank_(crank), tolerances_(tolerances) {
+  TurnMap(const ClearanceFourBar& model, const EvenCrank& crank, const ClearanceTolerances& tolerances,
+          const RunContext* context)
+      : model_(model), crank_(crank), tolerances_(tolerances), context_(context) {
     require_valid(model);
     LINKWRIGHT_REQUIRE(model.clearance > 0, "clearance {} m: the ideal joint has no motion of its own",
                        model.clearance);
@@ -183,7 +184,7 @@ class TurnMap {
     for (std::size_t k = 0; k < rows.size(); ++k)
       times.push_back(way * static_cast<double>(k) / static_cast<double>(rows.size()));
     std::size_t next = 0;
-    math::OdeHooks hooks{.output_times = times};
+    math::OdeHooks hooks{.output_times = times, .context = context_};
     if (!rows.empty())
       hooks.output = [&](double, std::span<const double> state) {
         rows[next++] = state[0];
@@ -240,6 +241,7 @@ class TurnMap {
   const ClearanceFourBar& model_;
   EvenCrank crank_;
   ClearanceTolerances tolerances_;
+  const RunContext* context_;
   math::OdeWorkspace workspace_;
 };
 
@@ -260,10 +262,10 @@ ClearanceRun simulate_clearance(const ClearanceFourBar& model, const math::Motio
 }
 
 ClearanceOrbit find_orbit(const ClearanceFourBar& model, const EvenCrank& crank, double lead, double slope,
-                          const ClearanceTolerances& tolerances) {
+                          const ClearanceTolerances& tolerances, const RunContext* context) {
   constexpr int most = 50;
   constexpr double longest_step = 0.5, converged = 1e-10, difference = 1e-5;
-  TurnMap map(model, crank, tolerances);
+  TurnMap map(model, crank, tolerances, context);
   ClearanceOrbit orbit{.lead = lead, .slope = slope};
   for (;; ++orbit.iterations) {
     std::array<double, 2> end{orbit.lead, orbit.slope};
@@ -303,9 +305,10 @@ ClearanceOrbit find_orbit(const ClearanceFourBar& model, const EvenCrank& crank,
 }
 
 ClearanceOrbit follow_orbit(const ClearanceFourBar& model, const EvenCrank& crank,
-                            const ClearanceOrbit& known, const ClearanceTolerances& tolerances) {
+                            const ClearanceOrbit& known, const ClearanceTolerances& tolerances,
+                            const RunContext* context) {
   constexpr int most = 8;
-  TurnMap map(model, crank, tolerances);
+  TurnMap map(model, crank, tolerances, context);
   ClearanceOrbit orbit = known;
   const std::array<double, 4>& by = known.derivative;
   const double d = (by[0] - 1) * (by[3] - 1) - by[1] * by[2];
@@ -324,13 +327,14 @@ ClearanceOrbit follow_orbit(const ClearanceFourBar& model, const EvenCrank& cran
     orbit.lead += step[0];
     orbit.slope += step[1];
   }
-  return find_orbit(model, crank, known.lead, known.slope, tolerances);
+  return find_orbit(model, crank, known.lead, known.slope, tolerances, context);
 }
 
 ClearanceOrbit settle(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start,
-                      int turns, double tolerance, const ClearanceTolerances& tolerances) {
+                      int turns, double tolerance, const ClearanceTolerances& tolerances,
+                      const RunContext* context) {
   LINKWRIGHT_REQUIRE(turns >= 1, "needs 1 turn at least, got {}", turns);
-  TurnMap map(model, crank, tolerances);
+  TurnMap map(model, crank, tolerances, context);
   ClearanceOrbit orbit{.lead = start.angle - crank.angle, .slope = start.rate / crank.speed - 1};
   while (orbit.iterations < turns) {
     std::array<double, 2> end{orbit.lead, orbit.slope};
@@ -349,9 +353,9 @@ ClearanceOrbit settle(const ClearanceFourBar& model, const EvenCrank& crank, con
 }
 
 double lead_error(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start, double lead,
-                  int samples, const ClearanceTolerances& tolerances) {
+                  int samples, const ClearanceTolerances& tolerances, const RunContext* context) {
   LINKWRIGHT_REQUIRE(samples >= 1, "needs 1 sample at least, got {}", samples);
-  TurnMap map(model, crank, tolerances);
+  TurnMap map(model, crank, tolerances, context);
   std::vector<double> rows(static_cast<std::size_t>(samples));
   std::array<double, 2> x{start.angle - crank.angle, start.rate / crank.speed - 1};
   if (!map(x, rows)) return std::numeric_limits<double>::infinity();

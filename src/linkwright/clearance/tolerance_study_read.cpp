@@ -9,6 +9,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/memory.h"
 
 namespace linkwright::clearance {
 namespace {
@@ -273,6 +274,37 @@ void read_limits(study::ObjectReader& document, ToleranceStudy& s, Value& canoni
   if (!all.empty()) canonical["limit"] = Value(std::move(all));
 }
 
+// Derivatives and draws of all samples, and the tables that they become.
+void check_memory(study::ObjectReader& document, const ToleranceStudy& s) {
+  double rows = 1;
+  if (const auto* times = std::get_if<study::TimeSamples>(&s.motion.sweep))
+    rows = times->samples;
+  else
+    for (const planar::InputSamples& input : std::get<planar::InputGrid>(s.motion.sweep).inputs)
+      rows *= input.samples;
+  const auto count = [](std::size_t n) { return static_cast<double>(n); };
+  const double values = count(value_count(s.motion.linkage, s.outputs)),
+               quantities = count(quantity_count(s.motion.linkage, s.outputs)),
+               tolerances = count(s.tolerance_count()),
+               parameters = tolerances + count(s.tolerances.pins.size()),
+               inputs = count(s.motion.plan.inputs()), points = count(s.outputs.points.size());
+  // A sample: derivatives, first-order and random figures of values, shares of tolerances.
+  const double kept = sizeof(double) * (values * (parameters + 7) + quantities * (2 * tolerances + 2));
+  // Columns: errors, values, bands of paths, a table of contributions for each quantity.
+  const double columns =
+      (quantities + 3) * inputs + 4 * quantities + 5 * values + 6 * points + quantities * tolerances;
+  auto sweep = document.table("sweep");
+  if (sweep && !study::require_memory(*sweep, "samples", rows * (kept + study::table_bytes(1, columns)),
+                                      fmt::format("{:.0f} samples of {:.0f} tolerances and {:.0f} quantities",
+                                                  rows, tolerances, quantities),
+                                      "take fewer samples, or watch less"))
+    return;
+  if (auto random = document.table("monte_carlo"))
+    study::require_memory(
+        *random, "draws", s.draws * (sizeof(double) * quantities + study::table_bytes(1, quantities + 1)),
+        fmt::format("{} draws of {:.0f} quantities", s.draws, quantities), "take fewer draws, or watch less");
+}
+
 study::Prepared prepare(study::ObjectReader& document, const study::Common& common) {
   study::Prepared prepared;
   ToleranceStudy s;
@@ -309,6 +341,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
                    "add [[clearance]] tables for loose pins or [[tolerance]] tables for lengths");
   read_watch(document, s, prepared.canonical);
   read_limits(document, s, prepared.canonical);
+  if (!document.document().has_errors()) check_memory(document, s);
   prepared.canonical["monte_carlo"] = study::write_fields(random);
   prepared.run = [s = std::move(s)](RunContext& context) { return run_tolerance_study(s, context); };
   return prepared;

@@ -65,14 +65,17 @@ std::vector<std::string> tolerance_names(const planar::Linkage& l, const Linkage
   return out;
 }
 
-// The nominal linkage: what is drawn, and how near to a dead point it comes.
-void record_motion(const ToleranceStudy& s, ToleranceRecording& r, bool time) {
+// The nominal linkage: what is drawn, and how near to a dead point it comes. The rows so far when the run is
+// to stop.
+void record_motion(const ToleranceStudy& s, ToleranceRecording& r, bool time, const RunContext& context) {
+  constexpr std::size_t between_looks = 1024;
   const planar::LinkageStudy& m = s.motion;
   const bool forces_wanted = !s.outputs.forces.empty() || s.outputs.drives;
   planar::LinkageMotion motion(m.plan);
   planar::LinkageForces forces;
   std::vector<double> last, next;
   for (std::size_t i = 0; i < r.rows.inputs.size(); ++i) {
+    if (i > 0 && i % between_looks == 0 && context.interrupted()) break;
     const std::vector<planar::InputMotion>& now = r.rows.inputs[i];
     next.clear();
     for (const planar::InputMotion& input : now) next.push_back(input.value);
@@ -96,6 +99,7 @@ void record_motion(const ToleranceStudy& s, ToleranceRecording& r, bool time) {
         r.transmission = angle, r.transmission_row = i, r.transmission_group = group.name;
     }
   }
+  r.run_length = r.records.size();
 }
 
 }  // namespace
@@ -182,11 +186,16 @@ ToleranceRecording record_tolerances(const ToleranceStudy& s, RunContext& contex
   r.tolerances = tolerance_names(s.motion.linkage, s.tolerances);
   const auto* grid = std::get_if<planar::InputGrid>(&s.motion.sweep);
   r.run_length = grid ? at(grid->inputs.back().samples) : r.rows.inputs.size();
-  record_motion(s, r, !grid);
   std::vector<planar::InputMotion> samples;
   for (const auto& row : r.rows.inputs) samples.insert(samples.end(), row.begin(), row.end());
   const planar::Linkage& l = s.motion.linkage;
-  r.linear = clearance_sensitivity(l, s.tolerances, s.outputs, samples, r.rows.time);
+  r.linear = clearance_sensitivity(l, s.tolerances, s.outputs, samples, r.rows.time, &context);
+  // Interrupted: everything is told of the samples that there are.
+  r.rows.time.resize(r.linear.size());
+  r.rows.inputs.resize(r.linear.size());
+  r.run_length = std::min(r.run_length, r.linear.size());
+  samples.resize(r.linear.size() * s.motion.plan.inputs());
+  record_motion(s, r, !grid, context);
   r.random = clearance_monte_carlo(l, s.tolerances, s.outputs, samples, s.draws,
                                    static_cast<std::uint64_t>(s.seed), context, r.rows.time);
   for (std::size_t q = 0; q < r.quantities.size(); ++q) {

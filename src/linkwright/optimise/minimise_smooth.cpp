@@ -86,48 +86,64 @@ Task make_task(const SmoothProblem& problem, const SmoothOptions& options) {
   return task;
 }
 
+/// A candidate drawn at random: of its number alone, so that none needs to be kept.
+void draw(const SmoothProblem& problem, const Seed& seed, std::size_t i, std::span<double> x) {
+  RandomStream random({seed.seed, seed.run, 0, static_cast<std::uint32_t>(i)});
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    const Variable& v = problem.variables[j];
+    x[j] = std::clamp(random.uniform(v.lower, v.upper), v.lower, v.upper);
+  }
+}
+
 /// Candidates in the order in which local searches begin from them: the best ones, none close to one before.
 std::vector<std::vector<double>> choose_starts(const Task& task, const Seed& seed, RunContext& context,
                                                std::int64_t& evaluations) {
   const SmoothProblem& problem = task.problem;
   const auto count = static_cast<std::size_t>(task.options.candidates);
   const std::size_t n = problem.variables.size(), width = problem.values();
-  Population population(n, count);
-  for (std::size_t i = 0; i < count; ++i) {
-    RandomStream random({seed.seed, seed.run, 0, static_cast<std::uint32_t>(i)});
-    for (std::size_t j = 0; j < n; ++j) {
-      const Variable& v = problem.variables[j];
-      population(j, i) = std::clamp(random.uniform(v.lower, v.upper), v.lower, v.upper);
-    }
-  }
-  // Candidates that an interruption leaves out count as designs that do not exist.
-  std::vector<double> values(count * width, infinity), cost(count), violation(count);
-  std::atomic<std::int64_t> evaluated = 0;
+  struct Candidate {
+    double cost = infinity, violation = infinity;
+    std::size_t number = 0;
+    bool evaluated = false;  // not when an interruption leaves it out
+  };
+  std::vector<Candidate> all(count);
   parallel_for((count + evaluation_block - 1) / evaluation_block, context.threads(), [&](std::size_t block) {
     if (block > 0 && context.interrupted()) return;
     const std::size_t first = block * evaluation_block, part = std::min(evaluation_block, count - first);
-    try {
-      problem.evaluate(population.view().slice(first, part),
-                       std::span(values).subspan(first * width, part * width));
-    } catch (const Interrupted&) {
-      return;
+    Population drawn(n, part);
+    std::vector<double> x(n), values(part * width, untouched);
+    for (std::size_t i = 0; i < part; ++i) {
+      draw(problem, seed, first + i, x);
+      drawn.set(i, x);
     }
-    evaluated += static_cast<std::int64_t>(part);
+    try {
+      problem.evaluate(drawn.view(), values);
+    } catch (const Interrupted&) {
+      // Those that it has come to count.
+    }
+    for (std::size_t i = 0; i < part; ++i) {
+      const std::span<const double> of = std::span<const double>(values).subspan(i * width, width);
+      if (!is_touched(of)) continue;
+      Candidate& c = all[first + i];
+      c.number = first + i;
+      c.evaluated = true;
+      // Limits that are not met count as cost: a search repairs them at once, but not a bad design.
+      c.violation = task.exists(of) ? 0 : violation_of(of, problem.objectives);
+      c.cost = task.exists(of) ? task.cost(of) : infinity;
+      for (std::size_t k = 0; c.violation == 0 && k < task.limits(); ++k)
+        c.cost += std::max(0.0, task.limit(of, k));
+    }
   });
-  evaluations += evaluated;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::span<const double> of = std::span<const double>(values).subspan(i * width, width);
-    // Limits that are not met count as cost: a search repairs them at once, but not a bad design.
-    violation[i] = task.exists(of) ? 0 : violation_of(of, problem.objectives);
-    cost[i] = task.exists(of) ? task.cost(of) : infinity;
-    for (std::size_t k = 0; violation[i] == 0 && k < task.limits(); ++k)
-      cost[i] += std::max(0.0, task.limit(of, k));
-  }
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return better(cost[a], violation[a], cost[b], violation[b]);
-  });
+  std::erase_if(all, [](const Candidate& c) { return !c.evaluated; });
+  evaluations += static_cast<std::int64_t>(all.size());
+  if (all.empty()) all.emplace_back();  // there is always a start
+  // A heap, the best on top: only some of many candidates are ever asked for.
+  const auto worse = [](const Candidate& a, const Candidate& b) {
+    if (better(b.cost, b.violation, a.cost, a.violation)) return true;
+    if (better(a.cost, a.violation, b.cost, b.violation)) return false;
+    return a.number > b.number;
+  };
+  std::make_heap(all.begin(), all.end(), worse);
 
   SmoothDifferences unit(problem);
   // Two random points of the cube are sqrt(n / 6) apart on average; so many cells have edges so much shorter.
@@ -136,9 +152,9 @@ std::vector<std::vector<double>> choose_starts(const Task& task, const Seed& see
       0.5 * std::sqrt(dimension / 6) * std::pow(static_cast<double>(task.options.starts), -1 / dimension);
   std::vector<std::vector<double>> starts;
   std::vector<double> x(n), u(unit.free());
-  for (const std::size_t i : order) {
-    if (starts.size() == static_cast<std::size_t>(task.options.starts)) break;
-    population.get(i, x);
+  for (; !all.empty() && starts.size() < static_cast<std::size_t>(task.options.starts); all.pop_back()) {
+    std::pop_heap(all.begin(), all.end(), worse);
+    draw(problem, seed, all.back().number, x);
     unit.to_unit(x, u);
     const bool far = std::all_of(starts.begin(), starts.end(), [&](const std::vector<double>& other) {
       double square = 0;

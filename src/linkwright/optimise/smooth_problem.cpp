@@ -1,9 +1,12 @@
 #include "linkwright/optimise/smooth_problem.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
 
 namespace linkwright::optimise {
 
@@ -17,6 +20,26 @@ double violation_of(std::span<const double> values, std::size_t objectives) {
   return finite ? sum : sum + 1;
 }
 
+bool is_touched(std::span<const double> values) {
+  return !std::all_of(values.begin(), values.end(), [](double v) { return v == untouched; });
+}
+
+SmoothProblem interruptible(SmoothProblem problem, const RunContext& context) {
+  const std::size_t width = problem.values();
+  auto evaluate = std::move(problem.evaluate);
+  problem.evaluate = [evaluate = std::move(evaluate), width, &context](const PopulationView& candidates,
+                                                                       std::span<double> values) {
+    thread_local Population one;
+    if (one.dimension() != candidates.dimension || one.size() != 1) one = Population(candidates.dimension, 1);
+    for (std::size_t i = 0; i < candidates.size; ++i) {
+      if (i > 0) go_on(context);
+      for (std::size_t j = 0; j < candidates.dimension; ++j) one(j, 0) = candidates(j, i);
+      evaluate(one.view(), values.subspan(i * width, width));
+    }
+  };
+  return problem;
+}
+
 Problem to_problem(const SmoothProblem& problem) {
   LINKWRIGHT_REQUIRE(problem.objectives > 0, "a problem needs objectives");
   Problem out;
@@ -28,15 +51,23 @@ Problem to_problem(const SmoothProblem& problem) {
     const std::size_t width = problem.values(), objectives = problem.objectives;
     if (all.size() < candidates.size * width) all.resize(candidates.size * width);
     const std::span<double> values(all.data(), candidates.size * width);
-    problem.evaluate(candidates, values);
-    for (std::size_t i = 0; i < candidates.size; ++i) {
+    const auto take = [&](std::size_t i) {
       const std::span<const double> of = values.subspan(i * width, width);
       violation[i] = violation_of(of, objectives);
       bool exists = true;
       for (std::size_t k = 0; k < objectives; ++k) exists &= std::isfinite(of[k]);
       for (std::size_t k = 0; k < objectives; ++k)
         cost[i * objectives + k] = exists ? of[k] : std::numeric_limits<double>::infinity();
+    };
+    std::fill(values.begin(), values.end(), untouched);
+    try {
+      problem.evaluate(candidates, values);
+    } catch (const Interrupted&) {
+      for (std::size_t i = 0; i < candidates.size; ++i)
+        if (is_touched(values.subspan(i * width, width))) take(i);
+      throw;
     }
+    for (std::size_t i = 0; i < candidates.size; ++i) take(i);
   };
   return out;
 }

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "linkwright/core/run_context.h"
 #include "linkwright/optimise/problem.h"
 
 namespace linkwright::optimise {
@@ -20,18 +22,30 @@ struct SmoothProblem {
   /// references of theirs and to be minimised, then the constraints, dimensionless and met when g <= 0. An
   /// objective that is not finite says that the candidate does not exist, for example because a mechanism
   /// does not assemble; constraints may still be known then, and tell how far it is from existing. Must be
-  /// pure, as Problem::evaluate, and smooth: with continuous first derivatives where candidates exist.
+  /// pure, as Problem::evaluate, and smooth: with continuous first derivatives where candidates exist. May
+  /// throw Interrupted (core/interruption.h); values of candidates that it has not come to are then
+  /// untouched.
   std::function<void(const PopulationView& candidates, std::span<double> values)> evaluate;
 
   std::size_t values() const { return objectives + constraints; }
 };
 
+/// What an evaluation that may be interrupted finds in `values`, and whether it has written those of one
+/// candidate: no objective of a candidate is minus infinity.
+inline constexpr double untouched = -std::numeric_limits<double>::infinity();
+bool is_touched(std::span<const double> values);
+
 /// How far one candidate is from feasible: the sum of the positive parts of its constraints, and 1 more when
 /// an objective or a constraint is not finite.
 double violation_of(std::span<const double> values, std::size_t objectives);
 
+/// The same problem, whose `evaluate` looks before each candidate but its first whether the run is to stop,
+/// and then throws Interrupted: for candidates that take long. `context` must outlive it.
+SmoothProblem interruptible(SmoothProblem problem, const RunContext& context);
+
 /// The same problem for population methods, with as many objectives (combine.h makes one of them). Infinite
-/// costs where the candidate does not exist.
+/// costs where the candidate does not exist. Where `evaluate` throws Interrupted so does that of the problem,
+/// with costs and violations of the candidates before; the others are untouched.
 Problem to_problem(const SmoothProblem& problem);
 
 }  // namespace linkwright::optimise

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/ode.h"
 #include "linkwright/planar/linkage_branch.h"
@@ -96,7 +98,9 @@ double spread(const std::vector<double>& speeds, double mean) {
 
 }  // namespace
 
-CycleRegulation regulate(const Linkage& linkage, const LinkagePlan& plan, const RegulationSetup& setup) {
+CycleRegulation regulate(const Linkage& linkage, const LinkagePlan& plan, const RegulationSetup& setup,
+                         const RunContext* context) {
+  constexpr int between_looks = 1024;
   require(linkage, plan, setup);
   CycleRegulation out;
   if (!goes_round(plan, setup, out)) return out;
@@ -108,6 +112,10 @@ CycleRegulation regulate(const Linkage& linkage, const LinkagePlan& plan, const 
   LinkageForces forces;
   double sum = 0;
   for (int i = 0; i < setup.samples; ++i) {
+    if (context && i % between_looks == 0 && (out.status = context->interruption()) != Status::done) {
+      out.message = "interrupted before the cycle was known";
+      return out;
+    }
     const InputMotion input{setup.start + sense * i * step, speed, 0};
     solve_motion(plan, std::span(&input, 1), motion);
     solve_forces(l, plan, motion, 0, input.value, forces);
@@ -130,18 +138,26 @@ CycleRegulation regulate(const Linkage& linkage, const LinkagePlan& plan, const 
   out.speed = speeds(out, 0, mean);
   out.fluctuation = spread(out.speed, mean);
   const auto excessive = [&](double flywheel) {
+    go_on(context);
     out.regulated = speeds(out, flywheel, mean);
     return spread(out.regulated, mean) > setup.fluctuation;
   };
-  if (excessive(0)) {
-    double low = 0, high = out.energy_fluctuation / (setup.fluctuation * mean * mean) + out.inertia[0];
-    while (excessive(high)) low = high, high *= 2;
-    for (int i = 0; i < 100 && high - low > 1e-12 * high; ++i) {
-      const double middle = (low + high) / 2;
-      (excessive(middle) ? low : high) = middle;
+  try {
+    if (excessive(0)) {
+      double low = 0, high = out.energy_fluctuation / (setup.fluctuation * mean * mean) + out.inertia[0];
+      while (excessive(high)) low = high, high *= 2;
+      for (int i = 0; i < 100 && high - low > 1e-12 * high; ++i) {
+        const double middle = (low + high) / 2;
+        (excessive(middle) ? low : high) = middle;
+      }
+      excessive(high);
+      out.flywheel = high;
     }
-    out.flywheel = high;
-    excessive(high);
+  } catch (const Interrupted& why) {
+    out.status = why.status();
+    out.message = "interrupted before the flywheel was found";
+    out.flywheel = std::numeric_limits<double>::quiet_NaN();
+    out.regulated.assign(out.speed.size(), out.flywheel);
   }
   for (std::vector<double>* s : {&out.speed, &out.regulated})
     for (double& v : *s) v *= sense;

@@ -38,10 +38,12 @@ struct CycleRegulation {
 /// the fluctuation. Torques that go by speed are taken for motors and left out. Loads act as at the mean
 /// speed.
 ///
-/// no_assembly, singular or infeasible (change points) when the linkage does not go round. Throws
-/// ContractError when there is not one turning input whose turn is a cycle in closed form, a load goes by
-/// time, a body has no mass, or the setup is out of range.
-CycleRegulation regulate(const Linkage& linkage, const LinkagePlan& plan, const RegulationSetup& setup);
+/// no_assembly, singular or infeasible (change points) when the linkage does not go round; cancelled,
+/// deadline: without anything, or, when `speed` is not empty, without the flywheel and `regulated`, which are
+/// NaN. Throws ContractError when there is not one turning input whose turn is a cycle in closed form, a load
+/// goes by time, a body has no mass, or the setup is out of range.
+CycleRegulation regulate(const Linkage& linkage, const LinkagePlan& plan, const RegulationSetup& setup,
+                         const RunContext* context = nullptr);
 
 /// The motion that a motor and the loads settle in.
 struct SteadyCycle {

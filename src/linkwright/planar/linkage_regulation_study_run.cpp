@@ -45,9 +45,9 @@ study::Scene drawn(const LinkageRegulationStudy& s, const CycleRegulation& cycle
 
 study::Result run_linkage_regulation(const LinkageRegulationStudy& s, RunContext& context) {
   study::Result result;
-  const CycleRegulation cycle = regulate(s.linkage, s.plan, s.setup);
+  const CycleRegulation cycle = regulate(s.linkage, s.plan, s.setup, &context);
   result.status = cycle.status;
-  if (cycle.status != Status::done) {
+  if (cycle.speed.empty()) {
     result.headline = "No cycle: " + cycle.message + ".";
     warn(result, cycle.message);
     return result;
@@ -75,21 +75,26 @@ study::Result run_linkage_regulation(const LinkageRegulationStudy& s, RunContext
                                          cycle.motor_torque * s.setup.mean_speed, rpm(s.setup.mean_speed)));
   fact("fluctuation of energy", fmt::format("{:.6g} J", cycle.energy_fluctuation));
   fact("coefficient of fluctuation without flywheel", fmt::format("{:.5g}", cycle.fluctuation));
-  fact("flywheel on the input", cycle.flywheel > 0 ? fmt::format("{:.6g} kg m2 for a coefficient of {:.4g}",
-                                                                 cycle.flywheel, s.setup.fluctuation)
-                                                   : "none is needed");
+  const bool found = cycle.status == Status::done;  // else interrupted, with the cycle, without the flywheel
+  fact("flywheel on the input", !found               ? "not found: " + cycle.message
+                                : cycle.flywheel > 0 ? fmt::format("{:.6g} kg m2 for a coefficient of {:.4g}",
+                                                                   cycle.flywheel, s.setup.fluctuation)
+                                                     : "none is needed");
   result.statistics["motor_torque_N_m"] = cycle.motor_torque;
   result.statistics["energy_fluctuation_J"] = cycle.energy_fluctuation;
   result.statistics["fluctuation"] = cycle.fluctuation;
   result.statistics["flywheel_kg_m2"] = cycle.flywheel;
   result.headline =
-      cycle.flywheel > 0
+      !found ? fmt::format("The speed varies by {:.4g} of its mean of {:.5g} rpm; {}.", cycle.fluctuation,
+                           rpm(s.setup.mean_speed), cycle.message)
+      : cycle.flywheel > 0
           ? fmt::format(
                 "A flywheel of {:.5g} kg m2 on {} keeps the speed within {:.4g} of its mean of {:.5g} rpm.",
                 cycle.flywheel, input_joint(s.linkage, 0).name, s.setup.fluctuation, rpm(s.setup.mean_speed))
           : fmt::format("The speed stays within {:.4g} of its mean of {:.5g} rpm without a flywheel.",
                         cycle.fluctuation, rpm(s.setup.mean_speed));
-  if (!s.has_motor) return result;
+  if (!found) warn(result, cycle.message);
+  if (!found || !s.has_motor) return result;
 
   const SteadyCycle steady = steady_cycle(s.linkage, s.plan, s.setup, &context);
   if (steady.status != Status::done) {

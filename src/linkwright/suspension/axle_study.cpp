@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/study/memory.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -162,6 +163,17 @@ void complete_axle(study::ObjectReader& document, AxleForm& axle, const WheelGui
   }
 }
 
+bool fits_memory(study::ObjectReader& document, const AxleForm& axle) {
+  const double columns = 20, bytes = sizeof(AxleRow) + study::table_bytes(1, columns);
+  auto table = document.table("axle");
+  const auto fits = [&](std::string_view key, const std::optional<std::vector<double>>& values) {
+    const std::size_t rows = values ? values->size() : 0;
+    return study::require_memory(*table, key, bytes * static_cast<double>(rows),
+                                 fmt::format("{} positions of the axle", rows), "take fewer values");
+  };
+  return (!axle.roll || fits("roll", axle.roll->values)) && (!axle.rack || fits("rack", axle.rack->values));
+}
+
 void add_anti_features(study::Result& result, const VehicleForm& vehicle,
                        std::span<const WheelParameters> wheels) {
   const bool front = vehicle.axle == AxlePlace::front;
@@ -192,7 +204,7 @@ void add_anti_features(study::Result& result, const VehicleForm& vehicle,
 }
 
 void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& form,
-              const std::optional<VehicleForm>& vehicle) {
+              const std::optional<VehicleForm>& vehicle, const RunContext& context) {
   const AxlePlan plan = prepare_axle(guide);
   const AxlePosition reference = reference_position(plan);
   if (reference.status != Status::done) return;  // the sweep tells why
@@ -200,8 +212,13 @@ void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& fo
   const auto fact = [&](std::string label, std::string text) {
     result.facts.push_back({std::move(label), std::move(text)});
   };
+  const auto swept = [&](AxleMotion motion, std::span<const double> values) {
+    auto rows = sweep_axle(plan, motion, values, {}, &context);
+    if (rows.size() < values.size()) result.status = context.interruption();
+    return rows;
+  };
   if (form.roll) {
-    const auto rows = sweep_axle(plan, AxleMotion::roll, *form.roll->values);
+    const auto rows = swept(AxleMotion::roll, *form.roll->values);
     result.tables.push_back(roll_table(rows));
     plot(result, "roll-steer", "Steer and toe over roll", "roll", "roll_rad",
          {"steer_rad", "left_toe_rad", "right_toe_rad"});
@@ -214,7 +231,7 @@ void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& fo
     fact("camber against the road by roll, left", fmt::format("{:.4f} °/°", straight.roll_camber_left));
   }
   if (form.rack) {
-    const auto rows = sweep_axle(plan, AxleMotion::rack, *form.rack->values);
+    const auto rows = swept(AxleMotion::rack, *form.rack->values);
     result.tables.push_back(steer_table(rows, straight, form, vehicle));
     plot(result, "steer-angles", "Steer angles over rack", "steer", "rack_m",
          {"left_steer_rad", "right_steer_rad"});

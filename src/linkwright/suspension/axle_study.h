@@ -58,13 +58,16 @@ void fields(Visitor&& visit, AxleForm& a) {
 
 /// Checks what was read against the guide; problems go to the reader. Values are replaced by their list.
 void complete_axle(study::ObjectReader& document, AxleForm& axle, const WheelGuide& guide);
+/// Whether what complete_axle() has listed has room in memory; an error at the reader if not.
+bool fits_memory(study::ObjectReader& document, const AxleForm& axle);
 
 /// Columns of the first table, whose rows are `wheels`: anti features of the axle in its vehicle, with a
 /// diagram.
 void add_anti_features(study::Result& result, const VehicleForm& vehicle,
                        std::span<const WheelParameters> wheels);
-/// The tables `roll` and `steer` with diagrams and facts.
+/// The tables `roll` and `steer` with diagrams and facts; rows so far, with the status, when the run is to
+/// stop.
 void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& axle,
-              const std::optional<VehicleForm>& vehicle);
+              const std::optional<VehicleForm>& vehicle, const RunContext& context);
 
 }  // namespace linkwright::suspension

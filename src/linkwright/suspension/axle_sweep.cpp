@@ -142,7 +142,7 @@ std::optional<AxleAckermann> axle_ackermann(const AxleParameters& straight, cons
 }
 
 std::vector<AxleRow> sweep_axle(const AxlePlan& plan, AxleMotion motion, std::span<const double> values,
-                                const AxleInput& held) {
+                                const AxleInput& held, const RunContext* context) {
   AxlePosition last = reference_position(plan);
   LINKWRIGHT_REQUIRE(last.status == Status::done, "the reference is {}: {}", to_string(last.status),
                      last.reason);
@@ -158,7 +158,9 @@ std::vector<AxleRow> sweep_axle(const AxlePlan& plan, AxleMotion motion, std::sp
     return last;
   };
   std::vector<AxleRow> out;
+  constexpr std::size_t between_looks = 64;
   for (double value : values) {
+    if (context && out.size() % between_looks == 0 && context->interrupted()) break;
     AxleRow& row = out.emplace_back(AxleRow{.value = value, .position = solve(value)});
     if (row.position.status != Status::done) continue;
     row.parameters = axle_parameters(plan, row.position);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/core/run_context.h"
 #include "linkwright/suspension/axle.h"
 #include "linkwright/suspension/steering.h"
 
@@ -94,8 +95,9 @@ struct AxleRow {
 };
 /// Positions along a motion, each followed from the last one that was found, the first from the reference.
 /// What does not move is held as in `held`: with `parallel` its rack, with `roll` its rack and the mean of
-/// its travels as heave, with `rack` its travels (by its driver).
+/// its travels as heave, with `rack` its travels (by its driver). Fewer rows than values when `context` asks
+/// to stop.
 std::vector<AxleRow> sweep_axle(const AxlePlan& plan, AxleMotion motion, std::span<const double> values,
-                                const AxleInput& held = {});
+                                const AxleInput& held = {}, const RunContext* context = nullptr);
 
 }  // namespace linkwright::suspension

@@ -8,6 +8,7 @@
 
 #include "linkwright/core/units.h"
 #include "linkwright/study/designed.h"
+#include "linkwright/study/memory.h"
 #include "linkwright/suspension/derivatives.h"
 #include "linkwright/suspension/hard_points.h"
 
@@ -103,6 +104,17 @@ void complete_tolerances(study::ObjectReader& document, TolerancesForm& form, co
                     nearest.empty() ? fmt::format("there are: {}", fmt::join(known, ", "))
                                     : fmt::format("did you mean '{}'?", nearest));
   }
+}
+
+bool fits_memory(study::ObjectReader& document, const TolerancesForm& form, std::size_t travels) {
+  const std::size_t places = std::min(travels, most_travels);
+  const double values =
+      static_cast<double>(form.monte_carlo.samples) * static_cast<double>(form.quantities.size() * places);
+  auto table = document.table("tolerances");
+  return study::require_memory(*table, "samples", sizeof(double) * values,
+                               fmt::format("{} designs with {} quantities at {} travels",
+                                           form.monte_carlo.samples, form.quantities.size(), places),
+                               "take fewer samples, quantities or travels");
 }
 
 void add_sensitivity(study::Result& result, const WheelGuide& guide, const SensitivityForm& form,

@@ -78,17 +78,22 @@ study::Kind sweep_kind();
 std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const study::Common& common,
                                            Value& canonical);
 
+/// Columns that are quantities of the study, whether its guide has them or not, else all that it has.
+std::vector<const GuideColumn*> columns_of(const SweepStudy& study);
+
 /// Positions of a grid: for each rack all travels. Each rack is gone to at the travel next to zero, and the
 /// travels outwards from there, each from the one before; a position that is not reached keeps its reason.
 struct GridPositions {
-  std::vector<GuidePosition> positions;  ///< [rack * travels + travel]
-  std::vector<WheelParameters> wheels;   ///< likewise; singular where there is no position
+  std::size_t first_travel = 0, travels = 0;  ///< which of the travels asked for they are
+  std::vector<GuidePosition> positions;       ///< [rack * travels + travel]
+  std::vector<WheelParameters> wheels;        ///< likewise; singular where there is no position
 };
+/// Interrupted: the racks so far; in the first of them the travels so far, about the one next to zero.
 GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const double> travels,
                          std::span<const double> racks, RunContext& context);
 
 /// Evaluates the grid and reports. Rows without a position hold NaN and their status; the status of the
-/// result is then the first of these. Cancelled or out of time: the racks so far.
+/// result is then the first of these. Cancelled or out of time: the positions so far (solve_grid).
 study::Result run_sweep_study(const SweepStudy& study, RunContext& context);
 
 }  // namespace linkwright::suspension

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/memory.h"
 #include "linkwright/study/read.h"
 #include "linkwright/suspension/guide_columns.h"
 #include "linkwright/suspension/sweep_study.h"
@@ -44,6 +45,22 @@ std::optional<GuideDescription> read_baseline(study::ObjectReader& document, con
   for (const Diagnostic& d : problems)
     if (d.severity == Diagnostic::Severity::error) table->unreadable("file", to_string(d));
   return out;
+}
+
+/// Whether the tables of the study, and what they are made from, have room.
+bool fits_memory(study::ObjectReader& document, const SweepStudy& s) {
+  constexpr double of_rates = 3, of_anti_features = 3;
+  const double columns = 3 + static_cast<double>(columns_of(s).size()) +
+                         (s.description.spring ? of_rates : 0) + (s.vehicle ? of_anti_features : 0),
+               positions = static_cast<double>(s.travels.size() * s.racks.size()),
+               position = sizeof(GuidePosition) + sizeof(WheelParameters) + study::table_bytes(1, columns);
+  auto sweep = document.table("sweep");
+  if (!study::require_memory(*sweep, "travel", positions * position * (s.baseline ? 2 : 1),
+                             fmt::format("{} travels with {} racks", s.travels.size(), s.racks.size()),
+                             "take fewer travels or racks, or fewer quantities"))
+    return false;
+  if (s.axle && !fits_memory(document, *s.axle)) return false;
+  return !s.tolerances || fits_memory(document, *s.tolerances, s.travels.size());
 }
 
 std::vector<Word> quantity_words() {
@@ -121,6 +138,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
   s.description = *description;
   s.travels = *travels;
   s.racks = *racks;
+  if (!fits_memory(document, s)) return std::nullopt;
   canonical["mechanism"] = write_guide(s.description);
   canonical["sweep"] = study::write_fields(
       GuideSweep{GridSweep{{s.travel, listed<LengthValues>(s.travels)}, listed<LengthValues>(s.racks)},

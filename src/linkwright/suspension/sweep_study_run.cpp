@@ -27,16 +27,6 @@ std::size_t next_to_zero(std::span<const double> values) {
   return static_cast<std::size_t>(at - values.begin());
 }
 
-/// Columns that are quantities of the study, whether the guide has them or not, else all that it has.
-std::vector<const GuideColumn*> columns_of(const SweepStudy& s) {
-  std::vector<const GuideColumn*> out;
-  for (const GuideColumn& c : guide_columns()) {
-    const bool listed = std::find(s.quantities.begin(), s.quantities.end(), c.group) != s.quantities.end();
-    if (listed || (s.quantities.empty() && why_missing(s.description.guide, c).empty())) out.push_back(&c);
-  }
-  return out;
-}
-
 /// Why quantities that the study asks for have no values.
 void tell_missing(study::Result& result, const SweepStudy& s) {
   std::string_view told;
@@ -52,6 +42,13 @@ void tell_missing(study::Result& result, const SweepStudy& s) {
                                   fmt::format("'{}' has no values: {}", c->group, why),
                                   {}});
   }
+}
+
+/// The study with the travels that its grid has: fewer when it was interrupted in its first row.
+SweepStudy with_travels_of(SweepStudy study, const GridPositions& solved) {
+  const auto first = study.travels.begin() + static_cast<std::ptrdiff_t>(solved.first_travel);
+  study.travels = {first, first + static_cast<std::ptrdiff_t>(solved.travels)};
+  return study;
 }
 
 struct Grid {
@@ -105,17 +102,26 @@ Table limits_table(const std::vector<double>& racks, const std::vector<TravelLim
 }
 
 /// What the spring does at the wheel, in further columns.
-void add_wheel_rates(Table& table, const SweepStudy& s, const GuidePlan& plan, const Grid& grid) {
+void add_wheel_rates(study::Result& result, const SweepStudy& s, const GuidePlan& plan, const Grid& grid,
+                     const RunContext& context) {
+  constexpr std::size_t between_looks = 256;
   std::vector<double> force, rate, by_ratio;
+  bool stopped = false;
   for (std::size_t i = 0; i < grid.rows(); ++i) {
+    if (i > 0 && i % between_looks == 0 && !stopped) {
+      const Status why = context.interruption();
+      stopped = why != Status::done;
+      if (stopped) result.status = why;
+    }
     WheelRate w{.status = Status::no_assembly};
-    if (grid.solved.positions[i].status == Status::done)
+    if (!stopped && grid.solved.positions[i].status == Status::done)
       w = wheel_rate(s.description.guide, plan, grid.solved.positions[i], *s.description.spring);
     const bool there = w.status == Status::done;
     force.push_back(there ? w.wheel_force : WheelParameters::missing);
     rate.push_back(there ? w.rate : WheelParameters::missing);
     by_ratio.push_back(there ? w.motion_ratio_by_travel : WheelParameters::missing);
   }
+  Table& table = result.tables.front();
   table.add("wheel_force_N", "force of the spring at the wheel centre (N)", std::move(force));
   table.add("wheel_rate_N_per_m", "wheel rate (N/m)", std::move(rate));
   table.add("motion_ratio_by_travel", "motion ratio by travel (1/m)", std::move(by_ratio));
@@ -183,9 +189,12 @@ void add_baseline(study::Result& result, const SweepStudy& s, RunContext& contex
         {Diagnostic::Severity::warning, {}, {}, "baseline", "it has no spring to travel by", {}});
     return;
   }
-  Grid grid{other, solve_grid(prepare(other.description.guide), s.travel, s.travels, s.racks, context)};
-  grid.racks = grid.solved.positions.size() / s.travels.size();
-  if (grid.racks == 0) return;
+  GridPositions solved = solve_grid(prepare(other.description.guide), s.travel, s.travels, s.racks, context);
+  const std::size_t positions = solved.positions.size();
+  if (positions < s.travels.size() * s.racks.size()) result.status = context.interruption();
+  if (positions == 0) return;
+  other = with_travels_of(std::move(other), solved);
+  const Grid grid{other, std::move(solved), positions / other.travels.size()};
   Table table = sweep_table(grid, "baseline");
   for (study::Plot& plot : result.plots)
     if (plot.table == "sweep" &&
@@ -286,58 +295,84 @@ study::Scene scene_of(const SweepStudy& s, const Grid& grid) {
 
 }  // namespace
 
-GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const double> travels,
-                         std::span<const double> racks, RunContext& context) {
-  GridPositions out;
-  out.positions.reserve(travels.size() * racks.size());
-  out.wheels.reserve(travels.size() * racks.size());
-  const GuidePosition reference = reference_position(plan, travel);
-  const std::size_t middle = next_to_zero(travels);
-  std::vector<GuidePosition> row(travels.size());
-  for (const double rack : racks) {
-    if (context.interruption() != Status::done) break;
-    const auto from = [&](const GuidePosition& start, std::size_t i) {
-      row[i] = start.status == Status::done ? solve_position(plan, travel, {travels[i], rack}, start) : start;
-      return row[i].status == Status::done;
-    };
-    from(reference, middle);
-    // Outwards, each from the last one that was reached.
-    for (const int way : {-1, 1}) {
-      GuidePosition last = row[middle].status == Status::done ? row[middle] : reference;
-      for (std::ptrdiff_t i = static_cast<std::ptrdiff_t>(middle) + way;
-           i >= 0 && i < static_cast<std::ptrdiff_t>(travels.size()); i += way)
-        if (from(last, static_cast<std::size_t>(i))) last = row[static_cast<std::size_t>(i)];
-    }
-    for (GuidePosition& p : row) {
-      if (p.status == Status::done) {
-        out.wheels.push_back(wheel_parameters(plan, p));
-      } else {
-        out.wheels.emplace_back();
-        out.wheels.back().status = p.status;
-      }
-      out.positions.push_back(std::move(p));
-    }
+std::vector<const GuideColumn*> columns_of(const SweepStudy& s) {
+  std::vector<const GuideColumn*> out;
+  for (const GuideColumn& c : guide_columns()) {
+    const bool listed = std::find(s.quantities.begin(), s.quantities.end(), c.group) != s.quantities.end();
+    if (listed || (s.quantities.empty() && why_missing(s.description.guide, c).empty())) out.push_back(&c);
   }
   return out;
 }
 
-study::Result run_sweep_study(const SweepStudy& s, RunContext& context) {
+GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const double> travels,
+                         std::span<const double> racks, RunContext& context) {
+  constexpr std::size_t between_looks = 256;
+  GridPositions out;
+  const GuidePosition reference = reference_position(plan, travel);
+  const auto middle = static_cast<std::ptrdiff_t>(next_to_zero(travels)),
+             end = static_cast<std::ptrdiff_t>(travels.size());
+  std::vector<GuidePosition> row(travels.size());
+  std::vector<WheelParameters> wheels(travels.size());
+  std::size_t solved = 0;
+  bool stopped = false;
+  for (const double rack : racks) {
+    if (context.interrupted()) break;
+    std::ptrdiff_t first = middle, last = middle;  // what the row has, first <= i < last
+    const auto from = [&](const GuidePosition& start, std::ptrdiff_t at) {
+      const auto i = static_cast<std::size_t>(at);
+      row[i] = start.status == Status::done ? solve_position(plan, travel, {travels[i], rack}, start) : start;
+      const bool there = row[i].status == Status::done;
+      if (there) {
+        wheels[i] = wheel_parameters(plan, row[i]);
+      } else {
+        wheels[i] = {};
+        wheels[i].status = row[i].status;
+      }
+      first = std::min(first, at);
+      last = std::max(last, at + 1);
+      if (++solved % between_looks == 0 && context.interrupted()) stopped = true;
+      return there;
+    };
+    from(reference, middle);
+    // Outwards, each from the last one that was reached.
+    const GuidePosition begin =
+        row[next_to_zero(travels)].status == Status::done ? row[next_to_zero(travels)] : reference;
+    for (const int way : {-1, 1}) {
+      GuidePosition near = begin;
+      for (std::ptrdiff_t i = middle + way; i >= 0 && i < end && !stopped; i += way)
+        if (from(near, i)) near = row[static_cast<std::size_t>(i)];
+    }
+    const bool whole = first == 0 && last == end;
+    if (!whole && !out.positions.empty()) break;  // a grid has all travels for each of its racks
+    out.first_travel = static_cast<std::size_t>(first);
+    out.travels = static_cast<std::size_t>(last - first);
+    out.positions.insert(out.positions.end(), std::make_move_iterator(row.begin() + first),
+                         std::make_move_iterator(row.begin() + last));
+    out.wheels.insert(out.wheels.end(), wheels.begin() + first, wheels.begin() + last);
+    if (stopped) break;
+  }
+  return out;
+}
+
+study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   study::Result result;
-  const GuidePlan plan = prepare(s.description.guide);
-  Grid grid{s, solve_grid(plan, s.travel, s.travels, s.racks, context)};
-  grid.racks = grid.solved.positions.size() / s.travels.size();
-  if (grid.racks < s.racks.size()) result.status = context.interruption();
-  if (grid.racks == 0) {
+  const GuidePlan plan = prepare(asked.description.guide);
+  GridPositions solved = solve_grid(plan, asked.travel, asked.travels, asked.racks, context);
+  const std::size_t positions = solved.positions.size();
+  if (positions < asked.travels.size() * asked.racks.size()) result.status = context.interruption();
+  if (positions == 0) {
     result.headline = "Interrupted before the first position.";
     return result;
   }
+  const SweepStudy s = with_travels_of(asked, solved);
+  Grid grid{s, std::move(solved), positions / s.travels.size()};
   result.tables.push_back(sweep_table(grid, "sweep"));
-  if (s.description.spring) add_wheel_rates(result.tables.front(), s, plan, grid);
+  if (s.description.spring) add_wheel_rates(result, s, plan, grid, context);
   std::vector<TravelLimits> limits;
   const GuidePosition reference = reference_position(plan, s.travel);
   TravelLimits centred;
   if (reference.status == Status::done) {
-    for (std::size_t i = 0; i < grid.racks; ++i)
+    for (std::size_t i = 0; i < grid.racks && (i == 0 || !context.interrupted()); ++i)
       limits.push_back(travel_limits(plan, s.travel, s.racks[i], reference));
     centred = travel_limits(plan, s.travel, 0, reference);
     result.tables.push_back(limits_table(s.racks, limits));
@@ -349,7 +384,7 @@ study::Result run_sweep_study(const SweepStudy& s, RunContext& context) {
   add_facts(result, s, grid, centred);
   tell_missing(result, s);
   if (s.vehicle) add_anti_features(result, *s.vehicle, grid.solved.wheels);
-  if (s.axle) add_axle(result, s.description.guide, *s.axle, s.vehicle);
+  if (s.axle) add_axle(result, s.description.guide, *s.axle, s.vehicle, context);
   const SensitivityInputs inputs{s.travel, s.travels, s.racks[next_to_zero(s.racks)], s.lock};
   if (s.sensitivity) add_sensitivity(result, s.description.guide, *s.sensitivity, inputs);
   if (s.tolerances) add_tolerances(result, s.description.guide, *s.tolerances, inputs, context);

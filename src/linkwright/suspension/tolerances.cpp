@@ -1,6 +1,7 @@
 #include "linkwright/suspension/tolerances.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "linkwright/core/check.h"
@@ -12,8 +13,9 @@ namespace linkwright::suspension {
 namespace {
 
 constexpr double missing = WheelParameters::missing;
-constexpr int block = 64;         ///< samples of a task of a thread
-constexpr int round_blocks = 16;  ///< tasks between looks for an interruption
+constexpr int most_of_block = 64;      ///< samples of a task of a thread
+constexpr int solved_by_block = 2048;  ///< about so many positions, if one sample has fewer
+constexpr int round_blocks = 16;       ///< tasks between reports of the progress
 
 std::vector<GuidePosition> solved(const GuidePlan& plan, const ToleranceTask& task) {
   std::vector<GuidePosition> out;
@@ -112,20 +114,30 @@ ToleranceBands tolerance_bands(const ToleranceTask& task, const MonteCarlo& opti
   }
 
   const std::size_t stride = curves * positions;
-  std::vector<double> values(static_cast<std::size_t>(options.samples) * stride);
+  // Filled as it is needed: to fill the memory of many samples takes seconds.
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(options.samples) * stride);
+  const int block = std::clamp(solved_by_block / static_cast<int>(positions), 1, most_of_block);
   while (out.samples < options.samples) {
-    if (const Status stop = context.interruption(); stop != Status::done) {
-      out.status = stop;
-      break;
-    }
     const int first = out.samples, end = std::min(options.samples, first + block * round_blocks);
+    values.resize(static_cast<std::size_t>(end) * stride);
+    std::atomic<Status> stop{Status::done};
     optimise::parallel_for(static_cast<std::size_t>((end - first + block - 1) / block), context.threads(),
                            [&](std::size_t b) {
                              const int from = first + static_cast<int>(b) * block;
-                             for (int s = from; s < std::min(end, from + block); ++s)
+                             for (int s = from; s < std::min(end, from + block); ++s) {
+                               if (const Status why = context.interruption(); why != Status::done) {
+                                 stop = why;
+                                 return;
+                               }
                                draw(task, options, s, nominal,
                                     std::span(values).subspan(static_cast<std::size_t>(s) * stride, stride));
+                             }
                            });
+    if (stop != Status::done) {  // a round that was cut short does not count
+      out.status = stop;
+      break;
+    }
     out.samples = end;
     context.report({.stage = "tolerances", .fraction = static_cast<double>(end) / options.samples});
   }
