@@ -15,7 +15,6 @@ import repository
 NO_TEST = {
     "core/field.h": "declarations; read, written and described by study/bind_test.cpp",
     "core/tolerance.h": "named constants",
-    "study/run_seeds.h": "the loop over seeds of every synthesis that has one, run by their study tests",
     "suspension/direct_synthesis_model.h": "part of direct_synthesis, tested in direct_synthesis_test.cpp",
     "suspension/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",
     "parallel/dexterity_kernel.h": "part of dexterity, compiled for numbers and for registers, compared by its test",

@@ -13,6 +13,7 @@
 
 #include "clearance/studies.h"
 #include "linkwright/study/write.h"
+#include "support/resumed.h"
 
 namespace linkwright::clearance {
 namespace {
@@ -243,6 +244,14 @@ TEST(ClearanceDesignStudy, KeepsTheBestWhenItIsInterrupted) {
   }
 }
 
+TEST(ClearanceDesignStudy, GoesOnFromACheckpointWithTheSameBits) {
+  for (const DesignTarget target : {DesignTarget::lengths, DesignTarget::masses, DesignTarget::both})
+    ::linkwright::testing::expect_resumed_alike(std::vector<study::Kind>(clearance_design_kinds()),
+                                                kind_example(target), 2);
+  std::string swarm = replaced(example("loose-four-bar-lengths-swarm"), "count = 10", "count = 2");
+  ::linkwright::testing::expect_resumed_alike(std::vector<study::Kind>(clearance_design_kinds()), swarm, 2);
+}
+
 TEST(ClearanceDesignStudy, WritesWhatItReads) {
   for (const DesignTarget target : {DesignTarget::lengths, DesignTarget::masses, DesignTarget::both}) {
     std::string messages;
@@ -295,7 +304,7 @@ TEST(ClearanceDesignStudy, NamesWhatIsWrong) {
   EXPECT_THAT(problems(lengths, timing, "timing = { angles_deg = [1.0, 2.0] }"),
               HasSubstr("2 angles for 12 points"));
   EXPECT_THAT(problems(lengths, timing, "timing = { step_deg = 0.0 }"),
-              HasSubstr("the step is 0 rad, it must not be zero nor more than a turn"));
+              HasSubstr("the step is 0 deg, it must not be zero nor more than a turn"));
   EXPECT_THAT(problems(lengths, timing, "timing = { step_deg = -30.0, free_within_deg = 5.0 }"),
               HasSubstr("the crank angle of point 2 is not more than that of point 1"));
   EXPECT_THAT(problems(both, timing, "timing = { step_deg = 30.0, free_within_deg = 5.0 }"),

@@ -406,6 +406,28 @@ TEST(ClearanceStudy, WritesWhatItReads) {
   }
 }
 
+// A small clearance and a slow drive are what takes steps: as many as measured, and a half more.
+TEST(ClearanceStudy, StepsAreFewAtOneMicrometreAndAtTenTurnsAMinute) {
+  const auto steps = [](const std::string& text) {
+    const study::Result r = run_text(text);
+    EXPECT_EQ(r.status, Status::done) << r.headline;
+    return std::stol(fact(r, "integration"));
+  };
+  std::string touching = slider_crank();
+  const auto from = touching.find("model          = \"contact\""), to = touching.find("[environment]");
+  ASSERT_TRUE(from < to && to != std::string::npos);
+  touching.replace(from, to - from, "model = \"continuous\"\n\n");
+  EXPECT_LT(steps(replaced(touching, "clearance_mm   = 0.5 ", "clearance_mm = 0.001 ")), 6000);
+  const std::string slow = replaced(replaced(slider_crank(), "speed_rpm = 5000.0", "speed_rpm = 10.0"),
+                                    "to_s    = 0.036", "to_s = 6.0");
+  EXPECT_LT(steps(slow), 50000);
+  // A thousand turns of it are out of reach: told after 20000 steps, not after all that are allowed.
+  const study::Result hopeless = run_text(replaced(slow, "to_s = 6.0", "to_s = 6000.0\nmax_steps = 100000"));
+  EXPECT_THAT(fact(hopeless, "integration"), ::testing::StartsWith("20000 steps"));
+  EXPECT_THAT(messages(hopeless),
+              HasSubstr("after 20000 steps: at this pace 6000 s would take about 2.6e+07"));
+}
+
 TEST(ClearanceStudy, RefusesMoreRowsThanThereIsMemoryFor) {
   const MemoryLimit limit(1e9);
   EXPECT_THAT(

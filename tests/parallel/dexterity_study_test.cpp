@@ -4,6 +4,7 @@
 
 #include "linkwright/core/memory.h"
 #include "parallel/studies.h"
+#include "support/resumed.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -47,6 +48,22 @@ TEST(DexterityStudy, PopulationMethodsWorkOnTheSameTask) {
   EXPECT_GT(size, 1.0755);
   EXPECT_LT(size, 1.3);
   EXPECT_EQ(result.statistics.find("method")->as_string(), "differential_evolution");
+}
+
+// Each goal, looked at between the nodes or not, and a population method.
+TEST(DexterityStudy, GoesOnFromACheckpointWithTheSameBits) {
+  const std::string few = "[optimiser]\nstarts = 2\nseeds = { first = 1, count = 2 }\n";
+  for (const char* goal : {"size", "worst", "mean"})
+    for (const char* between : {"", "between_nodes = true\n"})
+      ::linkwright::testing::expect_resumed_alike(
+          testing::kinds(), replaced(smallest, "\"size\"", std::string("\"") + goal + "\"") + few + between,
+          2);
+  ::linkwright::testing::expect_resumed_alike(
+      testing::kinds(),
+      smallest +
+          "[optimiser]\nmethod = \"differential_evolution\"\npopulation = 30\ngenerations = 10\n"
+          "seeds = { first = 1, count = 2 }\n",
+      2);
 }
 
 // Without limits the smallest robot is singular: a limit is put in, and told.

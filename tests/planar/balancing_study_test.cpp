@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "linkwright/core/looks.h"
 #include "planar/balancing_studies.h"
 
 namespace linkwright::planar {
@@ -150,6 +151,22 @@ TEST(BalancingStudyRun, LengthsOfAFourBarGoThroughTheFastAndTheGeneralWay) {
                b = general.solutions[0].objectives.find("cost")->as_number();
   EXPECT_NEAR(a / b, 1, 1e-4);
   EXPECT_LT(a, 0.6);
+}
+
+// The first candidates of a search with many rows: one look before each, not one before 256 of them.
+TEST(BalancingStudyRun, LooksBetweenCandidates) {
+  const std::string text = replaced(testing::four_bar_masses, "crank_m   = 0.1",
+                                    "crank_m   = { min = 0.08, max = 0.12, initial = 0.1 }"),
+                    // With a constraint that never binds the general way is taken.
+      general = "[[constraint]]\nquantity = \"drive_torque_N_m\"\nmeasure = \"max_abs\"\nat_most = 1e6\n";
+  for (const std::string& way : {std::string(), general}) {
+    const LooksAllowed looks(20);
+    const study::Result r = run_text(text + way + "[optimiser]\nmethod = \"gradient\"\n");
+    EXPECT_EQ(r.status, Status::cancelled);
+    ASSERT_FALSE(r.solutions.empty());
+    EXPECT_TRUE(std::isfinite(r.solutions[0].objectives.find("cost")->as_number()));
+    EXPECT_LT(r.statistics.find("evaluations")->as_integer(), 60);
+  }
 }
 
 TEST(BalancingStudyRun, AConstraintKeepsTheFunction) {

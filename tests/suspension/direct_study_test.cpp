@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+#include "support/resumed.h"
 #include "suspension/studies.h"
 
 namespace linkwright::suspension {
@@ -58,6 +59,11 @@ TEST(DirectStudy, TakesTargetsFromAFile) {
   EXPECT_EQ(table(result, "target-camber").rows(), 2U);  // the others have no value
   EXPECT_EQ(table(result, "target-camber").find("target_camber_rad")->values.at(1), -1.5 * M_PI / 180);
   std::filesystem::remove_all(folder);
+}
+
+TEST(DirectStudy, GoesOnFromACheckpointWithTheSameBits) {
+  ::linkwright::testing::expect_resumed_alike(testing::kinds(),
+                                              replaced(example(), "count = 1 }", "count = 3 }"), 3);
 }
 
 TEST(DirectStudyRead, CanonicalStudiesAreTheSameStudies) {

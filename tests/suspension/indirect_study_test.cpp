@@ -9,6 +9,7 @@
 
 #include "linkwright/suspension/samples.h"
 #include "linkwright/suspension/wheel.h"
+#include "support/resumed.h"
 #include "suspension/studies.h"
 
 namespace linkwright::suspension {
@@ -118,6 +119,17 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
   EXPECT_THAT(fact(result, "rods through seven positions"), HasSubstr("1 hinged arms (RS, SR)"));
 }
 
+TEST(IndirectStudy, GoesOnFromACheckpointWithTheSameBits) {
+  ::linkwright::testing::expect_resumed_alike(testing::kinds(),
+                                              replaced(example(), "count = 10 }", "count = 3 }"), 3);
+  // Positions that no exact guide takes: the links keep what they miss.
+  ::linkwright::testing::expect_resumed_alike(
+      testing::kinds(),
+      replaced(replaced(example(), "toe_deg = -6.688676046", "toe_deg = -5.5"), "count = 10 }",
+               "count = 2 }"),
+      2);
+}
+
 TEST(IndirectStudyRead, SlipsOfUnitsAreTold) {
   EXPECT_THAT(problems_of(replaced(example(), "0.6826680943, -0.2]", "0.6826680943, -200.0]")),
               HasSubstr("target.pose: position 1: the wheel centre lies 200 m from its reference"));
@@ -182,7 +194,7 @@ TEST(IndirectStudyRead, NamesWhatIsWrongWithTheMechanism) {
   EXPECT_THAT(
       problems_of(replaced(example(), "body_mm    = { near = [220.0, 380.0,  -90.0], box_mm = 150.0 }",
                            "body_mm = [220, { min = 400, max = 300 }, -90]")),
-      HasSubstr("mechanism.link[0].body_mm[1]: min 0.4 m is larger than max 0.3 m"));
+      HasSubstr("mechanism.link[0].body_mm[1]: min 400 mm is larger than max 300 mm"));
 }
 
 }  // namespace

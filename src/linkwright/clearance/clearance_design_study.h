@@ -292,6 +292,11 @@ struct ClearanceDesignAnswer {
 };
 using ClearanceDesignRuns = study::SeedRuns<ClearanceDesignAnswer>;
 
+/// A seed that came to its end as a checkpoint keeps it, and the same seed, to the bit. Throws
+/// CheckpointError, naming `what`, for everything that `kept` cannot have made.
+Value kept(const ClearanceDesignAnswer& answer);
+ClearanceDesignAnswer restored(const Value& value, const ClearanceDesignStudy& study, std::string_view what);
+
 /// What the seeds are compared by: key and words.
 struct CostName {
   std::string_view key, words;

@@ -71,7 +71,8 @@ std::vector<double> numbers_of(study::ObjectReader& table, const DesignLengthsFo
   return out;
 }
 
-void read_timing(study::ObjectReader& target, const DesignTimingForm& t, ClearanceDesignStudy& s) {
+void read_timing(study::ObjectReader& target, const DesignTimingForm& t, const study::DisplayUnits& units,
+                 ClearanceDesignStudy& s) {
   const std::size_t n = s.path.x.size();
   if (t.step && t.angles) {
     target.error("timing", "there are both step and angles", "keep one of them");
@@ -89,8 +90,8 @@ void read_timing(study::ObjectReader& target, const DesignTimingForm& t, Clearan
     s.path.crank_angles = *t.angles;
   } else {
     if (*t.step == 0 || std::abs(*t.step) > 2 * pi)
-      target.error("timing",
-                   fmt::format("the step is {:.6g} rad, it must not be zero nor more than a turn", *t.step));
+      target.error("timing", fmt::format("the step is {}, it must not be zero nor more than a turn",
+                                         units.text(*t.step, Dimension::angle, 6)));
     for (std::size_t k = 0; k < n; ++k)
       s.path.crank_angles.push_back(t.start + *t.step * static_cast<double>(k));
     s.closed = std::abs(std::abs(*t.step) * static_cast<double>(n) - 2 * pi) < 1e-6;
@@ -111,7 +112,7 @@ void read_timing(study::ObjectReader& target, const DesignTimingForm& t, Clearan
 void read_path(study::ObjectReader& mechanism, study::ObjectReader& target, const study::Common& common,
                const DesignMechanismForm& m, const DesignTargetForm& t, ClearanceDesignStudy& s) {
   planar::read_path_points(target, common, t, false, s.path.x, s.path.y);
-  read_timing(target, t.timing, s);
+  read_timing(target, t.timing, common.units, s);
   s.path.clearance = m.clearance;
   s.path.lead = t.lead;
   s.path.branch = m.branch;

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,10 +20,12 @@ struct Stage {
 // A population method on one of the two problems of the source.
 template <class Method>
 Stage by_population(const Method& method, const optimise::Problem& problem, const optimise::Seed& seed,
-                    ClearanceDesignAnswer& out, RunContext& context) {
+                    std::string_view stage, ClearanceDesignAnswer& out, RunContext& context) {
   const auto optimiser = optimise::make_optimiser(problem.variables, method.options, seed);
+  optimise::MinimiseOptions minimise = method.minimise;
+  minimise.checkpoint = fmt::format("{}/{}", optimise::seed_name(seed.seed), stage);
   optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
-                                               choice_word(method).name, method.minimise, context);
+                                               choice_word(method).name, minimise, context);
   out.evaluations += report.evaluations;
   out.log = std::move(report.log);
   return {report.status, std::move(report.x), report.violation > 0 ? infinity : report.cost};
@@ -40,7 +44,8 @@ Stage find_lengths(const ClearanceDesignStudy& s, std::uint64_t seed, ClearanceD
           const bool feasible = !found.x.empty() && found.design.violations.empty();
           return {found.status, std::move(found.x), feasible ? found.design.objective : infinity};
         } else {
-          return by_population(method, clearance_path_problem(s.path), {.seed = seed}, out, context);
+          return by_population(method, clearance_path_problem(s.path), {.seed = seed}, "lengths", out,
+                               context);
         }
       },
       s.method);
@@ -59,13 +64,11 @@ Stage find_masses(const ClearanceDesignStudy& s, const ClearanceMassProblem& pro
           const bool good = !found.x.empty() && std::isfinite(found.orbit_error);
           return {found.status, std::move(found.x), good ? found.orbit_error : infinity};
         } else {
-          return by_population(method, clearance_mass_problem(problem), stream, out, context);
+          return by_population(method, clearance_mass_problem(problem), stream, "masses", out, context);
         }
       },
       s.method);
 }
-
-bool stopped(Status status) { return status == Status::deadline || status == Status::cancelled; }
 
 ClearanceDesignAnswer answer_of(const ClearanceDesignStudy& s, std::uint64_t seed, RunContext& context) {
   ClearanceDesignAnswer out;
@@ -75,7 +78,7 @@ ClearanceDesignAnswer answer_of(const ClearanceDesignStudy& s, std::uint64_t see
     out.status = lengths.status;
     out.best.lengths = std::move(lengths.x);
     out.cost = lengths.cost;
-    if (s.target == DesignTarget::lengths || stopped(out.status) || !std::isfinite(out.cost)) {
+    if (s.target == DesignTarget::lengths || study::is_interrupted(out.status) || !std::isfinite(out.cost)) {
       if (s.has_masses()) out.cost = infinity;
       return out;
     }
@@ -95,7 +98,7 @@ ClearanceDesignAnswer answer_of(const ClearanceDesignStudy& s, std::uint64_t see
     return out;
   }
   if (out.best.masses.empty()) return out;
-  if (s.stages == DesignStages::at_once && !stopped(out.status)) {
+  if (s.stages == DesignStages::at_once && !study::is_interrupted(out.status)) {
     const ClearanceDesign found = design_clearance_linkage(
         s.path, mass, std::span<const double>(out.best.lengths).first(clearance_length_count),
         out.best.masses, context);
@@ -223,12 +226,52 @@ DesignMeasures measure_design(const ClearanceDesignStudy& s, const ClearanceDesi
   return out;
 }
 
+Value kept(const ClearanceDesignAnswer& a) {
+  Value out;
+  out["status"] = study::kept_status(a.status);
+  out["lengths"] = pack_numbers(a.best.lengths);
+  out["masses"] = pack_numbers(a.best.masses);
+  out["cost"] = pack_numbers({&a.cost, 1});
+  out["starts"] = a.starts;
+  out["reached"] = a.reached;
+  out["evaluations"] = a.evaluations;
+  out["log"] = study::kept_log(a.log);
+  return out;
+}
+
+ClearanceDesignAnswer restored(const Value& value, const ClearanceDesignStudy& s, std::string_view what) {
+  ClearanceDesignAnswer out;
+  out.status = study::restored_status(value, what);
+  const auto numbers = [&](std::string_view key, std::size_t count) {
+    const Value& packed = kept_member(value, key, what);
+    // A stage that found nothing, or was not come to, has none.
+    return unpack_numbers(packed, what).empty() ? std::vector<double>()
+                                                : study::restored_numbers(value, key, count, what);
+  };
+  const std::size_t angles = s.path.free_timing ? s.path.x.size() : 0;
+  if (s.has_path()) out.best.lengths = numbers("lengths", clearance_length_count + angles);
+  if (s.has_masses()) out.best.masses = numbers("masses", clearance_mass_count);
+  const std::vector<double> cost = unpack_numbers(kept_member(value, "cost", what), what);
+  const bool designed =
+      (!s.has_path() || !out.best.lengths.empty()) && (!s.has_masses() || !out.best.masses.empty());
+  if (cost.size() != 1 || std::isnan(cost[0]) || (std::isfinite(cost[0]) && !designed))
+    throw CheckpointError(fmt::format("{}: its cost is none of a design", what));
+  out.cost = cost[0];
+  out.starts = static_cast<int>(kept_integer(value, "starts", 0, 1000000, what));
+  out.reached = static_cast<int>(kept_integer(value, "reached", 0, 1000000, what));
+  out.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
+  out.log = study::restored_log(value, what);
+  return out;
+}
+
 study::Result run_clearance_design(const ClearanceDesignStudy& s, const study::Common& common,
                                    RunContext& context) {
   const ClearanceDesignRuns runs = study::run_seeds(
       common.seeds, context, "designs", [&](std::uint64_t seed) { return answer_of(s, seed, context); },
       [](const ClearanceDesignAnswer& a) { return a.status; },
-      [](const ClearanceDesignAnswer& a) { return a.cost; });
+      [](const ClearanceDesignAnswer& a) { return a.cost; },
+      [](const ClearanceDesignAnswer& a) { return kept(a); },
+      [&](const Value& value, std::string_view what) { return restored(value, s, what); });
   return report_clearance_design(s, common, runs);
 }
 

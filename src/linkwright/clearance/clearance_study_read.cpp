@@ -209,15 +209,17 @@ std::optional<int> joint_of(study::ObjectReader& table, const PinForm& form, con
 }
 
 std::optional<ContactJoint> contact_of(study::ObjectReader& table, const PinForm& form, const ContactForm& c,
-                                       int joint) {
+                                       int joint, const study::DisplayUnits& units) {
   if (!(c.bush_radius > form.clearance)) {
-    table.error("bush_radius", fmt::format("{:.6g} mm is not more than the clearance, {:.6g} mm",
-                                           1e3 * c.bush_radius, 1e3 * form.clearance));
+    table.error("bush_radius", fmt::format("{} is not more than the clearance, {}",
+                                           units.text(c.bush_radius, Dimension::length, 6),
+                                           units.text(form.clearance, Dimension::length, 6)));
     return std::nullopt;
   }
   if (!(c.friction_whole > c.friction_from))
-    table.error("friction_whole", fmt::format("{:.6g} m/s is not more than friction_from, {:.6g} m/s",
-                                              c.friction_whole, c.friction_from));
+    table.error("friction_whole", fmt::format("{} is not more than friction_from, {}",
+                                              units.text(c.friction_whole, Dimension::speed, 6),
+                                              units.text(c.friction_from, Dimension::speed, 6)));
   ContactJoint out{.joint = joint,
                    .clearance = form.clearance,
                    .bush_radius = c.bush_radius,
@@ -238,7 +240,8 @@ std::optional<ContactJoint> contact_of(study::ObjectReader& table, const PinForm
   return out;
 }
 
-void read_clearances(study::ObjectReader& document, ClearanceStudy& s, Value::Array& canonical) {
+void read_clearances(study::ObjectReader& document, ClearanceStudy& s, const study::DisplayUnits& units,
+                     Value::Array& canonical) {
   auto tables = document.tables(Field{.key = "clearance", .summary = {}});
   if (tables.empty())
     document.error("clearance", "no joint has clearance",
@@ -270,7 +273,7 @@ void read_clearances(study::ObjectReader& document, ClearanceStudy& s, Value::Ar
     const auto* continuous = automatic ? &automatic->continuous : std::get_if<ContinuousForm>(&form.model);
     s.model = automatic ? PinModel::automatic : contact ? PinModel::contact : PinModel::continuous;
     if (contact) {
-      const auto pin = contact_of(table, form, *contact, *joint);
+      const auto pin = contact_of(table, form, *contact, *joint, units);
       if (!pin) continue;
       s.contacts.push_back(*pin);
     }
@@ -394,7 +397,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   s.linkage = std::move(description->linkage);
   s.plan = std::move(description->plan);
   s.traces = std::move(description->traces);
-  read_clearances(document, s, clearances);
+  read_clearances(document, s, common.units, clearances);
   if (simulation && s.courses.size() == s.plan.inputs()) find_period(*simulation, s);
   if (simulation && !document.document().has_errors()) check_memory(*simulation, s);
   prepared.canonical["drive"] = Value(std::move(drives));

@@ -52,8 +52,10 @@ Answer answer_of(const DexterityStudy& s, std::uint64_t seed, RunContext& contex
         if constexpr (!std::is_same_v<std::decay_t<decltype(method)>, RecommendedDexterity>) {
           const optimise::Problem problem = population_problem(s.task, &context);
           const auto optimiser = optimise::make_optimiser(problem.variables, method.options, {.seed = seed});
+          optimise::MinimiseOptions minimise = method.minimise;
+          minimise.checkpoint = optimise::seed_name(seed) + "/population";
           optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
-                                                       choice_word(method).name, method.minimise, context);
+                                                       choice_word(method).name, minimise, context);
           if (report.violation < std::numeric_limits<double>::infinity()) out.best = assess(s.task, report.x);
           out.status = report.status == Status::done ? out.best.status : report.status;
           out.evaluations = report.evaluations;
@@ -61,6 +63,44 @@ Answer answer_of(const DexterityStudy& s, std::uint64_t seed, RunContext& contex
         }
       },
       s.method);
+  return out;
+}
+
+/// A seed that came to its end as a checkpoint keeps it: the design variables, not what they achieve.
+Value kept(const Answer& a) {
+  Value out;
+  out["status"] = study::kept_status(a.status);
+  out["x"] = pack_numbers(a.best.x);
+  out["between_nodes"] = pack_numbers(a.between_nodes);
+  out["worst_between_nodes"] = pack_numbers({&a.worst_between_nodes, 1});
+  out["starts"] = a.starts;
+  out["reached_best"] = a.reached_best;
+  out["evaluations"] = a.evaluations;
+  out["log"] = study::kept_log(a.log);
+  return out;
+}
+
+Answer restored(const Value& value, const DexterityStudy& s, std::string_view what) {
+  Answer out;
+  out.status = study::restored_status(value, what);
+  if (!unpack_numbers(kept_member(value, "x", what), what).empty()) {
+    const std::vector<optimise::Variable> variables = design_variables(s.task);
+    const std::vector<double> x = study::restored_numbers(value, "x", variables.size(), what);
+    for (std::size_t j = 0; j < x.size(); ++j)
+      if (!(x[j] >= variables[j].lower && x[j] <= variables[j].upper))
+        throw CheckpointError(fmt::format("{}: {} is {}, out of its range", what, variables[j].name, x[j]));
+    out.best = assess(s.task, x);
+  }
+  // NaN where nothing was looked for between the nodes.
+  out.between_nodes = unpack_numbers(kept_member(value, "between_nodes", what), what);
+  const std::vector<double> worst = unpack_numbers(kept_member(value, "worst_between_nodes", what), what);
+  if (worst.size() != 1 || out.between_nodes.size() > out.best.limits.size())
+    throw CheckpointError(fmt::format("{}: what lies between the nodes is not told", what));
+  out.worst_between_nodes = worst[0];
+  out.starts = static_cast<int>(kept_integer(value, "starts", 0, 1000000, what));
+  out.reached_best = static_cast<int>(kept_integer(value, "reached_best", 0, out.starts, what));
+  out.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
+  out.log = study::restored_log(value, what);
   return out;
 }
 
@@ -446,7 +486,9 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
   study::Result result;
   const Runs runs = study::run_seeds(
       common.seeds, context, "designs", [&](std::uint64_t seed) { return answer_of(s, seed, context); },
-      [](const Answer& a) { return a.status; }, [&](const Answer& a) { return cost_of(s.task.goal, a); });
+      [](const Answer& a) { return a.status; }, [&](const Answer& a) { return cost_of(s.task.goal, a); },
+      [](const Answer& a) { return kept(a); },
+      [&](const Value& value, std::string_view what) { return restored(value, s, what); });
   result.status = runs.status;
   const auto better = [&](const Answer& a, const Answer& b) {
     const double first = cost_of(s.task.goal, a), second = cost_of(s.task.goal, b);

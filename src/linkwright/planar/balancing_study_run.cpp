@@ -23,13 +23,7 @@ constexpr double success_share = 1e-4;
 // Solutions with a drawing of their own.
 constexpr std::size_t most_drawn = 15;
 
-bool interrupted(Status status) { return status == Status::deadline || status == Status::cancelled; }
-
-struct Runs {
-  Status status = Status::done;
-  std::vector<std::uint64_t> seeds;
-  std::vector<BalancingRun> runs;
-};
+using Runs = study::SeedRuns<BalancingRun>;
 
 double best_cost(const BalancingRun& run) {
   return run.designs.empty() || run.designs.front().violation > 0 ? infinity : run.designs.front().cost;
@@ -54,35 +48,21 @@ BalancingTask task_of(const BalancingStudy& s, const std::shared_ptr<const MassS
 
 Runs run_seeds(const BalancingStudy& s, const BalancingProblem& problem, const study::Common& common,
                const ExactBalancing& exact, RunContext& context) {
-  Runs out;
-  const auto count = static_cast<std::size_t>(common.seeds.count);
-  std::vector<BalancingRun> all(count);
-  const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
-  const optimise::SeedLoop loop = optimise::for_each_seed(
-      seeds, context, method_name(s.optimiser.method),
-      [&](std::size_t i, std::uint64_t seed) {
-        all[i] = balance(problem, s.optimiser, exact, seed, optimise::seed_name(seed), count == 1, context);
-        return best_cost(all[i]);
+  return study::run_seeds(
+      common.seeds, context, method_name(s.optimiser.method),
+      [&](std::uint64_t seed) {
+        return balance(problem, s.optimiser, exact, seed, optimise::seed_name(seed), common.seeds.count == 1,
+                       context);
       },
-      [&](std::size_t i) { return interrupted(all[i].status) ? Value() : kept(all[i]); },
-      [&](std::size_t i, const Value& value) {
-        all[i] = restored(value, problem, s.optimiser, optimise::seed_name(seeds.first + i));
-        return best_cost(all[i]);
-      });
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!loop.ran[i]) continue;
-    if (out.status == Status::done && interrupted(all[i].status)) out.status = all[i].status;
-    out.seeds.push_back(seeds.first + i);
-    out.runs.push_back(std::move(all[i]));
-  }
-  if (out.runs.size() < count) out.status = loop.status;
-  return out;
+      [](const BalancingRun& run) { return run.status; }, best_cost,
+      [](const BalancingRun& run) { return kept(run); },
+      [&](const Value& value, std::string_view what) { return restored(value, problem, s.optimiser, what); });
 }
 
 /// The answers of all seeds: the best one; of a front, the front of all.
 std::vector<BalancedDesign> answers(const BalancingStudy& s, const Runs& runs) {
   std::vector<BalancedDesign> all;
-  for (const BalancingRun& run : runs.runs) all.insert(all.end(), run.designs.begin(), run.designs.end());
+  for (const BalancingRun& run : runs.answers) all.insert(all.end(), run.designs.begin(), run.designs.end());
   if (s.optimiser.combine == Combine::front) {
     std::vector<BalancedDesign> front = front_of(std::move(all));
     // Best first, by the mean of all objectives.
@@ -150,12 +130,14 @@ class Report {
   study::Result make() {
     statistics();
     if (designs_.empty()) {
-      result_.status = interrupted(runs_.status) ? runs_.status : Status::infeasible;
+      result_.status = study::is_interrupted(runs_.status) ? runs_.status : Status::infeasible;
       result_.headline = "No design found: no candidate has an answer over the whole sweep.";
       return std::move(result_);
     }
     const bool feasible = designs_.front().violation == 0;
-    result_.status = interrupted(runs_.status) ? runs_.status : feasible ? Status::done : Status::infeasible;
+    result_.status = study::is_interrupted(runs_.status) ? runs_.status
+                     : feasible                          ? Status::done
+                                                         : Status::infeasible;
     solutions();
     scenes();
     tables();
@@ -251,12 +233,12 @@ class Report {
     }
     Table seeds{.name = "seeds", .columns{}, .status{}};
     std::vector<double> number, cost, evaluations;
-    for (std::size_t i = 0; i < runs_.runs.size(); ++i) {
-      const double best = best_cost(runs_.runs[i]);
+    for (std::size_t i = 0; i < runs_.answers.size(); ++i) {
+      const double best = best_cost(runs_.answers[i]);
       number.push_back(static_cast<double>(runs_.seeds[i]));
       cost.push_back(std::isfinite(best) ? best : nan);
-      evaluations.push_back(static_cast<double>(runs_.runs[i].evaluations));
-      seeds.status.emplace_back(to_string(runs_.runs[i].status));
+      evaluations.push_back(static_cast<double>(runs_.answers[i].evaluations));
+      seeds.status.emplace_back(to_string(runs_.answers[i].status));
     }
     seeds.add("seed", "seed", number);
     seeds.add("cost", "cost", cost);
@@ -340,8 +322,8 @@ class Report {
     std::vector<optimise::SeedOutcome> outcomes;
     double best = infinity;
     result_.log = Value::array();
-    for (std::size_t i = 0; i < runs_.runs.size(); ++i) {
-      const BalancingRun& run = runs_.runs[i];
+    for (std::size_t i = 0; i < runs_.answers.size(); ++i) {
+      const BalancingRun& run = runs_.answers[i];
       const double cost = best_cost(run);
       best = std::min(best, cost);
       outcomes.push_back({cost, std::isfinite(cost) ? 0.0 : 1.0, run.evaluations});
@@ -432,8 +414,8 @@ class Report {
          fmt::format("{}, combine {}", method_name(s_.optimiser.method), name_of(s_.optimiser.combine)));
     const Value* success = result_.statistics.find("success_rate");
     fact("seeds that reached the best",
-         fmt::format("{:.0f} of {}", success->as_number() * static_cast<double>(runs_.runs.size()),
-                     runs_.runs.size()));
+         fmt::format("{:.0f} of {}", success->as_number() * static_cast<double>(runs_.answers.size()),
+                     runs_.answers.size()));
     fact("evaluations", fmt::format("{}", result_.statistics.find("evaluations")->as_integer()));
   }
 
@@ -481,17 +463,20 @@ study::Result run_balancing_study(const BalancingStudy& s, const study::Common& 
                                    "take method = \"recommended\""});
     return refused;
   }
-  const Runs runs = run_seeds(s, problem, common, exact, context);
+  // Candidates with many rows take long, and a generation or the neighbours of a gradient are many of them.
+  BalancingProblem searched = problem;
+  searched.problem = optimise::interruptible(std::move(searched.problem), context);
+  const Runs runs = run_seeds(s, searched, common, exact, context);
   // The report is made whether or not time is left.
   RunContext unhurried;
   study::Result result = Report(s, common, problem, runs, unhurried).make();
-  if (runs.runs.size() < static_cast<std::size_t>(common.seeds.count))
+  if (runs.answers.size() < static_cast<std::size_t>(common.seeds.count))
     result.diagnostics.push_back(
         {Diagnostic::Severity::warning,
          {},
          {},
          {},
-         fmt::format("interrupted: {} of {} seeds ran", runs.runs.size(), common.seeds.count),
+         fmt::format("interrupted: {} of {} seeds ran", runs.answers.size(), common.seeds.count),
          {}});
   return result;
 }

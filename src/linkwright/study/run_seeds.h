@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/checkpoint.h"
 #include "linkwright/optimise/statistics.h"
 #include "linkwright/study/kind.h"
 
@@ -18,26 +20,57 @@ struct SeedRuns {
   std::vector<Answer> answers;
 };
 
+inline bool is_interrupted(Status status) {
+  return status == Status::deadline || status == Status::cancelled;
+}
+
+/// How a seed ended, as a checkpoint keeps it under the key `status` of a table, and back. Throws
+/// CheckpointError, naming `what`, unless it is the name of a status of a seed that came to its end.
+Value kept_status(Status status);
+Status restored_status(const Value& table, std::string_view what);
+
+/// Likewise the generations of a population method, under the key `log`.
+Value kept_log(std::span<const optimise::GenerationLog> log);
+std::vector<optimise::GenerationLog> restored_log(const Value& table, std::string_view what);
+
+/// Member `key` of a table: `count` packed numbers, all of them finite. Throws CheckpointError, naming
+/// `what`.
+std::vector<double> restored_numbers(const Value& table, std::string_view key, std::size_t count,
+                                     std::string_view what);
+
+/// Far more evaluations than a search makes, and few enough that the sum over the seeds of a study is an
+/// integer.
+inline constexpr std::int64_t most_kept_evaluations = std::int64_t{1} << 46;
+
 /// Runs answer(seed) for each seed of a study on the threads of the context. `status` and `cost` (for the
 /// progress; infinite if none) of an answer are asked of it.
-template <class Run, class StatusOf, class CostOf>
+///
+/// Seeds that came to their end go to the checkpoint of the context, if it has one, as kept(answer); those
+/// that it has are not run again, but taken as restored(value, what), which must be the same answer to the
+/// bit, and throws CheckpointError, naming `what`, for everything that `kept` cannot have made.
+template <class Run, class StatusOf, class CostOf, class Kept, class Restored>
 auto run_seeds(const Seeds& asked, RunContext& context, std::string_view stage, Run&& run, StatusOf&& status,
-               CostOf&& cost) {
+               CostOf&& cost, Kept&& kept, Restored&& restored) {
   using Answer = decltype(run(std::uint64_t{}));
   const auto count = static_cast<std::size_t>(asked.count);
   const optimise::SeedRange seeds{static_cast<std::uint64_t>(asked.first), asked.count};
   std::vector<Answer> all(count);
-  const optimise::SeedLoop loop =
-      optimise::for_each_seed(seeds, context, stage, [&](std::size_t i, std::uint64_t seed) {
+  const optimise::SeedLoop loop = optimise::for_each_seed(
+      seeds, context, stage,
+      [&](std::size_t i, std::uint64_t seed) {
         all[i] = run(seed);
+        return cost(all[i]);
+      },
+      [&](std::size_t i) { return is_interrupted(status(all[i])) ? Value() : kept(all[i]); },
+      [&](std::size_t i, const Value& value) {
+        all[i] = restored(value, optimise::seed_name(seeds.first + i));
         return cost(all[i]);
       });
   SeedRuns<Answer> out;
   for (std::size_t i = 0; i < count; ++i) {
     if (!loop.ran[i]) continue;
     const Status ended = status(all[i]);
-    if (out.status == Status::done && (ended == Status::deadline || ended == Status::cancelled))
-      out.status = ended;
+    if (out.status == Status::done && is_interrupted(ended)) out.status = ended;
     out.seeds.push_back(seeds.first + i);
     out.answers.push_back(std::move(all[i]));
   }

@@ -202,6 +202,7 @@ struct DirectStudy {
   DirectOptimiser optimiser;
   Driver lock = Driver::wheel_centre_z;  ///< of the steering axis
   DirectTask task;                       ///< what follows from the above
+  study::DisplayUnits units;             ///< of its messages
 };
 
 /// "synthesis" of "suspension.wheel_guide" for "wheel_parameters".

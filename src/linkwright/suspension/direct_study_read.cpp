@@ -284,8 +284,9 @@ void add_limit(study::ObjectReader& table, const TyreClearanceConstraint& c, Dir
   const auto link = find_link(table, "link", s.description.guide, c.link);
   const double outer = c.outer_diameter.value_or(s.description.guide.wheel.tyre_diameter);
   if (!(outer > c.inner_diameter))
-    table.error("inner_diameter",
-                fmt::format("is {} m, must be less than the outer one, {} m", c.inner_diameter, outer));
+    table.error("inner_diameter", fmt::format("is {}, must be less than the outer one, {}",
+                                              s.units.text(c.inner_diameter, Dimension::length, 6),
+                                              s.units.text(outer, Dimension::length, 6)));
   if (link) s.task.limits.tyres.push_back({*link, {c.inner_diameter, outer, c.width}, c.min});
 }
 void add_limit(study::ObjectReader& table, const BoxClearanceConstraint& c, DirectStudy& s) {
@@ -340,6 +341,7 @@ Value write_curves(const DirectStudy& s) {
 std::optional<DirectStudy> read_direct_study(study::ObjectReader& document, const study::Common& common,
                                              Value& canonical) {
   DirectStudy s;
+  s.units = common.units;
   const auto description = read_guide(document, common, OpenPoints::boxes);
   if (description) {
     s.description = *description;

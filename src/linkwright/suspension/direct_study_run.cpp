@@ -59,6 +59,35 @@ bool better(const DirectSynthesis& a, const DirectSynthesis& b, const DirectOpti
 
 using Runs = study::SeedRuns<DirectSynthesis>;
 
+/// A seed that came to its end as a checkpoint keeps it: the design, not what it achieves.
+Value kept(const DirectSynthesis& answer) {
+  Value out;
+  out["status"] = study::kept_status(answer.status);
+  out["reason"] = answer.reason;
+  out["shares"] = pack_numbers(answer.shares);
+  out["assembled"] = answer.assembled;
+  out["reached_best"] = answer.reached_best;
+  out["evaluations"] = answer.evaluations;
+  return out;
+}
+
+DirectSynthesis restored(const Value& value, const DirectStudy& s, std::string_view what) {
+  constexpr double rounding = 1e-9;
+  const std::vector<double> shares = study::restored_numbers(value, "shares", s.task.designed.size(), what);
+  if (!std::all_of(shares.begin(), shares.end(),
+                   [](double u) { return std::abs(u - 0.5) <= 0.5 + rounding; }))
+    throw CheckpointError(fmt::format("{}: its design lies outside of the ranges", what));
+  DirectSynthesis out = assess(s.task, options_of(s), shares);
+  out.status = study::restored_status(value, what);
+  const Value& reason = kept_member(value, "reason", what);
+  if (!reason.is_string()) throw CheckpointError(fmt::format("{}: its reason is no text", what));
+  out.reason = reason.as_string();
+  out.assembled = static_cast<int>(kept_integer(value, "assembled", 0, 1000000, what));
+  out.reached_best = static_cast<int>(kept_integer(value, "reached_best", 0, out.assembled, what));
+  out.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
+  return out;
+}
+
 std::string unit_suffix(const GuideColumn& c, TargetMeasure measure) {
   const auto parts = split_unit(c.key);
   return parts && measure != TargetMeasure::relative_change ? "_" + std::string(parts->unit->suffix)
@@ -304,7 +333,9 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
                           s.optimiser.method);
       },
       [](const DirectSynthesis& answer) { return answer.status; },
-      [&](const DirectSynthesis& answer) { return cost_of(answer, options); });
+      [&](const DirectSynthesis& answer) { return cost_of(answer, options); },
+      [](const DirectSynthesis& answer) { return kept(answer); },
+      [&](const Value& value, std::string_view what) { return restored(value, s, what); });
   result.status = runs.status;
   if (runs.answers.empty()) {
     result.headline = "Interrupted before the first seed was done.";
@@ -375,7 +406,10 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
     const DesignedNumber& d = s.task.designed[i];
     const double span = d.upper - d.lower;
     if (best.x[i] - d.lower < 1e-6 * span || d.upper - best.x[i] < 1e-6 * span)
-      remark(fmt::format("{} lies at its limit, {:.6g} m", label(s.task.guide, d.number), best.x[i]),
+      remark(fmt::format("{} lies at its limit, {}", label(s.task.guide, d.number),
+                         d.number.kind == DesignKind::coupler_fraction
+                             ? fmt::format("{:.6g}", best.x[i])
+                             : common.units.text(best.x[i], Dimension::length, 6)),
              "a larger box may give more");
   }
   if (runs.answers.size() < static_cast<std::size_t>(common.seeds.count))

@@ -61,6 +61,7 @@ DirectSynthesis assessed(const DirectModel& model, std::span<const double> u) {
   DirectSynthesis out;
   out.guide = model.guide(u);
   out.x = model.values(u);
+  out.shares.assign(u.begin(), u.end());
   out.positions = model.positions();
   out.answer = answer(out.guide, model.task().objectives, model.positions(), {});
   if (!out.answer.assembled) return out;
@@ -354,8 +355,12 @@ std::int64_t refine(const DirectModel& model, const DirectOptions& options, std:
 }  // namespace
 
 DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, const WheelGuide& guide) {
+  return assess(task, options, DirectModel(task, options).shares(guide));
+}
+
+DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, std::span<const double> u) {
   const DirectModel model(task, options);
-  const std::vector<double> u = model.shares(guide);
+  LINKWRIGHT_REQUIRE(u.size() == model.size(), "{} shares of {} designed numbers", u.size(), model.size());
   DirectSynthesis out = assessed(model, u);
   complete(model, options, u, out);
   out.status = out.answer.assembled && missed(options, out) == 0 ? Status::done : Status::infeasible;

@@ -65,6 +65,8 @@ struct DirectSynthesis {
   std::string reason;  ///< empty, or why it is infeasible
   WheelGuide guide;
   std::vector<double> x;  ///< of the designed numbers
+  /// The same in shares of their ranges: what the design is made from, to the bit.
+  std::vector<double> shares;
   TargetPositions positions;
   TargetAnswer answer;                                       ///< at x, without derivatives
   std::vector<double> objectives;                            ///< largest deviation of each, in tolerances
@@ -92,6 +94,8 @@ DirectSynthesis synthesise(const DirectTask& task, const DirectOptions& options,
 
 /// The goal at a given design: everything of the report but starts.
 DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, const WheelGuide& guide);
+/// Of a design that is known by its shares, one a designed number.
+DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, std::span<const double> shares);
 
 /// Differential evolution for comparison, with the settings of the source (NP 50, F 0.6, CR 0.9, at most 5000
 /// generations, ended when all members are within 1e-5 m of the best): by priority for the goal `priorities`,

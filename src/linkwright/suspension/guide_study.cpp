@@ -109,7 +109,9 @@ bool read_point(study::ObjectReader& reader, const study::ObjectReader::Found& f
     auto table = reader.open(part);
     table->read(c);
     if (c.lower > c.upper) {
-      reader.problem(part, fmt::format("min {} m is larger than max {} m", c.lower, c.upper));
+      const Unit& unit = found.unit ? *found.unit : units(Dimension::length).front();
+      reader.problem(part, fmt::format("min {:.6g} {} is larger than max {:.6g} {}", unit.from_si(c.lower),
+                                       unit.suffix, unit.from_si(c.upper), unit.suffix));
       good = false;
     }
     coordinate(point.box.lower, i) = c.lower;

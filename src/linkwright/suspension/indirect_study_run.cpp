@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "linkwright/math/angles.h"
 #include "linkwright/study/run_seeds.h"
@@ -42,15 +44,122 @@ IndirectSynthesis search(const PublishedIndirect& method, const IndirectTask& ta
   return evolve(task, options, seed, context);
 }
 
-SeedRun run_seed(const IndirectStudy& s, std::uint64_t seed, bool only, RunContext& context) {
+/// What an answer is worth, turned to the side of the guide.
+SeedRun measured(const IndirectStudy& s, IndirectSynthesis answer) {
   SeedRun out;
-  out.answer = std::visit([&](const auto& method) { return search(method, s.task, seed, only, context); },
-                          s.optimiser.method);
+  out.answer = std::move(answer);
   // Measured by the equations of the mechanism, not by the fit.
   if (!has_errors(check_structure(out.answer.guide)))
     out.error = constraint_error(out.answer.guide, out.answer.targets).gap;
   if (s.description.guide.side == Side::right) out.answer.guide = mirrored(out.answer.guide);
   return out;
+}
+
+SeedRun run_seed(const IndirectStudy& s, std::uint64_t seed, bool only, RunContext& context) {
+  return measured(s,
+                  std::visit([&](const auto& method) { return search(method, s.task, seed, only, context); },
+                             s.optimiser.method));
+}
+
+/// A link or coupler that was found, of one of these places; or none.
+std::vector<double> numbers_of(const LinkFit& fit) {
+  std::vector<double> out{fit.rms, fit.largest};
+  for (const std::vector<Vec3>* points : {&fit.link.body, &fit.link.carrier})
+    for (const Vec3& p : *points) out.insert(out.end(), {p.x, p.y, p.z});
+  return out;
+}
+std::vector<double> numbers_of(const CouplerFit& fit) {
+  const Vec3& p = fit.coupler.point;
+  return {fit.rms, fit.largest, fit.offset, fit.coupler.fraction, p.x, p.y, p.z};
+}
+
+/// A seed that came to its end as a checkpoint keeps it: links, couplers and spins, not what follows.
+Value kept(const SeedRun& run) {
+  const auto fits = [](const auto& all) {
+    Value out = Value::array();
+    for (const auto& fit : all) {
+      Value one;
+      one["status"] = study::kept_status(fit.status);
+      one["numbers"] = pack_numbers(numbers_of(fit));
+      if constexpr (std::is_same_v<std::decay_t<decltype(fit)>, CouplerFit>)
+        one["looked_for"] = !fit.coupler.name.empty();  // not without the links that it joins
+      out.push_back(std::move(one));
+    }
+    return out;
+  };
+  std::vector<double> spins;
+  for (const CarrierTarget& pose : run.answer.targets.poses) spins.push_back(pose.angles.spin);
+  Value out;
+  out["links"] = fits(run.answer.links);
+  out["couplers"] = fits(run.answer.couplers);
+  out["spins"] = pack_numbers(spins);
+  out["evaluations"] = run.answer.evaluations;
+  out["generations"] = run.answer.generations;
+  return out;
+}
+
+/// Errors (not less than 0, infinite where nothing was found) and `count` finite numbers, or none.
+std::vector<double> restored_fit(const Value& value, std::size_t count, std::string_view what) {
+  const std::vector<double> numbers = unpack_numbers(kept_member(value, "numbers", what), what);
+  const auto is_error = [](double e) { return e >= 0; };
+  const bool sound =
+      (numbers.size() == 2 || numbers.size() == 2 + count) && is_error(numbers[0]) && is_error(numbers[1]) &&
+      std::all_of(numbers.begin() + 2, numbers.end(), [](double x) { return std::abs(x) < 1e6; }) &&
+      (numbers.size() > 2 || std::isinf(numbers[0]));
+  if (!sound) throw CheckpointError(fmt::format("{}: a link or coupler is none of this guide", what));
+  return numbers;
+}
+
+SeedRun restored(const Value& value, const IndirectStudy& s, std::string_view what) {
+  IndirectSynthesis ended;
+  ended.targets = s.task.targets;
+  const Value &links = kept_member(value, "links", what), &couplers = kept_member(value, "couplers", what);
+  if (!links.is_array() || links.as_array().size() != s.task.links.size() || !couplers.is_array() ||
+      couplers.as_array().size() != s.task.couplers.size())
+    throw CheckpointError(fmt::format("{}: is not what a seed came to", what));
+  for (std::size_t l = 0; l < s.task.links.size(); ++l) {
+    const LinkTask& task = s.task.links[l];
+    const Value& one = links.as_array()[l];
+    const std::vector<double> v = restored_fit(one, 3 * (task.body.size() + task.carrier.size()), what);
+    LinkFit fit{.status = study::restored_status(one, what), .link = {}, .rms = v[0], .largest = v[1]};
+    if (v.size() > 2) {
+      fit.link.name = task.name;
+      fit.link.type = task.type;
+      fit.link.moved_by_rack = task.moved_by_rack;
+      for (std::size_t k = 2; k < v.size(); k += 3)
+        (fit.link.body.size() < task.body.size() ? fit.link.body : fit.link.carrier)
+            .push_back({v[k], v[k + 1], v[k + 2]});
+    }
+    ended.links.push_back(std::move(fit));
+  }
+  for (std::size_t k = 0; k < s.task.couplers.size(); ++k) {
+    const CouplerTask& task = s.task.couplers[k];
+    const Value& one = couplers.as_array()[k];
+    const std::vector<double> v = restored_fit(one, 5, what);
+    CouplerFit fit{.status = study::restored_status(one, what), .coupler = {}, .rms = v[0], .largest = v[1]};
+    const Value& looked_for = kept_member(one, "looked_for", what);
+    if (!looked_for.is_bool() || v.size() == 2)
+      throw CheckpointError(fmt::format("{}: coupler '{}' is not told", what, task.name));
+    if (looked_for.as_bool()) fit.coupler = {.name = task.name, .first = task.first, .second = task.second};
+    fit.offset = v[2];
+    fit.coupler.fraction = v[3];
+    fit.coupler.point = {v[4], v[5], v[6]};
+    ended.couplers.push_back(std::move(fit));
+  }
+  const std::vector<double> spins = unpack_numbers(kept_member(value, "spins", what), what);
+  if (spins.size() != ended.targets.poses.size())
+    throw CheckpointError(
+        fmt::format("{}: {} spins of {} positions", what, spins.size(), ended.targets.poses.size()));
+  for (std::size_t i = 0; i < spins.size(); ++i) {
+    double& spin = ended.targets.poses[i].angles.spin;
+    // Only those that were not prescribed were found.
+    if (std::isinf(spins[i]) || (!std::isnan(spin) && spin != spins[i]))
+      throw CheckpointError(fmt::format("{}: spin {} is none of this position", what, spins[i]));
+    spin = spins[i];
+  }
+  ended.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
+  ended.generations = static_cast<int>(kept_integer(value, "generations", 0, 1000000000, what));
+  return measured(s, completed(s.task, ended));
 }
 
 using Runs = study::SeedRuns<SeedRun>;
@@ -341,7 +450,9 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
   const Runs runs = study::run_seeds(
       common.seeds, context, "links",
       [&](std::uint64_t seed) { return run_seed(s, seed, common.seeds.count == 1, context); },
-      [](const SeedRun& run) { return run.answer.status; }, [](const SeedRun& run) { return run.error; });
+      [](const SeedRun& run) { return run.answer.status; }, [](const SeedRun& run) { return run.error; },
+      [](const SeedRun& run) { return kept(run); },
+      [&](const Value& value, std::string_view what) { return restored(value, s, what); });
   result.status = runs.status;
   if (runs.answers.empty()) {
     result.headline = "Interrupted before the first seed was done.";

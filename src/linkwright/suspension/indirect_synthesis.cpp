@@ -370,6 +370,21 @@ IndirectSynthesis synthesise(const IndirectTask& task, const IndirectOptions& op
   return assembly.finish(context);
 }
 
+IndirectSynthesis completed(const IndirectTask& task, const IndirectSynthesis& ended) {
+  LINKWRIGHT_REQUIRE(ended.links.size() == task.links.size() && ended.couplers.size() == task.couplers.size(),
+                     "{} links and {} couplers of {} and {}", ended.links.size(), ended.couplers.size(),
+                     task.links.size(), task.couplers.size());
+  Assembly assembly(task);
+  IndirectSynthesis& result = assembly.result;
+  result.links = ended.links;
+  result.couplers = ended.couplers;
+  result.targets = ended.targets;
+  result.evaluations = ended.evaluations;
+  result.generations = ended.generations;
+  RunContext nobody;
+  return assembly.finish(nobody);
+}
+
 IndirectSynthesis evolve(const IndirectTask& task, const IndirectEvolutionOptions& options,
                          std::uint64_t seed, RunContext& context) {
   LINKWRIGHT_REQUIRE(options.tolerance > 0, "tolerance {} m", options.tolerance);

@@ -56,6 +56,10 @@ struct IndirectOptions {
 IndirectSynthesis synthesise(const IndirectTask& task, const IndirectOptions& options, std::uint64_t seed,
                              RunContext& context);
 
+/// The synthesis that ended with these links, couplers, targets, evaluations and generations, and with all
+/// that follows from them: to the bit what synthesise() or evolve() had made of them. `arms` stay empty.
+IndirectSynthesis completed(const IndirectTask& task, const IndirectSynthesis& ended);
+
 struct IndirectEvolutionOptions {
   EvolutionOptions method;
   bool together = false;    ///< all links at once, not link by link

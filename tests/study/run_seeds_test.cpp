@@ -1,0 +1,107 @@
+#include "linkwright/study/run_seeds.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "support/memory_checkpoint.h"
+
+namespace linkwright::study {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+struct Answer {
+  Status status = Status::done;
+  double cost = 0;
+};
+
+struct Loop {
+  std::vector<std::uint64_t> ran;
+  SeedRuns<Answer> runs;
+};
+/// Squares of the seeds; the seed `cut` is interrupted.
+Loop squares(RunContext& context, std::uint64_t cut = 0) {
+  Loop out;
+  context.set_threads(1);
+  out.runs = run_seeds(
+      Seeds{.first = 3, .count = 4}, context, "squares",
+      [&](std::uint64_t seed) {
+        out.ran.push_back(seed);
+        return Answer{seed == cut ? Status::deadline : Status::done, static_cast<double>(seed * seed)};
+      },
+      [](const Answer& a) { return a.status; }, [](const Answer& a) { return a.cost; },
+      [](const Answer& a) {
+        Value value;
+        value["status"] = kept_status(a.status);
+        value["cost"] = pack_numbers({&a.cost, 1});
+        return value;
+      },
+      [](const Value& value, std::string_view what) {
+        return Answer{restored_status(value, what), restored_numbers(value, "cost", 1, what)[0]};
+      });
+  return out;
+}
+
+TEST(RunSeeds, SeedsThatEndedAreNotRunAgain) {
+  test::MemoryCheckpoint kept;
+  RunContext first;
+  first.set_checkpoint(&kept);
+  const Loop cut = squares(first, 5);
+  EXPECT_EQ(cut.runs.status, Status::deadline);
+  EXPECT_THAT(cut.ran, ElementsAre(3, 4, 5, 6));
+  EXPECT_FALSE(kept.entries.contains("seed 5"));
+  RunContext second;
+  second.set_checkpoint(&kept);
+  const Loop rest = squares(second);
+  EXPECT_EQ(rest.runs.status, Status::done);
+  EXPECT_THAT(rest.ran, ElementsAre(5));
+  EXPECT_THAT(rest.runs.seeds, ElementsAre(3, 4, 5, 6));
+  ASSERT_EQ(rest.runs.answers.size(), 4u);
+  EXPECT_EQ(rest.runs.answers[1].cost, 16);
+  EXPECT_EQ(rest.runs.answers[2].cost, 25);
+}
+
+TEST(RunSeeds, WhatWasKeptIsCheckedLikeAFileOfAStranger) {
+  Value table;
+  table["status"] = "deadline";
+  EXPECT_THAT(
+      [&] { restored_status(table, "seed 3"); },
+      ThrowsMessage<CheckpointError>(HasSubstr("seed 3: has no status of a seed that came to its end")));
+  for (const Status end : {Status::done, Status::infeasible, Status::not_converged, Status::singular}) {
+    table["status"] = kept_status(end);
+    EXPECT_EQ(restored_status(table, "seed 3"), end);
+  }
+  const std::vector<double> infinite{1, std::numeric_limits<double>::infinity()};
+  table["x"] = pack_numbers(infinite);
+  EXPECT_THAT([&] { restored_numbers(table, "x", 2, "seed 3"); },
+              ThrowsMessage<CheckpointError>(HasSubstr("seed 3: x is not finite")));
+  EXPECT_THAT([&] { restored_numbers(table, "x", 3, "seed 3"); },
+              ThrowsMessage<CheckpointError>(HasSubstr("seed 3: x has 2 numbers, must be 3")));
+}
+
+TEST(RunSeeds, LogsComeBackToTheBit) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<optimise::GenerationLog> log{
+      {.evaluations = 20, .best_cost = 0.1, .best_violation = 0, .median = nan, .mean = 0.3, .violated = 0.5},
+      {.evaluations = 40, .best_cost = 0.05, .best_violation = 0, .median = 1, .mean = 2, .violated = 0}};
+  Value table;
+  table["log"] = kept_log(log);
+  const auto back = restored_log(table, "seed 1");
+  ASSERT_EQ(back.size(), 2u);
+  EXPECT_EQ(back[0].evaluations, 20);
+  EXPECT_TRUE(std::isnan(back[0].median));
+  EXPECT_EQ(back[1].mean, 2);
+  EXPECT_EQ(back[0].violated, 0.5);
+  table["log"]["evaluations"].push_back(60);
+  EXPECT_THAT([&] { restored_log(table, "seed 1"); },
+              ThrowsMessage<CheckpointError>(HasSubstr("seed 1: its log is none of generations")));
+}
+
+}  // namespace
+}  // namespace linkwright::study
