@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "linkwright/core/memory.h"
 #include "linkwright/flexible/studies.h"
 #include "support/published.h"
 #include "support/study_text.h"
@@ -120,6 +121,16 @@ TEST(HubLinkStudy, SwingsFreelyUnderGravity) {
     if (angle[i - 1] > -M_PI / 2 && angle[i] <= -M_PI / 2) crossing = time[i];
   EXPECT_NEAR(4 * crossing, 1.657 * 1.002, 0.03);
   EXPECT_THAT(fact(result, "drift of the energy audit"), HasSubstr("e-"));
+}
+
+TEST(HubLinkStudy, RefusesMoreCellsAndSamplesThanThereIsMemoryFor) {
+  const MemoryLimit limit(1e9);
+  const std::string fine = replaced(spin_up, "divisions = 4", "divisions = 500");
+  EXPECT_THAT(problems(replaced(fine, "samples = 9", "samples = 100000")),
+              ::testing::AllOf(HasSubstr("output.samples: 100000 samples of 1000 cells would take "),
+                               HasSubstr("at most 1 GB may be taken; take fewer samples or divisions")));
+  std::string messages;
+  EXPECT_TRUE(linkwright::testing::prepare(kinds(), fine, messages)) << messages;
 }
 
 TEST(HubLinkStudy, TellsWhatIsWrong) {

@@ -233,7 +233,7 @@ TEST(VibrationStudy, NamesWhatIsWrong) {
       problems(replaced(replaced(bare, "modes = 2", "modes = 20"), "divisions = 4", "divisions = 2")),
       HasSubstr("vibration.modes: a link of 2 divisions has 8 modes, 20 are asked for; take more divisions"));
   EXPECT_THAT(problems(bare + "[campbell]\nfrom_rpm = 10\nto_rpm = 10\n"),
-              HasSubstr("campbell.to_rpm: the speeds end at 1.0472 rad/s, where they begin or before"));
+              HasSubstr("campbell.to_rpm: the speeds end at 10 rpm, where they begin or before"));
   EXPECT_THAT(problems(bare + "[campbell]\nsamples = 10\n"), HasSubstr("campbell.to"));
   EXPECT_THAT(problems(bare + "[campbell]\nto_rpm = 10\norders = [0]\n"), HasSubstr("must be more than 0"));
   EXPECT_THAT(problems(replaced(bare, "divisions = 4", "divisions = 4\nkinematics = \"source_linearised\"") +

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "elastic_bodies.h"
+#include "linkwright/core/memory.h"
 #include "linkwright/study/write.h"
 #include "planar/studies.h"
 
@@ -276,6 +277,18 @@ TEST(LinkageElasticStudy, WarnsOfAnotherMassThanThatOfTheBeam) {
   EXPECT_THAT(messages,
               HasSubstr("body 'rod' is given 0.5 kg, but its beam weighs 0.1884 kg, which takes the "
                         "place of it"));
+}
+
+// The places of the nodes count: the finest beam takes what four segments leave free.
+TEST(LinkageElasticStudy, RefusesMoreNodesThanThereIsMemoryFor) {
+  std::string messages;
+  const std::string coarse = with_rod("samples = 101", "samples = 1000"),
+                    fine = replaced(coarse, "segments            = 4", "segments = 64");
+  const MemoryLimit limit(20e6);
+  EXPECT_TRUE(prepare(coarse, messages)) << messages;
+  EXPECT_THAT(problems_of(fine),
+              AllOf(HasSubstr("simulation.samples: 1000 rows with 65 nodes of beams would take "),
+                    HasSubstr("at most 20 MB may be taken; take fewer samples or segments")));
 }
 
 TEST(LinkageElasticStudy, NamesWhatIsWrong) {

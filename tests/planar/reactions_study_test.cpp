@@ -59,6 +59,16 @@ std::vector<std::string> keys(const Table& table) {
   return out;
 }
 
+// Where the crank points along the ground 450 mm of links are to span 500: told in the unit of the study.
+TEST(ReactionsStudyRun, TellsTheGapInTheUnitsOfTheStudy) {
+  const study::Result r =
+      run({{"3 parameters",
+            "[mechanism.parameters]\nground_mm = 600\ncrank_mm = 100\ncoupler_mm = 400\nrocker_mm = 50\n"}});
+  ASSERT_FALSE(r.diagnostics.empty());
+  EXPECT_THAT(to_string(r.diagnostics[0]),
+              HasSubstr("the first at a crank angle of 0° where 50 mm are missing"));
+}
+
 TEST(ReactionsStudyRead, NamesWhatIsWrongWithTheLinkage) {
   const auto parameters = [](const std::string& text) {
     return problems({{"3 parameters", "[mechanism.parameters]\n" + text}});
@@ -66,7 +76,9 @@ TEST(ReactionsStudyRead, NamesWhatIsWrongWithTheLinkage) {
   EXPECT_THAT(parameters("ground_m = 0.6\ncrank_m = 0\ncoupler_m = 0.4\nrocker_m = 0.32\n"),
               HasSubstr("mechanism.parameters.crank_m: is 0 m, must be more than 0 m"));
   EXPECT_THAT(parameters("ground_m = 0.6\ncrank_m = 1e-30\ncoupler_m = 0.4\nrocker_m = 0.32\n"),
-              HasSubstr("is 1e-30 m, a link must be at least 1e-9 m long; check the unit"));
+              HasSubstr("is 1e-30 m, a link must be at least 1e-09 m long; check the unit"));
+  EXPECT_THAT(parameters("ground_mm = 600\ncrank_mm = 1e-8\ncoupler_mm = 400\nrocker_mm = 320\n"),
+              HasSubstr("crank_mm: is 1e-08 mm, a link must be at least 1e-06 mm long; check the unit"));
   EXPECT_THAT(parameters("ground_m = 0.6\ncrank_m = 0.1\ncoupler_m = 0.4\n"),
               HasSubstr("mechanism.parameters.rocker_m: this key is missing"));
   EXPECT_THAT(problems({{"3 parameters", ""}}), HasSubstr("mechanism.parameters: this key is missing"));
@@ -101,7 +113,7 @@ TEST(ReactionsStudyRead, NamesWhatIsWrongWithDriveSweepAndOutput) {
   EXPECT_THAT(sweep("from_deg = 0\nto_deg = 360\nsamples = 1\n"),
               HasSubstr("sweep.crank_angle.samples: is 1, must be at least 2"));
   EXPECT_THAT(sweep("from_deg = 90\nto_deg = 90\nsamples = 5\n"),
-              HasSubstr("the sweep ends where it begins"));
+              HasSubstr("sweep.crank_angle.to_deg: the sweep ends where it begins, at 90 deg"));
   EXPECT_THAT(sweep("from_deg = 90\nsamples = 5\n"),
               HasSubstr("sweep.crank_angle.to_rad: this key is missing"));
   EXPECT_THAT(problems({{"6 sweep", "[sweep]\ntype = \"grid\"\n"}}),

@@ -110,7 +110,9 @@ std::optional<ArmStudy> read_arm_study(study::ObjectReader& document, const stud
   s.drives = sorted_drives(document, s.mechanism, drives);
   if (!mechanism || !simulation || s.drives.empty() || document.document().has_errors()) return std::nullopt;
   check_shaping(arm_chain_study(s), document);
-  if (document.document().has_errors()) return std::nullopt;
+  int cells = 0;
+  for (const ArmLinkForm& link : s.mechanism.links) cells += 2 * link.divisions;
+  if (document.document().has_errors() || !fits_memory(document, s.samples, cells)) return std::nullopt;
   canonical["mechanism"] = study::write_fields(s.mechanism);
   Value::Array written;
   for (ArmDriveForm& drive : drives) written.push_back(study::write_fields(drive));

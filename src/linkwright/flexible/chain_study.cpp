@@ -8,6 +8,7 @@
 
 #include "linkwright/flexible/chain_scene.h"
 #include "linkwright/flexible/statics.h"
+#include "linkwright/study/memory.h"
 
 namespace linkwright::flexible {
 namespace {
@@ -306,6 +307,17 @@ ChainRun run_chain(const ChainStudy& s, RunContext& context) {
   if (!run.states.empty())
     result.scenes.push_back(chain_scene(out.arm, s.names, run, s.simulation.deflection_scale));
   return out;
+}
+
+bool fits_memory(study::ObjectReader& document, int samples, int cells) {
+  // Position and speed of each cell as kept, its place as drawn and written.
+  constexpr double kept = 6 * sizeof(double), drawn = 2;
+  const double bytes = double(cells) * (samples * kept + study::table_bytes(samples, drawn));
+  const std::string what = fmt::format("{} samples of {} cells", samples, cells);
+  constexpr std::string_view mend = "take fewer samples or divisions";
+  if (auto output = document.table("output"))
+    return study::require_memory(*output, "samples", bytes, what, mend);
+  return study::require_memory(document, "output", bytes, what, mend);
 }
 
 }  // namespace linkwright::flexible

@@ -97,4 +97,8 @@ std::string millimetres(double metres);
 /// "Ended at 1.2 s: ..." of a run that is not done.
 std::string headline_of_end(const Simulation& run);
 
+/// Whether the states of a chain of so many cells at all samples, and the drawing of them, have room in
+/// memory; an error at `output.samples` if not.
+bool fits_memory(study::ObjectReader& document, int samples, int cells);
+
 }  // namespace linkwright::flexible

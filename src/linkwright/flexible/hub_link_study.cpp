@@ -83,7 +83,8 @@ std::optional<HubLinkStudy> read_study(study::ObjectReader& document, const stud
                         "leave it out, or what it does not know");
   }
   check_shaping(chain_study(s), *drive);
-  if (document.document().has_errors()) return std::nullopt;
+  if (document.document().has_errors() || !fits_memory(document, s.samples, 2 * s.simulation.divisions))
+    return std::nullopt;
   canonical["mechanism"] = study::write_fields(s.mechanism);
   canonical["drive"] = study::write_fields(s.drive);
   canonical["simulation"] = study::write_fields(s.simulation);

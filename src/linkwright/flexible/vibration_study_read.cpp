@@ -7,7 +7,8 @@
 namespace linkwright::flexible {
 namespace {
 
-std::optional<VibrationStudy> read_study(study::ObjectReader& document, Value& canonical) {
+std::optional<VibrationStudy> read_study(study::ObjectReader& document, const study::Common& common,
+                                         Value& canonical) {
   VibrationStudy s;
   auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
   auto vibration = document.table("vibration");
@@ -41,8 +42,8 @@ std::optional<VibrationStudy> read_study(study::ObjectReader& document, Value& c
     return std::nullopt;
   }
   if (s.campbell && !(s.campbell->to > s.campbell->from)) {
-    speeds->error("to",
-                  fmt::format("the speeds end at {:.6g} rad/s, where they begin or before", s.campbell->to));
+    speeds->error("to", fmt::format("the speeds end at {}, where they begin or before",
+                                    common.units.text(s.campbell->to, Dimension::speed_angular, 6)));
     return std::nullopt;
   }
   if (s.campbell && b.extensible && s.vibration.hub == Hub::free) {
@@ -107,9 +108,9 @@ force_N = [0.0, -1.0]
     document.property(Field{.key = "load", .summary = "what it carries at rest against its hub"},
                       study::schema_fields<LoadForm>());
   };
-  kind.prepare = [](study::ObjectReader& document, const study::Common&) {
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     study::Prepared prepared;
-    if (auto s = read_study(document, prepared.canonical))
+    if (auto s = read_study(document, common, prepared.canonical))
       prepared.run = [s = *std::move(s)](RunContext& context) { return run_vibration(s, context); };
     return prepared;
   };

@@ -128,7 +128,8 @@ void describe_courses(study::SchemaWriter& document) {
   for (bool rotary : {true, false})
     for (const auto& [order, key] : {std::pair{0, "start"}, std::pair{1, "start_speed"}})
       drive.property(drive_field(rotary, order, key, "of a free joint"), study::schema_number());
-  drive(Field{.key = "law", .summary = "motion law of a joint that is not free"}, std::optional<study::AnyLaw>());
+  drive(Field{.key = "law", .summary = "motion law of a joint that is not free"},
+        std::optional<study::AnyLaw>());
   document.property(Field{.key = "drive", .summary = "joints that are free, or move as a law says"},
                     study::schema_array(std::move(drive).finish()));
 }
@@ -199,13 +200,19 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   if (elastic && !document.document().has_errors() && !add_elastic(document, type, *description, s))
     return prepared;
   if (auto table = document.table("simulation"); table && !document.document().has_errors()) {
-    // Of a linkage that bends there are the rows of the rigid one, too, and some of each beam.
+    // Of a linkage that bends there are the rows of the rigid one, too, some of each beam, and the places of
+    // its nodes, which are drawn.
     constexpr double of_motion = 10, of_beam = 10;
     const auto columns = static_cast<double>(
         linkage_columns(description->linkage, description->plan, s.quantities, description->traces).size());
-    const double all = elastic ? 2 * columns + of_beam * static_cast<double>(s.elastic.size()) : columns;
+    double nodes = 0;
+    for (const ElasticBody& body : s.elastic) nodes += body.segments + 1;
+    const double all =
+        elastic ? 2 * columns + of_beam * static_cast<double>(s.elastic.size()) + 2 * nodes : columns;
     study::require_memory(*table, "samples", study::table_bytes(s.samples, all + of_motion),
-                          fmt::format("{} rows", s.samples), "take fewer samples");
+                          elastic ? fmt::format("{} rows with {:.0f} nodes of beams", s.samples, nodes)
+                                  : fmt::format("{} rows", s.samples),
+                          elastic ? "take fewer samples or segments" : "take fewer samples");
   }
   write_linkage(*description, prepared.canonical);
   prepared.canonical["drive"] = Value(std::move(drives));

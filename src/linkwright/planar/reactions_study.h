@@ -160,6 +160,7 @@ struct ReactionsStudy {
   Environment environment;
   CrankSweep sweep;
   ReactionsQuantities quantities;
+  study::DisplayUnits units;  ///< of its messages
 };
 
 /// "analysis" of "planar.four_bar".

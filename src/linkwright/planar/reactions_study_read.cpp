@@ -34,24 +34,29 @@ ReactionsQuantities chosen_quantities(const std::vector<std::string>& listed) {
 }
 
 // Lengths so small or so far apart that the mechanics would leave the range of a double are no design.
-void check_lengths(study::ObjectReader& mechanism, const FourBar& l) {
+void check_lengths(study::ObjectReader& mechanism, const FourBar& l, const study::DisplayUnits& units) {
+  constexpr double least = 1e-9;
   auto parameters = mechanism.table("parameters");
   if (!parameters) return;
   for (const auto& [key, length] : {std::pair{"ground", l.ground}, std::pair{"crank", l.crank},
                                     std::pair{"coupler", l.coupler}, std::pair{"rocker", l.rocker}})
-    if (length < 1e-9)
-      parameters->error(key, fmt::format("is {:.3g} m, a link must be at least 1e-9 m long", length),
-                        "check the unit");
+    if (length < least)
+      parameters->error(
+          key,
+          fmt::format("is {}, a link must be at least {} long", units.text(length, Dimension::length),
+                      units.text(least, Dimension::length)),
+          "check the unit");
 }
 
 }  // namespace
 
 ReactionsStudy read_reactions_study(study::ObjectReader& document, const study::Common& common) {
   ReactionsStudy s;
+  s.units = common.units;
   s.quantities = chosen_quantities(common.output.quantities);
   if (auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true})) {
     mechanism->read(s.mechanism);
-    check_lengths(*mechanism, s.mechanism.linkage);
+    check_lengths(*mechanism, s.mechanism.linkage, common.units);
     if (s.quantities.dynamic() && !mechanism->has("mass"))
       mechanism->error("mass", "forces and torques need the masses of the links",
                        "add [mechanism.mass.crank], [mechanism.mass.coupler] and [mechanism.mass.rocker], or "
@@ -65,7 +70,9 @@ ReactionsStudy read_reactions_study(study::ObjectReader& document, const study::
     sweep->read(s.sweep);
     const CrankSamples& angles = std::get<CrankGrid>(s.sweep.type).crank_angle;
     if (auto axis = sweep->table("crank_angle"); axis && angles.samples >= 2 && angles.from == angles.to)
-      axis->error("to", fmt::format("the sweep ends where it begins, at {:.6g} rad", angles.to),
+      axis->error("to",
+                  fmt::format("the sweep ends where it begins, at {}",
+                              common.units.text(angles.to, Dimension::angle, 6)),
                   "for a full turn write from_deg = 0, to_deg = 360");
   }
   return s;

@@ -373,8 +373,8 @@ void warn_of_rows(study::Result& result, const ReactionsStudy& s, const std::vec
                                math::degrees(i.from), math::degrees(i.to));
     warn(fmt::format(
              "the linkage does not assemble at {} of {} positions, the first at a crank angle of {:.6g}° "
-             "where {:.4g} m are missing",
-             n, rows.size(), math::degrees(row->angle), row->pose.gap),
+             "where {} are missing",
+             n, rows.size(), math::degrees(row->angle), s.units.text(row->pose.gap, Dimension::length)),
          intervals.empty() ? "it assembles nowhere: one link is longer than the others together"
                            : "it assembles from " + intervals);
   }
