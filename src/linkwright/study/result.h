@@ -108,7 +108,8 @@ struct Trouble {
   };
   std::string what;          ///< "torque of drive 2", "no_assembly"
   std::vector<Place> where;  ///< input, time and place, as far as they are known
-  /// How much of the limit is used: 1.96 for 96 % more than allowed. NaN = cannot be compared.
+  /// How much of the limit is used: 1.96 for 96 % more than allowed. +infinity = it cannot be passed at
+  /// all, as where a drive would need a force without bound. NaN = cannot be compared.
   double share = std::numeric_limits<double>::quiet_NaN();
   std::string why;  ///< one sentence
 };
