@@ -118,6 +118,9 @@ bool limit_at_change(const LinkagePlan& plan, const BranchPath& path, double val
   if (branch.path().status != Status::done || !branch.has_change_points()) return false;
   const double centre = branch.nearest(value).value;
   if (std::abs(centre - value) > 1e-3 * beside) return false;
+  // In the middle rounding leaves room for nodes twice as near as those of the zone: of a deltoid's speeds
+  // they know ten digits instead of seven.
+  const double half_width = branch.half_width() / 2;
   const std::size_t parts = plan.parts.size();
   Limit places(10 * parts);
   std::optional<Limit> loads;
@@ -125,7 +128,7 @@ bool limit_at_change(const LinkagePlan& plan, const BranchPath& path, double val
   std::vector<double> numbers;
   for (std::size_t i = 0; i < ChangeZone::nodes.size(); ++i) {
     InputMotion there = input;
-    there.value = centre + ChangeZone::nodes[i] * branch.half_width();
+    there.value = centre + ChangeZone::nodes[i] * half_width;
     branch.set_modes(there.value, motion);
     solve_motion(plan, std::span(&there, 1), motion);
     if (motion.status != Status::done) {
