@@ -17,10 +17,11 @@ Linkage linkage_of(const FourBar& four_bar, const FourBarMasses* masses, double 
 struct FourBarInstant {
   FourBarPosition pose;
   FourBarRates rates;
-  FourBarReactions forces;   ///< without masses all NaN, with the status of the rates
-  bool change_point = false; /**< stands where its branches meet and goes on: pose, rates and forces are
-                                limits from both sides. Forces are NaN and singular where they grow without
-                                bound, rates where the motion has a kink. */
+  FourBarReactions forces;  ///< without masses all NaN, with the status of the rates
+  /// Stands where its branches meet and goes on: pose, rates and forces are limits from both sides. Forces
+  /// that grow without bound are NaN, and the status of all is singular; so are rates where the motion has a
+  /// kink.
+  bool change_point = false;
 };
 
 /// A four-bar along one of its branches while the crank turns. Where all links lie in line, or the crank pin

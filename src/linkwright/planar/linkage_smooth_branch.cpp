@@ -79,13 +79,10 @@ class Limit {
     }
   }
   std::span<const double> values() const { return sum_; }
-  bool has_pole() const {
-    double worst = 0, largest = 0;
-    for (std::size_t i = 0; i < sum_.size(); ++i) {
-      worst = std::max(worst, std::abs(residue_[i]));
-      largest = std::max(largest, scale_[i]);
-    }
-    return !(worst <= 1e-5 * largest);
+  // Of number i; beside the largest of all, what rounding leaves of a number that is small is no pole.
+  bool has_pole(std::size_t i) const {
+    const double largest = *std::max_element(scale_.begin(), scale_.end());
+    return !(std::abs(residue_[i]) <= std::max(1e-5 * scale_[i], 1e-10 * largest));
   }
 
  private:
@@ -159,12 +156,14 @@ bool limit_at_change(const LinkagePlan& plan, const BranchPath& path, double val
   motion.status = Status::done;
   motion.failed_group = -1;
   if (!linkage) return true;
-  loaded = loaded && !loads->has_pole();
   std::size_t next = 0;
-  each_number(forces, [&](double& v) {
-    v = loaded ? loads->values()[next++] : std::numeric_limits<double>::quiet_NaN();
-  });
   forces.status = loaded ? Status::done : Status::singular;
+  each_number(forces, [&](double& v) {
+    const std::size_t i = next++;
+    const bool finite = loaded && !loads->has_pole(i);
+    v = finite ? loads->values()[i] : std::numeric_limits<double>::quiet_NaN();
+    if (!finite) forces.status = Status::singular;
+  });
   return true;
 }
 

@@ -404,7 +404,7 @@ void warn_of_rows(study::Result& result, const ReactionsStudy& s, const FourBarB
       warn(fmt::format("at a crank angle of {:.6g}° {}", math::degrees(row.angle),
                        policy == AtChangePoint::keep_sign
                            ? "the motion has a kink: the row holds the position alone"
-                           : "the joint forces grow without bound: the row holds the motion alone"),
+                           : "the joint forces grow without bound: the row holds what stays finite"),
            {});
       break;
     }
