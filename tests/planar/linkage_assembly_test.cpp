@@ -40,8 +40,8 @@ TEST(LinkageAssembly, StaysOnTheModeOfTheDrawing) {
   EXPECT_GT(found.rows - found.beyond, found.rows / 10);
 }
 
-// Two dead points side by side, less than a step apart: the input goes back by a hundredth of a degree between
-// them, and beyond both the curve goes on as before. The mode ends at the first.
+// Two dead points side by side, less than a step apart: the input goes back by a hundredth of a degree
+// between them, and beyond both the curve goes on as before. The mode ends at the first.
 TEST(LinkageAssembly, DoesNotLeapOverTwoDeadPointsSideBySide) {
   const long number = 3430;
   RandomStream random({.seed = 4711, .run = static_cast<std::uint32_t>(number)});
