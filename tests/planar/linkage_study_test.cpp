@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <complex>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <string>
 
@@ -305,6 +308,79 @@ quantities = ["position"]
   EXPECT_THAT(to_string(up.diagnostics.at(0)), HasSubstr("it assembles from 6.205 to 130 mm"));
 }
 
+// A bicycle's rear linkage from the angle of its rocker alone: the four-bar by intersecting circles, the
+// length of the shock as a distance.
+struct RearLinkage {
+  using Point = std::complex<double>;
+  const Point main{0, 0.04}, dropout{-0.38, 0.01}, lower{0.03, 0.07}, axle{-0.435, 0.028},
+      pivot{-0.012, 0.31}, seatstay{-0.1, 0.325}, upper{0.048, 0.296};
+
+  struct Place {
+    double shock;
+    Point axle;
+  };
+  Place at(double rocker) const {
+    const auto turned = [&](Point p) { return pivot + (p - pivot) * std::polar(1.0, rocker); };
+    const Point way = turned(seatstay) - main;
+    const double r = std::abs(way), a = std::abs(dropout - main), b = std::abs(seatstay - dropout),
+                 along = (a * a - b * b + r * r) / (2 * r);
+    // The dropout lies on the left of the line from the main pivot to the rocker.
+    const Point tip = main + way / r * Point(along, std::sqrt(a * a - along * along));
+    const Point lower_eye = main + (lower - main) * (tip - main) / (dropout - main);
+    return {std::abs(turned(upper) - lower_eye),
+            tip + (axle - dropout) * (turned(seatstay) - tip) / (seatstay - dropout)};
+  }
+  // The shock grows with the angle of the rocker from its dead point on.
+  double rocker_at(double shock) const {
+    double low = -1, high = 1;
+    for (int i = 0; i < 100; ++i) (at((low + high) / 2).shock < shock ? low : high) = (low + high) / 2;
+    return (low + high) / 2;
+  }
+};
+
+TEST(LinkageStudy, AShockDrivesABicyclesRearLinkage) {
+  std::ifstream file(LINKWRIGHT_SOURCE_DIR "/examples/studies/bicycle-rear-linkage.toml");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const RearLinkage by_hand;
+  const double drawn = by_hand.at(0).shock, from = 0.2567, to = 0.1967;
+  const auto rows_agree = [&](const study::Result& r) {
+    const Table& sweep = r.tables[0];
+    for (std::size_t i = 0; i < sweep.rows(); ++i) {
+      if (sweep.status[i] != "done") continue;
+      const double rocker = by_hand.rocker_at(sweep.find("shock_way_m")->values[i]);
+      EXPECT_NEAR(sweep.find("rocker_angle_rad")->values[i], rocker, 1e-12) << i;
+      const RearLinkage::Point axle = by_hand.at(rocker).axle;
+      EXPECT_NEAR(sweep.find("seatstay_axle_x_m")->values[i], axle.real(), 1e-13) << i;
+      EXPECT_NEAR(sweep.find("seatstay_axle_y_m")->values[i], axle.imag(), 1e-13) << i;
+    }
+  };
+  const study::Result stroke = run_text(text);
+  ASSERT_EQ(stroke.status, Status::done);
+  EXPECT_EQ(stroke.tables[0].rows(), 61u);
+  rows_agree(stroke);
+  // With the shock at 1 m/s the axle's speed is the leverage ratio: differences of the route by hand.
+  const auto height = [&](double shock) { return by_hand.at(by_hand.rocker_at(shock)).axle.imag(); };
+  for (const std::size_t i : {0u, 30u, 60u}) {
+    const double shock = from + (to - from) * static_cast<double>(i) / 60;
+    EXPECT_NEAR(stroke.tables[0].find("seatstay_axle_speed_y_m_per_s")->values[i],
+                (height(shock - 1e-6) - height(shock + 1e-6)) / 2e-6, 1e-6);
+  }
+  // Wherever a sweep comes from, at the drawing's own input the linkage stands as drawn.
+  for (const double other : {from, to}) {
+    const study::Result r =
+        run_text(replaced(replaced(text, "from_mm = 256.7", fmt::format("from_mm = {}", other * 1e3)),
+                          "to_mm   = 196.7", fmt::format("to_mm = {:.17g}", drawn * 1e3)));
+    ASSERT_EQ(r.status, Status::done);
+    EXPECT_NEAR(r.tables[0].find("rocker_angle_rad")->values[60], 0, 1e-13);
+    rows_agree(r);
+  }
+  // The rocker's dead point, by hand: the shock is at its shortest, 194.3241 mm.
+  const study::Result beyond = run_text(replaced(text, "to_mm   = 196.7", "to_mm = 190"));
+  EXPECT_EQ(beyond.status, Status::no_assembly);
+  EXPECT_THAT(to_string(beyond.diagnostics.at(0)), HasSubstr("it assembles from 194.3 to 256.7 mm"));
+  rows_agree(beyond);
+}
+
 TEST(LinkageStudy, TellsRatiosCentresAndRanges) {
   const study::Result r = run_text(std::string(four_bar_text) +
                                    "[quality]\noutput_joint = \"O4\"\ncentrodes = "
@@ -334,8 +410,8 @@ TEST(LinkageStudy, TellsRatiosCentresAndRanges) {
 // A joint and a body, or two bodies that differ in a blank, would write columns of one name.
 TEST(LinkageStudy, RefusesTwoColumnsOfOneName) {
   std::string same = four_bar_text;
-  for (const auto& [from, to] : {std::pair{"name = \"O1\"", "name = \"crank\""},
-                                 std::pair{"joint = \"O1\"", "joint = \"crank\""}})
+  for (const auto& [from, to] :
+       {std::pair{"name = \"O1\"", "name = \"crank\""}, std::pair{"joint = \"O1\"", "joint = \"crank\""}})
     for (std::size_t i = 0; (i = same.find(from, i)) != std::string::npos;)
       same.replace(i, std::string_view(from).size(), to);
   EXPECT_THAT(problems_of(same),

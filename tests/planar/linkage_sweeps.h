@@ -168,7 +168,7 @@ struct SweepFindings {
   long invented = 0;    ///< rows with a place beyond the end that the other way finds
   long lost = 0;        ///< curves whose steps became too short
   long singular = 0;
-  std::string first_fault;
+  std::string faults;  ///< the first ten
 };
 
 inline double apart(const std::vector<PartState<double>>& a, const std::vector<PartState<double>>& b,
@@ -191,9 +191,9 @@ inline void compare_sweep(const SweptLinkage& s, std::uint64_t number, int start
   out.lost += assembly.curve() && assembly.curve()->lost();
   const double drawn = p.drawn_inputs[0], width = s.to - s.from;
   const auto fault = [&](const char* what, double value) {
-    if (out.first_fault.empty())
-      out.first_fault = "linkage " + std::to_string(number) + ": " + what + " at " + std::to_string(value) +
-                        ", drawn at " + std::to_string(drawn);
+    if (std::count(out.faults.begin(), out.faults.end(), '\n') < 10)
+      out.faults += "linkage " + std::to_string(number) + ": " + what + " at " + std::to_string(value) +
+                    ", drawn at " + std::to_string(drawn) + "\n";
   };
   // The other way: from the drawing to both sides.
   PlainFollower follower(p);

@@ -136,6 +136,71 @@ TEST(ReactionsStudyRead, CanonicalStudyReadsBackToItself) {
   EXPECT_EQ(first->canonical, second->canonical);
 }
 
+// Over the full turn, the flat positions among the rows, as `planar.linkage` has them.
+TEST(ReactionsStudyRun, AParallelogramHasAllItsRows) {
+  const std::map<std::string, std::string> parts = {
+      {"3 parameters",
+       "[mechanism.parameters]\nground_m = 0.4\ncrank_m = 0.1\ncoupler_m = 0.4\nrocker_m = 0.1\n"
+       "coupler_u_m = 0.2\n"},
+      {"6 sweep", "[sweep]\ntype = \"grid\"\ncrank_angle = { from_deg = 0, to_deg = 360, samples = 361 }\n"}};
+  const study::Result r = run(parts);
+  EXPECT_EQ(r.status, Status::done);
+  const Table& t = r.tables[0];
+  for (std::size_t i = 0; i < t.rows(); ++i) {
+    EXPECT_NEAR(t.find("rocker_speed_rad_per_s")->values[i], 10 * pi, 1e-5) << i;
+    EXPECT_NEAR(t.find("rocker_acceleration_rad_per_s2")->values[i], 0, 1e-3) << i;
+    EXPECT_NEAR(t.find("rocker_angle_rad")->values[i], t.find("crank_angle_rad")->values[i], 1e-6) << i;
+    EXPECT_NEAR(t.find("C_y_m")->values[i], 0.1 * std::sin(t.find("crank_angle_rad")->values[i]), 1e-7) << i;
+    // The weight of the coupler has no answer where it is flat.
+    EXPECT_EQ(t.status[i], i % 180 == 0 ? "singular" : "done") << i;
+    EXPECT_EQ(std::isnan(t.find("O1_x_N")->values[i]), i % 180 == 0) << i;
+    EXPECT_FALSE(std::isnan(t.find("drive_torque_N_m")->values[i])) << i;
+    EXPECT_NEAR(r.scenes[0].points[3].y[i], 0.1 * std::sin(t.find("crank_angle_rad")->values[i]), 1e-7) << i;
+  }
+  std::string messages;
+  for (const Diagnostic& d : r.diagnostics) messages += to_string(d) + "\n";
+  EXPECT_THAT(messages, HasSubstr("at a crank angle of 0° the joint forces grow without bound: the row holds "
+                                  "what stays finite"));
+  EXPECT_THAT(messages, HasSubstr("at a crank angle of 180° both branches meet and cross: which way the "
+                                  "linkage goes on there is a choice; the rows go on smoothly"));
+  EXPECT_THAT(messages, ::testing::Not(HasSubstr("dead point:")));
+  // Without forces every row is complete; with a kink the speeds are not known there, but the position is.
+  const std::string motion = "[output]\nquantities = [\"position\", \"rates\"]\n";
+  auto moved = parts;
+  moved["7 output"] = motion;
+  EXPECT_THAT(run(moved).tables[0].status, ::testing::Each("done"));
+  moved["6 sweep"] += "at_change_point = \"keep_sign\"\n";
+  const study::Result kink = run(moved);
+  EXPECT_EQ(kink.status, Status::done);
+  EXPECT_NEAR(kink.tables[0].find("C_x_m")->values[180], 0.1, 1e-9);
+  EXPECT_TRUE(std::isnan(kink.tables[0].find("rocker_speed_rad_per_s")->values[180]));
+  EXPECT_GT(std::abs(kink.tables[0].find("coupler_angle_rad")->values[270]), 0.1);
+  moved["6 sweep"].replace(moved["6 sweep"].find("keep_sign"), 9, "stop");
+  const study::Result stop = run(moved);
+  EXPECT_EQ(stop.status, Status::limit_reached);
+  EXPECT_EQ(stop.tables[0].status[179], "done");
+  EXPECT_EQ(stop.tables[0].status[181], "limit_reached");
+  EXPECT_TRUE(std::isnan(stop.tables[0].find("O3_x_m")->values[181]));
+}
+
+// A kite's crank pin comes onto the rocker's pivot.
+TEST(ReactionsStudyRun, AKiteHasAllItsRows) {
+  for (const char* lengths : {"ground_m = 0.4\ncrank_m = 0.4\ncoupler_m = 0.6\nrocker_m = 0.6\n",
+                              "ground_m = 0.6\ncrank_m = 0.2\ncoupler_m = 0.2\nrocker_m = 0.6\n"}) {
+    const study::Result r =
+        run({{"3 parameters", "[mechanism.parameters]\n" + std::string(lengths)},
+             {"6 sweep",
+              "[sweep]\ntype = \"grid\"\ncrank_angle = { from_deg = 0, to_deg = 360, samples = 361 }\n"},
+             {"7 output", "[output]\nquantities = [\"position\", \"rates\"]\n"}});
+    EXPECT_EQ(r.status, Status::done) << lengths;
+    EXPECT_THAT(r.tables[0].status, ::testing::Each("done")) << lengths;
+    // Smooth: second differences of the pin are those of its acceleration.
+    const auto& x = r.tables[0].find("O3_x_m")->values;
+    for (std::size_t i = 1; i + 1 < x.size(); ++i)
+      EXPECT_LT(std::abs(x[i - 1] - 2 * x[i] + x[i + 1]), 1e-3) << lengths << i;
+  }
+}
+
 TEST(ReactionsStudyRun, OfThePublishedMechanismPassesItsCheck) {
   const std::filesystem::path file =
       std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples/studies/fourbar-reactions.toml";
@@ -299,17 +364,18 @@ TEST(ReactionsStudyRun, TellsWhereTheLinkageDoesNotAssemble) {
 }
 
 TEST(ReactionsStudyRun, KeepsThePositionAtADeadPoint) {
-  // A folded parallelogram: every link in one line at 0 degrees.
+  // Coupler and rocker stretched at 90 degrees: the hypotenuse of 3, 4 and 5.
   const study::Result result = run(
-      {{"3 parameters", "[mechanism.parameters]\nground_m = 2\ncrank_m = 1\ncoupler_m = 2\nrocker_m = 1\n"},
-       {"6 sweep", "[sweep.crank_angle]\nfrom_deg = 0\nto_deg = 90\nsamples = 3\n"}});
+      {{"3 parameters", "[mechanism.parameters]\nground_m = 3\ncrank_m = 4\ncoupler_m = 2\nrocker_m = 3\n"},
+       {"6 sweep", "[sweep.crank_angle]\nfrom_deg = 90\nto_deg = 30\nsamples = 3\n"}});
   EXPECT_EQ(result.status, Status::singular);
   const Table& sweep = result.tables[0];
   EXPECT_EQ(sweep.status[0], "singular");
-  EXPECT_NEAR(sweep.find("O3_x_m")->values[0], 3, 1e-12);
+  EXPECT_NEAR(sweep.find("O3_x_m")->values[0], 1.2, 1e-7);
+  EXPECT_NEAR(sweep.find("O3_y_m")->values[0], 2.4, 1e-7);
   EXPECT_TRUE(std::isnan(sweep.find("drive_torque_N_m")->values[0]));
   EXPECT_EQ(sweep.status[2], "done");
-  EXPECT_THAT(to_string(result.diagnostics[0]), HasSubstr("falls to 0.00° at a crank angle of 0.0°"));
+  EXPECT_THAT(to_string(result.diagnostics[0]), HasSubstr("falls to 0.00° at a crank angle of 90.0°"));
   EXPECT_THAT(to_string(result.diagnostics[1]), HasSubstr("1 of 3 positions stand at a dead point"));
 }
 

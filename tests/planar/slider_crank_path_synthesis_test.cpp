@@ -42,14 +42,36 @@ TEST(SliderPathSynthesis, FindsTheFreeTimingOptimum) {
   SliderPathProblem p = eighteen_slider_points();
   p.free_timing = true;
   for (std::size_t j : {0, 1}) p.bounds[j].lower = 1e-3;
-  int reached = 0;
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const SliderPathSynthesis answer = solve(p, seed);
     ASSERT_EQ(answer.status, Status::done);
     EXPECT_THAT(answer.designs[0].violations, IsEmpty());
-    reached += answer.designs[0].error <= stored("SC18-free-timing") * (1 + 1e-3);
+    EXPECT_LE(answer.designs[0].error, stored("SC18-free-timing") * (1 + 1e-3)) << seed;
   }
-  EXPECT_GE(reached, 1);  // of the first five seeds one comes within 0.1 %, with 60 starts each
+}
+
+// However short the slider's way must be, a design that keeps to it is given, free angles are no worse than
+// timed ones, and a shorter way costs more.
+TEST(SliderPathSynthesis, AShortStrokeOfFreeTimingIsKeptTo) {
+  double longer = 0;
+  for (const double stroke : {0.5, 0.3, 0.2}) {
+    SliderPathProblem p = eighteen_slider_points();
+    p.stroke = {0, stroke};
+    const double timed = solve(p).designs[0].error;
+    p.free_timing = true;
+    for (std::size_t j : {0, 1}) p.bounds[j].lower = 1e-3;
+    double worst = 0;
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+      const SliderPathSynthesis answer = solve(p, seed);
+      ASSERT_EQ(answer.status, Status::done) << stroke;
+      ASSERT_THAT(answer.designs[0].violations, IsEmpty()) << stroke;
+      EXPECT_LE(answer.designs[0].stroke, stroke * (1 + 1e-9));
+      EXPECT_LE(answer.designs[0].error, timed) << stroke;
+      EXPECT_GT(answer.designs[0].error, longer) << stroke;
+      worst = std::max(worst, answer.designs[0].error);
+    }
+    longer = worst;
+  }
 }
 
 // Section 10 of the acceptance: no listed point with a stroke from 0.42 on is worse than 1.01 of the listed
@@ -88,23 +110,31 @@ TEST(SliderPathSynthesis, AFrontOfFreeTiming) {
   p.free_timing = true;
   for (std::size_t j : {0, 1}) p.bounds[j].lower = 1e-3;
   RunContext context;
-  const std::vector<double> strokes = {1.0, 0.7, 0.5};
+  const std::vector<double> strokes = {1.0, 0.7, 0.5, 0.3, 0.2};
   const SliderPathSynthesis answer = synthesise_slider_front(p, strokes, {.seed = 1, .starts = 20}, context);
   ASSERT_EQ(answer.status, Status::done);
-  ASSERT_GE(answer.designs.size(), 2u);
-  // Freedom of the angles can only help: the timed front has 0.0100054 at 0.70 and 0.0284692 at 0.50.
-  for (const SliderPathDesign& d : answer.designs) {
-    EXPECT_THAT(d.violations, IsEmpty());
-    if (d.stroke <= 0.7) {
-      EXPECT_LT(d.error, 0.0285);
-    }
+  // One for each stroke: freedom of the angles can only help, and the timed front has 0.0100054 at 0.70,
+  // 0.0284692 at 0.50 and 0.085958 at 0.30.
+  ASSERT_EQ(answer.designs.size(), strokes.size());
+  const std::vector<double> most = {0.009870, 0.0100055, 0.0284693, 0.085959, 1};
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    EXPECT_THAT(answer.designs[i].violations, IsEmpty());
+    EXPECT_LE(answer.designs[i].stroke, strokes[i] * (1 + 1e-9));
+    EXPECT_LT(answer.designs[i].error, most[i]) << strokes[i];
   }
 }
 
 TEST(SliderPathSynthesis, GivenAnglesAndFixedPivotAndGuide) {
   // Points of a known mechanism at its own angles: every way of fixing what is known finds it again.
   SliderCrankMechanism known;
-  known.parameters = {.crank = 0.4, .rod = 1.1, .offset = 0.2, .guide_angle = 0.7, .pivot_x = 0.3, .pivot_y = -0.1, .rod_u = 0.5, .rod_v = 0.3};
+  known.parameters = {.crank = 0.4,
+                      .rod = 1.1,
+                      .offset = 0.2,
+                      .guide_angle = 0.7,
+                      .pivot_x = 0.3,
+                      .pivot_y = -0.1,
+                      .rod_u = 0.5,
+                      .rod_v = 0.3};
   SliderPathProblem p;
   for (int k = 0; k < 9; ++k) {
     p.offsets.push_back(0.3 + 0.55 * k + 0.05 * std::sin(3.0 * k));
@@ -218,7 +248,8 @@ TEST(SliderPathSynthesis, AFrontKeepsWhatNoneDominates) {
     d.stroke = stroke;
     return d;
   };
-  const auto front = slider_front_of({design(3, 1), design(1, 3), design(2, 3), design(2, 2), design(2, 2.5)});
+  const auto front =
+      slider_front_of({design(3, 1), design(1, 3), design(2, 3), design(2, 2), design(2, 2.5)});
   ASSERT_EQ(front.size(), 3u);
   EXPECT_EQ(front[0].stroke, 3);
   EXPECT_EQ(front[1].stroke, 2);

@@ -63,8 +63,8 @@ InputLine line_between(std::span<const double> from, std::span<const double> to)
 }
 
 struct ModeCurve::Memory {
-  Memory(const LinkagePlan& plan, InputLine line, double turn_, AtChangePoint policy_, bool whole)
-      : equations(plan, std::move(line), whole), turn(turn_), policy(policy_) {}
+  Memory(const LinkagePlan& plan, InputLine line, double turn_, AtChangePoint policy_)
+      : equations(plan, std::move(line)), turn(turn_), policy(policy_) {}
 
   CurveEquations equations;
   double turn;
@@ -140,7 +140,8 @@ struct ModeCurve::Memory {
       }
       const Eigen::VectorXd after = equations.tangent(*next);
       const std::pair<double, double> beyond = equations.determinant();
-      if (equations.product(direction, after) < 0.98 || !smooth(a, *next)) {
+      if (equations.product(direction, after) < 0.98 || !smooth(a, *next) ||
+          (step > crossing_step && !turns_once(a, *next, sense))) {
         shorten();
         continue;
       }
@@ -222,6 +223,25 @@ struct ModeCurve::Memory {
            std::abs(angle_of(unturn(x.direction, y.direction)) - 0.5 * h * (x.speed + y.speed))});
     }
     return worst <= 0.05 * h;
+  }
+
+  // Whether the value turns back once between the ends at most: a step can leap over two dead points side by
+  // side, between which the value goes back a little, and looks like one without any. The slope in the middle
+  // shows that: a parabola through it and those of the ends must stay clear of zero by a quarter of what it
+  // changes.
+  bool turns_once(const CurveNode& a, const CurveNode& b, double sense) {
+    const double first = a.slope * sense, last = b.slope * sense;
+    if (last < 0) return true;
+    CurveNode middle = interpolated(a, b, 0.5);
+    const Eigen::VectorXd direction = equations.tangent(b);
+    equations.factorise(middle, direction);
+    equations.set_tangent(middle, equations.tangent_along(direction));
+    const double half = middle.slope * sense, bend = 2 * (first + last - 2 * half),
+                 rise = last - first - bend;
+    double least = std::min({first, half, last});
+    const double lowest = bend > 0 ? -rise / (2 * bend) : -1;
+    if (lowest > 0 && lowest < 1) least = std::min(least, first + lowest * (rise + lowest * bend));
+    return least >= 0.25 * (std::max({first, half, last}) - least);
   }
 
   // The place at a value between those of nodes that rise (sense 1) or fall.
@@ -374,7 +394,7 @@ struct ModeCurve::Memory {
 
 ModeCurve::ModeCurve(const LinkagePlan& plan, InputLine line, double start,
                      std::span<const PartState<double>> parts, double low, double high, double turn,
-                     AtChangePoint policy, bool whole) {
+                     AtChangePoint policy) {
   LINKWRIGHT_REQUIRE(line.base.size() == plan.inputs() && line.direction.size() == plan.inputs(),
                      "the linkage has {} inputs, got {} and {}", plan.inputs(), line.base.size(),
                      line.direction.size());
@@ -382,7 +402,7 @@ ModeCurve::ModeCurve(const LinkagePlan& plan, InputLine line, double start,
   LINKWRIGHT_REQUIRE(
       parts.size() == plan.parts.size() && low <= start && start <= high && std::isfinite(high - low),
       "{} parts, start {} in {} to {}", parts.size(), start, low, high);
-  memory_ = std::make_unique<Memory>(plan, std::move(line), turn, policy, whole);
+  memory_ = std::make_unique<Memory>(plan, std::move(line), turn, policy);
   memory_->run(start, parts, low, high);
 }
 ModeCurve::~ModeCurve() = default;
@@ -424,7 +444,7 @@ FollowReport follow(const LinkagePlan& plan, std::span<const double> from, std::
 
 bool nearest_place(const LinkagePlan& plan, const InputLine& line, double& value,
                    std::span<PartState<double>> parts) {
-  CurveEquations equations(plan, line, false);
+  CurveEquations equations(plan, line);
   CurveNode y{0, value, 0, {parts.begin(), parts.end()}};
   if (!(equations.settle(y, false) <= 1e3 * equations.rounding(y))) return false;
   value = y.value;

@@ -25,7 +25,8 @@ InputLine line_between(std::span<const double> from, std::span<const double> to)
 /// corrector by Newton's method at right angles to it), so that nothing special happens at a dead point:
 /// there the value turns back, and the mode ends. A step is taken when the corrector hardly moves what was
 /// predicted, the tangent turns little, a cubic through both ends meets the equations in the middle as well,
-/// and the determinant of the equations bordered by the tangent keeps its sign, as it does along a curve but
+/// the slope of the value there shows that it does not turn back and forth again in between, and the
+/// determinant of the equations bordered by the tangent keeps its sign, as it does along a curve but
 /// not from one curve to another beside it. Where it changes sign however short the step, curves cross: a
 /// change point. (Allgower and Georg, Introduction to Numerical Continuation Methods, SIAM 2003, sections 2,
 /// 6 and 8.)
@@ -39,8 +40,7 @@ class ModeCurve {
   /// which the inputs are the same again) it also ends where the linkage comes back to its place. Change
   /// points count as ends but for `smooth`.
   ModeCurve(const LinkagePlan& plan, InputLine line, double start, std::span<const PartState<double>> parts,
-            double low, double high, double turn = 0, AtChangePoint policy = AtChangePoint::smooth,
-            bool whole = false);
+            double low, double high, double turn = 0, AtChangePoint policy = AtChangePoint::smooth);
   ~ModeCurve();
   ModeCurve(ModeCurve&&) noexcept;
   ModeCurve& operator=(ModeCurve&&) noexcept;

@@ -28,10 +28,10 @@ struct CurveNode {
 // mean square over the parts and the square of the value's.
 class CurveEquations {
  public:
-  CurveEquations(const LinkagePlan& plan, InputLine line, bool whole) : plan_(plan), line_(std::move(line)) {
+  CurveEquations(const LinkagePlan& plan, InputLine line) : plan_(plan), line_(std::move(line)) {
     std::vector<bool> takes(plan.groups.size(), false);
     for (std::size_t k = plan.groups.size(); k-- > 0;) {
-      takes[k] = whole || takes[k] || plan.groups[k].type == GroupType::general;
+      takes[k] = takes[k] || plan.groups[k].type == GroupType::general;
       if (!takes[k]) continue;
       const auto needs = [&](int part) {
         const int g = plan.group_of_part[part_index(part)];

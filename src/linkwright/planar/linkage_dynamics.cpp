@@ -182,28 +182,20 @@ void LinkageDynamics::resolve(std::span<double> right) const {
 
 // With friction the joint forces act on the accelerations and these on the joint forces. The forces that
 // drives at the free joints would have to give are what the accelerations are wrong by.
-bool LinkageDynamics::settle_friction(double time, std::span<InputMotion> inputs) {
-  for (int iteration = 0; iteration < 200; ++iteration) {
-    solve_acceleration(plan_, inputs, motion);
-    solve_forces(linkage_, plan_, motion, time, inputs[0].value, forces_);
-    if (forces_.status != Status::done) return false;
-    for (std::size_t j = 0; j < free_.size(); ++j) right_[j] = -forces_.drives[free_[j]];
+Status LinkageDynamics::settle_friction(double time, std::span<InputMotion> inputs) {
+  solve_acceleration(plan_, inputs, motion);
+  const auto answer = [&](std::span<const double> drives) {
+    for (std::size_t j = 0; j < free_.size(); ++j) right_[j] = -drives[free_[j]];
     resolve(right_);
-    double change = 0, largest = 0;
-    for (std::size_t j = 0; j < free_.size(); ++j) {
-      inputs[free_[j]].acceleration += right_[j];
-      change = std::max(change, std::abs(right_[j]));
-      largest = std::max(largest, std::abs(inputs[free_[j]].acceleration));
-    }
-    if (!std::isfinite(change)) return false;
-    if (change <= 1e-12 * largest) {
-      power = lasting_power(linkage_, plan_, motion, forces_.loads);
-      for (const std::size_t k : all_)
-        if (!is_free_[k]) power += forces_.drives[k] * inputs[k].rate;
-      return true;
-    }
-  }
-  return false;
+    for (std::size_t j = 0; j < free_.size(); ++j) inputs[free_[j]].acceleration += right_[j];
+    solve_acceleration(plan_, inputs, motion);
+  };
+  solve_forces(linkage_, plan_, motion, time, inputs[0].value, forces_, answer);
+  if (forces_.status != Status::done) return forces_.status;
+  power = lasting_power(linkage_, plan_, motion, forces_.loads);
+  for (const std::size_t k : all_)
+    if (!is_free_[k]) power += forces_.drives[k] * inputs[k].rate;
+  return std::isfinite(power) ? Status::done : Status::not_converged;
 }
 
 void LinkageDynamics::needed_wrenches(double time, double input) {
@@ -294,7 +286,10 @@ Status LinkageDynamics::solve(double time, std::span<InputMotion> inputs) {
   } else if (!solve_masses(inputs)) {
     return failed(Status::singular);
   }
-  if (friction_) return settle_friction(time, inputs) ? Status::done : failed(Status::not_converged);
+  if (friction_) {
+    const Status settled = settle_friction(time, inputs);
+    return settled == Status::done ? settled : failed(settled);
+  }
   power_of_loads();
   return Status::done;
 }

@@ -49,7 +49,7 @@ class LinkageDynamics {
   /// prescribed ones. Loads that depend on an input take the first one, free or not.
   ///
   /// Returns done; the status of the position when it is not done (accelerations are NaN); singular when a
-  /// free input moves no mass; not_converged when friction does not settle, as when it blocks the linkage.
+  /// free input moves no mass; self_locking when friction jams the linkage (see settle_friction).
   Status solve(double time, std::span<InputMotion> inputs);
 
   /// Positions and velocities of the last `solve`; set `motion.modes` to change assembly modes. Accelerations
@@ -71,7 +71,7 @@ class LinkageDynamics {
   void scale_velocities(double rate);
   bool factorise();
   void resolve(std::span<double> right) const;
-  bool settle_friction(double time, std::span<InputMotion> inputs);
+  Status settle_friction(double time, std::span<InputMotion> inputs);
   void needed_wrenches(double time, double input);
   bool solve_masses(std::span<InputMotion> inputs);
   void power_of_loads();

@@ -40,7 +40,8 @@ struct InputLimits {
 /// one of `input` does not matter. When [from, to] is one full turn of an input that is periodic, ranges that
 /// run across its ends are joined, and `to` of such a range lies beyond the turn.
 ///
-/// Throws ContractError when the plan is not in closed form (see trace_limits) or has more than 4096 ranges.
+/// Throws ContractError when the plan is not in closed form (see LinkageAssembly::limits) or has more than
+/// 4096 ranges.
 InputLimits input_limits(const LinkagePlan& plan, std::span<const double> inputs, int input, double from,
                          double to);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -53,16 +54,19 @@ struct LinkageForces {
 void applied_loads(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion, double time,
                    double input, std::vector<AppliedLoad>& loads);
 
+/// Given the drives (N m or N, one an input) that the accelerations in the motion ask for, changes these
+/// accelerations so that the free inputs ask for none.
+using FreeAccelerations = std::function<void(std::span<const double> drives)>;
+
 /// All joint forces, drive torques and what the ground feels, by d'Alembert's principle along the
 /// decomposition, last group first: 3 x 3 (in fact 2 x 2) equations a dyad. After solve_acceleration of the
 /// same motion; with a plan made `all_at_once` the Newton-Euler equations of all bodies in one linear system,
-/// the independent route. Friction of joints is settled until joint forces change by less than 1e-12 of the
-/// largest; of several solutions it is the one that grows out of that without friction. Where that one ceases
-/// to exist before friction has its size the status is self_locking.
+/// the independent route. Friction of joints is that of settle_friction, with its status.
 ///
-/// Else the status is that of the motion; forces are NaN unless it is done. Throws ContractError when a body
-/// has no mass (see LinkagePlan::massless).
+/// `answer` is for inputs that no drive prescribes: their accelerations give way to friction. Else the status
+/// is that of the motion; forces are NaN unless it is done. Throws ContractError when a body has no mass (see
+/// LinkagePlan::massless).
 void solve_forces(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion, double time,
-                  double input, LinkageForces& forces);
+                  double input, LinkageForces& forces, const FreeAccelerations& answer = {});
 
 }  // namespace linkwright::planar

@@ -29,6 +29,8 @@ constexpr double watched_sine = 0.3;
 constexpr long chatter_steps = 100;
 constexpr double chatter_share = 1e-5;
 
+constexpr std::string_view jams = "it jams, for no finite joint forces go with motion in this sense";
+
 std::string place(const Linkage& l, const LinkagePlan& plan, std::size_t input, double value) {
   const std::string& name = l.joints[at(l.driven[input])].name;
   return plan.rotary[input] ? fmt::format("{} at {:.4f} deg", name, math::degrees(value))
@@ -300,7 +302,9 @@ class Simulation {
       return "the start does not work: " + assembly_gap_text(plan_, dynamics_.motion, 0, inputs_[0].value);
     if (status == Status::singular)
       return "a free joint moves no mass, so that forces do not tell how it goes";
-    if (status == Status::not_converged) return "friction holds the linkage at the start, or does not settle";
+    if (status == Status::self_locking)
+      return fmt::format("friction locks the linkage at the start, with {}: {}", stands(), jams);
+    if (status == Status::not_converged) return "the joint forces of the start do not settle";
     return "the start does not work";
   }
   // The motion where inputs_ say, accelerations included.
@@ -560,7 +564,8 @@ class Simulation {
   }
 
   // Where friction turns round again and again while time hardly passes, a joint sticks while others move:
-  // the equations of joints that slide have no motion there.
+  // the equations of joints that slide have no motion there. Before the place where friction locks forces
+  // grow without bound, and time hardly passes either.
   bool chatters(double t) {
     if (senses_.empty()) {
       senses_.assign(l_.joints.size(), 0.0);
@@ -579,16 +584,27 @@ class Simulation {
     }
     if (++steps_ % chatter_steps != 0) return false;
     const auto most = std::max_element(turns_.begin(), turns_.end());
-    const bool still = t - window_ < chatter_share * span_ && *most >= chatter_steps / 10;
+    const bool creeps = t - window_ < chatter_share * span_, still = creeps && *most >= chatter_steps / 10;
+    jammed_ = creeps && !still && locks_ahead(t);
     if (still) {
       chattering_ = static_cast<int>(most - turns_.begin());
       rests_ = largest < 1e-5 * largest_rate_;
     }
     window_ = t;
     std::fill(turns_.begin(), turns_.end(), 0);
-    return still;
+    return still || jammed_;
   }
 
+  // Whether friction locks a millionth of a radian, or of the linkage's size, further on.
+  bool locks_ahead(double t) {
+    const std::vector<InputMotion> here = inputs_;
+    for (const std::size_t k : dynamics_.free())
+      inputs_[k].value += std::copysign(1e-6 * (plan_.rotary[k] ? 1 : plan_.size), inputs_[k].rate);
+    const bool locks = solve(t).status == Status::self_locking;
+    inputs_ = here;
+    restore();
+    return locks;
+  }
   double fastest() const {
     double largest = 0;
     for (const std::size_t k : dynamics_.free()) largest = std::max(largest, std::abs(inputs_[k].rate));
@@ -624,32 +640,30 @@ class Simulation {
       square += share.back() * share.back();
     }
     if (!(square > 1e-12)) return false;  // the joint stands still whatever moves
-    double acceleration[2];
-    bool answered = true;
-    for (int side = 0; side < 2 && answered; ++side) {
+    bool stopped = true;
+    for (const double sense : {1.0, -1.0}) {
       inputs_ = here;
-      const double wanted = (side == 0 ? 1e-9 : -1e-9) - rate;
+      const double wanted = sense * 1e-9 - rate;
       for (std::size_t i = 0; i < share.size(); ++i)
         inputs_[dynamics_.free()[i]].rate += wanted * share[i] / square;
-      answered = solve(t).status == Status::done;
+      if (solve(t).status != Status::done) continue;  // it cannot move in this sense
       solve_motion(plan_, inputs_, motion);
-      acceleration[side] = joint_motion(l_, plan_, motion, joint).acceleration;
+      stopped = stopped && joint_motion(l_, plan_, motion, joint).acceleration * sense < 0;
     }
     inputs_ = here;
-    return !answered || (acceleration[0] < 0 && acceleration[1] > 0);
+    return stopped;
   }
 
   // Friction holds a linkage at rest when it stops motion either way.
   bool holds(double t) {
     const std::size_t k = dynamics_.free()[0];
-    const double value = inputs_[k].value, small = 1e-9;
-    double acceleration[2];
-    for (int side = 0; side < 2; ++side) {
-      inputs_[k] = {value, side == 0 ? small : -small, 0};
-      if (solve(t).status != Status::done) return true;
-      acceleration[side] = inputs_[k].acceleration;
+    const double value = inputs_[k].value;
+    for (const double sense : {1.0, -1.0}) {
+      inputs_[k] = {value, sense * 1e-9, 0};
+      // Where there is no answer it cannot move in this sense.
+      if (solve(t).status == Status::done && !(inputs_[k].acceleration * sense < 0)) return false;
     }
-    return acceleration[0] < 0 && acceleration[1] > 0;
+    return true;
   }
 
   // ---- end ----------------------------------------------------------------------------------------------
@@ -669,6 +683,9 @@ class Simulation {
     if (stuck_ || (chattering_ >= 0 && rests_)) {
       report_.status = Status::at_rest;
       report_.message = fmt::format("friction holds the linkage at rest from {} on", where);
+    } else if (jammed_) {
+      report_.status = Status::self_locking;
+      report_.message = fmt::format("friction locks the linkage at {}: {}", where, jams);
     } else if (chattering_ >= 0) {
       report_.status = Status::limit_reached;
       report_.message = fmt::format(
@@ -687,12 +704,14 @@ class Simulation {
       limit(where);
     } else if (ode.status == Status::limit_reached || ode.status == Status::infeasible) {
       report_.group = failed_group_;
-      report_.status = last_status_ == Status::not_converged ? Status::not_converged : Status::limit_reached;
-      if (report_.group >= 0)
+      const bool kept = last_status_ == Status::not_converged || last_status_ == Status::self_locking;
+      report_.status = kept ? last_status_ : Status::limit_reached;
+      if (last_status_ == Status::self_locking)
+        report_.message = fmt::format("friction locks the linkage at {}: {}", where, jams);
+      else if (report_.group >= 0)
         limit(where);
       else
-        report_.message = fmt::format("the motion cannot be followed beyond {}{}", where,
-                                      friction_ ? ": friction blocks it or does not settle" : "");
+        report_.message = fmt::format("the motion cannot be followed beyond {}", where);
     } else if (ode.status != Status::done) {
       report_.status = ode.status;
       report_.message = fmt::format("ended at {:.6g} s: {}", ode.t, ode.message);
@@ -752,6 +771,7 @@ class Simulation {
   long steps_ = 0;
   int chattering_ = -1;  // joint
   bool rests_ = false;
+  bool jammed_ = false;  // friction locks
   Status last_status_ = Status::done;
   int failed_group_ = -1;
   SimulationReport report_;

@@ -68,7 +68,8 @@ struct SimulationReport {
   /// done: the last time, or the output said stop; limit_reached: a limit of the motion, or a change point
   /// with `stop`, or a joint that friction holds while others move on; no_assembly, singular: the start has
   /// no motion; at_rest: friction has brought the linkage to rest, or never lets it start, and holds it;
-  /// not_converged; cancelled, deadline. Rows so far are kept.
+  /// self_locking: friction jams it while it moves (see settle_friction); not_converged; cancelled, deadline.
+  /// Rows so far are kept.
   Status status = Status::done;
   std::string message;       ///< why it is not `done`, in plain words; else empty
   double time = 0;           ///< reached, s

@@ -79,13 +79,10 @@ class Limit {
     }
   }
   std::span<const double> values() const { return sum_; }
-  bool has_pole() const {
-    double worst = 0, largest = 0;
-    for (std::size_t i = 0; i < sum_.size(); ++i) {
-      worst = std::max(worst, std::abs(residue_[i]));
-      largest = std::max(largest, scale_[i]);
-    }
-    return !(worst <= 1e-5 * largest);
+  // Of number i; beside the largest of all, what rounding leaves of a number that is small is no pole.
+  bool has_pole(std::size_t i) const {
+    const double largest = *std::max_element(scale_.begin(), scale_.end());
+    return !(std::abs(residue_[i]) <= std::max(1e-5 * scale_[i], 1e-10 * largest));
   }
 
  private:
@@ -118,6 +115,9 @@ bool limit_at_change(const LinkagePlan& plan, const BranchPath& path, double val
   if (branch.path().status != Status::done || !branch.has_change_points()) return false;
   const double centre = branch.nearest(value).value;
   if (std::abs(centre - value) > 1e-3 * beside) return false;
+  // In the middle rounding leaves room for nodes twice as near as those of the zone: of a deltoid's speeds
+  // they know ten digits instead of seven.
+  const double half_width = branch.half_width() / 2;
   const std::size_t parts = plan.parts.size();
   Limit places(10 * parts);
   std::optional<Limit> loads;
@@ -125,7 +125,7 @@ bool limit_at_change(const LinkagePlan& plan, const BranchPath& path, double val
   std::vector<double> numbers;
   for (std::size_t i = 0; i < ChangeZone::nodes.size(); ++i) {
     InputMotion there = input;
-    there.value = centre + ChangeZone::nodes[i] * branch.half_width();
+    there.value = centre + ChangeZone::nodes[i] * half_width;
     branch.set_modes(there.value, motion);
     solve_motion(plan, std::span(&there, 1), motion);
     if (motion.status != Status::done) {
@@ -156,12 +156,14 @@ bool limit_at_change(const LinkagePlan& plan, const BranchPath& path, double val
   motion.status = Status::done;
   motion.failed_group = -1;
   if (!linkage) return true;
-  loaded = loaded && !loads->has_pole();
   std::size_t next = 0;
-  each_number(forces, [&](double& v) {
-    v = loaded ? loads->values()[next++] : std::numeric_limits<double>::quiet_NaN();
-  });
   forces.status = loaded ? Status::done : Status::singular;
+  each_number(forces, [&](double& v) {
+    const std::size_t i = next++;
+    const bool finite = loaded && !loads->has_pole(i);
+    v = finite ? loads->values()[i] : std::numeric_limits<double>::quiet_NaN();
+    if (!finite) forces.status = Status::singular;
+  });
   return true;
 }
 

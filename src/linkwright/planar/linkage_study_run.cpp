@@ -461,7 +461,7 @@ class Runner {
       if (passed_[r] && statuses_[r] == Status::singular) {
         warn(s_.at_change_point == AtChangePoint::keep_sign
                  ? fmt::format("at {} the motion has a kink: the row holds the position alone", where(r))
-                 : fmt::format("at {} the joint forces grow without bound: the row holds the motion alone",
+                 : fmt::format("at {} the joint forces grow without bound: the row holds what stays finite",
                                where(r)),
              {});
         break;

@@ -7,6 +7,7 @@
 
 #include "linkwright/planar/four_bar.h"
 #include "linkwright/planar/four_bar_reactions.h"
+#include "linkwright/planar/linkage_branch.h"
 #include "linkwright/study/kind.h"
 
 // The analysis of a four-bar over a sweep of its crank: what its file holds (field lists), how it is read,
@@ -139,10 +140,13 @@ void fields(Visitor&& visit, CrankGrid& g) {
 constexpr Word choice_word(const CrankGrid&) { return {"grid", "evenly spaced samples"}; }
 struct CrankSweep {
   std::variant<CrankGrid> type;
+  AtChangePoint at_change_point = AtChangePoint::smooth;
 };
 template <class Visitor>
 void fields(Visitor&& visit, CrankSweep& s) {
   visit(Field{.key = "type", .summary = "how samples are placed"}, s.type);
+  visit(Field{.key = "at_change_point", .summary = "how the linkage goes on where its branches meet"},
+        s.at_change_point);
 }
 
 /// What the table holds.
@@ -173,7 +177,8 @@ ReactionsStudy read_reactions_study(study::ObjectReader& document, const study::
 Table reactions_table(const ReactionsStudy& study);
 
 /// Evaluates every row and reports. Rows that do not assemble, or stand at a dead point, hold what is known
-/// of them and their status; the status of the result is then the first of these.
+/// of them and their status; the status of the result is then the first of these. Rows at change points hold
+/// the limits from both sides and make no difference to it.
 study::Result run_reactions_study(const ReactionsStudy& study, RunContext& context);
 
 }  // namespace linkwright::planar

@@ -6,11 +6,13 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/four_bar_branch.h"
 #include "linkwright/planar/four_bar_classify.h"
 #include "linkwright/planar/reactions_study.h"
 #include "linkwright/planar/scenes.h"
@@ -26,12 +28,10 @@ constexpr JointNames joint_names = {"O1", "O2", "O3", "O4"};
 // Below it a linkage is said to transmit force badly: reactions grow like its reciprocal.
 constexpr double poor_transmission = 5 * pi / 180;
 
-struct Row {
+struct Row : FourBarInstant {
   double angle = 0;
-  FourBarPosition pose;
-  FourBarRates rates;
-  FourBarReactions forces;
   double closure = nan;  // m
+  Status status = Status::done;
 };
 
 // From the angles as they are reported: what O1-O2-O3 and O1-O4-O3 say of O3.
@@ -64,16 +64,21 @@ std::vector<double> crank_angles(const CrankSamples& s) {
   return out;
 }
 
-Row evaluate(const ReactionsStudy& s, double angle) {
-  const FourBar& l = s.mechanism.linkage;
-  Row row;
-  row.angle = angle;
-  row.pose = position(l, angle);
-  row.rates = rates(l, angle, s.drive.speed, s.drive.acceleration);
-  row.forces.status = row.rates.status;
-  if (s.quantities.dynamic() && s.mechanism.masses)
-    row.forces = reactions(l, *s.mechanism.masses, row.rates, s.environment.gravity);
-  if (row.pose.status != Status::no_assembly) row.closure = closure_residual(l, angle, row.pose);
+FourBarBranch branch_of(const ReactionsStudy& s) {
+  const CrankSamples& sweep = std::get<CrankGrid>(s.sweep.type).crank_angle;
+  return {s.mechanism.linkage,
+          s.quantities.dynamic() ? s.mechanism.masses : std::nullopt,
+          s.environment.gravity,
+          sweep.from,
+          sweep.to,
+          s.sweep.at_change_point};
+}
+
+Row evaluate(const ReactionsStudy& s, const FourBarBranch& branch, double angle) {
+  Row row{branch.at(angle, s.drive.speed, s.drive.acceleration), angle};
+  row.status = row.rates.status != Status::done ? row.rates.status : row.forces.status;
+  if (!std::isnan(row.pose.coupler_angle))
+    row.closure = closure_residual(s.mechanism.linkage, angle, row.pose);
   return row;
 }
 
@@ -178,15 +183,18 @@ Table sweep_table(const ReactionsStudy& s, const std::vector<Row>& rows) {
   if (q.shaking)
     add("shaking_force_N", "shaking force (N)",
         [](const Row& r) { return std::abs(r.forces.shaking_force); });
-  for (const Row& row : rows) table.status.emplace_back(to_string(row.rates.status));
+  for (const Row& row : rows) table.status.emplace_back(to_string(row.status));
   return table;
 }
 
 study::Scene motion_scene(const ReactionsStudy& s, const std::vector<Row>& rows) {
   const FourBar& linkage = s.mechanism.linkage;
   const ReactionsQuantities& q = s.quantities;
-  study::Scene scene = four_bar_scene(linkage, column(rows, [](const Row& r) { return r.angle; }), scene_name,
-                                      "motion over the sweep", has_coupler_point(linkage), joint_names);
+  std::vector<FourBarPosition> poses;
+  for (const Row& row : rows) poses.push_back(row.pose);
+  study::Scene scene =
+      four_bar_scene(linkage, column(rows, [](const Row& r) { return r.angle; }), poses, scene_name,
+                     "motion over the sweep", has_coupler_point(linkage), joint_names);
   std::vector<FourBarRates> rates;
   std::vector<FourBarReactions> forces;
   for (const Row& row : rows) {
@@ -261,7 +269,7 @@ std::string text(const Peak& p, std::string_view unit) {
 
 std::size_t count(const std::vector<Row>& rows, Status status) {
   return static_cast<std::size_t>(
-      std::count_if(rows.begin(), rows.end(), [&](const Row& r) { return r.rates.status == status; }));
+      std::count_if(rows.begin(), rows.end(), [&](const Row& r) { return r.status == status; }));
 }
 
 bool whole_turns(const std::vector<Row>& rows) {
@@ -313,10 +321,12 @@ void add_facts(study::Result& result, const ReactionsStudy& s, const std::vector
            text(peak(rows, [](const Row& r) { return r.forces.shaking_moment_with_drive; }), "N m")});
     }
   }
-  const auto least = std::min_element(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-    return a.pose.transmission_angle < b.pose.transmission_angle || std::isnan(b.pose.transmission_angle);
+  // Change points are told of by themselves.
+  const auto transmission = [](const Row& r) { return r.change_point ? nan : r.pose.transmission_angle; };
+  const auto least = std::min_element(rows.begin(), rows.end(), [&](const Row& a, const Row& b) {
+    return transmission(a) < transmission(b) || std::isnan(transmission(b));
   });
-  const double mu = least->pose.transmission_angle;
+  const double mu = transmission(*least);
   if (!std::isnan(mu)) {
     result.facts.push_back({"least transmission angle",
                             fmt::format("{:.1f}° at {:.1f}°", math::degrees(mu), math::degrees(least->angle)),
@@ -349,15 +359,20 @@ void add_facts(study::Result& result, const ReactionsStudy& s, const std::vector
 }
 
 // Rows that the linkage does not reach, and where it could.
-void warn_of_rows(study::Result& result, const ReactionsStudy& s, const std::vector<Row>& rows) {
-  const auto first = [&](Status status) {
-    return std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.rates.status == status; });
+void warn_of_rows(study::Result& result, const ReactionsStudy& s, const FourBarBranch& branch,
+                  const std::vector<Row>& rows) {
+  const auto is = [](Status status) {
+    return [status](const Row& r) { return r.status == status && !r.change_point; };
+  };
+  const auto first = [&](Status status) { return std::find_if(rows.begin(), rows.end(), is(status)); };
+  const auto count = [&](Status status) {
+    return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), is(status)));
   };
   const auto warn = [&](std::string message, std::string hint) {
     result.diagnostics.push_back(
         {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
   };
-  if (const std::size_t n = count(rows, Status::singular)) {
+  if (const std::size_t n = count(Status::singular)) {
     const double angle = first(Status::singular)->angle;
     warn(fmt::format(
              "{} of {} positions stand at a dead point, the first at a crank angle of {:.6g}°: speeds and "
@@ -365,7 +380,7 @@ void warn_of_rows(study::Result& result, const ReactionsStudy& s, const std::vec
              n, rows.size(), math::degrees(angle)),
          {});
   }
-  if (const std::size_t n = count(rows, Status::no_assembly)) {
+  if (const std::size_t n = count(Status::no_assembly)) {
     const auto row = first(Status::no_assembly);
     std::string intervals;
     for (const AngleInterval& i : classify(s.mechanism.linkage).inputs)
@@ -378,14 +393,40 @@ void warn_of_rows(study::Result& result, const ReactionsStudy& s, const std::vec
          intervals.empty() ? "it assembles nowhere: one link is longer than the others together"
                            : "it assembles from " + intervals);
   }
+  if (const std::size_t n = count(Status::limit_reached))
+    warn(fmt::format("{} of {} positions have no answer, the first at a crank angle of {:.6g}°: the motion "
+                     "stops at a change point before them",
+                     n, rows.size(), math::degrees(first(Status::limit_reached)->angle)),
+         {});
+  const AtChangePoint policy = s.sweep.at_change_point;
+  for (const Row& row : rows)
+    if (row.change_point && row.status != Status::done) {
+      warn(fmt::format("at a crank angle of {:.6g}° {}", math::degrees(row.angle),
+                       policy == AtChangePoint::keep_sign
+                           ? "the motion has a kink: the row holds the position alone"
+                           : "the joint forces grow without bound: the row holds what stays finite"),
+           {});
+      break;
+    }
+  for (const double angle : branch.change_points())
+    warn(
+        fmt::format("at a crank angle of {:.6g}° both branches meet and cross: which way the linkage goes on "
+                    "there is a choice",
+                    math::degrees(angle)),
+        policy == AtChangePoint::smooth
+            ? "the rows go on smoothly; sweep.at_change_point = \"keep_sign\" takes the other branch"
+        : policy == AtChangePoint::keep_sign
+            ? "the rows take the branch with a kink; sweep.at_change_point = \"smooth\" is the other"
+            : "the rows end there");
 }
 
 }  // namespace
 
 Table reactions_table(const ReactionsStudy& s) {
   std::vector<Row> rows;
+  const FourBarBranch branch = branch_of(s);
   for (double angle : crank_angles(std::get<CrankGrid>(s.sweep.type).crank_angle))
-    rows.push_back(evaluate(s, angle));
+    rows.push_back(evaluate(s, branch, angle));
   return sweep_table(s, rows);
 }
 
@@ -395,21 +436,22 @@ study::Result run_reactions_study(const ReactionsStudy& s, RunContext& context) 
   const CrankSamples& sweep = std::get<CrankGrid>(s.sweep.type).crank_angle;
   const std::vector<double> angles = crank_angles(sweep);
   rows.reserve(angles.size());
+  const FourBarBranch branch = branch_of(s);
   Status interruption = Status::done;
   for (std::size_t i = 0; i < angles.size() && interruption == Status::done; ++i) {
-    rows.push_back(evaluate(s, angles[i]));
+    rows.push_back(evaluate(s, branch, angles[i]));
     if (i % 1024 == 1023) interruption = context.interruption();
   }
-  const auto incomplete =
-      std::find_if(rows.begin(), rows.end(), [](const Row& r) { return r.rates.status != Status::done; });
+  const auto incomplete = std::find_if(
+      rows.begin(), rows.end(), [](const Row& r) { return r.status != Status::done && !r.change_point; });
   result.status = interruption != Status::done ? interruption
-                  : incomplete != rows.end()   ? incomplete->rates.status
+                  : incomplete != rows.end()   ? incomplete->status
                                                : Status::done;
   result.tables.push_back(sweep_table(s, rows));
   result.scenes.push_back(motion_scene(s, rows));
   add_plots(result, s.quantities);
   add_facts(result, s, rows);
-  warn_of_rows(result, s, rows);
+  warn_of_rows(result, s, branch, rows);
 
   const std::size_t good = count(rows, Status::done);
   if (good == 0) {

@@ -61,6 +61,17 @@ std::vector<double> shown_angles(const PathDesign& design, int samples) {
 
 study::Scene four_bar_scene(const FourBar& linkage, std::vector<double> crank_angles, std::string name,
                             std::string title, bool coupler_point, const JointNames& joints) {
+  std::vector<FourBarPosition> poses;
+  for (const double angle : crank_angles) poses.push_back(position(linkage, angle));
+  return four_bar_scene(linkage, std::move(crank_angles), poses, std::move(name), std::move(title),
+                        coupler_point, joints);
+}
+
+study::Scene four_bar_scene(const FourBar& linkage, std::vector<double> crank_angles,
+                            const std::vector<FourBarPosition>& poses, std::string name, std::string title,
+                            bool coupler_point, const JointNames& joints) {
+  LINKWRIGHT_REQUIRE(poses.size() == crank_angles.size(), "{} poses for {} crank angles", poses.size(),
+                     crank_angles.size());
   study::Scene scene;
   scene.name = std::move(name);
   scene.title = std::move(title);
@@ -75,8 +86,7 @@ study::Scene four_bar_scene(const FourBar& linkage, std::vector<double> crank_an
   };
   put(O, crank_pivot(linkage), true);
   put(B0, rocker_pivot(linkage), true);
-  for (double angle : scene.input) {
-    const FourBarPosition pose = position(linkage, angle);
+  for (const FourBarPosition& pose : poses) {
     put(A, pose.crank_pin, true);
     put(B, pose.coupler_pin, assembled(pose));
     put(C, pose.coupler_point, assembled(pose));

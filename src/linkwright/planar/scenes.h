@@ -26,6 +26,10 @@ using JointNames = std::array<std::string_view, 4>;
 study::Scene four_bar_scene(const FourBar& linkage, std::vector<double> crank_angles, std::string name,
                             std::string title, bool coupler_point,
                             const JointNames& joints = {"O", "A", "B", "B0"});
+/// The same where the poses are known, one an angle: of a linkage that does not stay on its branch.
+study::Scene four_bar_scene(const FourBar& linkage, std::vector<double> crank_angles,
+                            const std::vector<FourBarPosition>& poses, std::string name, std::string title,
+                            bool coupler_point, const JointNames& joints);
 
 /// Adds the velocities (m/s) and accelerations (m/s2) of the moving joints, and of the coupler point if it is
 /// drawn, to a four_bar_scene of the same linkage. `rates`: one a sample.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/random.h"
@@ -17,12 +19,13 @@ namespace {
 
 using P = SliderParameter;
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double pi = std::numbers::pi;
 
 // Local searches per side and sense when the options leave it open.
-constexpr int separable_starts = 30, joint_starts = 60;
-constexpr int tries_per_separable_start = 6;   // random ratios of which the best starts a search
+constexpr int separable_starts = 30, joint_starts = 160;
+constexpr int tries_per_separable_start = 6;    // random ratios of which the best starts a search
 constexpr int mechanisms_per_joint_start = 48;  // random curves of which the best match starts a search
-constexpr std::size_t finished_starts = 24;     // of the searched ones, how many get their constraints met
+constexpr std::size_t finished_starts = 48;     // of the searched ones, how many get their constraints met
 constexpr std::size_t followed_starts = 6;      // ... and how many are followed along a front
 
 bool better_design(const SliderPathDesign& a, const SliderPathDesign& b) {
@@ -47,6 +50,19 @@ SliderPathProblem relax(SliderPathProblem p) {
   for (P j : {P::start_angle, P::guide_angle})
     if (!p.bounds[index(j)].fixed()) open(j);
   return p;
+}
+
+// Share of the path's length at each point; of a closed path its last piece counts.
+std::vector<double> path_fractions(const SliderPathProblem& p) {
+  const std::size_t n = p.x.size();
+  std::vector<double> out{0};
+  for (std::size_t k = 1; k <= n; ++k)
+    out.push_back(out.back() +
+                  (k == n && !p.closed ? 0 : std::hypot(p.x[k % n] - p.x[k - 1], p.y[k % n] - p.y[k - 1])));
+  const double length = out.back();
+  out.resize(n);
+  for (double& f : out) f /= length;
+  return out;
 }
 
 // Searches on one side and in one sense, by the separable form.
@@ -174,9 +190,8 @@ class Search {
   double best_so_far() const { return out_.history.empty() ? infinity : out_.history.back().best; }
   void tell(double fraction) {
     if (options_.progress)
-      context_.report({.stage = "recommended",
-                       .fraction = share_.from + share_.width * fraction,
-                       .best = best_so_far()});
+      context_.report(
+          {.stage = "recommended", .fraction = share_.from + share_.width * fraction, .best = best_so_far()});
   }
   void note(double feasible_error) {
     if (feasible_error < best_so_far()) out_.history.push_back({out_.evaluations, feasible_error});
@@ -207,8 +222,12 @@ class Search {
     return found;
   }
 
-  std::vector<Candidate> joint(SliderSide side, double sense, std::uint32_t combination, const Range& stroke) {
+  // Starts of free timing by turns: a random curve laid on the path, and the best mechanism of a random
+  // timing, for which the separable form knows more.
+  std::vector<Candidate> joint(SliderSide side, double sense, std::uint32_t combination,
+                               const Range& stroke) {
     SliderPathMatcher matcher(problem_, side, sense);
+    const std::vector<double> along = path_fractions(problem_);
     SliderPathFitter fitter(problem_, sense);
     fitter.limit_stroke(stroke);
     const double size = path_size(problem_);
@@ -216,7 +235,8 @@ class Search {
     const int count = starts(joint_starts);
     for (int start = 0; start < count && !stopped(); ++start) {
       RandomStream random = stream(combination, static_cast<std::size_t>(start));
-      const auto match = matcher.best_of(mechanisms_per_joint_start, random);
+      const auto match = start % 2 == 0 ? matcher.best_of(mechanisms_per_joint_start, random)
+                                        : timed(side, sense, stroke, along, random);
       if (!match) continue;
       const SliderPathFit fit =
           fitter.fit(match->mechanism, match->angles, {.iterations = 80, .passes = 1, .decrease = 1e-6});
@@ -228,6 +248,57 @@ class Search {
       tell(static_cast<double>(start + 1) / count);
     }
     return found;
+  }
+
+  // The best mechanism of a random timing: crank angles that rise along the path with its length or with the
+  // number of its points, or between, and swing about that once and twice; over the turn, or over a part of
+  // it where the path is open.
+  std::optional<SliderPathStart> timed(SliderSide side, double sense, const Range& stroke,
+                                       const std::vector<double>& along, RandomStream& random) {
+    const std::size_t n = problem_.x.size();
+    const bool turn = problem_.closed && problem_.crank_rotates_fully;
+    const double whole = 2 * pi * (turn ? 1 : random.uniform(0.1, 0.97)), by_length = random.uniform(),
+                 once = random.uniform(0, 0.5), twice = random.uniform(0, 0.12),
+                 first = random.uniform(0, 2 * pi), second = random.uniform(0, 2 * pi),
+                 last = static_cast<double>(problem_.closed ? n : n - 1);
+    SliderPathProblem p = problem_;
+    p.free_timing = false;
+    p.stroke = stroke;
+    p.bounds[index(P::start_angle)] = {0, 2 * pi};
+    p.offsets.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double share = by_length * along[k] + (1 - by_length) * static_cast<double>(k) / last,
+                   u = 2 * pi * share;
+      p.offsets[k] = whole * (share + (once * (std::sin(u + first) - std::sin(first)) +
+                                       twice * (std::sin(2 * u + second) - std::sin(second))) /
+                                          (2 * pi));
+    }
+    SeparableSearch search(relax(p), side, sense);
+    std::vector<double> q = search.start(random, out_.evaluations);
+    if (q.empty() || !std::isfinite(search.descend(q, out_.evaluations))) return std::nullopt;
+    SliderPathDesign design = search.projection().design(p, q);
+    SliderPathDesign measured = measure(problem_, design.mechanism, sense, design.angles);
+    if (measured.violations.empty() && (!spare_ || better_design(measured, *spare_)))
+      spare_ = std::move(measured);
+    return SliderPathStart{design.mechanism, std::move(design.angles), design.error};
+  }
+
+  // The design of a local search, measured. Where it did not come to meet the constraints, the best mechanism
+  // at its crank angles may: the separable form holds stroke and rotation exactly.
+  SliderPathDesign settled(const SliderPathProblem& problem, const SliderPathFit& fit, double sense) {
+    SliderPathDesign design = measure(problem, fit.mechanism, sense, fit.angles);
+    if (!problem.free_timing || design.violations.empty()) return design;
+    SliderPathProblem p = problem;
+    p.free_timing = false;
+    p.bounds[index(P::start_angle)] = {0, 2 * pi};
+    p.offsets.clear();
+    for (const double angle : fit.angles) p.offsets.push_back(sense * (angle - fit.angles[0]));
+    SeparableSearch search(relax(p), fit.mechanism.branch, sense);
+    std::vector<double> q = search.projection().unknowns(fit.mechanism.parameters, fit.angles[0]);
+    if (!std::isfinite(search.descend(q, out_.evaluations))) return design;
+    const SliderPathDesign at_angles = search.projection().design(p, q);
+    SliderPathDesign other = measure(problem, at_angles.mechanism, sense, at_angles.angles);
+    return better_design(other, design) ? other : design;
   }
 
   // The distinct ones, best first, at most `most`.
@@ -260,7 +331,7 @@ class Search {
           fitter.fit(candidate.mechanism, candidate.angles, {.iterations = 200, .passes = 30});
       out_.evaluations += fit.evaluations;
       if (!std::isfinite(fit.error)) continue;
-      SliderPathDesign design = measure(problem_, fit.mechanism, sense, fit.angles);
+      SliderPathDesign design = settled(problem_, fit, sense);
       if (design.violations.empty()) note(design.error);
       keep(std::move(design));
     }
@@ -292,7 +363,8 @@ class Search {
     for (std::size_t i = 0; i < n; ++i) {
       search.projection().limit_stroke(limited(strokes[i]));
       for (int start = 0; start < count && !stopped(); ++start) {
-        RandomStream random = stream(combination, static_cast<std::size_t>(start), static_cast<std::uint32_t>(i) + 1);
+        RandomStream random =
+            stream(combination, static_cast<std::size_t>(start), static_cast<std::uint32_t>(i) + 1);
         from(i, search.start(random, out_.evaluations));
       }
       if (i > 0) from(i, at[i - 1]);
@@ -306,7 +378,8 @@ class Search {
       SliderPathDesign design = search.projection().design(here, at[i]);
       if (!design.violations.empty()) {
         fitter.limit_stroke(here.stroke);
-        const SliderPathFit fit = fitter.fit(design.mechanism, design.angles, {.iterations = 200, .passes = 30});
+        const SliderPathFit fit =
+            fitter.fit(design.mechanism, design.angles, {.iterations = 200, .passes = 30});
         out_.evaluations += fit.evaluations;
         if (std::isfinite(fit.error)) take(measure(here, fit.mechanism, sense, fit.angles), best[i]);
       }
@@ -322,12 +395,14 @@ class Search {
     const auto fit_at = [&](std::size_t i, Candidate& candidate) {
       const SliderPathProblem here = limited_problem(strokes[i]);
       fitter.limit_stroke(here.stroke);
-      SliderPathFit fit = fitter.fit(candidate.mechanism, candidate.angles, {.iterations = 200, .passes = 30});
+      const SliderPathFit fit =
+          fitter.fit(candidate.mechanism, candidate.angles, {.iterations = 200, .passes = 30});
       out_.evaluations += fit.evaluations;
       if (!std::isfinite(fit.error)) return;
-      candidate.mechanism = fit.mechanism;
-      candidate.angles = fit.angles;
-      take(measure(here, fit.mechanism, sense, std::move(fit.angles)), best[i]);
+      SliderPathDesign design = settled(here, fit, sense);
+      candidate.mechanism = design.mechanism;
+      candidate.angles = design.angles;
+      take(std::move(design), best[i]);
     };
     for (std::size_t i = 0; i < strokes.size(); ++i)
       for (Candidate& candidate : followed)
@@ -340,6 +415,7 @@ class Search {
   }
 
   SliderPathSynthesis finish() {
+    if (spare_ && !any_feasible()) out_.designs.push_back(std::move(*spare_));
     rank(out_.designs);
     if (any_feasible())
       std::erase_if(out_.designs, [](const SliderPathDesign& d) { return !d.violations.empty(); });
@@ -357,6 +433,7 @@ class Search {
     double from = 0, width = 1;
   } share_;  // of the progress, that the search under way has
   SliderPathSynthesis out_;
+  std::optional<SliderPathDesign> spare_;  // the best start that meets the constraints
 };
 
 }  // namespace
