@@ -245,5 +245,25 @@ void recommended_free_timing(benchmark::State& state) {
 }
 BENCHMARK(recommended_free_timing)->Unit(benchmark::kMillisecond);
 
+// A closed path of many points, no limit but the full turn of the crank, both senses and branches; the
+// argument is the number of points.
+void recommended_free_timing_many_points(benchmark::State& state) {
+  PathProblem problem;
+  const auto count = static_cast<std::size_t>(state.range(0));
+  for (std::size_t k = 0; k < count; ++k) {
+    const double t = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count);
+    problem.x.push_back(1.5 * std::cos(t) + 0.2 * std::cos(2 * t));
+    problem.y.push_back(0.8 * std::sin(t) + 0.1 * std::sin(3 * t));
+  }
+  problem.bounds = derive_bounds(problem.x, problem.y);
+  problem.search_negative = true;
+  std::uint64_t seed = 0;
+  for (auto _ : state) {
+    RunContext context;
+    benchmark::DoNotOptimize(synthesise_path(problem, {.seed = ++seed}, context));
+  }
+}
+BENCHMARK(recommended_free_timing_many_points)->Arg(18)->Arg(140)->Arg(300)->Unit(benchmark::kMillisecond);
+
 }  // namespace
 }  // namespace linkwright::planar

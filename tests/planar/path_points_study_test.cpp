@@ -36,11 +36,25 @@ TEST(PathPointsStudy, ReadsPointsInAnyUnit) {
   EXPECT_THAT(points.y, ::testing::ElementsAre(0.001, 0.003, 0.005));
 }
 
-// Points that a closed path must not repeat are no problem of an open one.
-TEST(PathPointsStudy, OnlyClosedPathsMustNotEndWhereTheyBegin) {
+// The closing point of a closed path counts once; an open path meets it twice.
+TEST(PathPointsStudy, TheClosingPointOfAClosedPathCountsOnce) {
   const std::string text = "[target]\npoints_m = [[0, 1], [2, 3], [4, 5], [0, 1]]\n";
   EXPECT_EQ(read(text, false).problems, "");
-  EXPECT_THAT(read(text, true).problems, ::testing::HasSubstr("the last point repeats the first: (0, 1)"));
+  EXPECT_EQ(read(text, false).x.size(), 4u);
+  const ReadPoints closed = read(text, true);
+  EXPECT_THAT(closed.problems,
+              ::testing::HasSubstr("warning: target.points_m: the last of 4 points repeats the "
+                                   "first: taken once"));
+  EXPECT_THAT(closed.x, ::testing::ElementsAre(0, 2, 4));
+  EXPECT_THAT(closed.y, ::testing::ElementsAre(1, 3, 5));
+  // Two points and the first again are no path.
+  EXPECT_THAT(read("[target]\npoints_m = [[0, 1], [2, 3], [0, 1]]\n", true).x, ::testing::SizeIs(3));
+}
+
+TEST(PathPointsStudy, RepetitionIsToldToRounding) {
+  EXPECT_TRUE(repeats_first_point({0.1, 5, 3, 0.1 + 1e-13}, {1, 2, 3, 1}));
+  EXPECT_FALSE(repeats_first_point({0.1, 5, 3, 0.1 + 1e-9}, {1, 2, 3, 1}));
+  EXPECT_FALSE(repeats_first_point({1}, {1}));
 }
 
 TEST(PathPointsStudy, TellsWhatIsMissing) {

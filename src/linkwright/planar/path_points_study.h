@@ -26,9 +26,17 @@ void fields(Visitor&& visit, PathPointsForm& t) {
         t.points_file);
 }
 
-/// The points of a target that has been read into `form` (m), three at least and none twice in a row; of a
-/// closed path the last is not the first. Problems are told at the keys of the target.
-void read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
+/// The points of a target that has been read into `form` (m), three at least and none twice in a row. Where
+/// the last point of a closed path repeats the first it is left out, with a warning: true then. Problems are
+/// told at the keys of the target.
+bool read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
                       bool closed, std::vector<double>& x, std::vector<double>& y);
+
+/// The same checks for points from elsewhere; problems are told at `key`.
+bool check_path_points(study::ObjectReader& target, const char* key, bool closed, std::vector<double>& x,
+                       std::vector<double>& y);
+
+/// Whether the last point of a path is the first one again, to rounding.
+bool repeats_first_point(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace linkwright::planar

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "linkwright/planar/path_study.h"
@@ -43,6 +44,82 @@ void read_timing(study::ObjectReader& target, PathStudy& s) {
   }
 }
 
+// The points or, in their place, the middles of gates. True when the last one repeated the first and was left
+// out.
+bool read_targets(study::ObjectReader& target, const study::Common& common, PathStudy& s) {
+  PathProblem& p = s.problem;
+  if (!s.target.gates) return read_path_points(target, common, s.target, s.target.closed, p.x, p.y);
+  const bool has_points = target.has(Field{.key = "points", .summary = {}, .dimension = Dimension::length});
+  if (has_points || target.has("points_file")) {
+    target.error("gates",
+                 fmt::format("the target has both gates and {}", has_points ? "points" : "points_file"),
+                 "keep one of them; a gate whose posts agree is a point");
+    return false;
+  }
+  for (const PathGate& gate : *s.target.gates) {
+    p.x.push_back(0.5 * (gate.from[0] + gate.to[0]));
+    p.y.push_back(0.5 * (gate.from[1] + gate.to[1]));
+    p.gate_x.push_back(0.5 * (gate.to[0] - gate.from[0]));
+    p.gate_y.push_back(0.5 * (gate.to[1] - gate.from[1]));
+  }
+  const bool left_out = check_path_points(target, "gates", s.target.closed, p.x, p.y);
+  if (left_out) p.gate_x.pop_back(), p.gate_y.pop_back();
+  return left_out;
+}
+
+void read_tolerances(study::ObjectReader& target, PathStudy& s) {
+  PathProblem& p = s.problem;
+  if (s.target.tolerance && s.target.tolerances) {
+    target.error("tolerances", "the target has both tolerance and tolerances", "keep one of them");
+    return;
+  }
+  if (s.target.tolerance) p.tolerance.assign(p.x.size(), *s.target.tolerance);
+  if (!s.target.tolerances) return;
+  if (p.x.size() >= 3 && s.target.tolerances->size() != p.x.size()) {
+    target.error("tolerances",
+                 fmt::format("{} tolerances for {} targets", s.target.tolerances->size(), p.x.size()),
+                 "give one for each, or tolerance for all");
+    return;
+  }
+  p.tolerance = *s.target.tolerances;
+}
+
+// Whether the last crank angle that the timing gives is the first one, a turn on.
+bool timing_closes(const PathStudy& s, std::size_t points) {
+  const PathTiming& t = s.target.timing;
+  double turned = 2 * std::numbers::pi;
+  if (t.mode == Timing::equal_steps && t.step) turned = *t.step * static_cast<double>(points - 1);
+  if (t.mode == Timing::given && t.angles && t.angles->size() == points)
+    turned = t.angles->back() - t.angles->front();
+  return std::abs(std::abs(turned) - 2 * std::numbers::pi) < 1e-6;
+}
+
+// A path that ends where it begins is closed unless the study says it is not: its last target is the first
+// one again, and what the study gives for it goes with it. `left_out`: that has happened to the point
+// already.
+void close_path(study::ObjectReader& target, PathStudy& s, bool left_out) {
+  PathProblem& p = s.problem;
+  const std::size_t n = p.x.size() + (left_out ? 1 : 0);
+  if (!left_out) {
+    const bool same_gate =
+        p.gate_x.empty() || (p.gate_x.front() == p.gate_x.back() && p.gate_y.front() == p.gate_y.back());
+    if (target.has("closed") || n < 4 || !repeats_first_point(p.x, p.y) || !same_gate || !timing_closes(s, n))
+      return;
+    target.warning(
+        s.target.gates         ? "gates"
+        : s.target.points_file ? "points_file"
+                               : "points",
+        fmt::format("the last of {} targets repeats the first: taken once, and the path as closed", n),
+        "write closed = true, or closed = false to keep it open");
+    s.target.closed = true;
+    p.x.pop_back(), p.y.pop_back();
+    if (!p.gate_x.empty()) p.gate_x.pop_back(), p.gate_y.pop_back();
+  }
+  if (s.target.tolerances && s.target.tolerances->size() == n) s.target.tolerances->pop_back();
+  if (s.target.timing.angles && s.target.timing.angles->size() == n && timing_closes(s, n))
+    s.target.timing.angles->pop_back();
+}
+
 void set_bounds(study::ObjectReader& mechanism, PathStudy& s) {
   if (s.problem.x.size() < 3 || s.problem.x.size() != s.problem.y.size()) return;
   s.problem.bounds = derive_bounds(s.problem.x, s.problem.y);
@@ -58,6 +135,16 @@ void set_bounds(study::ObjectReader& mechanism, PathStudy& s) {
       s.problem.timing != Timing::equal_steps)
     mechanism.warning("parameters",
                       fmt::format("start_angle has no use: the timing is {}", name_of(s.problem.timing)));
+}
+
+// A fixed number or a range for each coordinate of B0; one that is left out is free.
+void set_rocker_pivot(PathStudy& s) {
+  const std::optional<Range>&x = s.mechanism.parameters.rocker_pivot_x,
+        &y = s.mechanism.parameters.rocker_pivot_y;
+  if (!x && !y) return;
+  constexpr double far = std::numeric_limits<double>::infinity();
+  const Range anywhere{-far, far}, across = x.value_or(anywhere), up = y.value_or(anywhere);
+  s.problem.rocker_pivot = PackagingBox{across.lower, across.upper, up.lower, up.upper};
 }
 
 void set_search(PathStudy& s) {
@@ -106,7 +193,8 @@ PathStudy read_path_study(study::ObjectReader& document, const study::Common& co
   auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
   if (target) {
     target->read(s.target);
-    read_path_points(*target, common, s.target, s.target.closed, s.problem.x, s.problem.y);
+    close_path(*target, s, read_targets(*target, common, s));
+    read_tolerances(*target, s);
     read_timing(*target, s);
   }
   document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
@@ -116,6 +204,7 @@ PathStudy read_path_study(study::ObjectReader& document, const study::Common& co
   document(Field{.key = "constraint", .summary = "what must hold"}, s.constraints);
   if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
   if (auto mechanism = document.table("mechanism")) set_bounds(*mechanism, s);
+  set_rocker_pivot(s);
   set_search(s);
   set_constraints(document, s);
   return s;
@@ -139,6 +228,7 @@ type = "planar.four_bar"
 # [mechanism.parameters]
 # ground_mm = 400.0
 # crank_mm  = { min = 50.0, max = 200.0 }
+# rocker_pivot_x_mm = { min = 0.0, max = 500.0 }   # where the other fixed pivot may be
 
 [target]
 type   = "path_points"
@@ -149,6 +239,8 @@ points_mm = [
   [200, 300], [400, 500], [600, 900],
 ]
 # or: points_file = "path.csv"      # columns x_mm, y_mm
+# or: gates_mm = [{ from = [500, 1090], to = [500, 1110] }, ...]   # to pass between two points
+# tolerance_mm = 1.0                # points count as met this near, at no cost
 
 [[constraint]]
 type = "crank_rotates_fully"
@@ -180,9 +272,13 @@ seeds  = { first = 1, count = 4 }
       if (j != index(FourBarParameter::start_angle) || s.problem.timing == Timing::equal_steps)
         resolved.mechanism.parameters.ranges[j] = s.problem.bounds[j];
     resolved.target.points_file.reset();
-    resolved.target.points.emplace();
-    for (std::size_t k = 0; k < std::min(s.problem.x.size(), s.problem.y.size()); ++k)
-      resolved.target.points->push_back({s.problem.x[k], s.problem.y[k]});
+    const std::size_t n = std::min(s.problem.x.size(), s.problem.y.size());
+    if (resolved.target.gates) {
+      resolved.target.gates->resize(std::min(n, resolved.target.gates->size()));
+    } else {
+      resolved.target.points.emplace();
+      for (std::size_t k = 0; k < n; ++k) resolved.target.points->push_back({s.problem.x[k], s.problem.y[k]});
+    }
     if (resolved.objectives.empty()) resolved.objectives.emplace_back();
     prepared.canonical["mechanism"] = study::write_fields(resolved.mechanism);
     prepared.canonical["target"] = study::write_fields(resolved.target);
