@@ -13,6 +13,10 @@
 #include "linkwright/planar/path_objective.h"
 #include "linkwright/planar/path_synthesis.h"
 #include "linkwright/planar/serial_arm_reactions.h"
+#include "linkwright/planar/slider_crank_path_objective.h"
+#include "linkwright/planar/slider_crank_path_projection.h"
+#include "linkwright/planar/slider_crank_path_samples.h"
+#include "linkwright/planar/slider_crank_path_synthesis.h"
 
 namespace linkwright::planar {
 namespace {
@@ -56,6 +60,53 @@ void eighteen_point_objective(benchmark::State& state) {
   state.SetLabel(kernel_name());
 }
 BENCHMARK(eighteen_point_objective)->Arg(1)->Arg(32)->Arg(1024);
+
+void eighteen_point_slider_objective(benchmark::State& state) {
+  const auto size = static_cast<std::size_t>(state.range(0));
+  const SliderPathProblem p = eighteen_slider_points();
+  const optimise::Problem problem = slider_path_population_problem(p, SliderSide::forward, 1);
+  optimise::Population population(slider_parameter_count, size);
+  for (std::size_t i = 0; i < size; ++i) {
+    RandomStream s({.seed = 1, .individual = static_cast<std::uint32_t>(i)});
+    const double x[] = {s.uniform(0.2, 0.4),  s.uniform(0.5, 0.8), s.uniform(0.2, 0.5),
+                        s.uniform(0, 6.28),   s.uniform(0, 6.28),  s.uniform(-0.1, 0.1),
+                        s.uniform(-1, 1),     s.uniform(-1, 1),    s.uniform(0, 6.28)};
+    population.set(i, x);
+  }
+  std::vector<double> cost(size), violation(size);
+  for (auto _ : state) {
+    problem.evaluate(population.view(), cost, violation);
+    benchmark::DoNotOptimize(cost.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(size));
+  state.SetLabel(slider_path_kernel_name());
+}
+BENCHMARK(eighteen_point_slider_objective)->Arg(1)->Arg(32)->Arg(1024);
+
+// Residuals and Jacobian of the three unknowns that the projection leaves.
+void eighteen_point_slider_projection(benchmark::State& state) {
+  SliderPathProjection projection(eighteen_slider_points(), SliderSide::forward, 1);
+  projection.limit_stroke({0, 0.5});
+  std::vector<double> residual(projection.residuals()), jacobian(3 * residual.size());
+  const std::vector<double> q = {-1, 0.5, 2};
+  for (auto _ : state) benchmark::DoNotOptimize(projection.evaluate(q, residual, jacobian));
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(eighteen_point_slider_projection);
+
+// The path alone, and fourteen points of its front against the stroke.
+void eighteen_point_slider_synthesis(benchmark::State& state) {
+  const SliderPathProblem p = eighteen_slider_points();
+  std::vector<double> strokes;
+  for (int i = 1; i <= state.range(0); ++i) strokes.push_back(0.72 - 0.03 * i);
+  for (auto _ : state) {
+    RunContext context;
+    benchmark::DoNotOptimize(strokes.empty() ? synthesise_slider_path(p, {.progress = false}, context)
+                                             : synthesise_slider_front(p, strokes, {.progress = false}, context));
+  }
+}
+BENCHMARK(eighteen_point_slider_synthesis)->Arg(0)->Arg(14)->Unit(benchmark::kMillisecond);
 
 // The textbook form that most published programs use: angles by acos and atan2 at every point.
 void textbook_objective(benchmark::State& state) {

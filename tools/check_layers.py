@@ -28,7 +28,7 @@ DOMAINS = {"planar", "flexible", "suspension", "parallel", "clearance"}
 FORBIDDEN = {"report": {"optimise"}, **{domain: {"report"} for domain in DOMAINS}}
 
 # Inside a domain, only these files use these rooms.
-SYNTHESIS = ["*_synthesis*", "*balancing*", "path_*", "tolerances*", "workspace*"]
+SYNTHESIS = ["*_synthesis*", "*balancing*", "path_*", "*_path_*", "tolerances*", "workspace*"]
 STUDIES = ["studies*", "*_study*", "scene*", "*_scene*", "reproductions*"]
 DOMAIN_FILES = {"optimise": SYNTHESIS + STUDIES, "study": STUDIES}
 

@@ -49,8 +49,11 @@ NO_TEST = {
     "planar/published_four_bars.h": "published numbers; compared in planar/reproductions_test.cpp",
     "optimise/firefly_base.h": "shared part of the forms of the firefly algorithm, tested through them",
     "optimise/swarm_base.h": "shared part of fireflies and cuckoos, tested through them",
+    "planar/linkage_curve_equations.h": "part of linkage_curve, tested in linkage_curve_test.cpp",
+    "planar/linkage_joint_rows.h": "part of linkage_general and linkage_curve, tested in both",
     "planar/linkage_sweep_kernel.h": "part of linkage_sweep, compiled once per instruction set and compared by its test",
     "planar/path_objective_kernel.h": "part of path_objective, compiled once per instruction set and compared by its test",
+    "planar/slider_crank_path_objective_kernel.h": "part of slider_crank_path_objective, likewise",
 }
 
 

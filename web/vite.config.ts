@@ -34,6 +34,8 @@ export default defineConfig(({ mode }) => {
       lib: { entry: bundle.entry, name: bundle.name, formats: ["iife"], fileName: () => `${bundle.file}.js`, cssFileName: bundle.file },
       rollupOptions: { output: { banner: notices(bundle.parts) } },
     },
+    // A test reads the units of the printed form.
+    server: { fs: { allow: [".."] } },
     test: { include: ["tests/*.test.ts"] },
   } as UserConfig;
 });

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
 #include <set>
 
 #include "linkwright/study/read.h"
@@ -74,6 +77,18 @@ TEST(Catalogue, TablesAreFoundByIdByBeginningOrAllTogether) {
   EXPECT_EQ(ids("c-1"), "");
   ASSERT_EQ(diagnostics.size(), 1u);
   EXPECT_THAT(to_string(diagnostics[0]), HasSubstr("there is no published table 'c-1'; did you mean 'a-1'?"));
+}
+
+// The list of published tables names every ID that there is, and none that there is not.
+TEST(Catalogue, TheListOfPublishedTablesIsTrue) {
+  std::ifstream file(LINKWRIGHT_SOURCE_DIR "/docs/published-tables.md");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  std::set<std::string> listed, there;
+  const std::regex id("`((?:boskovic|milutinovic|poznanovic|varedi)-[a-z0-9.-]+)`");
+  for (std::sregex_iterator i(text.begin(), text.end(), id), end; i != end; ++i) listed.insert((*i)[1]);
+  for (const study::Reproduction& r : reproductions()) there.insert(r.id);
+  EXPECT_EQ(listed, there);
+  EXPECT_GE(there.size(), 24u);
 }
 
 // Holds for whatever the domains register: names are unique and every example is a study of its kind without

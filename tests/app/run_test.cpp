@@ -115,8 +115,8 @@ TEST(ExitCode, StatusBeforeChecks) {
   EXPECT_EQ(exit_code(result), 0);
   result.checks[0].passed = false;
   EXPECT_EQ(exit_code(result), 1);
-  for (Status status :
-       {Status::no_assembly, Status::not_converged, Status::infeasible, Status::limit_reached}) {
+  for (Status status : {Status::no_assembly, Status::not_converged, Status::infeasible, Status::limit_reached,
+                        Status::self_locking}) {
     result.status = status;
     EXPECT_EQ(exit_code(result), 3);
   }

@@ -24,6 +24,8 @@ using testing::prepare;
 using testing::problems_of;
 using testing::replaced;
 using testing::run_text;
+using testing::table;
+using testing::values;
 
 constexpr double turn = 2 * std::numbers::pi;
 
@@ -43,20 +45,6 @@ std::string example(const std::string& name) {
 const std::string& kind_example(DesignTarget target) {
   static const std::vector<study::Kind> kinds = clearance_design_kinds();
   return kinds[static_cast<std::size_t>(target)].example;
-}
-const Table& table(const study::Result& r, std::string_view name) {
-  for (const Table& t : r.tables)
-    if (t.name == name) return t;
-  ADD_FAILURE() << "no table " << name;
-  static const Table none;
-  return none;
-}
-const std::vector<double>& values(const study::Result& r, std::string_view name, std::string_view key) {
-  const Column* c = table(r, name).find(key);
-  if (c) return c->values;
-  ADD_FAILURE() << "no column " << name << "." << key;
-  static const std::vector<double> none{0};
-  return none;
 }
 double objective(const study::Result& r, const char* key) {
   const Value* v = r.solutions.at(0).objectives.find(key);

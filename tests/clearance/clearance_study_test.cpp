@@ -3,39 +3,36 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string>
 
 #include "clearance/studies.h"
+#include "linkwright/core/memory.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::clearance {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Each;
 using testing::fact;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using testing::prepare;
 using testing::problems_of;
 using testing::replaced;
 using testing::run_text;
+using testing::table;
+using testing::values;
 
-const Table& table(const study::Result& r, std::string_view name) {
-  for (const Table& t : r.tables)
-    if (t.name == name) return t;
-  ADD_FAILURE() << "no table " << name;
-  static const Table none;
-  return none;
-}
-const std::vector<double>& values(const study::Result& r, std::string_view name, std::string_view key) {
-  const Column* c = table(r, name).find(key);
-  if (c) return c->values;
-  ADD_FAILURE() << "no column " << name << "." << key;
-  static const std::vector<double> none;
-  return none;
+std::string messages(const study::Result& r) {
+  std::string out;
+  for (const Diagnostic& d : r.diagnostics) out += to_string(d) + "\n";
+  return out;
 }
 double largest(const std::vector<double>& v) {
   double out = 0;
@@ -260,6 +257,22 @@ TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
   EXPECT_LT(largest(values(r, "motion", "energy_drift_J")), 1e-7);
   // Peaks of the table of contacts are in the map, too.
   EXPECT_EQ(largest(values(r, "contact_map", "A_force_N")), largest(values(r, "contacts", "force_N")));
+  // What a map draws has the unit of what it shows: newtons, and a share of the time.
+  for (const auto& [name, of, x_key, y_key] :
+       {std::array{"contact-map", "A_force_N", "A_force_x_N", "A_force_y_N"},
+        std::array{"contact-time-map", "A_time_share", "A_time_share_x", "A_time_share_y"}}) {
+    const auto plot =
+        std::find_if(r.plots.begin(), r.plots.end(), [&](const study::Plot& p) { return p.name == name; });
+    ASSERT_NE(plot, r.plots.end()) << name;
+    EXPECT_EQ(plot->y, (std::vector<std::string>{x_key, y_key}));
+    const std::vector<double>&size = values(r, "contact_map", of), &u = values(r, "contact_map", x_key),
+          &v = values(r, "contact_map", y_key), &angle = values(r, "contact_map", "bush_angle_rad");
+    EXPECT_GT(largest(size), 0);
+    for (std::size_t i = 0; i < size.size(); ++i) {
+      EXPECT_NEAR(u[i], size[i] * std::cos(angle[i]), 1e-12 * largest(size));
+      EXPECT_NEAR(v[i], size[i] * std::sin(angle[i]), 1e-12 * largest(size));
+    }
+  }
 }
 
 TEST(ClearanceStudy, AutomaticContactIsContinuousWhereThatHolds) {
@@ -391,6 +404,33 @@ TEST(ClearanceStudy, WritesWhatItReads) {
     ASSERT_TRUE(second) << messages;
     EXPECT_EQ(first->canonical, second->canonical);
   }
+}
+
+TEST(ClearanceStudy, RefusesMoreRowsThanThereIsMemoryFor) {
+  const MemoryLimit limit(1e9);
+  EXPECT_THAT(
+      problems_of(replaced(one_turn(), "samples = 1201", "samples = 1000000")),
+      AllOf(HasSubstr("simulation.samples: 1000000 rows would take "),
+            HasSubstr(" GB of memory, at most 1 GB may be taken; take fewer samples, or allow more")));
+}
+
+TEST(ClearanceStudy, WarnsOfDepthsThatNoBushHas) {
+  // A spring in the place of a bush of steel.
+  const study::Result r =
+      run_text(replaced(one_turn(), "modulus_GPa    = 207.0", "stiffness_N_per_m1_5 = 1e6"));
+  EXPECT_THAT(fact(r, "depth in the bush of B"), HasSubstr("% of the radius of the pin of 9.5 mm"));
+  EXPECT_THAT(messages(r), HasSubstr("the pin of 'B', 9.5 mm in radius, is pressed "));
+  EXPECT_THAT(messages(r), HasSubstr("the law of contact holds for depths of a few per cent"));
+}
+
+TEST(ClearanceStudy, WarnsOfALawThatDoesNotGiveItsRestitution) {
+  const std::string text = replaced(one_turn(), "\"lankarani_nikravesh\"", "\"flores_2011\"");
+  const study::Result poor = run_text(replaced(text, "restitution    = 0.9", "restitution = 0.05"));
+  EXPECT_THAT(messages(poor),
+              HasSubstr("restitution = 0.05 of 'B': by flores_2011 an impact gives back 0.0"));
+  EXPECT_THAT(messages(poor), HasSubstr("times the force and"));
+  EXPECT_THAT(messages(poor), HasSubstr("on the law is within 25 % of what it is told"));
+  EXPECT_THAT(messages(run_text(text)), Not(HasSubstr("restitution")));
 }
 
 TEST(ClearanceStudy, NamesWhatIsWrong) {

@@ -82,6 +82,44 @@ TEST(ContactLaw, RestitutionDoesNotDependOnMassSpeedStiffnessOrExponent) {
               effective_restitution(law), 1e-7);
 }
 
+// Against the impact integrated in time.
+TEST(ContactLaw, ShapeOfAnImpactAgainstAnElasticOne) {
+  const double mass = 0.14, speed = 0.5;
+  for (const auto& [damping, c] :
+       {std::pair{ContactDamping::lankarani_nikravesh, 0.9},
+        std::pair{ContactDamping::lankarani_nikravesh, 0.3}, std::pair{ContactDamping::flores_2011, 0.5},
+        std::pair{ContactDamping::flores_2011, 0.05}}) {
+    const ContactLaw law{.stiffness = 6.61e10, .restitution = c, .damping = damping};
+    const ContactLaw elastic{.stiffness = 6.61e10, .restitution = 1, .damping = damping};
+    const Impact lossy = impact(law, mass, speed), whole = impact(elastic, mass, speed);
+    const ImpactShape shape = impact_shape(law);
+    EXPECT_EQ(shape.restitution, effective_restitution(law));
+    // Largest values at the steps, 20000 an impact, and of 1000 places.
+    EXPECT_NEAR(shape.depth, lossy.depth / whole.depth, 1e-6) << c;
+    EXPECT_NEAR(shape.force, lossy.force / whole.force, 1e-4 * shape.force) << c;
+  }
+  const ImpactShape same = impact_shape({.stiffness = 1, .restitution = 1});
+  EXPECT_EQ(same.force, 1);
+  EXPECT_EQ(same.depth, 1);
+  // Nearly without loss, on both sides of the switch to the series.
+  for (const double c : {1 - 1e-4, 1 - 1e-3}) {
+    const ImpactShape near = impact_shape({.stiffness = 1, .restitution = c});
+    EXPECT_NEAR(near.force, 1, 1 - c);
+    EXPECT_NEAR(near.depth, 1, 1 - c);
+  }
+}
+
+TEST(ContactLaw, KnowsFromWhereOnItIsTrue) {
+  for (const ContactDamping damping : {ContactDamping::lankarani_nikravesh, ContactDamping::flores_2011}) {
+    const double least = least_restitution(damping, 0.25);
+    const auto off = [&](double c) {
+      return std::abs(effective_restitution({.stiffness = 1, .restitution = c, .damping = damping}) / c - 1);
+    };
+    EXPECT_LE(off(least), 0.25);
+    EXPECT_GT(off(least - 0.01), 0.25);
+  }
+}
+
 TEST(ContactLaw, TimeOfAnElasticImpact) {
   for (const double exponent : {1.0, 1.5, 2.2}) {
     const ContactLaw law{.stiffness = 1e8, .exponent = exponent, .restitution = 1};

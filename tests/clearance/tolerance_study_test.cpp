@@ -24,21 +24,9 @@ using testing::prepare;
 using testing::problems_of;
 using testing::replaced;
 using testing::run_text;
+using testing::table;
+using testing::values;
 
-const Table& table(const study::Result& r, std::string_view name) {
-  for (const Table& t : r.tables)
-    if (t.name == name) return t;
-  ADD_FAILURE() << "no table " << name;
-  static const Table none;
-  return none;
-}
-const std::vector<double>& values(const study::Result& r, std::string_view name, std::string_view key) {
-  const Column* c = table(r, name).find(key);
-  if (c) return c->values;
-  ADD_FAILURE() << "no column " << name << "." << key;
-  static const std::vector<double> none;
-  return none;
-}
 double largest(const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); }
 std::string messages(const study::Result& r) {
   std::string out;

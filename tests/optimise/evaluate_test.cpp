@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <vector>
+
+#include "linkwright/core/interruption.h"
 
 namespace linkwright::optimise {
 namespace {
@@ -37,6 +40,33 @@ TEST(Evaluate, PartsGetTheirOwnCostsOfEveryObjective) {
   std::vector<double> cost(3 * 256), violation(256);
   calls = 0;
   evaluate(problem, candidates.view().slice(0, 256), cost, violation, 0);
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(Evaluate, LooksBeforeEachPartButTheFirst) {
+  Problem problem;
+  problem.variables = {{"x", 0, 1000}};
+  int calls = 0;
+  RunContext context;
+  context.set_threads(1);
+  int cancel_at = 0;
+  problem.evaluate = [&](const PopulationView& x, std::span<double> cost, std::span<double> violation) {
+    if (++calls == cancel_at) context.cancel();
+    for (std::size_t i = 0; i < x.size; ++i) cost[i] = x(0, i), violation[i] = 0;
+  };
+  Population candidates(1, 1000);
+  for (std::size_t i = 0; i < 1000; ++i) candidates(0, i) = static_cast<double>(i);
+  std::vector<double> cost(1000), violation(1000);
+  evaluate(problem, candidates.view(), cost, violation, context);
+  EXPECT_EQ(calls, 4);
+  EXPECT_EQ(cost[999], 999);
+  calls = 0;
+  cancel_at = 2;
+  EXPECT_THROW(evaluate(problem, candidates.view(), cost, violation, context), Interrupted);
+  EXPECT_EQ(calls, 2);
+  for (std::size_t i = 0; i < 1000; ++i) EXPECT_EQ(std::isnan(violation[i]), i >= 512) << i;
+  calls = cancel_at = 0;
+  EXPECT_THROW(evaluate(problem, candidates.view(), cost, violation, context), Interrupted);
   EXPECT_EQ(calls, 1);
 }
 

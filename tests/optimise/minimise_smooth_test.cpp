@@ -163,6 +163,24 @@ TEST(MinimiseSmooth, GoesOnFromItsCheckpoint) {
   EXPECT_THROW(minimise_smooth(bumpy(), o, {}, second), CheckpointError);
 }
 
+TEST(MinimiseSmooth, EvaluatesNoMoreThanAPartOfItsCandidatesWhenItIsToStop) {
+  SmoothProblem problem = testing::two_points();
+  const auto plain = problem.evaluate;
+  std::int64_t evaluated = 0;
+  problem.evaluate = [&](const PopulationView& x, std::span<double> values) {
+    evaluated += static_cast<std::int64_t>(x.size);
+    plain(x, values);
+  };
+  RunContext context;
+  context.cancel();
+  const SmoothReport cut = minimise_smooth(problem, {.candidates = 1000000}, {}, context);
+  EXPECT_EQ(cut.status, Status::cancelled);
+  EXPECT_EQ(cut.x.size(), 2u);
+  EXPECT_LT(cut.cost, HUGE_VAL);
+  EXPECT_LT(evaluated, 2000);
+  EXPECT_LE(cut.evaluations, evaluated);
+}
+
 TEST(MinimiseSmooth, SaysWhenNothingIsFeasible) {
   const SmoothProblem p =
       smooth_problem({{"a", 0, 1}}, 1, 1, [](Numbers x, Out out) { out[0] = x[0], out[1] = 2 - x[0]; });

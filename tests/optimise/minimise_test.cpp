@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "linkwright/core/interruption.h"
 #include "optimise/functions.h"
 #include "support/allocations.h"
 #include "support/memory_checkpoint.h"
@@ -205,6 +206,62 @@ TEST(Minimise, CancelAndDeadlineKeepTheBestSoFar) {
   const Report report = minimise(problem, {}, {}, {}, context);
   EXPECT_EQ(report.status, Status::cancelled);
   EXPECT_EQ(report.generations, 7);
+}
+
+TEST(Minimise, CutsAGenerationShortAndGoesOnWithTheSameBits) {
+  Problem problem = test::sphere(3);
+  const auto plain = problem.evaluate;
+  OptimiserOptions method = {.method = Method::self_adaptive_differential_evolution};
+  method.self_adaptive_differential_evolution.population = 1000;
+  MinimiseOptions options = {.checkpoint = "here"};
+  options.stop.generations = 6;
+  RunContext free;
+  const Report whole = minimise(problem, method, options, {}, free);
+  // Parts of 256, the first one at least: in the first generation and in the fourth.
+  for (const int at : {1, 2, 3, 14}) {
+    linkwright::test::MemoryCheckpoint checkpoint;
+    checkpoint.pause = std::chrono::hours(1);
+    RunContext context;
+    context.set_threads(1);
+    context.set_checkpoint(&checkpoint);
+    int calls = 0;
+    double least = INFINITY;
+    problem.evaluate = [&](const PopulationView& x, std::span<double> cost, std::span<double> violation) {
+      if (++calls == at) context.cancel();
+      plain(x, cost, violation);
+      for (std::size_t i = 0; i < x.size; ++i) least = std::min(least, cost[i]);
+    };
+    const Report cut = minimise(problem, method, options, {}, context);
+    EXPECT_EQ(cut.status, Status::cancelled);
+    EXPECT_EQ(calls, at);
+    EXPECT_EQ(cut.generations, (at - 1) / 4);
+    EXPECT_EQ(cut.evaluations, 1000 * ((at - 1) / 4) + 256 * (1 + (at - 1) % 4));
+    EXPECT_EQ(cut.cost, least);
+    double sum = 0;
+    for (const double v : cut.x) sum += v * v;
+    EXPECT_EQ(cut.cost, sum);
+    EXPECT_EQ(checkpoint.entries.empty(), at < 5);
+    problem.evaluate = plain;
+    RunContext second;
+    second.set_checkpoint(&checkpoint);
+    expect_same_bits(minimise(problem, method, options, {}, second), whole);
+  }
+}
+
+TEST(Minimise, AProblemThatLooksItselfEndsTheGeneration) {
+  Problem problem = test::sphere(2);
+  RunContext context;
+  context.cancel();
+  problem.evaluate = [&](const PopulationView&, std::span<double>, std::span<double>) { go_on(context); };
+  const Report nothing = minimise(problem, {}, {}, {}, context);
+  EXPECT_EQ(nothing.status, Status::cancelled);
+  EXPECT_EQ(nothing.evaluations, 0);
+  EXPECT_EQ(nothing.cost, INFINITY);
+  EXPECT_EQ(nothing.violation, INFINITY);
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_GE(nothing.x[j], problem.variables[j].lower);
+    EXPECT_LE(nothing.x[j], problem.variables[j].upper);
+  }
 }
 
 TEST(Minimise, TellsWhenNothingIsFeasible) {

@@ -78,6 +78,29 @@ TEST(Multistart, EndsAtTargetBudgetOrInterruption) {
   EXPECT_EQ(stopped.ends.size(), 1u);
 }
 
+TEST(Multistart, CutsALocalSearchShort) {
+  RunContext context;
+  int calls = 0;
+  double least = INFINITY;
+  const auto watched = [&](std::span<const double> x, std::span<double> r, std::span<double> j) {
+    if (++calls == 3) context.cancel();
+    waves(x, r, j);
+    least = std::min(least, r[0] * r[0] / 2);
+    return true;
+  };
+  const auto report =
+      multistart_least_squares(watched, 1, 1, {}, {}, uniform_start, {.starts = 60}, {}, context);
+  EXPECT_EQ(report.status, Status::cancelled);
+  ASSERT_EQ(report.ends.size(), 1u);
+  EXPECT_LE(calls, 4);  // and once more at the place it had come to
+  EXPECT_EQ(report.evaluations, calls);
+  EXPECT_EQ(report.ends[0].report.status, Status::not_converged);
+  EXPECT_EQ(report.ends[0].report.cost, least);
+  double r = 0;
+  waves(report.ends[0].x, {&r, 1}, {});
+  EXPECT_EQ(r * r / 2, least);
+}
+
 TEST(Multistart, TellsWhenNoStartCanBeEvaluated) {
   RunContext context;
   const auto report = multistart_least_squares([](auto...) { return false; }, 1, 1, {}, {}, uniform_start,

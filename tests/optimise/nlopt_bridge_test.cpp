@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "linkwright/core/interruption.h"
 #include "support/message.h"
 
 namespace linkwright::optimise {
@@ -198,6 +199,31 @@ TEST(NloptBridge, EndsWithTheBestAtTheBudgetAndAtAnInterruption) {
     const LocalReport first = minimise_local(rosenbrock, x, {}, {}, {.method = method}, late);
     EXPECT_EQ(first.status, Status::deadline) << name_of(method);
     EXPECT_EQ(first.evaluations, 1) << name_of(method);
+  }
+}
+
+TEST(NloptBridge, AFunctionThatLooksItselfEndsTheSearch) {
+  for (const LocalMethod method : {LocalMethod::slsqp, LocalMethod::cobyla, LocalMethod::bobyqa}) {
+    RunContext context;
+    double least = HUGE_VAL;
+    int calls = 0;
+    const auto watched = [&](Numbers x, Out gradient) {
+      // As if the time had run out within the seventh call.
+      if (++calls == 7) {
+        context.cancel();
+        go_on(context);
+      }
+      const double f = rosenbrock(x, gradient);
+      least = std::min(least, f);
+      return f;
+    };
+    std::vector<double> x = {-1.2, 1};
+    const LocalReport report = minimise_local(watched, x, {}, {}, {.method = method}, context);
+    EXPECT_EQ(report.status, Status::cancelled) << name_of(method);
+    EXPECT_EQ(report.end, LocalEnd::interrupted) << name_of(method);
+    EXPECT_EQ(calls, 7) << name_of(method);
+    EXPECT_EQ(report.cost, least) << name_of(method);
+    EXPECT_EQ(rosenbrock(x, {}), least) << name_of(method);
   }
 }
 

@@ -2,11 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include "linkwright/core/memory.h"
 #include "parallel/studies.h"
 
 namespace linkwright::parallel {
 namespace {
 
+using ::testing::AllOf;
+using testing::column;
 using testing::example;
 using testing::fact;
 using ::testing::HasSubstr;
@@ -27,8 +30,10 @@ const std::string smallest = head +
 TEST(DexterityStudy, FindsTheSmallestDelta) {
   const auto result = run_text(smallest);
   EXPECT_EQ(result.status, Status::done);
-  EXPECT_LE(result.solutions.at(0).objectives.find("size_m")->as_number(), 1.03386556);
-  EXPECT_THAT(fact(result, "held back by"), HasSubstr("side_swing"));
+  EXPECT_LE(result.solutions.at(0).objectives.find("size_m")->as_number(), 1.0755939);
+  EXPECT_THAT(fact(result, "held back by"), HasSubstr("constraint"));
+  EXPECT_EQ(fact(result, "least constraint index"), "0.200000");
+  EXPECT_THAT(fact(result, "whole region free of singularities"), HasSubstr("proven"));
   // All of the rim is reached.
   ASSERT_EQ(result.scenes.size(), 1u);
   for (const std::string& status : result.scenes[0].status) EXPECT_EQ(status, "done");
@@ -39,15 +44,51 @@ TEST(DexterityStudy, PopulationMethodsWorkOnTheSameTask) {
       smallest + "[optimiser]\nmethod = \"differential_evolution\"\npopulation = 30\ngenerations = 60\n");
   EXPECT_EQ(result.status, Status::done);
   const double size = result.solutions.at(0).objectives.find("size_m")->as_number();
-  EXPECT_GT(size, 1.0338);
+  EXPECT_GT(size, 1.0755);
   EXPECT_LT(size, 1.3);
   EXPECT_EQ(result.statistics.find("method")->as_string(), "differential_evolution");
+}
+
+// Without limits the smallest robot is singular: a limit is put in, and told.
+TEST(DexterityStudy, PutsALimitInWhereTheSmallestWouldBeSingular) {
+  const auto result = run_text(head + "goal = \"size\"\n");
+  EXPECT_EQ(result.status, Status::done) << result.headline;
+  EXPECT_THAT(fact(result, "limit put in"), HasSubstr("transmission index at least 0.3"));
+  const Table& limits = testing::table(result, "limits");
+  const auto& bound = column(result, "limits", "bound");
+  int input = 0;
+  for (std::size_t k = 0; k < limits.names.size(); ++k)
+    if (limits.names[k].starts_with("input transmission") ||
+        limits.names[k].starts_with("output transmission")) {
+      EXPECT_EQ(bound[k], 0.3);
+      ++input;
+    }
+  EXPECT_EQ(input, 2);
+  EXPECT_EQ(fact(run_text(smallest), "limit put in"), "no fact");
+}
+
+TEST(DexterityStudy, TheConstraintIsAChoice) {
+  const auto free = run_text(smallest + "constraint = 0\n");
+  EXPECT_NEAR(free.solutions.at(0).objectives.find("size_m")->as_number(), 1.0362, 2e-4);
+  EXPECT_THAT(problems_of(testing::replaced(example("synthesis/parallel.five_bar/region"), "size_mm = 900",
+                                            "size_mm = 900\nconstraint = 0.2")),
+              HasSubstr("only the legs of a DELTA are parallelograms"));
 }
 
 TEST(DexterityStudy, SaysWhatCannotBe) {
   const auto result = run_text(replaced(smallest, "conditioning = 0.4", "conditioning = 0.99"));
   EXPECT_EQ(result.status, Status::infeasible);
   EXPECT_THAT(result.headline, HasSubstr("No design meets every limit"));
+}
+
+TEST(DexterityStudy, RefusesMorePointsThanThereIsMemoryFor) {
+  const MemoryLimit limit(2e9);
+  for (const char* key : {"nodes", "cells"})
+    EXPECT_THAT(problems_of(replaced(smallest, "height_mm = 250\n",
+                                     std::string("height_mm = 250\n") + key + " = [1000, 1000, 1000]\n")),
+                AllOf(HasSubstr(std::string("target.") + key + ": 1000000000 " + key + " would take 2"),
+                      HasSubstr(" GB of memory, at most 2 GB may be taken; take fewer " + std::string(key) +
+                                ", or allow more with the environment variable LINKWRIGHT_MEMORY_MB")));
 }
 
 TEST(DexterityStudy, TellsWhatIsWrong) {

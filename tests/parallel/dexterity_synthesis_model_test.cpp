@@ -98,7 +98,7 @@ TEST(DexteritySynthesisModel, FewPosesAreNodes) {
   EXPECT_EQ(model.nodes(), 1225u);
   // 3 on the axis, 2 radii of 3 azimuths of 3 heights.
   ASSERT_EQ(model.few().size(), 3u + 2 * 3 * 3);
-  const DesignedRobot designed = model.designed(std::vector{0.1396, 0.4764, 0.7236, 0.3513});
+  const DesignedRobot designed = model.designed(std::vector{0.2423, 0.4160, 0.7840, 0.4611});
   DexterityModel::Work work;
   const Extremes few = model.extremes(designed, work, true), all = model.extremes(designed, work);
   EXPECT_GE(few.conditioning.value, all.conditioning.value);

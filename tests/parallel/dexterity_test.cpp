@@ -25,6 +25,7 @@ struct Sample {
 std::vector<Sample> samples() {
   return {{RobotFamily::delta, {0.155, 0.35, 0.8, 0.65}, {0.21, -0.13, -0.17}},
           {RobotFamily::delta, {0.01, 0.53, 0.67, 0.3}, {0.35, 0.2, -0.2}},
+          {RobotFamily::delta, {0.01, 0.53, 0.67, 0.3}, {0.39, 0, -0.01}},
           {RobotFamily::hexa, {0.25, 0.06, 0.09, 0.78, 0.25, 0.55, 0.4}, {0.05, 0.03, -0.1}},
           {RobotFamily::hexa,
            {0.25, 0.06, 0.09, 0.78, 0.25, 0.55, 0.4},
@@ -41,14 +42,15 @@ struct Flat {
 Flat flat(const Sample& sample, const std::vector<double>& values) {
   const DesignedRobot designed = design(sample.family, values);
   PoseDexterity<double> at;
-  measure(designed, elbows_out(sample.family), {.length = 0.09, .output = true}, sample.place,
-          sample.rotation, at);
+  measure(designed, elbows_out(sample.family), {.length = 0.09, .output = true, .constraint = true},
+          sample.place, sample.rotation, at);
   Flat out;
   const auto add = [&](double value, const std::array<double, most_dimensions>& by) {
     out.value.push_back(value);
     out.by.push_back(by);
   };
   add(at.conditioning, at.conditioning_by);
+  add(at.constraint, at.constraint_by);
   for (int i = 0; i < designed.robot.legs(); ++i) {
     add(at.input_square[i], at.input_square_by[i]);
     add(std::atan2(at.sine[i], at.cosine[i]), at.angle_by[i]);
@@ -68,7 +70,13 @@ TEST(Dexterity, HasTheIndicesOfThePose) {
     ASSERT_EQ(arms.status, Status::done);
     const Quality there = quality(designed.robot, jacobians(designed.robot, pose, arms.angle), 0.09);
     PoseDexterity<double> here;
-    measure(designed, mode, {.length = 0.09, .output = true}, sample.place, sample.rotation, here);
+    measure(designed, mode, {.length = 0.09, .output = true, .constraint = true}, sample.place,
+            sample.rotation, here);
+    const bool held = sample.family == RobotFamily::delta;
+    EXPECT_NEAR(std::abs(here.constraint), held ? there.constraint_index : 1, 1e-13);
+    if (held) {
+      EXPECT_GT(here.constraint * there.constraint, 0);
+    }
     // Rounding times the condition of Jx, below 10 for these poses.
     EXPECT_NEAR(here.conditioning, 1 / there.condition, 1e-13);
     for (int i = 0; i < designed.robot.legs(); ++i) {
@@ -123,7 +131,8 @@ TEST(Dexterity, BeyondReachTellsHowFar) {
   const Sample far{RobotFamily::delta, {0.155, 0.35, 0.8, 1.2}, {0.3, 0.1, -0.1}};
   const Flat at = flat(far, far.values);
   EXPECT_LT(at.value[0], 0);
-  EXPECT_EQ(at.value[0], std::min({at.value[1], at.value[5], at.value[9]}));
+  EXPECT_EQ(at.value[0], std::min({at.value[2], at.value[6], at.value[10]}));
+  EXPECT_EQ(at.value[1], at.value[0]);
   constexpr double h = 1e-6;
   for (std::size_t j = 0; j < 4; ++j) {
     std::vector<double> more = far.values, less = far.values;
@@ -138,7 +147,7 @@ TEST(Dexterity, SetsOfPosesHaveTheSameIndicesAndAllocateNothing) {
   for (const Sample& sample : samples()) {
     const DesignedRobot designed = design(sample.family, sample.values);
     const WorkingMode mode = elbows_out(sample.family);
-    const DexterityMeasures what{.length = 0.09, .output = true};
+    const DexterityMeasures what{.length = 0.09, .output = true, .constraint = true};
     PoseSet poses;
     poses.rotation = sample.rotation;
     RandomStream random({.seed = 3});
@@ -160,6 +169,9 @@ TEST(Dexterity, SetsOfPosesHaveTheSameIndicesAndAllocateNothing) {
       reached += one.conditioning > 0;
       // Registers may fuse products and sums: rounding times condition.
       EXPECT_NEAR(set.conditioning[k], one.conditioning, 1e-12);
+      if (sample.family == RobotFamily::delta) {
+        EXPECT_NEAR(set.constraint[k], one.constraint, 1e-12);
+      }
       for (int j = 0; j < designed.count; ++j)
         EXPECT_NEAR(set.conditioning_by[j][k], one.conditioning_by[j],
                     1e-9 * std::max(1.0, std::abs(one.conditioning_by[j])));

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace linkwright::parallel {
@@ -16,55 +17,109 @@ ToolMotion line() {
   return {path, {}, Pose{}};
 }
 
-TEST(DriveUseStudy, NotesEachTroubleOnceWhereItBegins) {
-  const ToolMotion motion = line();
-  PathJudge judge(motion);
-  judge.fail("reach", 0, Status::no_assembly, "too far");
-  judge.fail("reach", 0.01, Status::no_assembly, "farther");
-  ASSERT_EQ(judge.failures().size(), 1u);
-  EXPECT_EQ(judge.failures()[0].text, "step 1 (line) at 0 s: too far");
-  const Drive drive{.type = DriveType::pi_joint, .lowest = -0.5, .highest = 0.5};
-  judge.travel(0, 1, drive, drive_at(drive, 0.3, 0.4));
-  judge.transmission(0, 1, drive_at(drive, 0.3, 0.4), 0.1);
-  EXPECT_EQ(judge.failures().size(), 1u);
-  judge.travel(0, 1, drive, drive_at(drive, 0.3, 0.6));
-  judge.transmission(0, 1, drive_at(drive, 0.3, 0.6), 0.999);
-  ASSERT_EQ(judge.failures().size(), 3u);
-  EXPECT_THAT(judge.failures()[1].text,
-              HasSubstr("Pi-joint 2 would be at 34.38 deg, travel -28.65 to 28.65 deg"));
-  EXPECT_THAT(judge.failures()[2].text, HasSubstr("diagonal and arm of Pi-joint 2"));
+const std::vector<Drive> motors(2);
+
+// A demand over the time of `motion`, whose excess is given.
+Status judged(PathJudge& judge, const std::function<double(double)>& share, double end = 1e9) {
+  return judge.judge(
+      [&](double t, std::vector<Demand>& out) {
+        out.assign(1, {Asked::effort, 0, 10 * share(t), 10, share(t) - 1});
+      },
+      end, RunContext());
 }
 
-TEST(DriveUseStudy, KeepsTheLargestUseOfEachLimit) {
+TEST(DriveUseStudy, FindsThePeakAndWhereTheLimitIsFirstNotKept) {
   const ToolMotion motion = line();
-  PathJudge judge(motion);
-  const Drive drive{.type = DriveType::pi_joint};
-  PiDrive motor;
-  motor.force_limit = 100;
-  for (const double force : {20.0, -60.0, 40.0}) judge.limits(0.01 * force, 0, drive, motor, 0.1, force);
-  // Without a limit there is no use of it.
-  ASSERT_EQ(judge.uses().size(), 1u);
-  EXPECT_EQ(judge.uses()[0].what, "screw force of drive 1");
-  EXPECT_EQ(judge.uses()[0].share, 0.6);
-  EXPECT_EQ(judge.uses()[0].time, -0.6);
-  EXPECT_TRUE(judge.failures().empty());
-  judge.limits(0, 1, Drive{}, motor, 0.1, 150);
-  const Table table = uses_table(judge.uses());
-  EXPECT_THAT(table.names, ::testing::ElementsAre("screw force of drive 1", "torque of drive 2"));
-  EXPECT_EQ(table.find("use_percent")->values[1], 150);
+  // A bump as narrow as a tenth of a step between two looks of a table of 10 ms.
+  const double top = 0.0731, width = 0.004;
+  const auto share = [&](double t) { return 0.5 + 1.5 * std::exp(-std::pow((t - top) / width, 2)); };
+  PathJudge judge(motion, motors);
+  EXPECT_EQ(judged(judge, share), Status::done);
+  const PathJudge::Peak* peak = judge.peak(Asked::effort);
+  ASSERT_NE(peak, nullptr);
+  EXPECT_NEAR(peak->time, top, 1e-8);
+  EXPECT_NEAR(peak->demand.excess, 1, 1e-12);
+  // 0.5 + 1.5 exp(-x^2) = 1.
+  EXPECT_NEAR(peak->begin, top - width * std::sqrt(std::log(3)), 1e-12);
+  ASSERT_EQ(judge.failures().size(), 1u);
+  EXPECT_THAT(
+      judge.failures()[0].text,
+      HasSubstr(
+          "torque of drive 1 is 20 N m, the limit is 10 N m, 200 % of it is asked for (step 1 (line) at"));
+  EXPECT_THAT(judge.failures()[0].text, HasSubstr("; it begins in step 1 (line) at 0.0689"));
+  // What comes after the end does not count.
+  PathJudge before(motion, motors);
+  judged(before, share, 0.05);
+  EXPECT_TRUE(before.failures().empty());
+  RunContext stopped;
+  stopped.cancel();
+  EXPECT_EQ(before.judge([](double, std::vector<Demand>&) {}, 1, stopped), Status::cancelled);
+}
 
+TEST(DriveUseStudy, TheWorstComesFirst) {
+  const ToolMotion motion = line();
+  const std::vector<Drive> drives{{.type = DriveType::pi_joint, .lowest = -0.5, .highest = 0.5},
+                                  {.type = DriveType::pi_joint, .lowest = -0.5, .highest = 0.5}};
+  PathJudge judge(motion, drives);
+  const auto at = [](double t) { return Demand{Asked::effort, 0, 20 * t, 1, 20 * t - 1}; };
+  judge.judge(
+      [&](double t, std::vector<Demand>& out) {
+        out.clear();
+        out.push_back(index_demand(Asked::transmission, 0.2, 0.3));
+        out.push_back(index_demand(Asked::drive_transmission, 0.5, 0.999, 1));
+        out.push_back(at(t));
+        out.push_back({Asked::speed, 1, 3, 1, 2});
+        out.push_back(travel_demand(1, drives[1], drive_at(drives[1], 0.3, 0.6)));
+      },
+      motion.duration(), RunContext());
+  auto failures = judge.failures();
+  ASSERT_EQ(failures.size(), 5u);
+  EXPECT_THAT(failures[0].text, HasSubstr("Pi-joint 2 would be at 34.38 deg, travel -28.65 to 28.65 deg"));
+  EXPECT_THAT(failures[1].text, HasSubstr("screw force of drive 1 is"));
+  EXPECT_THAT(failures[2].text,
+              HasSubstr("speed of drive 2 is 3 m/s, the limit is 1 m/s, 300 % of it is asked for"));
+  EXPECT_THAT(failures[3].text,
+              HasSubstr("diagonal and arm of Pi-joint 2 is 0.500, at least 0.999 is asked for"));
+  EXPECT_THAT(failures[4].text, HasSubstr("transmission index is 0.200, at least 0.300 is asked for"));
+  judge.fail(Severity::impossible, 0.01, Status::no_assembly, "too far");
+  EXPECT_EQ(judge.failures().front().text, "too far");
+  const Table table = uses_table(judge.uses());
+  EXPECT_THAT(table.names, ::testing::ElementsAre("screw force of drive 1", "speed of drive 2"));
+  EXPECT_EQ(table.find("use_percent")->values[1], 300);
   study::Result result;
   add_verdict(result, judge, motion, motion.duration(), true);
-  EXPECT_EQ(result.status, Status::limit_reached);
-  EXPECT_EQ(result.headline,
-            "It fails: step 1 (line) at 0 s: torque of drive 2 is 150 N m, the limit is 100 N m.");
+  EXPECT_EQ(result.status, Status::no_assembly);
+  EXPECT_EQ(result.headline, "It fails: too far. The first of 6 troubles begins in step 1 (line) at 0 s.");
+}
+
+TEST(DriveUseStudy, DemandsTellHowFarLimitsAreKept) {
+  std::vector<Demand> out;
+  PiDrive motor;
+  motor.force_limit = 100;
+  add_drive_demands(out, 0, motor, 0.1, -60);
+  ASSERT_EQ(out.size(), 2u);
+  EXPECT_EQ(out[0].excess, -1);  // no limit of the speed
+  EXPECT_DOUBLE_EQ(out[1].excess, -0.4);
+  EXPECT_EQ(out[1].value, 60);
+  const Demand low = angle_demand(Asked::elbow, 0.3, 2.0, 0.5, 3.0),
+               high = angle_demand(Asked::elbow, 0.3, 2.0, 0, 1.5);
+  EXPECT_DOUBLE_EQ(low.excess, 0.2);
+  EXPECT_EQ(low.limit, 0.5);
+  EXPECT_DOUBLE_EQ(high.excess, 0.5);
+  // Without limits an arm may turn as it likes; a Pi-joint stays within a right angle.
+  EXPECT_LT(travel_demand(0, {}, drive_at({}, 0.3, 3)).excess, 0);
+  const Drive pi{.type = DriveType::pi_joint};
+  EXPECT_NEAR(travel_demand(0, pi, drive_at(pi, 0.3, 2)).excess, 2 - std::numbers::pi / 2, 1e-15);
 }
 
 TEST(DriveUseStudy, GoodVerdictNamesTheTightestLimit) {
   const ToolMotion motion = line();
-  PathJudge judge(motion);
-  judge.use(0, "speed of drive 1", 1, 4, "m/s");
-  judge.use(0, "torque of drive 1", 3, 4, "N m");
+  PathJudge judge(motion, motors);
+  judge.judge(
+      [](double, std::vector<Demand>& out) {
+        out = {{Asked::speed, 0, 1, 4, -0.75}, {Asked::effort, 0, 3, 4, -0.25}};
+      },
+      motion.duration(), RunContext());
   study::Result whole, part;
   add_verdict(whole, judge, motion, motion.duration(), true);
   EXPECT_THAT(whole.headline, HasSubstr("The tightest limit is the torque of drive 1: 75 % of it is used."));
@@ -76,11 +131,11 @@ TEST(DriveUseStudy, GoodVerdictNamesTheTightestLimit) {
 
 TEST(DriveUseStudy, ColumnsAreThoseOfEachDrive) {
   const std::vector<Drive> drives{{.type = DriveType::pi_joint}, {}};
-  std::vector<PiDrive> motors(2);
-  motors[1].screw.lead = 2 * std::numbers::pi / 10;
+  std::vector<PiDrive> geared(2);
+  geared[1].screw.lead = 2 * std::numbers::pi / 10;
   const std::vector<std::vector<DriveMotion>> rows{{{.speed = 1}, {.speed = 2}}, {}};
   Table table{.name = "motion"};
-  add_drive_columns(table, drives, motors, rows, true, true);
+  add_drive_columns(table, drives, geared, rows, true, true);
   EXPECT_EQ(table.find("diagonal_rate_1_m_per_s")->values[0], 1);
   EXPECT_TRUE(std::isnan(table.find("diagonal_rate_1_m_per_s")->values[1]));
   EXPECT_EQ(table.find("diagonal_rate_2_m_per_s"), nullptr);

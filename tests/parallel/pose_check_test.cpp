@@ -60,6 +60,7 @@ Plain plain(const PoseConditions& c, const Pose& pose) {
   set(PoseIndex::input_transmission, input);
   set(PoseIndex::rods, q.rods);
   set(PoseIndex::constraint, c.robot.freedom == Freedom::space ? 1 : q.constraint);
+  set(PoseIndex::constraint_index, c.robot.freedom == Freedom::space ? 1 : q.constraint_index);
   set(PoseIndex::manipulability, q.manipulability);
   if (drives.status != Status::no_assembly && !std::isnan(drive_transmission)) {
     const Resolution step =
@@ -75,6 +76,11 @@ Plain plain(const PoseConditions& c, const Pose& pose) {
   };
   out.margin = std::min(out.margin, input);  // the edge of what the legs reach
   demand(c.assembly == 0 || determinant(c.robot, at) * c.assembly > 0, Hurdle::assembly, q.rods);
+  if (c.robot.freedom == Freedom::space_translation) {
+    demand(c.constraint == 0 || q.constraint * c.constraint > 0, Hurdle::constraint, q.constraint);
+    demand(q.constraint_index >= c.least_constraint, Hurdle::constraint,
+           q.constraint_index - c.least_constraint);
+  }
   demand(drives.status == Status::done, Hurdle::travel, 1);
   demand(lowest_elbow >= c.least_elbow && highest_elbow <= c.most_elbow, Hurdle::elbow,
          std::min(std::abs(lowest_elbow - c.least_elbow), std::abs(highest_elbow - c.most_elbow)));
@@ -115,6 +121,8 @@ std::vector<Case> cases() {
   PoseConditions delta{.robot = reference_delta(),
                        .drives = reference_drives(),
                        .assembly = -1,
+                       .constraint = 1,
+                       .least_constraint = 0.4,
                        .least_elbow = 40 * degree,
                        .most_elbow = 150 * degree,
                        .most_swing = 35 * degree,
@@ -130,6 +138,7 @@ std::vector<Case> cases() {
   motors.robot.leg[1].arm = 0.4;
   motors.robot.leg[2].rod = 0.75;
   motors.mode = {1, -1, 1};
+  motors.constraint = 1;
   PoseConditions hexa{.robot = reference_hexa(),
                       .drives = reference_drives(),
                       .assembly = 1,
@@ -191,6 +200,7 @@ TEST(PoseCheck, AgreesWithThePlainFunctions) {
     some(Hurdle::none, true);
     some(Hurdle::leg, true);
     some(Hurdle::travel, true);
+    some(Hurdle::constraint, c.constraint != 0);
     some(Hurdle::elbow, c.least_elbow > 0);
     some(Hurdle::swing, c.most_swing < pi / 2);
     some(Hurdle::drive_transmission, c.least_drive_transmission > 0);
@@ -271,6 +281,26 @@ TEST(PoseCheck, AssemblyOfAPose) {
   EXPECT_EQ(assembly_at(reference_delta(), {{0, 0, -2}}), 0);
 }
 
+// Inverse kinematics takes the poses on both sides of the zero; the constraint has its own hurdle, after the
+// assembly.
+TEST(PoseCheck, APoseBeyondTheConstraintIsOfAnotherAssembly) {
+  const Robot clear = delta({.base_radius = 0.145, .platform_radius = 0.045, .arm = 0.5, .rod = 0.5});
+  const Pose home{{0, 0, -0.6}}, beyond{{0.3, 0, -0.44}};
+  const Marks marks = marks_at(clear, home);
+  EXPECT_EQ(marks, (Marks{-1, 1}));
+  EXPECT_EQ(marks_at(clear, beyond), (Marks{-1, -1}));
+  PoseConditions c{.robot = clear, .assembly = marks.assembly};
+  EXPECT_EQ(check_pose(c, beyond), Hurdle::none);
+  c.constraint = marks.constraint;
+  EXPECT_EQ(check_pose(c, home), Hurdle::none);
+  EXPECT_EQ(check_pose(c, beyond), Hurdle::constraint);
+  c.constraint = 0;
+  c.least_constraint = 0.2;
+  EXPECT_EQ(check_pose(c, beyond), Hurdle::constraint);
+  EXPECT_EQ(marks_at(reference_hexa(), {{0, 0, -0.5}}), (Marks{1, 1}));
+  EXPECT_EQ(marks_at(clear, {{0, 0, -2}}), Marks{});
+}
+
 TEST(PoseCheck, RefusesConditionsWithAProblem) {
   const auto message = [](const PoseConditions& c) { return problem(c).value_or(""); };
   PoseConditions c{.robot = reference_delta()};
@@ -285,6 +315,10 @@ TEST(PoseCheck, RefusesConditionsWithAProblem) {
   EXPECT_EQ(message(c), "rod swing 2 rad: must be between 0 and pi/2");
   c = {.robot = reference_delta(), .least_conditioning = 1.5};
   EXPECT_EQ(message(c), "limit 1.5 of an index: must be between 0 and 1");
+  c = {.robot = reference_delta(), .least_constraint = -0.1};
+  EXPECT_EQ(message(c), "limit -0.1 of an index: must be between 0 and 1");
+  c = {.robot = reference_delta(), .constraint = 3};
+  EXPECT_EQ(message(c), "constraint 3: must be -1, 0 or 1");
   c = {.robot = reference_delta(), .characteristic_length = 0};
   EXPECT_EQ(message(c), "characteristic length 0 m: must be positive");
   c = {.robot = reference_delta()};

@@ -92,6 +92,68 @@ TEST(PosesStudy, SaysWhyAPoseIsNoUse) {
               HasSubstr("singular (type_2): the rods do not hold the platform"));
 }
 
+const std::string clear =
+    "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"parallel.delta\"\nbase_radius_mm = 145\n"
+    "platform_radius_mm = 45\narm_mm = 500\nrod_mm = 500\n[home]\nposition_mm = [0, 0, -600]\n";
+
+TEST(PosesStudy, APoseBeyondTheConstraintIsNoUse) {
+  const auto result =
+      run_text(clear +
+               "[[pose]]\nposition_mm = [0, 0, -600]\n[[pose]]\nposition_mm = [300, 0, -440]\n"
+               "[[pose]]\nposition_mm = [270.8689700253, 0, -455.5365493198]\n"
+               "[[pose]]\narm_angles_rad = [0.069, 1.1843, 1.1843]\n");
+  const Value& path = linkwright::testing::at(computed("delta-constraint-path"), "paths.clear");
+  const auto& index = column(result, "poses", "constraint_index");
+  EXPECT_NEAR(index.at(0), linkwright::testing::number_at(path, "start.index"), 1e-9);
+  EXPECT_NEAR(index.at(1), linkwright::testing::number_at(path, "end.index"), 1e-9);
+  EXPECT_NEAR(column(result, "poses", "constraint_determinant").at(1),
+              linkwright::testing::number_at(path, "end.det_of_unit_rows"), 1e-9);
+  const Table& poses = testing::table(result, "poses");
+  EXPECT_THAT(poses.status, ::testing::ElementsAre("done", "branch_lost", "singular", "branch_lost"));
+  EXPECT_THAT(column(result, "poses", "joined_to_home"), ::testing::ElementsAre(1, -1, ::testing::_, -1));
+  EXPECT_GT(column(result, "poses", "clear_radius_m").at(0), 0.01);
+  EXPECT_EQ(column(result, "poses", "clear_radius_m").at(2), 0);
+  ASSERT_EQ(result.diagnostics.size(), 3u);
+  EXPECT_THAT(to_string(result.diagnostics[0]), HasSubstr("of another assembly of the platform than home"));
+  EXPECT_THAT(to_string(result.diagnostics[1]), HasSubstr("the rods of legs 2 and 3 lie level"));
+  EXPECT_EQ(testing::fact(result, "poses reached"), "1 of 4");
+}
+
+// Beyond the level rods on both sides of a leg: the same marks, yet the straight way is blocked.
+TEST(PosesStudy, EqualMarksProveNothingYet) {
+  const auto result = run_text(testing::replaced(clear, "[0, 0, -600]", "[258.4, -150, -450]") +
+                               "[[pose]]\nposition_mm = [258.4, 150, -450]\n");
+  EXPECT_EQ(result.status, Status::done);
+  EXPECT_EQ(column(result, "poses", "joined_to_home").at(0), 0);
+  EXPECT_THAT(testing::fact(result, "pose 1: way from home"),
+              HasSubstr("the straight way is blocked at 38.94 %"));
+}
+
+TEST(PosesStudy, AHexaTellsOfThreeWays) {
+  const std::string at_home = hexa + "[home]\nposition_mm = [0, 0, -500]\n";
+  const auto result =
+      run_text(at_home +
+               "[[pose]]\nname = \"turned\"\nposition_mm = [0, 0, -500]\nrotation_deg = [0, 0, 60]\n"
+               "[[pose]]\nname = \"beyond\"\nposition_mm = [0, 0, -500]\nrotation_deg = [0, 0, 170]\n");
+  EXPECT_THAT(testing::fact(result, "turned: way from home"), HasSubstr("the straight way is free"));
+  EXPECT_THAT(testing::fact(result, "beyond: way from home"), HasSubstr("of another assembly than home"));
+  EXPECT_THAT(testing::table(result, "poses").status, ::testing::ElementsAre("done", "branch_lost"));
+  EXPECT_THAT(column(result, "poses", "joined_to_home"), ::testing::ElementsAre(1, -1));
+}
+
+TEST(PosesStudy, ArmsOfAHexaAreLedFromHome) {
+  const Pose to{{0.05, -0.03, -0.5}, math::turn_about(Vec3{0.15, -0.2, 0.25})};
+  const ArmAngles arms = inverse(reference_hexa(), to);
+  std::string angles;
+  for (const double a : arms.angle) angles += (angles.empty() ? "" : ", ") + std::to_string(a);
+  const auto result =
+      run_text(hexa + "[home]\nposition_mm = [0, 0, -500]\n[[pose]]\narm_angles_rad = [" + angles + "]\n");
+  EXPECT_EQ(result.status, Status::done);
+  EXPECT_NEAR(column(result, "poses", "x_m").at(0), 0.05, 1e-5);
+  EXPECT_NEAR(column(result, "poses", "rotation_z_rad").at(0), 0.25, 1e-4);
+  EXPECT_THAT(testing::fact(result, "pose 1: way from home"), HasSubstr("the arms lead there"));
+}
+
 TEST(PosesStudy, TellsWhatDoesNotFitTogether) {
   EXPECT_THAT(problems_of(delta + "[[pose]]\nname = \"a\"\n"), HasSubstr("position: is missing"));
   EXPECT_THAT(problems_of(delta + "[[pose]]\nposition_mm = [0, 0, -800]\nrotation_deg = [0, 0, 5]\n"),

@@ -63,5 +63,13 @@ TEST(PrescribedRegion, SaysWhatIsWrong) {
             "a box does not have the symmetry of the robots");
 }
 
+TEST(PrescribedRegion, HasAMiddle) {
+  EXPECT_EQ(middle_of({.shape = RegionShape::cylinder, .width = 1, .height = 0.4}), (math::Vec3{0, 0, -0.2}));
+  EXPECT_EQ(middle_of({.shape = RegionShape::box, .width = 1, .length = 2, .height = 0.4}),
+            (math::Vec3{0, 0, -0.2}));
+  EXPECT_EQ(middle_of({.shape = RegionShape::circle, .width = 1}), (math::Vec3{0, 0.5, 0}));
+  EXPECT_EQ(middle_of({.shape = RegionShape::rectangle, .width = 1, .height = 0.4}), (math::Vec3{0, 0.2, 0}));
+}
+
 }  // namespace
 }  // namespace linkwright::parallel

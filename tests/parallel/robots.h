@@ -1,6 +1,6 @@
 #pragma once
 
-#include "linkwright/parallel/drives.h"
+#include "linkwright/parallel/workspace.h"
 #include "support/published.h"
 
 /// Robots of the reference figures, and those figures.
@@ -24,6 +24,28 @@ inline Robot reference_five_bar() {
 inline Robot reference_platform() {
   return planar({.base_x = -0.15, .arm = 0.25, .rod = 0.35, .platform_x = -0.05},
                 {.base_x = 0.15, .arm = 0.25, .rod = 0.35, .platform_x = 0.05});
+}
+
+/// Home of a workspace of "delta-constraint-workspace".
+inline Pose constraint_home(const std::string& name) { return {{0, 0, name == "mean" ? -0.42 : -0.6}}; }
+/// Its task, without conditions of the constraint.
+inline WorkspaceTask constraint_task(const std::string& name) {
+  const bool mean = name == "mean";
+  const Robot robot = mean ? delta({.base_radius = 0.057690979999999996,
+                                    .platform_radius = 0.045,
+                                    .arm = 0.53428657,
+                                    .rod = 0.66571343})
+                           : delta({.base_radius = 0.145, .platform_radius = 0.045, .arm = 0.5, .rod = 0.5});
+  WorkspaceTask out{.conditions = {.robot = robot, .assembly = assembly_at(robot, constraint_home(name))}};
+  if (mean) {
+    out.conditions.least_transmission = out.conditions.least_conditioning = 0.4;
+    out.grid = {{-0.4, -0.4, -0.54446}, {0.4, 0.4, -0.29446}, 0.025};
+  } else {
+    out.conditions.least_transmission = 0.5;
+    for (Drive& d : out.conditions.drives) d.lowest = -0.7853981633974483, d.highest = 1.7453292519943295;
+    out.grid = {{-0.5, -0.5, -0.9}, {0.5, 0.5, -0.2}, 0.025};
+  }
+  return out;
 }
 
 /// Pi-joints of the reference DELTA and HEXA, within 60 deg to both sides.
@@ -52,6 +74,13 @@ inline const Value& computed(std::string_view id) {
 }
 inline const Value& inputs(std::string_view id) {
   return testing::at(testing::published_case("pi-joint-parallel-robots.json", id), "inputs");
+}
+/// A DELTA of the reference figures.
+inline Robot delta_of(const Value& robot) {
+  return delta({.base_radius = testing::number_at(robot, "Rb_m"),
+                .platform_radius = testing::number_at(robot, "rp_m"),
+                .arm = testing::number_at(robot, "La_m"),
+                .rod = testing::number_at(robot, "Lf_m")});
 }
 inline Vec3 point(const Value& array) {
   const auto at = testing::numbers(array);

@@ -367,5 +367,96 @@ TEST(ToolMotion, ThrowsTheTextOfItsProblem) {
   EXPECT_EQ(rest(0).position, (Vec3{1, 2, 3}));
 }
 
+// Lines, arcs, corners, turns, gates, rests and tables.
+ToolPath everything() {
+  ToolPath out;
+  out.corner = 0.02;
+  out.steps = {{ToolLine{.to = {0.3, 0, 0}}},
+               {ToolLine{.to = {0.3, 0.2, 0}}},
+               {ToolArc{.through = {0.25, 0.3, 0}, .to = {0.1, 0.3, 0.1}}},
+               {ToolLine{.to = {0.1, 0.3, 0.1}, .rotation = Coordinates{0, 0.4, 0.2}}},
+               {ToolDwell{0.1}},
+               {PickAndPlace{.to = {0.2, 0.1, 0.1}, .height = 0.1, .back = true}},
+               {ToolTable{.times = {0, 0.3, 0.5, 1},
+                          .points = {{0.1, 0.3, 0.1}, {0.2, 0.35, 0.1}, {0.2, 0.2, 0.2}, {0.1, 0.1, 0}},
+                          .rotations = {{0, 0.4, 0.2}, {0.2, 0.3, 0}, {0.5, 0, 0}, {0, 0, 0}}}}};
+  return out;
+}
+
+TEST(ToolMotion, BetweenItsBreaksItIsSmooth) {
+  for (const TimeLaw law : {TimeLaw::double_s, TimeLaw::cycloidal}) {
+    ToolPath path = everything();
+    path.law = law;
+    const ToolMotion motion(path, {}, origin);
+    const std::vector<double> breaks = motion.breaks();
+    EXPECT_EQ(breaks.front(), 0);
+    EXPECT_EQ(breaks.back(), motion.duration());
+    EXPECT_GT(breaks.size(), 10u);
+    for (std::size_t k = 1; k < breaks.size(); ++k) {
+      ASSERT_LT(breaks[k - 1], breaks[k]);
+      // Halves of a smooth stretch: the jerk changes by ever less. A break within would leave a step.
+      const double from = breaks[k - 1], to = breaks[k];
+      const auto steepest = [&](int n) {
+        double most = 0;
+        for (int i = 0; i < n; ++i) {
+          const double edge = 1e-6 * (to - from);
+          const auto at = [&](int j) { return motion(from + edge + (to - from - 2 * edge) * j / n); };
+          most = std::max(most, norm(at(i + 1).acceleration - at(i).acceleration));
+        }
+        return most;
+      };
+      const double coarse = steepest(64), fine = steepest(512);
+      EXPECT_LE(fine, 0.5 * coarse + 1e-6) << from << " to " << to;
+    }
+  }
+}
+
+TEST(ToolMotion, WayBoundsWhatTheToolGoes) {
+  const ToolMotion motion(everything(), {}, origin);
+  const std::vector<double> breaks = motion.breaks();
+  for (std::size_t k = 1; k < breaks.size(); ++k)
+    for (const int parts : {1, 32}) {
+      double gone = 0, bound = 0;
+      for (int p = 0; p < parts; ++p) {
+        const double from = breaks[k - 1] + (breaks[k] - breaks[k - 1]) * p / parts,
+                     to = breaks[k - 1] + (breaks[k] - breaks[k - 1]) * (p + 1) / parts;
+        const Displaced way = motion.way(from, to);
+        double shift = 0, turn = 0;
+        constexpr int steps = 200;
+        for (int i = 0; i < steps; ++i) {
+          const ToolState a = motion(from + (to - from) * i / steps),
+                          b = motion(from + (to - from) * (i + 1) / steps);
+          shift += norm(b.position - a.position);
+          turn += apart(b.rotation, a.rotation);
+        }
+        EXPECT_LE(shift, way.shift + 1e-9);
+        EXPECT_LE(turn, way.turn + 1e-7);
+        gone += shift;
+        bound += way.shift;
+      }
+      // Along curves it is the very length; along a table it tends to it.
+      if (breaks[k] < motion.duration() - 1) {
+        EXPECT_NEAR(gone, bound, 1e-5 * bound + 1e-12);
+      } else if (parts == 32) {
+        EXPECT_LT(bound, 1.2 * gone);
+      }
+    }
+  const auto before = test::allocations();
+  motion.way(0.01, 0.02);
+  EXPECT_EQ(test::allocations(), before);
+}
+
+TEST(ToolMotion, TellsTheShareOfTheWayOfAStep) {
+  const ToolMotion motion(
+      {.steps = {{ToolLine{.to = {0.3, 0, 0}}}, {ToolDwell{1}}, {ToolLine{.to = {0, 0, 0}}}}}, {}, origin);
+  EXPECT_EQ(motion.share_at(0), 0);
+  const double first = (motion.duration() - 1) / 2;
+  EXPECT_NEAR(*motion.share_at(first / 2), 0.5, 1e-12);
+  EXPECT_NEAR(motion.share_at(first + 0.5).value_or(-1), -1, 0);
+  EXPECT_NEAR(*motion.share_at(first * 1.5 + 1), 0.5, 1e-12);
+  EXPECT_EQ(motion.share_at(motion.duration()), 1);
+  EXPECT_THAT(motion.where_exactly(first / 2), HasSubstr(" s, 50 % of its way"));
+}
+
 }  // namespace
 }  // namespace linkwright::parallel

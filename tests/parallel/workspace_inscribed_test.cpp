@@ -117,6 +117,40 @@ TEST(WorkspaceInscribed, CylinderOfGivenHeightOnTheAxis) {
   EXPECT_GT(found.half.x, best - 1e-4);
 }
 
+// The former best design for the mean index has its constraint singularity within the cylinder it was made
+// for.
+TEST(WorkspaceInscribed, TheConstraintMakesCylindersSmaller) {
+  const Value& expected =
+      testing::at(computed("delta-constraint-workspace"), "cylinder_height_250_top_at_0_29446465");
+  const Robot robot = delta_of(testing::at(inputs("delta-constraint-workspace"), "robots.mean"));
+  const double top = -0.29446465;
+  const auto widest = [&](double least) {
+    const Setting s(
+        {.conditions = {.robot = robot, .assembly = -1, .constraint = 1, .least_constraint = least},
+         .grid = {{-0.4, -0.4, top - 0.25}, {0.4, 0.4, top}, 0.025}});
+    return s.run({.axis = Vec3{0, 0, 0}, .height = 0.25});
+  };
+  for (const auto& [key, least] : {std::pair{"index>=0.1", 0.1}, {"index>=0.2", 0.2}}) {
+    const Inscribed found = widest(least);
+    EXPECT_NEAR(2 * found.half.x, testing::number_at(*expected.find(key), "largest_diameter_m"), 1e-5);
+    EXPECT_TRUE(found.proven);
+  }
+  // By the sign alone the body touches the singularity; what can be proven keeps away from it by the floor.
+  const Inscribed by_sign = widest(0);
+  const double diameter = testing::number_at(*expected.find("index>=0"), "largest_diameter_m");
+  EXPECT_TRUE(by_sign.proven);
+  EXPECT_LT(2 * by_sign.half.x, diameter);
+  EXPECT_NEAR(2 * by_sign.half.x, diameter, 1e-3);
+  // Where the index is 0 on the upper rim, in the direction of a leg.
+  const auto index = [&](double radius) {
+    const RegularAt there = regular_at(robot, {{radius, 0, top}}, all_positive, 1);
+    return there.constraint * there.marks.constraint;
+  };
+  double low = 0.2, high = 0.4;
+  for (int k = 0; k < 60; ++k) (index(0.5 * (low + high)) > 0 ? low : high) = 0.5 * (low + high);
+  EXPECT_NEAR(2 * low, diameter, 1e-5);
+}
+
 TEST(WorkspaceInscribed, CylindersAnywhere) {
   const Inscribed on_axis = delta().run({.axis = Vec3{0, 0, 0}});
   const Inscribed anywhere = delta().run({});

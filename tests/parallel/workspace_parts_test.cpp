@@ -38,6 +38,40 @@ TEST(WorkspaceParts, TheReferenceDeltaIsInOnePiece) {
   }
 }
 
+TEST(WorkspaceParts, WhatTheConstraintLeavesIsJoinedToHome) {
+  for (const char* name : {"mean", "clear"})
+    for (const auto& [key, least] : {std::pair{"chi_min=0", 1e-3}, {"chi_min=0.2", 0.2}}) {
+      const Value& row =
+          testing::at(computed("delta-constraint-workspace"), std::string("workspaces.") + name);
+      const Value& counts = *row.find(key);
+      WorkspaceTask task = constraint_task(name);
+      task.conditions.constraint = 1;
+      task.conditions.least_constraint = least;
+      const WorkspaceMap map = workspace(task, RunContext());
+      const WorkspaceParts found = workspace_parts(
+          map, passing(map), {.conditions = task.conditions, .home = constraint_home(name).position},
+          RunContext());
+      EXPECT_NEAR(static_cast<double>(found.reachable()), testing::number_at(counts, "joined_to_home"), 3)
+          << name;
+      EXPECT_EQ(static_cast<double>(found.size.size()), testing::number_at(counts, "parts")) << name << key;
+    }
+}
+
+// Without conditions of the constraint nodes beyond it pass, but nothing joins them to home.
+TEST(WorkspaceParts, NothingJoinsTheTwoSidesOfAConstraintSingularity) {
+  const WorkspaceTask task = constraint_task("clear");
+  const WorkspaceMap map = workspace(task, RunContext());
+  const WorkspaceParts found =
+      workspace_parts(map, passing(map), {.conditions = task.conditions, .home = {0, 0, -0.6}}, RunContext());
+  EXPECT_GT(found.closed, 0u);
+  EXPECT_EQ(found.all(), totals(map).passing);
+  EXPECT_NEAR(static_cast<double>(found.reachable()), 13650, 30);
+  for (std::size_t n = 0; n < map.count(); ++n)
+    if (found.part[n] >= 0 && found.part[n] == found.home) {
+      EXPECT_EQ(marks_at(task.conditions.robot, {map.position(n)}), (Marks{-1, 1}));
+    }
+}
+
 // Mode (+, -) of the five-bar crosses its singularity of type 2: rods aligned.
 WorkspaceTask crossing() {
   return {.conditions = {.robot = reference_five_bar(), .mode = {1, -1}},

@@ -48,6 +48,41 @@ TEST(Workspace, OfTheReferenceDelta) {
   EXPECT_NEAR(total.index[slot(PoseIndex::conditioning)].mean, number_at(expected, "gci"), nodes / 44273);
 }
 
+// The same grid, with what keeps the platform from turning.
+TEST(Workspace, OfTheReferenceDeltaWithItsConstraint) {
+  const Value& expected = testing::at(computed("delta-workspace"), "constraint");
+  WorkspaceTask task = delta_task();
+  task.conditions.constraint = 1;
+  WorkspaceMap map = workspace(task, RunContext());
+  EXPECT_NEAR(count_before(map, Hurdle::travel), number_at(expected, "reachable_same_sign"), nodes);
+  EXPECT_NEAR(count_before(map, Hurdle::open), number_at(expected, "pi_range_lti_same_sign"), nodes);
+  task.conditions.least_constraint = 0.2;
+  task.wanted[slot(PoseIndex::constraint_index)] = true;
+  map = workspace(task, RunContext());
+  EXPECT_NEAR(count_before(map, Hurdle::travel), number_at(expected, "reachable_chi_at_least_02"), nodes);
+  EXPECT_NEAR(totals(map).index[slot(PoseIndex::constraint_index)].least,
+              number_at(expected, "pi_range_lti_least_chi"), 1e-9);
+}
+
+// Two robots whose workspaces the constraint cuts, by sign, by the floor, and by a limit.
+TEST(Workspace, TheConstraintCutsWhatIsOfUse) {
+  for (const char* name : {"mean", "clear"}) {
+    const Value& row = testing::at(computed("delta-constraint-workspace"), std::string("workspaces.") + name);
+    WorkspaceTask task = constraint_task(name);
+    const auto passing_with = [&](int sign, double least) {
+      task.conditions.constraint = sign;
+      task.conditions.least_constraint = least;
+      return static_cast<double>(totals(workspace(task, RunContext())).passing);
+    };
+    for (const auto& [key, least] : {std::pair{"chi_min=0", 1e-3}, {"chi_min=0.2", 0.2}}) {
+      const Value& counts = *row.find(key);
+      EXPECT_NEAR(passing_with(0, 0), number_at(counts, "passing_without_constraint"), nodes) << name;
+      EXPECT_NEAR(passing_with(1, 0), number_at(counts, "same_sign"), nodes) << name;
+      EXPECT_NEAR(passing_with(1, least), number_at(counts, "chi_at_least"), nodes) << name;
+    }
+  }
+}
+
 TEST(Workspace, OfTheReferenceDeltaOnAFineGrid) {
   WorkspaceTask task = delta_task();
   task.grid.step = 0.01;

@@ -153,6 +153,22 @@ TEST(ElasticBody, TellsTheMiddleOfOddAndEvenNumbersOfCells) {
   }
 }
 
+// 4 x (1 - x) and 3 sqrt(3) / 2 x (1 - x^2) are the moments of a beam on two pins under an even and a rising
+// load, by their largest; the springs sit at the middles of the cells.
+TEST(ElasticBody, KnowsWhatFewSegmentsMiss) {
+  EXPECT_NEAR(segment_errors(2).moment, 0.25, 1e-15);      // 4 / 4 * 3 / 4
+  EXPECT_NEAR(segment_errors(4).moment, 1.0 / 16, 1e-15);  // 4 * 3 / 8 * 5 / 8
+  EXPECT_NEAR(segment_errors(1).moment, 1 - 1.5 * std::sqrt(3.0) * 0.375, 1e-15);
+  EXPECT_NEAR(segment_errors(1).frequency, 1 - std::sqrt(48.0) / (std::numbers::pi * std::numbers::pi),
+              1e-15);
+  EXPECT_NEAR(segment_errors(2).frequency, 1 - std::sqrt(96.0) / (std::numbers::pi * std::numbers::pi),
+              1e-15);
+  EXPECT_TRUE(too_few_segments(1));
+  EXPECT_TRUE(too_few_segments(2));
+  EXPECT_EQ(enough_segments(), 3);
+  for (int n = 3; n <= 64; ++n) EXPECT_FALSE(too_few_segments(n)) << n;
+}
+
 TEST(ElasticBody, KnowsItsFrequencies) {
   const ElasticBody beam = strip(2, 8);
   EXPECT_NEAR(first_frequency(beam, 0.4), pi * pi * std::sqrt(stiffness / (density * area)) / 0.16, 1e-9);

@@ -90,7 +90,7 @@ TEST(LinkageGeneral, DrivesACylinderBetweenMovingBodies) {
   l.gravity = {0, -10};
   const LinkagePlan p = planned(l);
   ASSERT_EQ(p.groups.size(), 1u);
-  EXPECT_EQ(p.groups[0].type, GroupType::general);
+  EXPECT_EQ(p.groups[0].type, GroupType::triangle);
   EXPECT_FALSE(p.rotary[0]);
   LinkageMotion m(p);
   LinkageForces f;

@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <string>
 
+#include "linkwright/core/memory.h"
 #include "linkwright/study/write.h"
 #include "planar/studies.h"
 
 namespace linkwright::planar {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Each;
 using testing::fact;
 using ::testing::HasSubstr;
@@ -86,6 +88,19 @@ TEST(LinkageSimulationStudy, WritesWhatItReads) {
   const auto second = prepare(study::to_toml(first->canonical), messages);
   ASSERT_TRUE(second) << messages;
   EXPECT_EQ(first->canonical, second->canonical);
+}
+
+TEST(LinkageSimulationStudy, RefusesMoreRowsThanThereIsMemoryFor) {
+  const MemoryLimit limit(1e9);
+  const std::string text = pendulum();
+  const auto at = text.find("samples = ");
+  ASSERT_NE(at, std::string::npos);
+  std::string many = text;
+  many.replace(at, many.find('\n', at) - at, "samples = 1000000");
+  EXPECT_THAT(
+      problems_of(many),
+      AllOf(HasSubstr("simulation.samples: 1000000 rows would take "),
+            HasSubstr(" GB of memory, at most 1 GB may be taken; take fewer samples, or allow more")));
 }
 
 TEST(LinkageSimulationStudy, NamesWhatIsWrong) {

@@ -325,11 +325,67 @@ TEST(Simulate, ComesToRestByFriction) {
   l.joints[0].friction = 0.3;
   const LinkagePlan p = planned(l);
   const SimulationRun run = simulated(l, p, {{{}, 0, 2}}, evenly(0, 2, 21));
-  EXPECT_EQ(run.report.status, Status::singular);
-  EXPECT_THAT(run.report.message, ::testing::HasSubstr("friction holds the linkage at rest from"));
+  EXPECT_EQ(run.report.status, Status::at_rest);
+  EXPECT_THAT(run.report.message, ::testing::HasSubstr("friction holds the linkage at rest from 0.67"));
   // Friction turns round within the last step, so that its end is not known to the tolerance.
   EXPECT_NEAR(run.report.time, 2 / (0.3 * 9.81), 1e-6);
   EXPECT_NEAR(run.rows.back().work, -2 * 0.3 * 9.81 * run.rows.back().inputs[0].value, 1e-8);
+}
+
+// A weight that friction holds from the start: 0.3 g > 2 m/s2 of gravity along the slide.
+TEST(Simulate, StaysAtRestWhereFrictionHolds) {
+  Linkage l = slider();
+  l.joints[0].friction = 0.3;
+  l.gravity = {2, -9.81};
+  const LinkagePlan p = planned(l);
+  SimulationRun run = simulated(l, p, {{{}, 0.5, 0}}, evenly(0, 2, 21));
+  EXPECT_EQ(run.report.status, Status::at_rest);
+  EXPECT_EQ(run.report.time, 0);
+  ASSERT_EQ(run.rows.size(), 1u);
+  EXPECT_EQ(run.rows[0].inputs[0].value, 0.5);
+  // With less it goes: 2 - 0.1 * 9.81.
+  l.joints[0].friction = 0.1;
+  run = simulated(l, p, {{{}, 0, 0}}, evenly(0, 2, 21));
+  EXPECT_EQ(run.report.status, Status::done);
+  EXPECT_NEAR(run.rows.back().inputs[0].value, (2 - 0.981) * 2, 1e-6);
+}
+
+// Two bars whose elbow rubs hard: it sticks while the shoulder swings on. That is told soon, by name.
+TEST(Simulate, NamesAJointThatSticksWhileOthersMove) {
+  Linkage l = pendulum(2);
+  const std::size_t elbow = 1;
+  l.joints[elbow].friction = 1;
+  l.joints[elbow].pin_radius = 0.1;
+  const LinkagePlan p = planned(l);
+  const SimulationRun run = simulated(l, p, {{{}, 0.3, 0}, {{}, 0.2, 0.5}}, evenly(0, 5, 51));
+  EXPECT_EQ(run.report.status, Status::limit_reached);
+  EXPECT_THAT(run.report.message,
+              ::testing::HasSubstr("the friction of joint '" + l.joints[elbow].name + "' holds it"));
+  EXPECT_LT(run.report.steps, 20000);
+}
+
+// A cycloidal law ends at 0.5 s with a step of its jerk: the motion behind it is that of a start there.
+TEST(Simulate, EndsStepsAtTheKinksOfLaws) {
+  const Linkage l = pendulum(2);
+  const LinkagePlan p = planned(l);
+  const InputCourse driven{math::CycloidalMotion{.from = 0.2, .to = 1.4, .duration = 0.5}, 0, 0},
+      free{{}, 0.3, 0};
+  const SimulationRun whole = simulated(l, p, {driven, free}, evenly(0, 2, 5));
+  ASSERT_EQ(whole.report.status, Status::done);
+  const SimulationRun first = simulated(l, p, {driven, free}, evenly(0, 0.5, 2));
+  const InputMotion there = first.rows.back().inputs[1];
+  const SimulationRun second = simulated(l, p, {driven, {{}, there.value, there.rate}}, evenly(0.5, 2, 4));
+  for (std::size_t i = 1; i < whole.rows.size(); ++i) {
+    const auto& other = second.rows[i - 1];
+    EXPECT_NEAR(whole.rows[i].inputs[1].value, other.inputs[1].value, 1e-9) << whole.rows[i].time;
+    EXPECT_NEAR(whole.rows[i].inputs[1].rate, other.inputs[1].rate, 1e-9) << whole.rows[i].time;
+  }
+  // Tables of loads over time have corners, too.
+  Linkage pushed = l;
+  pushed.torques.push_back(
+      {.name = "motor", .body = 2, .torque = 1, .factor = {LoadArgument::time, {0.1, 0.4, 3}, {0, 1, 0}}});
+  EXPECT_THAT(breaks_of(pushed, std::vector<InputCourse>{driven, free}, 0, 2),
+              ::testing::ElementsAre(0.1, 0.4, 0.5));
 }
 
 TEST(Simulate, TellsAStartThatDoesNotAssemble) {

@@ -1,5 +1,6 @@
 #include "linkwright/planar/linkage_study.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -203,6 +204,107 @@ TEST(LinkageStudy, GoesOnThroughChangePointsAsTheStudySays) {
             0.1);
 }
 
+// Over the full turn, its flat positions among the rows.
+TEST(LinkageStudy, AParallelogramHasAllItsRows) {
+  std::string text = replaced(four_bar_text, "O4 = [0.6, 0]", "O4 = [0.4, 0]");
+  text = replaced(text, "O3 = [0.32, 0]", "O3 = [0.1, 0]");
+  text = replaced(text, "samples = 201", "samples = 361");
+  const study::Result r = run_text(text);
+  EXPECT_EQ(r.status, Status::done);
+  const Table& t = r.tables[0];
+  for (std::size_t i = 0; i < t.rows(); ++i) {
+    // The coupler only moves along: its speed is 0, the rocker's that of the crank.
+    EXPECT_NEAR(t.find("rocker_speed_rad_per_s")->values[i], 10 * pi, 1e-5) << i;
+    EXPECT_NEAR(t.find("coupler_C_x_m")->values[i],
+                0.1 * std::cos(t.find("crank_angle_rad")->values[i]) + 0.2, 1e-6);
+    EXPECT_NEAR(t.find("rocker_acceleration_rad_per_s2")->values[i], 0, 1e-3) << i;
+    // The weight of the rocker has no answer where it is flat.
+    EXPECT_EQ(t.status[i], i % 180 == 0 ? "singular" : "done") << i;
+    EXPECT_EQ(std::isnan(t.find("O1_x_N")->values[i]), i % 180 == 0) << i;
+  }
+  const study::Result moved = run_text(text + "[output]\nquantities = [\"position\", \"rates\"]\n");
+  EXPECT_EQ(moved.status, Status::done);
+  EXPECT_THAT(moved.tables[0].status, Each("done"));
+  // With a kink the rates are not known there, but the position is.
+  const study::Result kink =
+      run_text(replaced(text, "type = \"grid\"", "type = \"grid\"\nat_change_point = \"keep_sign\""));
+  EXPECT_NEAR(kink.tables[0].find("coupler_C_x_m")->values[180], 0.1, 1e-9);
+  EXPECT_TRUE(std::isnan(kink.tables[0].find("rocker_speed_rad_per_s")->values[180]));
+}
+
+// An arm raised by a cylinder, drawn, swept from 0 mm on: rows stand from the shortest length on, in both
+// senses and whatever the spacing.
+TEST(LinkageStudy, ACylinderRaisesAnArm) {
+  const auto text = [](double from, double to, int samples) {
+    return fmt::format(R"(schema = 1
+kind = "analysis"
+[mechanism]
+type = "planar.linkage"
+drawn = true
+[[mechanism.body]]
+name = "ground"
+points_mm = {{ O = [0, 0], C = [150, 0] }}
+[[mechanism.body]]
+name = "arm"
+points_mm = {{ O = [0, 0], P = [100, 120], tip = [300, 350] }}
+[[mechanism.body]]
+name = "barrel"
+points_mm = {{ C = [150, 0] }}
+[[mechanism.body]]
+name = "rod"
+points_mm = {{ P = [100, 120] }}
+[[mechanism.joint]]
+name = "O"
+first = "ground.O"
+second = "arm.O"
+[[mechanism.joint]]
+name = "C"
+first = "ground.C"
+second = "barrel.C"
+[[mechanism.joint]]
+name = "P"
+first = "rod.P"
+second = "arm.P"
+[[mechanism.joint]]
+name = "cylinder"
+type = "prismatic"
+first = "barrel.C"
+second = "rod.P"
+direction_rad = {}
+[[drive]]
+joint = "cylinder"
+[sweep]
+type = "grid"
+[[sweep.input]]
+from_mm = {}
+to_mm = {}
+samples = {}
+[[trace]]
+point = "arm.tip"
+[output]
+quantities = ["position"]
+)",
+                       std::atan2(120, -50), from, to, samples);
+  };
+  const study::Result up = run_text(text(0, 130, 14)), down = run_text(text(130, 0, 14)),
+                      fine = run_text(text(0, 130, 131));
+  EXPECT_EQ(up.status, Status::no_assembly);
+  const double arm = std::hypot(0.1, 0.12), least = std::abs(arm - 0.15);
+  for (std::size_t i = 0; i < 14; ++i) {
+    const double length = 0.01 * static_cast<double>(i);
+    EXPECT_EQ(up.tables[0].status[i], length < least ? "no_assembly" : "done") << i;
+    EXPECT_EQ(down.tables[0].status[13 - i], up.tables[0].status[i]);
+    EXPECT_EQ(fine.tables[0].status[10 * i], up.tables[0].status[i]);
+    if (length < least) continue;
+    const double angle = up.tables[0].find("arm_angle_rad")->values[i];
+    EXPECT_NEAR(angle, down.tables[0].find("arm_angle_rad")->values[13 - i], 1e-12);
+    EXPECT_NEAR(angle, fine.tables[0].find("arm_angle_rad")->values[10 * i], 1e-12);
+  }
+  // The drawing stands as drawn: hypot(50, 120) = 130 mm.
+  EXPECT_NEAR(up.tables[0].find("arm_angle_rad")->values[13], 0, 1e-12);
+  EXPECT_THAT(to_string(up.diagnostics.at(0)), HasSubstr("it assembles from 6.205 to 130 mm"));
+}
+
 TEST(LinkageStudy, TellsRatiosCentresAndRanges) {
   const study::Result r = run_text(std::string(four_bar_text) +
                                    "[quality]\noutput_joint = \"O4\"\ncentrodes = "
@@ -227,6 +329,23 @@ TEST(LinkageStudy, TellsRatiosCentresAndRanges) {
   EXPECT_NEAR(x * std::sin(crank) - y * std::cos(crank), 0, 1e-12);
   EXPECT_EQ(table("centrodes-coupler").rows(), 201u);
   EXPECT_EQ(table("assembly_modes").find("coupler_rocker_mode")->values, (std::vector<double>{1, -1}));
+}
+
+// A joint and a body, or two bodies that differ in a blank, would write columns of one name.
+TEST(LinkageStudy, RefusesTwoColumnsOfOneName) {
+  std::string same = four_bar_text;
+  for (const auto& [from, to] : {std::pair{"name = \"O1\"", "name = \"crank\""},
+                                 std::pair{"joint = \"O1\"", "joint = \"crank\""}})
+    for (std::size_t i = 0; (i = same.find(from, i)) != std::string::npos;)
+      same.replace(i, std::string_view(from).size(), to);
+  EXPECT_THAT(problems_of(same),
+              HasSubstr("two columns of the results would be called 'crank_angle_rad': crank angle (rad) and "
+                        "crank angle (rad) of the drive; give bodies, joints and points names that differ"));
+  std::string blank = four_bar_text;
+  for (const auto& [from, to] : {std::pair{"coupler", "arm 1"}, std::pair{"rocker", "arm_1"}})
+    for (std::size_t i = 0; (i = blank.find(from, i)) != std::string::npos;)
+      blank.replace(i, std::string_view(from).size(), to);
+  EXPECT_THAT(problems_of(blank), HasSubstr("would be called 'arm_1_"));
 }
 
 TEST(LinkageStudy, NamesWhatIsWrongWithALinkage) {
@@ -294,12 +413,13 @@ type = "grid"
 from_deg = 0
 to_deg = 360
 samples = 37
-[[trace]]
-point = "rod.C"
 [output]
-quantities = ["position"]
+quantities = ["position", "rates"]
 )";
+  // The point of the rod has its columns without a trace.
   const study::Result r = run_text(text);
+  EXPECT_TRUE(r.tables[0].find("rod_C_speed_x_m_per_s"));
+  EXPECT_TRUE(r.tables[0].find("rod_C_acceleration_y_m_per_s2"));
   EXPECT_EQ(r.status, Status::done);
   const double delta = 25 * pi / 180;
   for (int i = 0; i < 37; ++i) {

@@ -219,6 +219,29 @@ TEST(ReactionsStudyRun, HoldsWhatWasAskedFor) {
   EXPECT_TRUE(result.scenes[0].moments.empty());
 }
 
+// The tracing point given with the mechanism has speed and acceleration as other traces: those of its places.
+TEST(ReactionsStudyRun, TracesTheCouplerPoint) {
+  const study::Result result =
+      run({{"3 parameters",
+            "[mechanism.parameters]\nground_m = 0.6\ncrank_m = 0.1\ncoupler_m = 0.4\nrocker_m = 0.32\n"
+            "coupler_u_m = 0.2\ncoupler_v_m = 0.1\nframe_angle_deg = 20\n"},
+           {"6 sweep",
+            "[sweep]\ntype = \"grid\"\ncrank_angle = { from_deg = 0, to_deg = 360, samples = 3601 }\n"}});
+  const Table& t = result.tables[0];
+  const double step = 2 * pi / 3600 / (10 * pi);  // s from row to row
+  for (const char* axis : {"x", "y"}) {
+    const auto& place = t.find(std::string("C_") + axis + "_m")->values;
+    const auto& speed = t.find(std::string("C_speed_") + axis + "_m_per_s")->values;
+    const auto& acceleration = t.find(std::string("C_acceleration_") + axis + "_m_per_s2")->values;
+    // Central differences are off by step^2 / 6 and / 12 of the next derivatives, about 1e5 m/s3 and 1e7
+    // m/s4.
+    for (std::size_t i = 1; i + 1 < place.size(); i += 7) {
+      EXPECT_NEAR(speed[i], (place[i + 1] - place[i - 1]) / (2 * step), 1e-3);
+      EXPECT_NEAR(acceleration[i], (place[i + 1] - 2 * place[i] + place[i - 1]) / (step * step), 0.1);
+    }
+  }
+}
+
 // A turn of the whole mechanism turns the forces, without gravity.
 TEST(ReactionsStudyRun, ForcesTurnWithTheFrame) {
   const std::string still = "[environment]\ngravity_m_per_s2 = 0\n";

@@ -17,6 +17,7 @@ TEST(Studies, AreThoseOfPlanarLinkages) {
     if (kind.seeded) seeded.push_back(names.back());
   }
   EXPECT_THAT(names, ::testing::ElementsAre("synthesis/planar.four_bar/path_points",
+                                            "synthesis/planar.slider_crank/path_points",
                                             "analysis/planar.four_bar", "analysis/planar.linkage",
                                             "analysis/planar.slider_crank", "simulation/planar.linkage",
                                             "simulation/planar.slider_crank", "regulation/planar.linkage",
@@ -24,6 +25,7 @@ TEST(Studies, AreThoseOfPlanarLinkages) {
                                             "balancing/planar.four_bar", "balancing/planar.linkage",
                                             "balancing/planar.slider_crank", "balancing/planar.serial_arm"));
   EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/planar.four_bar/path_points",
+                                             "synthesis/planar.slider_crank/path_points",
                                              "balancing/planar.four_bar", "balancing/planar.linkage",
                                              "balancing/planar.slider_crank", "balancing/planar.serial_arm"));
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 
 namespace linkwright::report {
 namespace {
@@ -24,10 +25,25 @@ TEST(Groups, ValuesInRisingOrderWithTheirRows) {
   plot.group = "z_m";
   const auto groups = groups_of(plot, table);
   ASSERT_EQ(groups.size(), 2u);
-  EXPECT_EQ(groups[0].label, "z -0.7 m");
+  EXPECT_EQ(groups[0].label, "z -700 mm");
   EXPECT_EQ(groups[0].rows, (std::vector<std::size_t>{1}));
-  EXPECT_EQ(groups[1].label, "z -0.5 m");
+  EXPECT_EQ(groups[1].label, "z -500 mm");
   EXPECT_EQ(groups[1].rows, (std::vector<std::size_t>{0, 3}));
+}
+
+TEST(Groups, AreNamedInTheUnitThatIsShown) {
+  const auto named = [](const char* key, const char* label, double value) {
+    Table table;
+    table.add(key, label, {value});
+    study::Plot plot;
+    plot.group = key;
+    return groups_of(plot, table).at(0).label;
+  };
+  EXPECT_EQ(named("steer_rad", "steer (rad)", std::numbers::pi / 4), "steer 45°");
+  EXPECT_EQ(named("reach_m", "reach (m)", 1.5), "reach 1.5 m");
+  EXPECT_EQ(named("rack_mm", "", -30), "rack -30 mm");
+  EXPECT_EQ(named("run", "run", 3), "run 3");
+  EXPECT_EQ(named("pull", "pull (lbf)", 3), "pull 3 lbf");  // known to its label alone
 }
 
 TEST(Groups, WithoutTheColumnAllRowsAreOne) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <regex>
 #include <string>
 #include <vector>
@@ -89,8 +90,8 @@ TEST(MapSvg, NeighboursOfOneClassAreOneRectangle) {
   EXPECT_NEAR(found[3].y, found[0].y - 2 * cell, 0.4);  // y upwards
   EXPECT_NEAR(found[4].x, found[0].x, 0.01);
   EXPECT_THAT(picture, HasSubstr(">no value</text>"));
-  EXPECT_THAT(picture, HasSubstr(">x (m)</text>"));
-  EXPECT_THAT(picture, HasSubstr(">y (m)</text>"));
+  EXPECT_THAT(picture, HasSubstr(">x (mm)</text>"));
+  EXPECT_THAT(picture, HasSubstr(">y (mm)</text>"));
   EXPECT_THAT(picture, HasSubstr(">transmission index</text>"));
   EXPECT_THAT(plot_svg(plot(), grid({0, 0, 0, 0, 1, 1, 1, 1})), Not(HasSubstr(">no value</text>")));
 }
@@ -115,7 +116,7 @@ TEST(MapSvg, GroupsShareAxesAndColours) {
   EXPECT_EQ(test::fault_of_xml(picture), "");
   EXPECT_EQ(count(picture, "class=\"map\""), 4u);
   EXPECT_EQ(count(picture, "class=\"scale\""), 1u);
-  for (const char* title : {">z -0.9 m<", ">z -0.8 m<", ">z -0.7 m<", ">z -0.6 m<"})
+  for (const char* title : {">z -900 mm<", ">z -800 mm<", ">z -700 mm<", ">z -600 mm<"})
     EXPECT_THAT(picture, HasSubstr(title));
   const auto found = rectangles(picture);
   ASSERT_EQ(found.size(), 4u);
@@ -140,7 +141,7 @@ TEST(MapSvg, OfManyGroupsTwelveAreDrawn) {
   p.group = "z_m";
   const std::string picture = plot_svg(p, table);
   EXPECT_EQ(count(picture, "class=\"map\""), 12u);
-  for (const char* text : {">z 0 m<", ">z 39 m<", ">x (m); 12 of 40 maps<"})
+  for (const char* text : {">z 0 m<", ">z 39 m<", ">x (mm); 12 of 40 maps<"})
     EXPECT_THAT(picture, HasSubstr(text));
 }
 
@@ -153,6 +154,18 @@ TEST(MapSvg, LogarithmicColoursFollowDecades) {
   EXPECT_EQ(found[1].colour, class_colour(colour_classes / 2));
   EXPECT_EQ(found[2].colour, class_colour(colour_classes - 1));
   EXPECT_THAT(plot_svg(p, grid({1, 1, 1, 1, 100, 100, 1e4, 0})), HasSubstr(">no value</text>"));
+}
+
+TEST(MapSvg, ValuesAndPlacesAreInTheUnitsOfTheViewer) {
+  Table table = grid({0, 0.1, 0.2, 0.3, 0.4, 0.5, std::numbers::pi / 2, 0});
+  table.columns[2].key = "tilt_rad";
+  table.columns[2].label = "tilt (rad)";
+  for (double& v : table.columns[0].values) v *= 10;  // now up to 3 m, and so both are in metres
+  Plot p = plot();
+  p.y[1] = "tilt_rad";
+  const std::string picture = plot_svg(p, table);
+  for (const char* text : {">x (m)</text>", ">y (m)</text>", ">tilt (°)</text>", ">90</text>"})
+    EXPECT_THAT(picture, HasSubstr(text));
 }
 
 TEST(MapSvg, LastOfSeveralValuesAtAPlaceIsDrawn) {

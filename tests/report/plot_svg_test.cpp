@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 #include <regex>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "tests/report/sample_result.h"
@@ -84,7 +86,7 @@ TEST(PlotSvg, LinesBreakWhereValuesAreMissing) {
   EXPECT_EQ(test::fault_of_xml(picture), "");
   EXPECT_THAT(picture, Not(HasSubstr("nan")));
   EXPECT_EQ(corners(picture).size(), 36u);
-  EXPECT_THAT(picture, HasSubstr(">crank angle (rad)</text>"));
+  EXPECT_THAT(picture, HasSubstr(">crank angle (°)</text>"));
   const std::size_t at = picture.find("class=\"curve\"");
   const std::string path = picture.substr(at, picture.find("fill", at) - at);
   EXPECT_EQ(std::count(path.begin(), path.end(), 'M'), 2);
@@ -101,6 +103,65 @@ TEST(PlotSvg, LogarithmicAxesCountDecades) {
   ASSERT_EQ(points.size(), 3u);  // 0 has no logarithm
   EXPECT_NEAR(points[0].second - points[1].second, points[1].second - points[2].second, 0.15);
   EXPECT_THAT(picture, HasSubstr(">10000</text>"));
+}
+
+// Costs of problems that are solved exactly: squares of rounding errors.
+TEST(PlotSvg, LogarithmicAxesEndWhereValuesAreRounding) {
+  for (const double size : {1.0, 1e-28}) {
+    Table table{.name = "sweep"};
+    table.add("crank_angle_rad", "x", {1, 2, 3, 4});
+    table.add("cost", "cost", {size, size * 1e-8, size * 1e-16, size * 1e-31});
+    Plot p = plot(Plot::Style::line, {"cost"});
+    p.logarithmic_y = true;
+    const std::string picture = plot_svg(p, table);
+    EXPECT_EQ(test::fault_of_xml(picture), "");
+    const auto points = corners(picture);
+    ASSERT_EQ(points.size(), 4u);
+    EXPECT_NEAR(points[1].second - points[0].second, points[2].second - points[1].second, 0.15);
+    EXPECT_NEAR(points[3].second, points[2].second, 0.15);
+    EXPECT_THAT(picture, HasSubstr("zero up to rounding"));
+  }
+}
+
+TEST(PlotSvg, AnglesAndShortLengthsAreShownAsInTheViewer) {
+  Table table = turning();
+  std::vector<double> way, angle;
+  for (int i = 0; i <= 36; ++i) {
+    way.push_back(0.002 * i);
+    angle.push_back(-i * std::numbers::pi / 36);
+  }
+  table.add("way_m", "way (m)", way);
+  table.add("lag_rad", "lag (rad)", angle);
+  const std::string line = plot_svg(plot(Plot::Style::line, {"way_m"}), table);
+  for (const char* text : {">crank angle (°)</text>", ">300</text>", ">way (mm)</text>", ">60</text>"})
+    EXPECT_THAT(line, HasSubstr(text));
+  const std::string two = plot_svg(plot(Plot::Style::line, {"lag_rad", "crank_angle_rad"}), table);
+  for (const char* text : {">(°)</text>", ">lag (°)</text>", ">-100</text>"})
+    EXPECT_THAT(two, HasSubstr(text));
+  EXPECT_THAT(plot_svg(plot(Plot::Style::histogram, {"lag_rad"}), table), HasSubstr(">lag (°)</text>"));
+  EXPECT_THAT(plot_svg(plot(Plot::Style::polar, {"way_m", "way_m"}), table), HasSubstr(">x (mm)</text>"));
+  table.add("share_x", "share x", way);
+  EXPECT_THAT(plot_svg(plot(Plot::Style::polar, {"share_x", "share_x"}), table), HasSubstr(">x</text>"));
+}
+
+TEST(PlotSvg, CurvesWithALegendDifferInColourOrDash) {
+  Table table = turning();
+  std::vector<std::string> keys;
+  for (int k = 0; k < 8; ++k) {
+    keys.push_back("way" + std::to_string(k));
+    table.add(keys.back(), keys.back(), std::vector<double>(37, k));
+  }
+  const std::regex look("class=\"curve\"[^>]* stroke=\"([^\"]*)\"[^>]*stroke-dasharray=\"([^\"]*)\"");
+  const auto looks = [&](const std::string& picture) {
+    std::set<std::string> out;
+    for (std::sregex_iterator c(picture.begin(), picture.end(), look), end; c != end; ++c)
+      out.insert((*c)[1].str() + "/" + (*c)[2].str());
+    return out.size();
+  };
+  EXPECT_EQ(looks(plot_svg(plot(Plot::Style::line, {keys.begin(), keys.begin() + 7}), table)), 7u);
+  const std::string bundle = plot_svg(plot(Plot::Style::line, keys), table);
+  EXPECT_EQ(looks(bundle), 1u);
+  for (const auto& key : keys) EXPECT_THAT(bundle, HasSubstr("<title>" + key + "</title>"));
 }
 
 TEST(PlotSvg, HistogramsAndPointsAreDrawn) {
@@ -179,10 +240,10 @@ TEST(PlotSvg, GroupsAreOneCurveEach) {
   ASSERT_NE(first, std::string::npos);
   ASSERT_NE(second, std::string::npos);
   EXPECT_LT(first, second);
-  EXPECT_THAT(picture, HasSubstr(">toe (deg)</text>"));
+  EXPECT_THAT(picture, HasSubstr(">toe (°)</text>"));
   study::Plot two = grouped();
   two.y.push_back("low_deg");
-  EXPECT_THAT(plot_svg(two, grid()), HasSubstr(">toe (deg), rack -30 mm</text>"));
+  EXPECT_THAT(plot_svg(two, grid()), HasSubstr(">toe (°), rack -30 mm</text>"));
   two.group = "missing";
   EXPECT_EQ(count(plot_svg(two, grid()), "class=\"curve\""), 2u);
 }

@@ -350,6 +350,75 @@ study::Result sample_maps() {
   return result;
 }
 
+study::Result sample_diagrams() {
+  study::Result result;
+  result.headline = "Solved to rounding.";
+  study::Scene scene;
+  scene.name = "turn";
+  scene.title = "Crank";
+  scene.input_key = "crank_angle_rad";
+  scene.input_label = "crank angle";
+  scene.points = {{"O", {0}, {0}}, {"A", {}, {}}};
+  scene.bodies = {{"crank", {0, 1}, study::Scene::BodyStyle::bar}};
+  scene.joints = {{"O", 0, study::Scene::JointStyle::ground_pivot}};
+  for (int i = 0; i <= 360; ++i) {
+    scene.input.push_back(i * pi / 180);
+    scene.points[1].x.push_back(0.1 * std::cos(scene.input.back()));
+    scene.points[1].y.push_back(0.1 * std::sin(scene.input.back()));
+  }
+  Table table;
+  table.name = "turn";
+  table.add("crank_angle_rad", "crank angle (rad)", scene.input);
+  table.add("body_angle_rad", "angle of the body (rad)", scene.input);
+  std::vector<std::string> waves;
+  for (int k = 0; k < 9; ++k) {
+    std::vector<double> values;
+    for (const double angle : scene.input) values.push_back(std::sin(angle + k));
+    waves.push_back(fmt::format("wave_{}_m_per_s", k));
+    table.add(waves.back(), fmt::format("wave {} (m/s)", k), values);
+  }
+  std::vector<double> tiny;
+  for (int i = 0; i <= 360; ++i) tiny.push_back(std::pow(10, -5 - i / 10.0));
+  table.add("error_m2", "squared error (m2)", tiny);
+  std::vector<std::string> forces;
+  for (int k = 0; k < 7; ++k)
+    for (const char axis : {'x', 'y'}) {
+      std::vector<double> values;
+      for (const double angle : scene.input)
+        values.push_back((k + 1) * (axis == 'x' ? std::cos(angle) : std::sin(angle)));
+      forces.push_back(fmt::format("O{}_{}_N", k, axis));
+      table.add(forces.back(), fmt::format("O{} {} (N)", k, axis), values);
+    }
+  const auto add = [&](const char* name, std::vector<std::string> y) -> study::Plot& {
+    study::Plot plot;
+    plot.name = plot.title = name;
+    plot.table = plot.scene = "turn";
+    plot.x = "crank_angle_rad";
+    plot.y = std::move(y);
+    result.plots.push_back(plot);
+    return result.plots.back();
+  };
+  add("angle", {"body_angle_rad"});
+  add("seven", {waves.begin(), waves.begin() + 7});
+  add("nine", waves);
+  add("errors", {"error_m2"}).logarithmic_y = true;
+  add("roses", forces).style = study::Plot::Style::polar;
+  result.scenes = {std::move(scene)};
+  result.tables = {std::move(table)};
+  result.log = Value::array();
+  for (int seed = 1; seed <= 2; ++seed) {
+    Value entry, history = Value::array();
+    for (int i = 0; i < 20; ++i) history.push_back(std::pow(10, -1.5 * (i + seed)));
+    if (seed == 2) history.push_back(0.0);
+    entry["seed"] = seed;
+    entry["best"] = history.as_array().back().as_number();
+    entry["status"] = "done";
+    entry["history"] = history;
+    result.log.push_back(entry);
+  }
+  return result;
+}
+
 std::string sample_json(const study::Result& result) {
   Value doc;
   doc["schema"] = 1;

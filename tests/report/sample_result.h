@@ -20,6 +20,10 @@ study::Result sample_simulation();
 /// alone.
 study::Result sample_maps();
 
+/// Diagrams that are hard to draw, over the turn of a crank: an angle that grows from 0 to 360°, seven curves
+/// and nine, costs of 1e-30 from two seeds and as a column, three pairs of forces without a scene.
+study::Result sample_diagrams();
+
 /// The parts of result.json that a report reads.
 std::string sample_json(const study::Result& result);
 

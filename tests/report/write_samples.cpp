@@ -1,6 +1,6 @@
 // Writes what the report tests outside C++ look at: write_samples DIR makes DIR/report.html,
-// DIR/simulation.html, DIR/spatial.html, DIR/maps.html, DIR/hostile.html, DIR/empty.html, DIR/scene.dxf and
-// DIR/scene.svg.
+// DIR/simulation.html, DIR/spatial.html, DIR/maps.html, DIR/diagrams.html, DIR/hostile.html, DIR/empty.html,
+// DIR/scene.dxf and DIR/scene.svg.
 
 #include <filesystem>
 #include <fstream>
@@ -56,6 +56,15 @@ int main(int count, char** arguments) {
                                     .tool = "linkwright 0.1.0",
                                     .command = {},
                                     .result_json = test::sample_json(maps)}));
+
+  const study::Result diagrams = test::sample_diagrams();
+  write(folder / "diagrams.html", html({.result = diagrams,
+                                        .study_toml = {},
+                                        .title = "Diagrams over a turn",
+                                        .source = {},
+                                        .tool = "linkwright 0.1.0",
+                                        .command = {},
+                                        .result_json = test::sample_json(diagrams)}));
 
   const study::Result spatial = test::sample_spatial();
   write(folder / "spatial.html", html({.result = spatial,

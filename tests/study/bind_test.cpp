@@ -295,6 +295,79 @@ TEST(Bind, TablesErrorsOfMeaningAndFreeNames) {
   EXPECT_EQ(to_string(diagnostics[0]), "s.toml:4:12: error: timing.step_deg: does not divide the turn");
 }
 
+/// What a domain does: it reads links, then looks for one by name, in a table of its own.
+std::string read_and_refer(std::string_view text, bool with_schema = true) {
+  Diagnostics diagnostics;
+  const Value document = read_text(text, Syntax::toml, "s.toml", diagnostics);
+  DocumentReader reader(document, "s.toml", diagnostics);
+  ObjectReader root = reader.root();
+  std::vector<bind_sample::Link> links;
+  std::optional<ObjectReader> mechanism = root.table("mechanism");
+  (*mechanism)(Field{.key = "link", .summary = {}}, links);
+  for (std::size_t i = 1; i < links.size(); ++i)
+    if (links[i].name == links[0].name)
+      mechanism->unreadable("link", "'" + links[i].name + "' is used twice");
+  for (ObjectReader trace : root.tables("trace")) {
+    if (reader.has_errors()) break;  // the mechanism is not known: `of` is not asked for
+    std::string of;
+    trace(Field{.key = "of", .summary = {}}, of);
+  }
+  if (std::optional<ObjectReader> limit = root.table("limit")) {
+    std::string of;
+    (*limit)(Field{.key = "of", .summary = {}}, of);
+    if (std::none_of(links.begin(), links.end(), [&](const auto& l) { return l.name == of; }))
+      limit->error("of", "there is no link '" + of + "'");
+  }
+  reader.finish([&] {
+    if (!with_schema) return Value();
+    SchemaWriter all, mechanisms, traces, limits;
+    mechanisms(Field{.key = "link", .summary = {}}, links);
+    traces(Field{.key = "of", .summary = {}}, std::string());
+    limits(Field{.key = "of", .summary = {}}, std::string());
+    all.property(Field{.key = "mechanism", .summary = {}}, std::move(mechanisms).finish());
+    all.property(Field{.key = "trace", .summary = {}}, schema_array(std::move(traces).finish()));
+    all.property(Field{.key = "limit", .summary = {}}, std::move(limits).finish());
+    return std::move(all).finish();
+  });
+  std::string out;
+  for (const Diagnostic& d : diagnostics) out += to_string(d) + "\n";
+  return out;
+}
+
+TEST(Bind, OneMistakeGivesOneMessage) {
+  const std::string rest = "[[trace]]\nof = 'rod'\n[limit]\nof = 'rod'\n";
+  EXPECT_EQ(read_and_refer("[[mechanism.link]]\nname = 'rod'\n" + rest), "");
+  EXPECT_EQ(read_and_refer("[[mechanism.link]]\nname = 'bar'\n" + rest),
+            "s.toml:6:6: error: limit.of: there is no link 'rod'\n");
+  // The list of links is not known: neither a missing link nor the unread key of the trace is a mistake.
+  EXPECT_EQ(read_and_refer("[[mechanism.link]]\nname = 5\n" + rest),
+            "s.toml:2:8: error: mechanism.link[0].name: is 5, must be a text in quotes\n");
+  EXPECT_EQ(read_and_refer("[[mechanism.link]]\nnme = 'rod'\n" + rest),
+            "s.toml:2:1: error: mechanism.link[0].nme: unknown key; did you mean 'name'?\n");
+  EXPECT_EQ(read_and_refer("[[mechanism.link]]\nname = 'a'\n[[mechanism.link]]\nname = 'a'\n" + rest),
+            "s.toml:1:1: error: mechanism.link: 'a' is used twice\n");
+  // What the schema does not know is unknown all the same.
+  EXPECT_EQ(read_and_refer("[[mechanism.link]]\nname = 5\n[[trace]]\nby = 'x'\n"),
+            "s.toml:2:8: error: mechanism.link[0].name: is 5, must be a text in quotes\n"
+            "s.toml:4:1: error: trace[0].by: unknown key\n");
+}
+
+TEST(Bind, PathsHaveNoEmptyKeys) {
+  Diagnostics diagnostics;
+  const Value document = read_text("\"\" = 1\n[a]\n\"\" = 2\n", Syntax::toml, "s.toml", diagnostics);
+  DocumentReader reader(document, "s.toml", diagnostics);
+  ObjectReader root = reader.root();
+  root.table("a")->error("", "is of no use");
+  root.error("", "nothing is asked for");
+  reader.finish();
+  std::string out;
+  for (const Diagnostic& d : diagnostics) out += to_string(d) + "\n";
+  EXPECT_THAT(out, HasSubstr("error: a: is of no use"));
+  EXPECT_THAT(out, HasSubstr("error: nothing is asked for"));
+  EXPECT_THAT(out, HasSubstr("error: '': unknown key"));
+  EXPECT_THAT(out, HasSubstr("error: a.'': unknown key"));
+}
+
 TEST(Bind, SchemaFollowsTheFieldList) {
   const Value schema = schema_fields<Sample>();
   const Value* crank = schema.find("properties")->find("crank_m");
@@ -315,6 +388,27 @@ TEST(Bind, SchemaFollowsTheFieldList) {
                 ->as_number(),
             4);
   EXPECT_FALSE(schema.find("unevaluatedProperties")->as_bool());
+}
+
+// Where the key of a choice may be absent, exactly one alternative takes a table without it.
+TEST(Bind, SchemaOfAChoiceAsksForItsKeyButOnce) {
+  const auto required = [](const Value& alternative) {
+    const Value* keys = alternative.find("required");
+    return keys ? keys->as_array().size() : 0;
+  };
+  const Value with_default = schema_fields<Sample>();
+  const auto& options = with_default.find("oneOf")->as_array();
+  ASSERT_EQ(options.size(), 2u);
+  EXPECT_EQ(required(options[0]), 0u) << "grey_wolf is the default";
+  EXPECT_EQ(required(options[1]), 1u);
+  SchemaWriter writer;
+  writer(Field{.key = "method", .summary = {}},
+         std::optional<std::variant<bind_sample::Wolves, bind_sample::Descent>>());
+  const Value optional = std::move(writer).finish();
+  const auto& three = optional.find("oneOf")->as_array();
+  ASSERT_EQ(three.size(), 3u);
+  EXPECT_EQ(required(three[0]), 1u);
+  EXPECT_NE(three[2].find("not"), nullptr);
 }
 
 TEST(Bind, AsksForAKeyByItsNameAloneWithTheUnitThatItWasReadWith) {

@@ -3,12 +3,15 @@
 #include <gmock/gmock.h>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
+#include "linkwright/core/memory.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
 #include "tests/study/sample_kind.h"
 
 namespace linkwright::study {
 namespace {
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -45,7 +48,7 @@ TEST(Study, CanonicalHoldsEverythingInSiUnits) {
       to_json(p.study->canonical),
       R"({"schema":1,"kind":"synthesis","title":"A lever","mechanism":{"type":"sample.lever","length_m":0.4,"mode":"done"},)"
       R"("target":{"type":"angle","to_rad":1.5707963267948966},"optimiser":{"seeds":{"first":1,"count":2}},)"
-      R"("output":{"dir":"","formats":["json","csv","html"],"samples":361},)"
+      R"("output":{"dir":"","formats":["json","csv","html"],"samples":361,"units":"si","digits":"full"},)"
       R"("check":[{"quantity":"best.height_mm","equals":400.0,"tolerance":1e-09}]})");
 }
 
@@ -65,6 +68,29 @@ TEST(Study, RunsAndChecks) {
   ASSERT_EQ(result.checks.size(), 1u);
   EXPECT_TRUE(result.checks[0].passed);
   EXPECT_NEAR(result.checks[0].value, 400, 1e-12);
+}
+
+TEST(Study, ARunThatEndsWithNothingInHandHasItsStatus) {
+  Study study;
+  study.run = [](RunContext& run) -> Result {
+    go_on(run);
+    return {.status = Status::done};
+  };
+  RunContext context;
+  EXPECT_EQ(run_study(study, context).status, Status::done);
+  context.cancel();
+  const Result result = run_study(study, context);
+  EXPECT_EQ(result.status, Status::cancelled);
+  EXPECT_EQ(result.headline, "Interrupted before there was anything to tell.");
+}
+
+TEST(Study, RefusesMoreCandidatesThanThereIsMemoryFor) {
+  const MemoryLimit limit(1e8);
+  EXPECT_THAT(
+      messages("[optimiser]", "[optimiser]\npopulation = 1000000"),
+      AllOf(HasSubstr("optimiser.population: 1000000 candidates of 10 unknowns"),
+            HasSubstr("of memory, at most 100 MB may be taken; take fewer candidates, or allow more")));
+  EXPECT_THAT(messages("[optimiser]", "[optimiser]\npopulation = 1000"), Not(HasSubstr("memory")));
 }
 
 TEST(Study, VersionOfTheGrammar) {
@@ -113,7 +139,7 @@ TEST(Study, UnknownKeysOnEveryLevel) {
   EXPECT_THAT(messages("first = 1", "frst = 1"),
               HasSubstr("optimiser.seeds.frst: unknown key; did you mean 'first'?"));
   EXPECT_THAT(messages("[optimiser]", "[output]\nfolder = 'x'\n[optimiser]"),
-              HasSubstr("output.folder: unknown key; allowed here: dir, formats, samples, quantities"));
+              HasSubstr("output.folder: unknown key; allowed here: dir, formats, samples, units, digits, quantities"));
 }
 
 TEST(Study, OutputWords) {

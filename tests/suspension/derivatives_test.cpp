@@ -83,15 +83,22 @@ void expect_exact(const WheelGuide& guide, const std::string& name, const std::v
     EXPECT_LT(apart(exact.parameters, values, values, unused), 1e-11);
     for (std::size_t j = 0; j < numbers.size(); ++j) {
       int count = 0;
-      const WheelParameters by = differenced(
-          [&, driver = driver, input = input](double h) {
-            WheelGuide other = guide;
-            suspension::at(other, numbers[j]) += h;
-            return solved(other, driver, input);
-          },
-          step);
-      EXPECT_LT(apart(exact.by[j], by, values, count), agreement)
-          << name << ": " << label(guide, numbers[j]) << " at " << input.value << ", " << input.rack;
+      const auto off = [&, driver = driver, input = input](double by_step) {
+        const WheelParameters by = differenced(
+            [&](double h) {
+              WheelGuide other = guide;
+              suspension::at(other, numbers[j]) += h;
+              return solved(other, driver, input);
+            },
+            by_step);
+        count = 0;
+        return apart(exact.by[j], by, values, count);
+      };
+      // What curves more than the step was chosen for has a sixteenth of the truncation at half of it.
+      double worst = off(step);
+      if (!(worst < agreement)) worst = off(step / 2);
+      EXPECT_LT(worst, agreement) << name << ": " << label(guide, numbers[j]) << " at " << input.value << ", "
+                                  << input.rack;
       EXPECT_GT(count, 30);
     }
   }
@@ -118,6 +125,21 @@ TEST(Derivatives, OfPrescribedLengthsAndCouplers) {
   expect_exact(coupled, "interconnected", {{Driver::wheel_centre_z, {0.05, 0}}});
   WheelGuide right = mirrored(guide_sample("2RS-KS").guide);
   expect_exact(right, "right wheel", {{Driver::wheel_centre_z, {0.03, -0.02}}});
+}
+
+TEST(Derivatives, OfWhatIsFixedToARodOffItsLine) {
+  for (const int link : {0, 2}) {
+    WheelGuide guide = guide_sample("5KS").guide;
+    guide.spring->link = link;
+    expect_exact(guide, "5KS, spring on a rod", {{Driver::wheel_centre_z, {0.045, 0.02}}});
+    guide.links[link].cross_axis = Vec3{0.7, 0.5, -0.6};
+    guide.links[link].length = norm(guide.links[link].carrier[0] - guide.links[link].body[0]) + 0.004;
+    expect_exact(guide, "5KS, spring on a rod of another length", {{Driver::spring, {0.01, -0.01}}});
+  }
+  WheelGuide coupled = guide_sample("interconnected").guide;
+  const GuideLink& rod = coupled.links[coupled.couplers[0].first];
+  coupled.couplers[0].begin = rod.body[0] + 0.6 * (rod.carrier[0] - rod.body[0]) + Vec3{0.02, 0.005, -0.03};
+  expect_exact(coupled, "coupler off the line", {{Driver::wheel_centre_z, {0.03, 0}}});
 }
 
 TEST(Derivatives, AlongTravelAndRackAgreeWithDifferences) {

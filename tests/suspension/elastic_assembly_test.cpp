@@ -17,7 +17,7 @@ TEST(ElasticAssembly, BodiesAndJoints) {
   EXPECT_EQ(five.origin.size(), 6u);
   EXPECT_EQ(five.displacements(), 36);
   EXPECT_EQ(five.joints.size(), 10u);
-  EXPECT_EQ(five.idle.size(), 5u);  // every rod on two balls turns about its line
+  EXPECT_EQ(five.held_turns.size(), 5u);  // every rod on two balls turns about its line
   EXPECT_EQ(five.labels[1], "lower front rod");
   const ElasticAssembly direct = at_reference(guide_sample("R").guide);
   EXPECT_EQ(direct.origin.size(), 1u);
@@ -26,7 +26,7 @@ TEST(ElasticAssembly, BodiesAndJoints) {
   EXPECT_EQ(direct.joints[0].second, 0);
   EXPECT_TRUE(direct.joints[0].at_carrier);
   // The strut's slide holds it against turning about its line.
-  EXPECT_EQ(at_reference(guide_sample("SP-3KS").guide).idle.size(), 3u);
+  EXPECT_EQ(at_reference(guide_sample("SP-3KS").guide).held_turns.size(), 3u);
   const ElasticAssembly coupled = at_reference(guide_sample("interconnected").guide);
   ASSERT_EQ(coupled.couplers.size(), 1u);
   EXPECT_EQ(coupled.couplers[0].first, 1);
@@ -52,7 +52,7 @@ TEST(ElasticAssembly, AxesTurnWithWhatTheyAreFixedTo) {
 TEST(ElasticAssembly, ABushingThatHoldsTheTurnOfARodLeavesItNotIdle) {
   const WheelGuide& guide = guide_sample("5KS").guide;
   const auto idle = [&](const JointStiffness& joint) {
-    return at_reference(guide, {.links = {{.body = {joint}}, {}, {}, {}, {}}}).idle.size();
+    return at_reference(guide, {.links = {{.body = {joint}}, {}, {}, {}, {}}}).held_turns.size();
   };
   EXPECT_EQ(idle(bushing(1e6, 1e6, 5, 0)), 4u);
   EXPECT_EQ(idle(bushing(1e6, 1e6, 0, 5)), 5u);               // conical: across the line only

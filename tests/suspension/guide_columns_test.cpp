@@ -35,11 +35,24 @@ TEST(GuideColumns, AreMissingWhereThereIsNoPosition) {
     EXPECT_TRUE(std::isnan(value_of(c, {nowhere, wheel, Driver::spring}))) << c.key;
 }
 
+TEST(GuideColumns, AreMissingForAReason) {
+  for (const GuideSample& sample : guide_samples()) {
+    const GuidePlan plan = prepare(sample.guide);
+    const GuidePosition at = reference_position(plan);
+    const WheelParameters wheel = wheel_parameters(plan, at);
+    const GuideRow row{at, wheel, sample.guide.spring ? Driver::spring : Driver::wheel_centre_z};
+    for (const GuideColumn& c : guide_columns())
+      EXPECT_EQ(std::isnan(value_of(c, row)), !why_missing(sample.guide, c).empty())
+          << sample.name << " " << c.key << " " << why_missing(sample.guide, c);
+  }
+}
+
 TEST(SteeringAxisOf, TakesWhatIsHeld) {
   const GuidePlan plan = prepare(guide_sample("2RS-KS").guide);
   const WheelParameters wheel = wheel_parameters(plan, reference_position(plan));
   EXPECT_EQ(steering_axis_of(wheel, Driver::spring)->lock, Driver::spring);
   EXPECT_EQ(steering_axis_of(wheel, Driver::wheel_centre_z)->lock, Driver::wheel_centre_z);
+  EXPECT_EQ(steering_axis_of(wheel, Driver::contact_z)->lock, Driver::contact_z);
   const GuidePlan rigid = prepare(guide_sample("R").guide);
   EXPECT_EQ(steering_axis_of(wheel_parameters(rigid, reference_position(rigid)), Driver::spring), nullptr);
 }

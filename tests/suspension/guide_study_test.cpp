@@ -8,6 +8,7 @@
 #include <string>
 
 #include "linkwright/suspension/samples.h"
+#include "linkwright/suspension/wheel_parameters.h"
 #include "suspension/studies.h"
 
 namespace linkwright::suspension {
@@ -139,6 +140,66 @@ TEST(GuideStudyRead, CanonicalStudiesAreStudiesOfTheSameGuide) {
   const auto second = study::prepare(again, "canonical", ".", testing::kinds(), problems);
   ASSERT_TRUE(second) << (problems.empty() ? "" : to_string(problems[0]));
   EXPECT_EQ(second->canonical, prepared->canonical);
+}
+
+TEST(GuideStudyRead, WhatIsFixedToARodOffItsLineIsKept) {
+  // The rods of the 5KS sample, and its spring on the first of them.
+  const WheelGuide& guide = guide_sample("5KS").guide;
+  const auto at = [](const Vec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); };
+  std::string text =
+      head + "[mechanism.wheel]\ncentre_m = " + at(guide.wheel.centre) + "\ntyre_diameter_m = 0.63\n";
+  for (const GuideLink& l : guide.links)
+    text += fmt::format("[[mechanism.link]]\nname = \"{}\"\ntype = \"KS\"\nbody_m = {}\ncarrier_m = {}\n",
+                        l.name, at(l.body[0]), at(l.carrier[0]));
+  const std::string first = guide.links[0].name;
+  text += "[mechanism.spring]\nbody_m = " + at(guide.spring->body) +
+          "\nmoving_m = " + at(guide.spring->moving) + "\nattached_to = \"" + first + "\"\n" + sweep;
+  const study::Result result = run_text(text);
+  EXPECT_EQ(result.status, Status::done);
+  WheelGuide same = guide;
+  same.spring->link = 0;
+  const GuidePlan plan = prepare(same);
+  EXPECT_NEAR(column(result, "motion_ratio").at(4),
+              wheel_parameters(
+                  plan, solve_position(plan, Driver::wheel_centre_z, {0.08, 0}, reference_position(plan)))
+                  .motion_ratio,
+              1e-9);
+  // With an axis of its own it moves otherwise, and the canonical study keeps it.
+  const std::string other =
+      replaced(text, "type = \"KS\"\n", "type = \"KS\"\ncross_axis = [1.0, 0.5, 0.2]\n");
+  EXPECT_GT(std::abs(column(run_text(other), "motion_ratio").at(4) - column(result, "motion_ratio").at(4)),
+            1e-4);
+  std::string messages;
+  const auto prepared = testing::prepare(other, messages);
+  ASSERT_TRUE(prepared) << messages;
+  const Value& link = prepared->canonical.find("mechanism")->find("link")->as_array().at(0);
+  ASSERT_TRUE(link.find("cross_axis"));
+  EXPECT_EQ(link.find("cross_axis")->as_array().at(1).as_number(), 0.5);
+}
+
+TEST(GuideStudyRead, SlipsOfUnitsAreToldWhereTheyAre) {
+  const std::string& example = testing::example("");
+  EXPECT_THAT(
+      problems_of(replaced(example, "tyre_diameter_mm = 640.0", "tyre_diameter_m = 90.0")),
+      AllOf(HasSubstr("mechanism.wheel: the tyre's radius is 45 m"), HasSubstr("check tyre_diameter")));
+  EXPECT_THAT(problems_of(replaced(example, "points_mm]", "points_m]")),
+              HasSubstr("are these millimetres in keys of metres?"));
+}
+
+TEST(GuideStudyRead, CouplersBeginOnTheLineOrOffIt) {
+  GuideDescription d;
+  d.guide = guide_sample("interconnected").guide;
+  d.guide.couplers[0].begin = Vec3{0.02, 0.6, 0.08};
+  for (const GuideLink& l : d.guide.links) d.links.push_back(given_link(l));
+  for (const Coupler& c : d.guide.couplers)
+    d.couplers.push_back({.name = c.name, .first = c.first, .second = c.second, .point = {c.point, c.point}});
+  const Value mechanism = write_guide(d);
+  const Value& coupler = mechanism.find("coupler")->as_array().at(0);
+  ASSERT_TRUE(coupler.find("first_point_m"));
+  EXPECT_EQ(coupler.find("first_point_m")->as_array().at(1).as_number(), 0.6);
+  EXPECT_FALSE(coupler.find("fraction"));
+  d.guide.couplers[0].begin.reset();
+  EXPECT_TRUE(write_guide(d).find("coupler")->as_array().at(0).find("fraction"));
 }
 
 }  // namespace

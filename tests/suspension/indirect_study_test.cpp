@@ -1,11 +1,14 @@
 #include "linkwright/suspension/indirect_study.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <regex>
 #include <string>
 
+#include "linkwright/suspension/samples.h"
+#include "linkwright/suspension/wheel.h"
 #include "suspension/studies.h"
 
 namespace linkwright::suspension {
@@ -41,6 +44,83 @@ TEST(IndirectStudy, FindsTheRodsThatThePositionsComeFrom) {
   const Table& poses = result.tables.at(0);
   ASSERT_EQ(poses.name, "poses");
   for (double deviation : poses.find("deviation_toe_rad")->values) EXPECT_LT(std::abs(deviation), 1e-8);
+}
+
+TEST(IndirectStudy, ListsEveryRodThroughSevenPositions) {
+  const study::Result result = run_text(example());
+  const Table& rods = testing::table(result, "seven_pose_rods");
+  ASSERT_EQ(rods.names.size(), rods.rows());
+  int solutions[2] = {}, found = 0;
+  for (std::size_t i = 0; i < rods.rows(); ++i) {
+    const auto at = [&](const char* key) { return rods.find(key)->values.at(i); };
+    ++solutions[at("moved_by_rack") > 0];
+    const bool real = at("is_real") > 0;
+    EXPECT_EQ(std::isfinite(at("structural_error_rms_m")), real);
+    EXPECT_EQ(at("body_x_imaginary_m") == 0 && at("carrier_z_imaginary_m") == 0, real);
+    // The rods that the search takes stand in the list under the names of their boxes.
+    if (rods.names[i] == "lower front rod") {
+      ++found;
+      EXPECT_NEAR(at("body_x_m"), 0.2115, 1e-5);
+      EXPECT_NEAR(at("carrier_z_m"), -0.134, 1e-5);
+      EXPECT_LT(at("structural_error_max_m"), 1e-8);
+    }
+  }
+  EXPECT_EQ(solutions[0], 20);
+  EXPECT_EQ(solutions[1], 20);
+  EXPECT_EQ(found, 1);
+  EXPECT_THAT(fact(result, "rods through seven positions"), HasSubstr("20 solutions, "));
+  EXPECT_THAT(fact(result, "rods through seven positions, on the rack"), HasSubstr("1 fit all positions"));
+}
+
+TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
+  // Positions of a guide with a wishbone (RS), and rods that are asked for.
+  const WheelGuide& guide = guide_sample("RS-3KS").guide;
+  const GuidePlan plan = prepare(guide);
+  const auto at = [](const Vec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); };
+  std::string text = "schema = 1\nkind = \"synthesis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\n";
+  text +=
+      fmt::format("[mechanism.wheel]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\ntyre_diameter_m = {}\n",
+                  at(guide.wheel.centre), guide.wheel.toe, guide.wheel.camber, guide.wheel.tyre_diameter);
+  int open = 0;
+  for (const GuideLink& l : guide.links) {
+    const bool rod = l.type == LinkType::KS;
+    const std::string ends =
+        rod && open++ == 0 ? fmt::format("body_m = {{ near = {}, box_m = 0.1 }}\ncarrier_m = {}\n",
+                                         at(l.body[0]), at(l.carrier[0]))
+        : rod              ? fmt::format("body_m = {}\ncarrier_m = {}\n", at(l.body[0]), at(l.carrier[0]))
+                           : fmt::format("body_m = [{}, {}]\ncarrier_m = {}\n", at(l.body[0]), at(l.body[1]),
+                                         at(l.carrier[0]));
+    text +=
+        fmt::format("[[mechanism.link]]\nname = \"{}\"\ntype = \"{}\"\n{}", l.name, name_of(l.type), ends);
+  }
+  text += "[target]\ntype = \"carrier_poses\"\n";
+  for (double travel = -0.08; travel < 0.085; travel += 0.02) {
+    const GuidePosition p =
+        solve_position(plan, Driver::wheel_centre_z, {travel, 0}, reference_position(plan));
+    const WheelAngles a = wheel_angles(Side::left, guide.wheel, p.place.carrier.rotation);
+    text += fmt::format("[[target.pose]]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\nspin_rad = {}\n",
+                        at(p.place.carrier.centre), a.toe, a.camber, a.spin);
+  }
+  const study::Result result = run_text(text);
+  const Table& arms = testing::table(result, "seven_pose_arms");
+  ASSERT_EQ(arms.names, std::vector<std::string>{"RS"});
+  const GuideLink& arm = guide.links[0];
+  EXPECT_NEAR(arms.find("ball_x_m")->values.at(0), arm.carrier[0].x, 1e-5);
+  EXPECT_NEAR(arms.find("ball_y_m")->values.at(0), arm.carrier[0].y, 1e-5);
+  // Its axis is the hinge of the wishbone.
+  for (const char* end : {"hinge_1", "hinge_2"}) {
+    const auto c = [&](const char* axis) {
+      return arms.find(fmt::format("{}_{}_m", end, axis))->values.at(0);
+    };
+    const Vec3 p{c("x"), c("y"), c("z")};
+    EXPECT_LT(norm(cross(p - arm.body[0], math::unit(arm.body[1] - arm.body[0]))), 1e-5);
+  }
+  EXPECT_THAT(fact(result, "rods through seven positions"), HasSubstr("1 hinged arms (RS, SR)"));
+}
+
+TEST(IndirectStudyRead, SlipsOfUnitsAreTold) {
+  EXPECT_THAT(problems_of(replaced(example(), "0.6826680943, -0.2]", "0.6826680943, -200.0]")),
+              HasSubstr("target.pose: position 1: the wheel centre lies 200 m from its reference"));
 }
 
 TEST(IndirectStudy, FindsTheSameGuideOnTheRight) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "linkwright/suspension/position.h"
 #include "linkwright/suspension/samples.h"
 #include "suspension/guides.h"
@@ -33,6 +35,42 @@ TEST(LinkPoses, TakeTheirPointsAlong) {
     if (!guide.spring) continue;
     EXPECT_NEAR(norm(spring_end(guide, at.place, rack) - guide.spring->body),
                 plan.spring->length + driver_value(plan, at.place, rack, Driver::spring), 1e-13);
+  }
+}
+
+// A K joint is two hinges: about the axis that stands in the body, then about the one that turns with the
+// rod. The angles follow from where the rod has gone.
+TEST(LinkPoses, AKJointIsTwoHinges) {
+  for (const std::optional<Vec3>& axis : {std::optional<Vec3>{}, std::optional<Vec3>{Vec3{0.9, 0.3, -0.4}}}) {
+    WheelGuide guide = guide_sample("5KS").guide;
+    guide.spring->link = 2;  // the tie rod, which the rack moves
+    guide.links[2].cross_axis = axis;
+    ASSERT_TRUE(guide.links[2].moved_by_rack);
+    ASSERT_TRUE(check(guide).empty());
+    const GuidePlan plan = prepare(guide);
+    for (const GuideInput& input : {GuideInput{0.07, -0.02}, GuideInput{-0.06, 0.03}}) {
+      const GuidePosition at = solve_position(plan, Driver::wheel_centre_z, input, reference_position(plan));
+      ASSERT_EQ(at.status, Status::done);
+      const GuideLink& rod = guide.links[2];
+      const Vec3 then = unit(rod.carrier[0] - rod.body[0]), from = body_point(guide, 2, 0, input.rack);
+      const Vec3 now = unit(carrier_point(guide, 2, 0, at.place.carrier) - from);
+      const Vec3 standing = unit(axis.value_or(cross(Vec3{0, 0, 1}, then)));
+      if (!axis) {
+        EXPECT_NEAR(standing.z, 0, 1e-15);
+      }
+      const Vec3 turning = unit(cross(standing, then)), turned = unit(cross(standing, now));
+      const double first = std::atan2(dot(cross(turning, turned), standing), dot(turning, turned));
+      const Vec3 back = math::turn_about(-first * standing) * now;
+      const double second = std::atan2(dot(cross(then, back), turning), dot(then, back));
+      const Mat3 both = math::turn_about(first * standing) * math::turn_about(second * turning);
+      EXPECT_LT(distance(both * then, now), 1e-14);
+      const Vec3 end = from + both * (guide.spring->moving - rod.body[0]);
+      EXPECT_LT(distance(spring_end(guide, at.place, input.rack), end), 1e-14);
+      EXPECT_NEAR(norm(end - guide.spring->body),
+                  plan.spring->length + driver_value(plan, at.place, input.rack, Driver::spring), 1e-13);
+      const auto [a, b] = cross_axes(guide, 2, at.place.carrier, input.rack);
+      EXPECT_LT(distance(a, standing) + distance(b, turned), 1e-14);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <complex>
 
 #include "support/message.h"
 #include "tests/suspension/synthesis_cases.h"
@@ -39,6 +40,52 @@ TEST(SevenPoses, PublishedPositionsHaveTheirTwentySolutions) {
       EXPECT_LT(nearest(report, link, 1), 1e-6 * (1 + norm(link.body[0]) + norm(link.carrier[0]))) << id;
     }
   }
+}
+
+// Each of the twenty keeps its length in all seven positions, complex ones too: by the equation itself,
+// |q_i - y|^2 = |q_0 - y|^2 without conjugates.
+TEST(SevenPoses, AllSolutionsAreKept) {
+  const test::Example e = test::example("ex1-forward");
+  const LinkMotion motion = link_motion(e.targets, false, e.targets.wheel.centre);
+  const SevenPoseReport report = seven_pose_rods(e.targets, false);
+  ASSERT_EQ(report.solutions, 20);
+  ASSERT_EQ(report.all.size(), 20u);
+  int real = 0, pairs = 0;
+  for (const SevenPoseSolution& one : report.all) {
+    using Complex3 = std::array<std::complex<double>, 3>;
+    const Vec3 o = e.targets.wheel.centre;
+    const Complex3 x{one.carrier[0] - o.x, one.carrier[1] - o.y, one.carrier[2] - o.z},
+        y{one.body[0] - o.x, one.body[1] - o.y, one.body[2] - o.z};
+    const auto square = [&](const Complex3& q) {
+      std::complex<double> sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) sum += (q[k] - y[k]) * (q[k] - y[k]);
+      return sum;
+    };
+    double size = 1;
+    for (std::size_t k = 0; k < 3; ++k) size += std::norm(x[k]) + std::norm(y[k]);
+    for (const std::size_t i : report.positions) {
+      Complex3 q;
+      const std::array<double, 3> shift{motion.shift[i].x, motion.shift[i].y, motion.shift[i].z};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3& row = motion.rotation[i].row[k];
+        q[k] = row.x * x[0] + row.y * x[1] + row.z * x[2] + shift[k];
+      }
+      EXPECT_LT(std::abs(square(q) - square(x)), 1e-10 * size);
+    }
+    if (one.rod >= 0) {
+      EXPECT_EQ(one.rod, real++);
+      EXPECT_LT(norm(Vec3{one.body[0].real(), one.body[1].real(), one.body[2].real()} -
+                     report.rods[one.rod].link.body[0]),
+                1e-15 * size);
+      continue;
+    }
+    for (const SevenPoseSolution& other : report.all)
+      pairs += std::abs(std::conj(one.body[1]) - other.body[1]) +
+                   std::abs(std::conj(one.carrier[2]) - other.carrier[2]) <
+               1e-7 * size;
+  }
+  EXPECT_EQ(real, static_cast<int>(report.rods.size()));
+  EXPECT_EQ(pairs, 20 - real);  // each complex one has its conjugate
 }
 
 TEST(SevenPoses, LinksOfAMechanismAreWhatFitsAllPositions) {

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
+
+#include "linkwright/suspension/derivatives.h"
 #include "linkwright/suspension/samples.h"
 #include "linkwright/suspension/wheel_parameters.h"
 #include "support/message.h"
@@ -35,6 +38,35 @@ TEST(WheelRate, AgainstForcesOfOtherPositions) {
       EXPECT_NEAR(found.motion_ratio, wheel.motion_ratio, 1e-13);
       EXPECT_NEAR(found.spring_force, 5200 + 28000 * (plan.spring->length - wheel.spring_length), 1e-9);
       EXPECT_EQ(found.rate, found.by_stiffness + found.by_motion_ratio);
+    }
+}
+
+// A spring off the line of a rod that turns about it as its K joint says: against other positions, and
+// against the second derivatives of the position.
+TEST(WheelRate, SpringOffTheLineOfARod) {
+  const SpringLaw law{28000, 5200};
+  for (const int link : {0, 1, 2})
+    for (const std::optional<Vec3>& axis :
+         {std::optional<Vec3>{}, std::optional<Vec3>{Vec3{0.8, 0.5, 0.6}}}) {
+      WheelGuide guide = guide_sample("5KS").guide;
+      guide.spring->link = link;
+      guide.links[link].cross_axis = axis;
+      const DerivativePlan plan = prepare_derivatives(guide, {});
+      const GuidePosition reference = reference_position(plan.plan);
+      for (const double travel : {-0.05, 0.06}) {
+        const auto position = [&](double z) {
+          return solve_position(plan.plan, Driver::wheel_centre_z, {z, 0.01}, reference);
+        };
+        const WheelRate found = wheel_rate(guide, plan.plan, position(travel), law);
+        ASSERT_EQ(found.status, Status::done);
+        const double step = 1e-4;
+        const WheelParameters more = wheel_parameters(plan.plan, position(travel + step)),
+                              less = wheel_parameters(plan.plan, position(travel - step));
+        EXPECT_NEAR(found.motion_ratio, (less.spring_length - more.spring_length) / (2 * step), 1e-6);
+        EXPECT_NEAR(found.motion_ratio_by_travel, (more.motion_ratio - less.motion_ratio) / (2 * step), 1e-6);
+        EXPECT_NEAR(found.motion_ratio_by_travel,
+                    input_derivatives(plan, position(travel)).by_travel.motion_ratio, 1e-8);
+      }
     }
 }
 

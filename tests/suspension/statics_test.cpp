@@ -41,6 +41,83 @@ TEST(Statics, RodsAndSpringOfTheReference) {
   EXPECT_NEAR(found.support, number_at(reference, "computed.spring_force_by_virtual_work_N"), 1e-9 * 4000);
 }
 
+// A spring off the line of a rod: its K joint gives moments about neither of its axes, the ball joint none at
+// all, and virtual work gives the spring's force from the travel.
+TEST(Statics, SpringOffTheLineOfARod) {
+  for (const int link : {0, 1, 2}) {
+    WheelGuide guide = guide_sample("5KS").guide;
+    guide.spring->link = link;
+    const GuidePlan plan = prepare(guide);
+    const GuidePosition here =
+        solve_position(plan, Driver::wheel_centre_z, {0.06, 0.02}, reference_position(plan));
+    ASSERT_EQ(here.status, Status::done);
+    const GuideForces found = solve_forces(guide, plan, here, some_load, Support::spring);
+    ASSERT_EQ(found.status, Status::done);
+    const WheelParameters wheel = wheel_parameters(plan, here);
+    EXPECT_NEAR(found.support * wheel.motion_ratio, power(some_load, {wheel.velocity, wheel.turning}), 1e-8);
+    const JointForce &body = found.joints[2 * link], &ball = found.joints[2 * link + 1];
+    const auto [standing, turning] = cross_axes(guide, link, here.place.carrier, here.input.rack);
+    EXPECT_LT(norm(ball.moment), 1e-9);
+    EXPECT_NEAR(dot(body.moment, standing), 0, 1e-9);
+    EXPECT_NEAR(dot(body.moment, turning), 0, 1e-9);
+    EXPECT_GT(norm(body.moment), 1);
+    // The rod itself: what the body, the carrier and the spring give it.
+    const Vec3 end = spring_end(guide, here.place, here.input.rack);
+    const Vec3 push = found.support * unit(end - guide.spring->body);
+    EXPECT_LT(norm(body.force + push - ball.force), 1e-9);
+    EXPECT_LT(norm(body.moment + cross(end - body.point, push) - cross(ball.point - body.point, ball.force)),
+              1e-9);
+    // Rigid joints of the elastic model hold the same.
+    const Compliance compliance =
+        solve_compliance(guide, here.place, here.input.rack, {.spring = 30000}, Support::spring);
+    ASSERT_EQ(compliance.status, Status::done) << compliance.reason;
+    const ElasticResponse response = respond(compliance, some_load);
+    EXPECT_NEAR(response.spring_force, found.support, 1e-6);
+    for (std::size_t j = 0; j < found.joints.size(); ++j) {
+      EXPECT_LT(norm(response.joints[j].force - found.joints[j].force), 1e-6) << j;
+      EXPECT_LT(norm(response.joints[j].moment - found.joints[j].moment), 1e-6) << j;
+    }
+    EXPECT_NEAR(1 / compliance.at_centre[2][2], 30000 * wheel.motion_ratio * wheel.motion_ratio, 1e-5);
+  }
+}
+
+// The same of a coupler that begins off the line of its rod.
+TEST(Statics, CouplerOffTheLineOfARod) {
+  WheelGuide guide = guide_sample("interconnected").guide;
+  Coupler& coupler = guide.couplers[0];
+  const GuideLink& rod = guide.links[coupler.first];
+  coupler.begin = rod.body[0] + 0.6 * (rod.carrier[0] - rod.body[0]) + Vec3{0.02, 0.005, -0.03};
+  ASSERT_TRUE(check(guide).empty());
+  const GuidePlan plan = prepare(guide);
+  const GuidePosition here =
+      solve_position(plan, Driver::wheel_centre_z, {0.04, 0}, reference_position(plan));
+  ASSERT_EQ(here.status, Status::done) << here.reason;
+  EXPECT_NEAR(norm(placed(link_poses(guide, here.place, 0)[coupler.second], coupler.point) -
+                   coupler_begin(guide, coupler, here.place, 0)),
+              norm(coupler.point - *coupler.begin), 1e-13);
+  const GuideForces found = solve_forces(guide, plan, here, some_load, Support::contact_held);
+  ASSERT_EQ(found.status, Status::done);
+  std::size_t body = 0;
+  while (found.joints[body].link != coupler.first || found.joints[body].at_carrier) ++body;
+  const JointForce &at_body = found.joints[body], &ball = found.joints[body + 1];
+  const auto [standing, turning] = cross_axes(guide, coupler.first, here.place.carrier, 0);
+  EXPECT_LT(norm(ball.moment), 1e-8);
+  EXPECT_NEAR(dot(at_body.moment, standing), 0, 1e-8);
+  EXPECT_NEAR(dot(at_body.moment, turning), 0, 1e-8);
+  const Vec3 from = coupler_begin(guide, coupler, here.place, 0);
+  const Vec3 pull = found.couplers[0] *
+                    unit(placed(link_poses(guide, here.place, 0)[coupler.second], coupler.point) - from);
+  EXPECT_LT(norm(at_body.force + pull - ball.force), 1e-8);
+  EXPECT_LT(norm(at_body.moment + cross(from - at_body.point, pull) -
+                 cross(ball.point - at_body.point, ball.force)),
+            1e-8);
+  const ElasticResponse response =
+      respond(solve_compliance(guide, here.place, 0, {}, Support::contact_held), some_load);
+  EXPECT_NEAR(response.couplers[0], found.couplers[0], 1e-6);
+  for (std::size_t j = 0; j < found.joints.size(); ++j)
+    EXPECT_LT(norm(response.joints[j].moment - found.joints[j].moment), 1e-6) << j;
+}
+
 // Balance of the carrier and of every link, and what each joint cannot carry. Forces of some 1e4 N, so 1e-8
 // is some hundred roundings.
 TEST(Statics, EveryJointOfEveryMechanism) {

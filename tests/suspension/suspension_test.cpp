@@ -70,8 +70,28 @@ TEST(WheelGuide, CouplersAndSprings) {
   EXPECT_EQ(only(guide), "coupler.coupler: its second link has to be an SR link");
   guide = guide_sample("5KS").guide;
   guide.spring->link = 0;
+  EXPECT_TRUE(check(guide).empty());  // the K joint of a KS link holds its spin
+  guide.links[0].type = LinkType::SS;
   EXPECT_EQ(only(guide),
             "spring: its moving end lies 66.6 mm off the line of lower front rod, which may turn about it");
+  // An upright rod has no level axis across it that would be the one.
+  guide.links[0].type = LinkType::KS;
+  guide.links[0].body[0] = guide.links[0].carrier[0] + Vec3{0, 0, 0.3};
+  EXPECT_TRUE(
+      only(guide).ends_with("stands upright, so that no axis of its K joint can be taken for granted"))
+      << only(guide);
+  guide.links[0].cross_axis = Vec3{1, 0.2, 0};
+  EXPECT_TRUE(check(guide).empty());
+  guide.links[0].cross_axis = Vec3{0, 0, -2};
+  EXPECT_EQ(only(guide),
+            "link.lower front rod: the axis of its K joint lies along the rod, which then could not swing");
+  guide.links[0].cross_axis = Vec3{};
+  EXPECT_EQ(only(guide), "link.lower front rod: the axis of its K joint has no direction");
+  guide = guide_sample("2RS-KS").guide;
+  guide.links[0].cross_axis = Vec3{1, 0, 0};
+  EXPECT_EQ(only(guide),
+            "link.lower wishbone: the axis of a K joint can be given to KS links only, this is RS");
+  guide = guide_sample("5KS").guide;
   guide.spring->link = 7;
   EXPECT_EQ(only(guide), "spring: there is no link 7");
   guide = guide_sample("SP-3KS").guide;

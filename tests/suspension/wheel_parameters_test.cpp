@@ -261,6 +261,56 @@ TEST(WheelParameters, RightWheelHasTheNumbersOfTheLeftAtTheOppositeRack) {
   }
 }
 
+// By the equations with the contact point's height as driver: another exact route.
+TEST(WheelParameters, SteeringAxisWithTheContactHeld) {
+  for (const char* name : {"2RS-KS", "5KS", "SP-3KS"}) {
+    const GuidePlan plan = prepare(guide_sample(name).guide);
+    const GuidePosition position = solve(plan, 0.03, -0.025);
+    const WheelParameters found = wheel_parameters(plan, position);
+    const SteeringAxis axis = *found.axis_at_contact;
+    EXPECT_EQ(axis.lock, Driver::contact_z);
+    const Twist twist = solve_rates(plan, position, Driver::contact_z).steer;
+    const SteeringAxis wanted = *steering_axis(plan.side, position.place.carrier.centre, found.contact,
+                                               found.angles.toe, twist, Driver::contact_z);
+    EXPECT_NEAR(axis.caster, wanted.caster, 1e-12) << name;
+    EXPECT_NEAR(axis.scrub, wanted.scrub, 1e-12) << name;
+    EXPECT_NEAR(axis.pitch, wanted.pitch, 1e-12) << name;
+    // The contact point keeps its height, to the second order of the step, when the wheel is steered like
+    // that.
+    EXPECT_NEAR(
+        contact_velocity(plan.side, plan.wheel.tyre_diameter, found.angles, twist.velocity, twist.turning)
+            .geometric.z,
+        0, 1e-12)
+        << name;
+  }
+}
+
+// Points of a screw move along it by its pitch times the turning.
+TEST(WheelParameters, PitchOfTheTravelScrew) {
+  for (const GuideSample& sample : guide_samples().first(12)) {
+    const GuidePlan plan = prepare(sample.guide);
+    const GuidePosition position = solve(plan, 0.05);
+    const WheelParameters found = wheel_parameters(plan, position);
+    const Vec3 w = found.turning;
+    const Vec3 point = position.place.carrier.centre + 1 / dot(w, w) * cross(w, found.velocity);
+    const Vec3 there = found.velocity + cross(w, point - position.place.carrier.centre);
+    EXPECT_LT(distance(there, found.screw_pitch * w), 1e-13) << sample.name;
+  }
+}
+
+// The trace of the wheel's plane in a transverse plane against the vertical.
+TEST(WheelParameters, CamberInTheFrontView) {
+  const GuidePlan plan = prepare(guide_sample("2RS-KS").guide);
+  for (double rack : {-0.06, 0.0, 0.06}) {
+    const GuidePosition position = solve(plan, -0.05, rack);
+    const WheelParameters found = wheel_parameters(plan, position);
+    const Vec3 trace = cross(wheel_axis(plan.side, found.angles.toe, found.angles.camber), Vec3{1, 0, 0});
+    EXPECT_NEAR(found.front_view_camber, std::atan(trace.y / trace.z), 1e-15);
+    EXPECT_NEAR(std::tan(found.front_view_camber), std::tan(found.angles.camber) / std::cos(found.angles.toe),
+                1e-15);
+  }
+}
+
 // A trailing arm with its hinge along y turns about the hinge in the side view: arm and angle by
 // construction.
 TEST(WheelParameters, SwingArmsOfATrailingArm) {

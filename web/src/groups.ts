@@ -1,6 +1,6 @@
 // Curves of a diagram: one for each value of its group column, its bands, and the design before behind them.
 import type { Num, Plot, Scene, Table } from "./data";
-import { sortedRows } from "./rows";
+import { sortedRows, type Turn } from "./rows";
 import { format, labelWith, nameOf, unitOf } from "./units";
 
 const column = (table: Table, key: string | undefined) => table.columns.findIndex((c) => c.key === key);
@@ -53,11 +53,11 @@ export interface Line {
 }
 
 /** Everything that a diagram draws, in the numbers of its tables: bands and baselines first, since they lie behind. */
-export function linesOf(plot: Plot, table: Table, baseline: Table | undefined, present: number, map: (x: number) => number = (x) => x): Line[] {
+export function linesOf(plot: Plot, table: Table, baseline: Table | undefined, present: number, turn?: Turn): Line[] {
   const from = (source: Table, group: Group, key: string): { xs: number[]; ys: Num[] } | null => {
     const [x, y] = [column(source, plot.x), column(source, key)];
     if (x < 0 || y < 0) return null;
-    const { xs, order } = sortedRows(group.rows.map((row) => source.data[x][row] ?? null), map);
+    const { xs, order } = sortedRows(group.rows.map((row) => source.data[x][row] ?? null), turn);
     return { xs, ys: order.map((k) => source.data[y][group.rows[k]] ?? null) };
   };
   const out: Line[] = [];
@@ -92,7 +92,7 @@ export function linesOf(plot: Plot, table: Table, baseline: Table | undefined, p
 }
 
 /** Lines over one rising list of x: a value where a line has none is undefined when it is between its points, so that it goes on. */
-export function aligned(lines: Line[], xFactor: number, yFactor: number, logarithmic: boolean): [number[], ...(Num | undefined)[][]] {
+export function aligned(lines: Line[], xFactor: number, yFactor: number): [number[], ...(Num | undefined)[][]] {
   const places = [...new Set(lines.flatMap((l) => l.xs))].sort((a, b) => a - b);
   const index = new Map(places.map((x, i) => [x, i]));
   return [
@@ -101,7 +101,7 @@ export function aligned(lines: Line[], xFactor: number, yFactor: number, logarit
       const out: (Num | undefined)[] = places.map(() => undefined);
       l.xs.forEach((x, i) => {
         const v = l.ys[i];
-        out[index.get(x)!] = v === null || (logarithmic && v <= 0) ? null : v * yFactor;
+        out[index.get(x)!] = v === null ? null : v * yFactor;
       });
       return out;
     }),

@@ -1,6 +1,7 @@
 // How a scene moves: positions are fractional sample numbers, 0 to samples - 1.
 import type { Num, Scene } from "./data";
 import { isSpatial } from "./grid";
+import type { Turn } from "./rows";
 import { unitOf } from "./units";
 
 export interface Motion {
@@ -99,6 +100,12 @@ export function positionOfTurn(motion: Motion, input: number): number {
   const first = Math.min(motion.input[0], motion.input[motion.samples - 1]);
   const turn = 2 * Math.PI;
   return positionOf(motion, first + ((((input - first) % turn) + turn) % turn));
+}
+
+/** The turn that the samples cover, for a column whose numbers times the factor are those of the input; undefined when they cover none. */
+export function turnOf(motion: Motion, factor = 1): Turn | undefined {
+  if (!motion.fullTurn) return undefined;
+  return { first: Math.min(motion.input[0], motion.input[motion.samples - 1]) / factor, length: (2 * Math.PI) / factor };
 }
 
 export interface Play {

@@ -14,7 +14,7 @@ import { targetErrors } from "./view";
 const failed = result.checks.filter((c) => !c.passed).length;
 
 export function Banner() {
-  const good = failed === 0 && view.status === "done";
+  const good = failed === 0 && (view.status === "done" || view.status === "at_rest");
   return (
     <header>
       <p class="kicker">Linkwright report</p>

@@ -6,18 +6,19 @@ import "uplot/dist/uPlot.min.css";
 import type { Num, Plot, Table } from "./data";
 import { histogram, stackDots, type Run } from "./log";
 import { aligned, groupsOf, inputOf, linesOf, presentGroup } from "./groups";
+import { logarithms, logRange, logTicks, rounding } from "./logarithm";
+import { lookOf, mostNamed } from "./look";
 import { MapPlot } from "./map";
-import { inputAt, positionOf, positionOfTurn } from "./motion";
+import { inputAt, positionOf, turnOf } from "./motion";
 import { Polar } from "./polar";
 import { nearestRow, sortedRows } from "./rows";
 import * as state from "./state";
 import { format, labelWith, unitOf } from "./units";
 
 const css = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-const seriesColours = ["--c0", "--c5", "--c2", "--c3", "--c1", "--c4"];
-const dashes = [[], [8, 4], [2, 3], [10, 3, 2, 3], [5, 2], [1, 2]];
 const height = 230;
 
+/** An axis; a logarithmic one is one of decimal logarithms. */
 const axis = (label: string, log = false): uPlot.Axis => ({
   label,
   labelSize: 20,
@@ -26,9 +27,12 @@ const axis = (label: string, log = false): uPlot.Axis => ({
   stroke: () => css("--soft"),
   grid: { stroke: () => css("--faint"), width: 1 },
   ticks: { stroke: () => css("--line"), width: 1, size: 5 },
-  values: (_, ticks) => ticks.map((t) => (t === null ? "" : log && Math.abs(Math.log10(t) % 1) > 1e-9 && ticks.length > 12 ? "" : format(t, 5))),
+  ...(log ? { splits: (_: uPlot, __: number, low: number, high: number) => logTicks(low, high) } : {}),
+  values: (_, ticks) => ticks.map((t) => (t === null ? "" : format(log ? 10 ** t : t, 5))),
   size: (_, values, index) => (index === 0 ? 30 : Math.max(40, 14 + 6.4 * (values ?? []).reduce((n, v) => Math.max(n, v.length), 0))),
 });
+
+const scaleY = (log: boolean): uPlot.Scale => (log ? { range: (_, low, high) => logRange(low, high) } : {});
 
 /** What stands beside the values: the label where the diagram is high enough for it, else the unit, for the legend has the name. */
 const beside = (label: string, symbol: string) => (6.4 * label.length <= height - 50 ? label : symbol);
@@ -68,15 +72,33 @@ interface Props {
   units?: Unit[];
   emphasise?: (plot: uPlot) => void; // as the scene moves: changes the look of the series, and tells whether anything changed
   pick?: (row: number) => void; // a click at a row of the data
+  log?: boolean; // the data are logarithms
+  names?: string[]; // of the series, shown where one points: they have no legend
+  symbol?: string; // unit of what has a name
 }
 
-export function Chart({ label, options, data, link, units = [], emphasise, pick }: Props) {
+export function Chart({ label, options, data, link, units = [], emphasise, pick, log, names, symbol }: Props) {
   const box = useRef<HTMLDivElement>(null);
   const values = useRef<HTMLSpanElement[]>([]);
   useEffect(() => {
     const element = box.current!;
     let now: HTMLDivElement | null = null;
+    let name: HTMLDivElement | null = null;
     let inside = false;
+    const written = (value: Num | undefined, unit: string) => `${format(log && typeof value === "number" ? 10 ** value : value ?? null, 5)}${unit ? ` ${unit}` : ""}`;
+    /** Name and value of the curve that is pointed at, beside the pointer. */
+    const tell = (u: uPlot) => {
+      if (!name) return;
+      const curve = told;
+      const { left = -1, top = -1, idx } = u.cursor;
+      name.hidden = curve === null || left < 0 || !names?.[curve - 1];
+      if (name.hidden) return;
+      const value = typeof idx === "number" ? (data[curve!][idx] as Num | undefined) : undefined;
+      name.textContent = value == null ? names![curve! - 1] : `${names![curve! - 1]}: ${written(value, symbol ?? "")}`;
+      const width = u.over.clientWidth;
+      name.style.transform = `translate(${left > width / 2 ? `calc(${left - 10}px - 100%)` : `${left + 10}px`}, ${Math.max(0, top - 30)}px)`;
+    };
+    let told: number | null = null;
     const build = () =>
       new uPlot(
         {
@@ -88,6 +110,15 @@ export function Chart({ label, options, data, link, units = [], emphasise, pick 
           hooks: {
             ready: [
               (u) => {
+                if (names?.length) {
+                  name = u.over.appendChild(document.createElement("div"));
+                  name.className = "curve-name";
+                  name.hidden = true;
+                  u.over.addEventListener("pointerleave", () => {
+                    told = null;
+                    tell(u);
+                  });
+                }
                 if (pick) u.over.addEventListener("click", () => typeof u.cursor.idx === "number" && pick(u.cursor.idx));
                 if (!link) return;
                 now = u.over.appendChild(document.createElement("div"));
@@ -101,6 +132,13 @@ export function Chart({ label, options, data, link, units = [], emphasise, pick 
               (u) => {
                 const left = u.cursor.left ?? -1;
                 if (link && inside && left >= 0) link.go(u.posToVal(left, "x"));
+                tell(u);
+              },
+            ],
+            setSeries: [
+              (u, curve) => {
+                told = curve;
+                tell(u);
               },
             ],
           },
@@ -123,7 +161,7 @@ export function Chart({ label, options, data, link, units = [], emphasise, pick 
       const row = nearestRow(data[0] as number[], input);
       values.current.forEach((span, i) => {
         if (units[i].swatch || units[i].series === 0) return;
-        span.textContent = `${format(data[units[i].series ?? i + 1]?.[row] ?? null, 5)}${units[i]?.symbol ? ` ${units[i].symbol}` : ""}`;
+        span.textContent = written(data[units[i].series ?? i + 1]?.[row], units[i].symbol);
       });
     };
     const stop = effect(() => {
@@ -151,7 +189,7 @@ export function Chart({ label, options, data, link, units = [], emphasise, pick 
       {units.length > 0 && (
         <div class="legend">
           {units.map((u, i) => (
-            <span>{u.swatch ? <i class="swatch" aria-hidden="true" /> : <svg viewBox="0 0 24 6" aria-hidden="true"><path d="M0 3H24" style={{ stroke: `var(${u.stroke ?? seriesColours[i % 6]})`, strokeDasharray: (u.dash ?? dashes[i % 6]).join(" ") }} /></svg>}
+            <span>{u.swatch ? <i class="swatch" aria-hidden="true" /> : <svg viewBox="0 0 24 6" aria-hidden="true"><path d="M0 3H24" style={{ stroke: `var(${u.stroke ?? lookOf(i).stroke})`, strokeDasharray: (u.dash ?? lookOf(i).dash).join(" ") }} /></svg>}
               {u.label} <b ref={(e) => { if (e) values.current[i] = e; }} /></span>
           ))}
         </div>
@@ -160,10 +198,11 @@ export function Chart({ label, options, data, link, units = [], emphasise, pick 
   );
 }
 
-const scaled = (values: Num[], factor: number, log: boolean) => values.map((v) => (v === null || (log && v <= 0) ? null : v * factor));
+const scaled = (values: Num[], factor: number) => values.map((v) => (v === null ? null : v * factor));
 const largest = (lists: Num[][]) => lists.flat().reduce<number>((a, v) => Math.max(a, Math.abs(v ?? 0)), 0);
 
-const many = 7; // more lines than this are one bundle: same colour, no legend
+/** Says that values were raised to the lower edge of a logarithmic axis. */
+const Clipped = ({ what, why = "" }: { what: string; why?: string }) => <p class="note">{what} below {format(rounding, 1)} of the largest lie on the lower edge{why}.</p>;
 
 function TablePlot({ plot, table }: { plot: Plot; table: Table }) {
   const column = (key: string) => table.columns.findIndex((c) => c.key === key);
@@ -173,31 +212,33 @@ function TablePlot({ plot, table }: { plot: Plot; table: Table }) {
     const unit = unitOf(plot.y[0] ?? "", largest(ys.map((i) => table.data[i])));
     const labels = ys.map((i) => labelWith(table.columns[i].label, table.columns[i].key, unit));
     const x = column(plot.x);
-    const motion = state.motion.peek();
-    const { xs, order } = sortedRows(table.data[x] ?? [], (v) => (linked ? inputAt(motion, positionOfTurn(motion, v)) : v));
+    const { xs, order } = sortedRows(table.data[x] ?? [], linked ? turnOf(state.motion.peek(), inputOf(state.scene.peek(), plot.x).factor) : undefined);
     const xUnit = unitOf(plot.x, largest([xs]));
     const points = plot.style === "points";
-    const bundle = labels.length > many;
+    const bundle = labels.length > mostNamed;
+    const names = labels.map((l) => l.replace(/ \([^()]*\)$/, ""));
+    const lists = ys.map((i) => scaled(order.map((row) => table.data[i][row]), unit.factor));
+    const logs = plot.logarithmic_y ? logarithms(lists) : undefined;
     // Rows that are solutions can be picked.
     const solutions = column("solution");
     const scenes = solutions < 0 ? [] : order.map((row) => state.sceneOf((table.data[solutions][row] ?? 0) - 1));
     return {
       pick: scenes.length ? (row: number) => state.showScene(scenes[row]) : undefined,
-      data: [
-        xs.map((v) => v * xUnit.factor),
-        ...ys.map((i) => scaled(order.map((row) => table.data[i][row]), unit.factor, plot.logarithmic_y)),
-      ] as uPlot.AlignedData,
-      units: bundle ? [] : labels.map((l) => ({ label: l.replace(/ \([^()]*\)$/, ""), symbol: unit.symbol })),
+      data: [xs.map((v) => v * xUnit.factor), ...(logs?.lists ?? lists)] as uPlot.AlignedData,
+      units: bundle ? [] : names.map((label) => ({ label, symbol: unit.symbol })),
+      names: bundle ? names : undefined,
+      symbol: unit.symbol,
+      clipped: logs?.clipped,
       factor: xUnit.factor,
       options: () => ({
-        scales: { x: { time: false }, y: { distr: plot.logarithmic_y ? (3 as const) : (1 as const) } },
+        scales: { x: { time: false }, y: scaleY(plot.logarithmic_y) },
         axes: [axis(labelWith(table.columns[x]?.label ?? "", plot.x, xUnit)), axis(labels.length > 1 ? unit.symbol : beside(labels[0] ?? "", unit.symbol), plot.logarithmic_y)],
         series: [
           {},
           ...labels.map((l, i) => {
-            const colour = css(bundle ? "--accent" : seriesColours[i % 6]);
+            const colour = css(bundle ? "--accent" : lookOf(i).stroke);
             return {
-              label: l, stroke: colour, width: points ? 0 : bundle ? 1.5 : 2, alpha: bundle ? 0.5 : 1, dash: bundle ? [] : dashes[i % 6],
+              label: l, stroke: colour, width: points ? 0 : bundle ? 1.5 : 2, alpha: bundle ? 0.5 : 1, dash: bundle ? [] : lookOf(i).dash,
               paths: points ? () => null : undefined, points: { show: points, size: 7, fill: colour },
             };
           }),
@@ -209,7 +250,10 @@ function TablePlot({ plot, table }: { plot: Plot; table: Table }) {
   }, [plot, table, linked]);
   return (
     <>
-      <Chart label={plot.title} data={made.data} options={made.options} link={linked ? firstInput(made.factor) : undefined} units={made.units} pick={made.pick} />
+      <Chart label={plot.title} data={made.data} options={made.options} link={linked ? firstInput(made.factor) : undefined} units={made.units} pick={made.pick}
+        log={plot.logarithmic_y} names={made.names} symbol={made.symbol} />
+      {made.names && <p class="note">{made.names.length} curves<span class="screen-only">; point at one to read its name</span>.</p>}
+      {made.clipped && <Clipped what="Values" why=": they are zero up to rounding" />}
       {made.pick && <p class="note screen-only">Click a point to see its design.</p>}
     </>
   );
@@ -232,13 +276,15 @@ function GroupPlot({ plot, table }: { plot: Plot; table: Table }) {
     const motion = state.motion.peek();
     const x = table.columns.findIndex((c) => c.key === plot.x);
     const onX = inputOf(linked ? state.whole.peek() : undefined, plot.x);
-    const lines = linesOf(plot, table, baseline, banded, linked && motion.fullTurn && onX.input === 1 ? (v) => inputAt(motion, positionOfTurn(motion, v * onX.factor)) / onX.factor : undefined);
+    const lines = linesOf(plot, table, baseline, banded, linked && onX.input === 1 ? turnOf(motion, onX.factor) : undefined);
     const unit = unitOf(plot.y[0] ?? "", largest(lines.filter((l) => l.kind !== "baseline").map((l) => l.ys)));
     const xUnit = unitOf(plot.x, largest(lines.map((l) => l.xs)));
     const curves = lines.flatMap((l, i) => (l.kind === "curve" ? [i] : []));
-    const bundle = curves.length > many;
-    const stroke = (i: number) => (lines[i].kind === "baseline" ? "--soft" : bundle ? "--accent" : seriesColours[curves.indexOf(i) % 6]);
-    const dash = (i: number) => (lines[i].kind === "baseline" ? [5, 4] : bundle ? [] : dashes[curves.indexOf(i) % 6]);
+    const bundle = curves.length > mostNamed;
+    const stroke = (i: number) => (lines[i].kind === "baseline" ? "--soft" : bundle ? "--accent" : lookOf(curves.indexOf(i)).stroke);
+    const dash = (i: number) => (lines[i].kind === "baseline" ? [5, 4] : bundle ? [] : lookOf(curves.indexOf(i)).dash);
+    // Baselines have one look, so that there names are told, too.
+    const named = bundle || lines.filter((l) => l.kind === "baseline").length > 1;
     /** Width and opacity of a line when the group `now` is present. */
     const look = (i: number, now: number) => {
       const here = now < 0 || lines[i].group === now;
@@ -253,9 +299,13 @@ function GroupPlot({ plot, table }: { plot: Plot; table: Table }) {
     ];
     const yColumn = table.columns.find((c) => c.key === plot.y[0]);
     const points = plot.style === "points";
+    const [xs, ...lists] = aligned(lines, xUnit.factor, unit.factor);
+    const logs = plot.logarithmic_y ? logarithms(lists) : undefined;
     return {
       bundle, curves, lines, unit,
-      data: aligned(lines, xUnit.factor, unit.factor, plot.logarithmic_y) as uPlot.AlignedData,
+      data: [xs, ...(logs?.lists ?? lists)] as uPlot.AlignedData,
+      clipped: logs?.clipped,
+      names: named ? lines.map((l) => (l.kind === "baseline" ? `${baseline!.name}: ${l.label}` : l.kind === "curve" ? l.label : "")) : undefined,
       link: !linked || onX.input === 0 ? undefined : onX.input === 2 ? secondInput(xUnit.factor / onX.factor) : firstInput(xUnit.factor / onX.factor),
       legend,
       emphasise: (u: uPlot) => {
@@ -270,13 +320,15 @@ function GroupPlot({ plot, table }: { plot: Plot; table: Table }) {
         emphasised = undefined;
         const now = present();
         return {
-          scales: { x: { time: false }, y: { distr: plot.logarithmic_y ? (3 as const) : (1 as const) } },
+          scales: { x: { time: false }, y: scaleY(plot.logarithmic_y) },
           axes: [axis(labelWith(table.columns[x]?.label ?? "", plot.x, xUnit)), axis(plot.y.length === 1 ? beside(labelWith(yColumn?.label ?? "", plot.y[0], unit), unit.symbol) : unit.symbol, plot.logarithmic_y)],
           series: [{}, ...lines.map((l, i) => (l.kind === "lower" || l.kind === "upper"
             ? { label: l.label, stroke: "transparent", width: 0, points: { show: false } }
             : { label: l.label, stroke: css(stroke(i)), dash: dash(i), paths: points && l.kind === "curve" ? () => null : undefined, points: { show: points && l.kind === "curve", size: 6, fill: css(stroke(i)) }, ...look(i, now) }))],
           bands: lines.flatMap((l, i) => (l.kind === "upper" ? [{ series: [i + 1, i] as [number, number], fill: `${css("--good")}30` }] : [])),
-          cursor: { drag: { setScale: false }, y: false, points: { show: false } },
+          // The lines keep their look, since it tells which group is present.
+          focus: { alpha: 1 },
+          cursor: { drag: { setScale: false }, y: false, points: { show: false }, focus: { prox: named ? 24 : -1 } },
         };
       },
     };
@@ -285,8 +337,10 @@ function GroupPlot({ plot, table }: { plot: Plot; table: Table }) {
   const shown = made.curves.filter((i) => made.lines[i].group === now);
   return (
     <>
-      <Chart label={plot.title} data={made.data} options={made.options} link={made.link} units={made.legend} emphasise={made.emphasise} />
-      {made.bundle && <p class="note">{`${made.curves.length} curves, ${groups[0].label} to ${groups[groups.length - 1].label}`}{shown.length > 0 && <>; strong: <b>{groups[now].label}</b></>}</p>}
+      <Chart label={plot.title} data={made.data} options={made.options} link={made.link} units={made.legend} emphasise={made.emphasise}
+        log={plot.logarithmic_y} names={made.names} symbol={made.unit.symbol} />
+      {made.bundle && <p class="note">{`${made.curves.length} curves, ${groups[0].label} to ${groups[groups.length - 1].label}`}{shown.length > 0 && <>; strong: <b>{groups[now].label}</b></>}<span class="screen-only">; point at one to read its name</span></p>}
+      {made.clipped && <Clipped what="Values" why=": they are zero up to rounding" />}
     </>
   );
 }
@@ -297,7 +351,7 @@ function Histogram({ plot, table }: { plot: Plot; table: Table }) {
   const made = useMemo(() => {
     const columns = table.columns.flatMap((c, i) => (plot.y.includes(c.key) ? [i] : []));
     const unit = unitOf(plot.y[0] ?? "", largest(columns.map((i) => table.data[i])));
-    const values = scaled(columns.flatMap((i) => table.data[i]), unit.factor, false);
+    const values = scaled(columns.flatMap((i) => table.data[i]), unit.factor);
     const label = columns.map((i) => labelWith(table.columns[i].label, table.columns[i].key, unit)).join(", ");
     const { middles, counts } = histogram(values);
     return {
@@ -398,17 +452,17 @@ export const LoosePlots = () => <Cards plots={loose} />;
 /** Best cost against effort, one line a seed. */
 export function Convergence({ runs }: { runs: Run[] }) {
   const lines = runs.filter((run) => run.x.length > 1 && run.y.some((v) => v > 0));
-  const data = useMemo<uPlot.AlignedData>(
-    () => (lines.length ? uPlot.join(lines.map((r) => [r.x, r.y.map((v) => (v > 0 ? v : null))] as uPlot.AlignedData)) : [[]]),
-    [runs],
-  );
+  const { data, clipped } = useMemo(() => {
+    const { lists, clipped } = logarithms(lines.map((r) => r.y), true);
+    return { data: lines.length ? uPlot.join(lines.map((r, i) => [r.x, lists[i]] as uPlot.AlignedData)) : ([[]] as uPlot.AlignedData), clipped };
+  }, [runs]);
   if (lines.length === 0) return null;
   const counts = lines[0].counts;
   return (
     <div class="card plot" data-plot="convergence">
       <h3>Convergence of the {lines.length === 1 ? "run" : `${lines.length} runs`}</h3>
-      <Chart label="Best cost of each seed against effort, logarithmic" data={data} options={() => ({
-        scales: { x: { time: false }, y: { distr: 3 } },
+      <Chart label="Best cost of each seed against effort, logarithmic" data={data} log names={lines.map((r) => `seed ${r.seed}`)} options={() => ({
+        scales: { x: { time: false }, y: scaleY(true) },
         axes: [axis(counts), axis("best so far", true)],
         series: [{}, ...lines.map((r) => ({
           label: `seed ${r.seed}`, stroke: css("--accent"), alpha: lines.length > 6 ? 0.5 : 0.9, width: 1.5, spanGaps: true,
@@ -417,6 +471,7 @@ export function Convergence({ runs }: { runs: Run[] }) {
         focus: { alpha: 0.15 },
         cursor: { drag: { setScale: false }, focus: { prox: 24 }, y: false, points: { show: false } },
       })} />
+      {clipped && <Clipped what="Solved to rounding: costs" />}
     </div>
   );
 }

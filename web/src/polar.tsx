@@ -3,14 +3,15 @@ import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { valueNear } from "./arrows";
 import { curvesOf, frameOf, nearestPoint } from "./curves";
 import type { Plot, Table } from "./data";
-import { inputAt, positionOf, positionOfTurn } from "./motion";
+import { lookOf } from "./look";
+import { inputAt, positionOf, turnOf } from "./motion";
 import { nearestRow, sortedRows } from "./rows";
 import * as state from "./state";
 import { format } from "./units";
 import { pathOf } from "./view";
 
-const colours = ["--c0", "--c5", "--c2", "--c3", "--c1", "--c4"];
-const dashes = ["", "8 4", "2 3", "10 3 2 3", "5 2", "1 2"];
+const styleOf = (index: number) => ({ stroke: `var(${lookOf(index).stroke})`, strokeDasharray: lookOf(index).dash.join(" ") });
+const axisName = (name: string, symbol: string) => (symbol ? `${name} (${symbol})` : name);
 const margin = { left: 50, right: 14, top: 12, bottom: 40 };
 const height = 320;
 
@@ -31,7 +32,7 @@ export function Polar({ plot, table }: { plot: Plot; table: Table }) {
   // Rows in the order of the input of the scene that is shown.
   const order = useMemo(() => {
     const x = table.columns.findIndex((c) => c.key === plot.x);
-    return linked && x >= 0 ? sortedRows(table.data[x], (v) => inputAt(motion, positionOfTurn(motion, v))) : null;
+    return linked && x >= 0 ? sortedRows(table.data[x], turnOf(motion)) : null;
   }, [plot, table, linked, motion]);
   if (!frame) return <div ref={box}><p class="note">No values.</p></div>;
   const at = order ? rowNear(order, inputAt(motion, state.position.value)) : null;
@@ -51,7 +52,7 @@ export function Polar({ plot, table }: { plot: Plot; table: Table }) {
   return (
     <>
       <div class="polar" ref={box}>
-        <svg viewBox={`0 0 ${width} ${height}`} width={width} height={height} role="img" aria-label={`${plot.title}: ${curves.map((c) => c.label).join(", ")}; equal axes in ${unit.symbol}`}
+        <svg viewBox={`0 0 ${width} ${height}`} width={width} height={height} role="img" aria-label={`${plot.title}: ${curves.map((c) => c.label).join(", ")}; equal axes${unit.symbol ? ` in ${unit.symbol}` : ""}`}
           onPointerEnter={() => hold(true)} onPointerLeave={() => hold(false)} onPointerMove={point} onPointerDown={point}>
           <g class="grid">
             <path d={frame.xs.map((t) => `M${frame.x(t.at).toFixed(1)} ${margin.top}V${height - margin.bottom}`).join("") + frame.ys.map((t) => `M${margin.left} ${frame.y(t.at).toFixed(1)}H${width - margin.right}`).join("")} />
@@ -59,15 +60,15 @@ export function Polar({ plot, table }: { plot: Plot; table: Table }) {
             <circle class="origin" cx={frame.x(0)} cy={frame.y(0)} r={4} />
             {frame.xs.map((t) => <text x={frame.x(t.at)} y={height - margin.bottom + 15} text-anchor="middle">{t.text}</text>)}
             {frame.ys.map((t) => <text x={margin.left - 6} y={frame.y(t.at) + 4} text-anchor="end">{t.text}</text>)}
-            <text class="name" x={(margin.left + width - margin.right) / 2} y={height - 5} text-anchor="middle">{`x (${unit.symbol})`}</text>
-            <text class="name" transform={`translate(12,${(height - margin.bottom) / 2}) rotate(-90)`} text-anchor="middle">{`y (${unit.symbol})`}</text>
+            <text class="name" x={(margin.left + width - margin.right) / 2} y={height - 5} text-anchor="middle">{axisName("x", unit.symbol)}</text>
+            <text class="name" transform={`translate(12,${(height - margin.bottom) / 2}) rotate(-90)`} text-anchor="middle">{axisName("y", unit.symbol)}</text>
           </g>
           {curves.map((c, i) => (
             <path class="curve" d={pathOf(c.x.map((x, k) => (x === null || c.y[k] == null ? null : { x: frame.x(x), y: frame.y(c.y[k]!) })), false)}
-              style={{ stroke: `var(${colours[i % 6]})`, strokeDasharray: dashes[i % 6] }}><title>{c.label}</title></path>
+              style={styleOf(i)}><title>{c.label}</title></path>
           ))}
           {now.map((p, i) => p && (
-            <g class="at" style={{ color: `var(${colours[i % 6]})` }} data-x={p.x} data-y={p.y}>
+            <g class="at" style={{ color: `var(${lookOf(i).stroke})` }} data-x={p.x} data-y={p.y}>
               <path d={`M${frame.x(0).toFixed(1)} ${frame.y(0).toFixed(1)}L${frame.x(p.x).toFixed(1)} ${frame.y(p.y).toFixed(1)}`} />
               <circle cx={frame.x(p.x).toFixed(1)} cy={frame.y(p.y).toFixed(1)} r={4.6} />
             </g>
@@ -76,8 +77,8 @@ export function Polar({ plot, table }: { plot: Plot; table: Table }) {
       </div>
       <div class="legend">
         {curves.map((c, i) => (
-          <span><svg viewBox="0 0 24 6" aria-hidden="true"><path d="M0 3H24" style={{ stroke: `var(${colours[i % 6]})`, strokeDasharray: dashes[i % 6] }} /></svg>
-            {c.label} {now[i] && <b>{`${format(Math.hypot(now[i]!.x, now[i]!.y), 5)} ${unit.symbol} (${format(now[i]!.x, 4)}, ${format(now[i]!.y, 4)})`}</b>}</span>
+          <span><svg viewBox="0 0 24 6" aria-hidden="true"><path d="M0 3H24" style={styleOf(i)} /></svg>
+            {c.label} {now[i] && <b>{`${format(Math.hypot(now[i]!.x, now[i]!.y), 5)}${unit.symbol ? ` ${unit.symbol}` : ""} (${format(now[i]!.x, 4)}, ${format(now[i]!.y, 4)})`}</b>}</span>
         ))}
       </div>
     </>

@@ -22,7 +22,7 @@ export interface Unit {
 }
 
 // Longer ones first: each ends with units of its own.
-const suffixes: [string, Unit][] = [
+export const suffixes: [string, Unit][] = [
   ["_N_m_per_rad", { factor: 1, symbol: "N m/rad" }],
   ["_rad_per_s3", { factor: 1, symbol: "rad/s³" }],
   ["_rad_per_s2", { factor: 1, symbol: "rad/s²" }],

@@ -378,6 +378,9 @@ test("many bars stay clear", async () => {
   await close();
 });
 
+/** Waits until the charts are painted. */
+const settledChart = (page) => page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+
 const label = (page, name) => page.locator(`.space-labels [data-name="${name}"]`).evaluate((e) => {
   const { e: x, f: y } = new DOMMatrix(getComputedStyle(e).transform);
   return { x, y };
@@ -387,6 +390,71 @@ const frames = (page) => page.locator("#space canvas").getAttribute("data-frames
 const settled = async (page) => {
   for (let before = -1, now = await frames(page); before !== now; before = now, now = await frames(page)) await page.waitForTimeout(150);
 };
+
+/** Colours of the canvas of a chart along a column, as a share of its drawn width; ends are shares of the height. */
+const inked = (page, plot, share, from, to) => page.locator(`[data-plot="${plot}"]`).evaluate((card, [share, from, to]) => {
+  const [canvas, over] = [card.querySelector("canvas"), card.querySelector(".u-over")];
+  const scale = canvas.width / canvas.clientWidth;
+  const x = Math.round((over.offsetLeft + share * (over.clientWidth - 1)) * scale);
+  const [top, bottom] = [from, to].map((v) => Math.round((over.offsetTop + v * over.clientHeight) * scale));
+  const { data } = canvas.getContext("2d").getImageData(x - 2, top, 5, bottom - top);
+  let count = 0;
+  // The curves are coloured, the grid is grey.
+  for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 128 && Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 60) ++count;
+  return count;
+}, [share, from, to]);
+
+test("curves over a turn go from its beginning to its end", async () => {
+  const { page, errors, close } = await open("diagrams.html", { reducedMotion: "reduce", colorScheme: "light" });
+  await page.locator('[data-plot="angle"] canvas').waitFor();
+  await settledChart(page);
+  assert.equal(await inked(page, "angle", 0, 0.02, 0.85), 0, "no spike at the beginning");
+  assert.ok((await inked(page, "angle", 0.005, 0.85, 1)) > 0, "it begins at the bottom");
+  assert.ok((await inked(page, "angle", 0.997, 0, 0.15)) > 0, "it ends at the top");
+  await page.locator("#scrub").fill("360");
+  assert.match(await page.locator('[data-plot="angle"] .legend').innerText(), /360 °/);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("curves with a legend can be told apart, others tell their names", async () => {
+  const { page, errors, close } = await open("diagrams.html", { reducedMotion: "reduce" });
+  for (const plot of ["seven", "roses"]) {
+    const looks = await page.locator(`[data-plot="${plot}"] .legend path`).evaluateAll((all) => all.map((e) => `${getComputedStyle(e).stroke} ${getComputedStyle(e).strokeDasharray}`));
+    assert.equal(looks.length, 7);
+    assert.equal(new Set(looks).size, 7, looks.join("; "));
+  }
+  const card = page.locator('[data-plot="nine"]');
+  assert.match(await card.innerText(), /9 curves; point at one/);
+  assert.equal(await card.locator(".legend").count(), 0);
+  const over = card.locator(".u-over");
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  const names = new Set();
+  for (let k = 1; k < 12; ++k) {
+    await page.mouse.move(box.x + box.width * 0.5, box.y + (box.height * k) / 12);
+    const name = card.locator(".curve-name");
+    if (await name.isVisible()) names.add((await name.innerText()).replace(/:.*/, ""));
+  }
+  assert.ok(names.size >= 5, [...names].join("; "));
+  for (const name of names) assert.match(name, /^wave \d$/);
+  await page.mouse.move(2, 2);
+  await until(async () => !(await card.locator(".curve-name").isVisible()));
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("costs that are zero up to rounding have a diagram", async () => {
+  const { page, errors, close } = await open("diagrams.html", { reducedMotion: "reduce", colorScheme: "light" });
+  for (const plot of ["errors", "convergence"]) {
+    const card = page.locator(`[data-plot="${plot}"]`);
+    await card.locator("canvas").waitFor();
+    assert.match(await card.innerText(), /below 1×10⁻¹⁶ of the largest/, plot);
+    await until(async () => (await inked(page, plot, 0.5, 0, 1)) > 0);
+  }
+  assert.deepEqual(errors, []);
+  await close();
+});
 
 test("a spatial scene moves with both inputs, and so do its diagrams", async () => {
   const { page, errors, close } = await open("spatial.html", { reducedMotion: "reduce" });
@@ -515,7 +583,7 @@ test("no accessibility violations", async () => {
   const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
   for (const [name, options] of [["report.html", {}], ["simulation.html", {}], ["simulation.html", { colorScheme: "dark" }], ["simulation.html", { viewport: { width: 390, height: 844 } }],
     ["spatial.html", {}], ["spatial.html", { colorScheme: "dark" }], ["spatial.html", { viewport: { width: 390, height: 844 } }],
-    ["maps.html", {}], ["maps.html", { colorScheme: "dark" }], ["maps.html", { viewport: { width: 390, height: 844 } }]]) {
+    ["diagrams.html", {}], ["maps.html", {}], ["maps.html", { colorScheme: "dark" }], ["maps.html", { viewport: { width: 390, height: 844 } }]]) {
     const { page, close } = await open(name, { reducedMotion: "reduce", ...options });
     if (name === "simulation.html") {
       await page.locator("body").press("w");
@@ -550,6 +618,10 @@ test("without scripts there are drawings and tables", async () => {
   assert.equal(await page.locator("#static .diagrams .origin").count(), 1);
   await page.goto(url("maps.html"));
   assert.equal(await page.locator("#static .diagrams .map .cells").count(), 5);
+  // In the units of the page with scripts.
+  await page.goto(url("report.html"));
+  assert.match(await page.locator("#static .diagrams").textContent(), /crank angle \(°\)/);
+  assert.doesNotMatch(await page.locator("#static .diagrams").textContent(), /\(rad\)/);
   await close();
 });
 

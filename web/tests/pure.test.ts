@@ -1,9 +1,11 @@
+/// <reference types="vite/client" />
 import { describe, expect, it } from "vitest";
+import printedUnits from "../../src/linkwright/report/units.cpp?raw";
 import { readTable, type Scene } from "../src/data";
 import { csv, dxf, slug } from "../src/exports";
 import { histogram, readLog, stackDots } from "../src/log";
 import { nearestRow, sortedRows } from "../src/rows";
-import { format, labelWith, nameOf, quantity, unitOf } from "../src/units";
+import { format, labelWith, nameOf, quantity, suffixes, unitOf } from "../src/units";
 import { bodyColours, fit, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, zoom } from "../src/view";
 
 describe("units", () => {
@@ -72,7 +74,7 @@ describe("view", () => {
 
 describe("table plots", () => {
   it("sorts rows by x and wraps inputs into the turn that is shown", () => {
-    const { xs, order } = sortedRows([3, 1, null, 2 * Math.PI + 0.5], (x) => x % (2 * Math.PI));
+    const { xs, order } = sortedRows([3, 1, null, 2 * Math.PI + 0.5], { first: 0, length: 2 * Math.PI });
     expect(order).toEqual([3, 1, 0]);
     expect(xs[0]).toBeCloseTo(0.5, 12);
     expect(xs.slice(1)).toEqual([1, 3]);
@@ -134,5 +136,12 @@ describe("colours of bodies", () => {
   it("go by their names", () => {
     const bodies = ["base", "arm", "rod", "rod", "", "", "arm"].map((name) => ({ name, style: name === "base" ? "ground" : "bar" }));
     expect(bodyColours(bodies)).toEqual([0, 0, 1, 1, 2, 3, 0]);
+  });
+});
+
+describe("units of the printed form", () => {
+  it("are those of the viewer", () => {
+    const printed = [...printedUnits.matchAll(/\{"(_\w+)", (1|degree), "([^"]+)"\}/g)].map(([, key, factor, symbol]) => [key, { factor: factor === "1" ? 1 : 180 / Math.PI, symbol }]);
+    expect(printed).toEqual(suffixes);
   });
 });

@@ -132,8 +132,7 @@ describe("groups of curves", () => {
     expect(lines[0]).toMatchObject({ label: "target", xs: [0, 1], ys: [-1, -1], group: 0 });
     expect(lines[5]).toMatchObject({ label: "rack 30 mm", xs: [0, 1], ys: [3, 4], group: 1 });
     expect(lines[3].ys).toEqual([13, 14]);
-    const data = aligned([lines[4], { ...lines[5], xs: [0.5, 1] }], 2, 3, false);
+    const data = aligned([lines[4], { ...lines[5], xs: [0.5, 1] }], 2, 3);
     expect(data).toEqual([[0, 1, 2], [3, undefined, null], [undefined, 9, 12]]);
-    expect(aligned([lines[4]], 1, 1, true)[1]).toEqual([1, null]);
   });
 });

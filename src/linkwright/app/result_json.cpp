@@ -1,11 +1,14 @@
 #include "linkwright/app/result_json.h"
 
+#include <cmath>
 #include <filesystem>
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/app/sha256.h"
 #include "linkwright/core/status.h"
 #include "linkwright/core/units.h"
+#include "linkwright/study/answer.h"
+#include "linkwright/study/display_units.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::app {
@@ -88,6 +91,31 @@ Value to_value(const Table& table) {
   return v;
 }
 
+Value to_value(const study::Fact& fact) {
+  Value v;
+  v["label"] = fact.label;
+  v["text"] = fact.text;
+  if (const auto number = study::value_of(fact)) {
+    v["value"] = number->value;
+    v["unit"] = number->unit;
+  }
+  v["verdict"] = fact.verdict == study::Fact::Verdict::good  ? "good"
+                 : fact.verdict == study::Fact::Verdict::bad ? "bad"
+                                                             : "plain";
+  return v;
+}
+
+Value to_value(const std::optional<study::Trouble>& trouble) {
+  if (!trouble) return Value();
+  Value v;
+  v["what"] = trouble->what;
+  v["where"] = Value::object();
+  for (const study::Trouble::Place& place : trouble->where) v["where"][place.key] = place.value;
+  if (std::isfinite(trouble->share)) v["share_of_limit"] = trouble->share;
+  v["why"] = trouble->why;
+  return v;
+}
+
 Value to_value(const Diagnostic& diagnostic) {
   Value v;
   v["severity"] = diagnostic.severity == Diagnostic::Severity::error ? "error" : "warning";
@@ -110,15 +138,73 @@ Value all(const std::vector<T>& items) {
   return Value(std::move(array));
 }
 
+/// The answer in short: what a program reads first.
+Value answer(const study::Result& result) {
+  const study::Answer answer = study::answer_of(result);
+  Value v;
+  v["headline"] = result.headline;
+  v["verdict"] = name_of(answer.verdict);
+  v["reasons"] = Value::array();
+  for (const std::string& reason : answer.reasons) v["reasons"].push_back(reason);
+  v["first_trouble"] = to_value(answer.first);
+  v["worst_trouble"] = to_value(answer.worst);
+  v["facts"] = all(result.facts);
+  return v;
+}
+
+Value rounded(const Value& value) {
+  if (value.is_number() && !value.is_integer()) return Value(study::six_digits(value.as_number()));
+  Value out = value;
+  if (value.is_array())
+    for (Value& element : out.as_array()) element = rounded(element);
+  if (value.is_object())
+    for (Value::Member& member : out.as_object()) member.value = rounded(member.value);
+  return out;
+}
+
 }  // namespace
 
-Value result_json(const study::Study& study, const study::Result& result, const RunRecord& run) {
+study::Result presented(const study::Study& study, const study::Result& result) {
+  const study::Output& output = study.common.output;
+  const study::DisplayUnits units = study::chosen_units(output.units, study.common.units);
+  study::Result out = result;
+  const bool round = output.digits == study::Digits::six;
+  for (Table& table : out.tables) {
+    table = study::in_units(table, units);
+    if (round)
+      for (Column& column : table.columns)
+        for (double& value : column.values) value = study::six_digits(value);
+  }
+  const auto convert = [&](std::string& key, auto&... values) {
+    const study::DisplayUnits::Key shown = units.key(key);
+    ((values = shown.convert(values)), ...);
+    if (round) ((values = study::six_digits(values)), ...);
+    key = shown.key;
+  };
+  for (study::Solution& solution : out.solutions) {
+    for (study::Parameter& p : solution.parameters) convert(p.key, p.value, p.lower, p.upper);
+    for (Value* numbers : {&solution.objectives, &solution.classification}) {
+      *numbers = study::in_units(*numbers, units);
+      if (round) *numbers = rounded(*numbers);
+    }
+  }
+  for (study::Change& change : out.changes) convert(change.quantity, change.before, change.after);
+  for (study::Trouble& trouble : out.troubles)
+    for (study::Trouble::Place& place : trouble.where) convert(place.key, place.value);
+  out.statistics = study::in_units(out.statistics, units);
+  if (round) out.statistics = rounded(out.statistics);
+  return out;
+}
+
+Value result_json(const study::Study& study, const study::Result& computed, const RunRecord& run) {
+  const study::Result result = presented(study, computed);
   Value v;
   v["schema"] = study::schema_version;
   v["tool"] = "linkwright " + std::string(version());
   v["study"] = study.canonical;
   v["study_sha256"] = sha256(study::to_json(study.canonical));
   v["status"] = to_string(result.status);
+  v["answer"] = answer(result);
   v["checks"] = all(result.checks);
   v["best"] = result.solutions.empty() ? Value() : to_value(result.solutions.front());
   v["solutions"] = all(result.solutions);

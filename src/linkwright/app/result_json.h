@@ -18,7 +18,11 @@ struct RunRecord {
   int threads = 0;  ///< 0 = all
 };
 
-/// The document of result.json. All of it but `run` depends on the study and the program alone.
+/// The result with its numbers - tables, parameters, objectives, statistics, troubles - in the units and with
+/// the digits that `[output]` of the study asks for; what result.json and CSV hold.
+study::Result presented(const study::Study& study, const study::Result& result);
+
+/// The document of result.json, see result_schema.h. All of it but `run` depends on the study and the program alone.
 Value result_json(const study::Study& study, const study::Result& result, const RunRecord& run);
 
 /// A published table with its numbers computed anew.

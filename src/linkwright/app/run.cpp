@@ -112,7 +112,7 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
       needs_json ? study::to_json_readable(result_json(study, result, outcome.record)) : std::string();
   if (wants(study, study::Format::json)) write("result.json", json);
   if (wants(study, study::Format::csv))
-    for (const Table& table : result.tables) write(table.name + ".csv", to_csv(table));
+    for (const Table& table : presented(study, result).tables) write(table.name + ".csv", to_csv(table));
   if (wants(study, study::Format::svg))
     for (const study::Scene& scene : result.scenes) write(scene.name + ".svg", report::svg(scene));
   if (wants(study, study::Format::dxf))
@@ -137,9 +137,11 @@ int exit_code(const study::Result& result) {
     case Status::not_converged:
     case Status::branch_lost:
     case Status::limit_reached:
+    case Status::self_locking:
     case Status::infeasible:
       return 3;
     case Status::done:
+    case Status::at_rest:
     case Status::deadline:
       break;
   }

@@ -62,7 +62,7 @@ AutomaticContactRun simulate_automatic_contact(const planar::Linkage& linkage,
         stopped = output.continuous && !output.continuous(row);
         return !stopped;
       },
-      context, AtSeparation::stop);
+      context, AtSeparation::stop, options.stop_when_hopeless ? AtHopeless::stop : AtHopeless::go_on);
   const JointClearanceRun& before = run.continuous;
   run.status = before.status;
   run.message = before.message;

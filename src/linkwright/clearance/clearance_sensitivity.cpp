@@ -117,8 +117,10 @@ class Solver {
   }
   double size() const { return plan_.size; }
 
-  /// Values of another linkage of the same structure at every sample, empty where there are none.
-  std::vector<std::vector<double>> of(const Linkage& l) const {
+  /// Values of another linkage of the same structure at every sample, empty where there are none; no sample
+  /// at all when the run is to stop.
+  std::vector<std::vector<double>> of(const Linkage& l, const RunContext* context = nullptr) const {
+    constexpr std::size_t between_looks = 64;
     const planar::PlanResult other = planar::plan(l);
     std::vector<std::vector<double>> out(samples());
     if (!other.problems.empty()) return out;
@@ -126,6 +128,7 @@ class Solver {
     motion.modes = modes_;
     const std::size_t inputs = plan_.inputs();
     for (std::size_t s = 0; s < samples(); ++s) {
+      if (context && s % between_looks == between_looks - 1 && context->interrupted()) return {};
       if (status_[s] != Status::done) continue;
       motion.parts = parts_[s];
       const auto now = samples_.subspan(s * inputs, inputs);
@@ -360,7 +363,11 @@ MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances
     }
     for (std::size_t k = 0; k < t.lengths.size(); ++k)
       by[2 * pins + k] = t.lengths[k].tolerance * random.uniform(-1, 1);
-    const auto drawn = solver.of(changed(l, t, by));
+    const auto drawn = solver.of(changed(l, t, by), &context);
+    if (drawn.empty()) {
+      out.status = context.interruption();
+      break;
+    }
     out.missed.push_back(0);
     out.largest.resize(out.largest.size() + sizes.size(), 0);
     double* largest = out.largest.data() + at(out.draws) * sizes.size();

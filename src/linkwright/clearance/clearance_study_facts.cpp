@@ -12,6 +12,10 @@ namespace {
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
 constexpr double poor_balance = 1e-5;
+// Of the radius of the pin: depths beyond it are outside of the law of contact.
+constexpr double deep_share = 0.1;
+// Of the coefficient of restitution: a law that is off by more is told.
+constexpr double far_restitution = 0.25;
 
 std::string newtons(double force) {
   return force < 1e4 ? fmt::format("{:.4g} N", force) : fmt::format("{:.4g} kN", 1e-3 * force);
@@ -170,6 +174,8 @@ class Facts {
                              "approach of {:.3g} m/s",
                              count, 100 * touching / duration(), newtons(force), 1e6 * depth, approach));
       largest_force_ = std::max(largest_force_, force);
+      too_deep(k, depth);
+      poor_restitution(k);
     }
     if (rows() < 2) return;
     const double interval = (r_.rows.back().time - r_.rows.front().time) / double(rows() - 1);
@@ -180,6 +186,33 @@ class Facts {
                        shortest, interval));
     else if (std::isfinite(shortest))
       fact("shortest contact", fmt::format("{:.3g} s, rows every {:.3g} s", shortest, interval));
+  }
+  // The law is one of depths that are small against the bodies; deeper, it is a number without a meaning.
+  void too_deep(std::size_t k, double depth) {
+    const ContactJoint& c = s_.contacts[k];
+    const double pin = c.bush_radius - c.clearance;
+    if (depth <= deep_share * pin) return;
+    fact(fmt::format("depth in the bush of {}", name(k)),
+         fmt::format("{:.4g} mm, {:.3g} % of the radius of the pin of {:.4g} mm", 1e3 * depth,
+                     100 * depth / pin, 1e3 * pin),
+         Verdict::bad);
+    warn(fmt::format("the pin of '{}', {:.4g} mm in radius, is pressed {:.4g} mm into its bush{}: the law of "
+                     "contact holds for depths of a few per cent",
+                     name(k), 1e3 * pin, 1e3 * depth,
+                     depth > c.bush_radius ? ", which is more than the bush is wide" : ""),
+         "stiffer bodies (modulus, stiffness), less mass or less speed; real bodies would yield or break");
+  }
+  // A law that does not give the coefficient of restitution that it is told.
+  void poor_restitution(std::size_t k) {
+    const ContactLaw& law = s_.contacts[k].law;
+    const ImpactShape shape = impact_shape(law);
+    if (std::abs(shape.restitution - law.restitution) <= far_restitution * law.restitution) return;
+    warn(fmt::format(
+             "restitution = {:g} of '{}': by {} an impact gives back {:.3g} of its speed, with {:.3g} "
+             "times the force and {:.3g} times the depth of an elastic one",
+             law.restitution, name(k), name_of(law.damping), shape.restitution, shape.force, shape.depth),
+         fmt::format("from {:g} on the law is within {:g} % of what it is told",
+                     least_restitution(law.damping, far_restitution), 100 * far_restitution));
   }
   void continuous_facts() {
     if (!(duration() > 0)) return;

@@ -12,6 +12,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/memory.h"
 
 namespace linkwright::clearance {
 namespace {
@@ -358,6 +359,17 @@ void find_period(study::ObjectReader& table, ClearanceStudy& s) {
   }
 }
 
+// Rows of what is kept at once, with columns of the motion with and without clearance and of each pin.
+void check_memory(study::ObjectReader& table, const ClearanceStudy& s) {
+  constexpr double of_motion = 10, of_pin = 15, periods_kept = 9;
+  const auto columns =
+      static_cast<double>(planar::linkage_columns(s.linkage, s.plan, s.quantities, s.traces).size());
+  const double rows = s.periodic() ? periods_kept * s.samples : s.samples;
+  const double bytes =
+      study::table_bytes(rows, 2 * columns + of_motion + of_pin * static_cast<double>(s.pins()));
+  study::require_memory(table, "samples", bytes, fmt::format("{:.0f} rows", rows), "take fewer samples");
+}
+
 study::Prepared prepare(study::ObjectReader& document, const study::Common& common) {
   study::Prepared prepared;
   ClearanceStudy s;
@@ -384,6 +396,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   s.traces = std::move(description->traces);
   read_clearances(document, s, clearances);
   if (simulation && s.courses.size() == s.plan.inputs()) find_period(*simulation, s);
+  if (simulation && !document.document().has_errors()) check_memory(*simulation, s);
   prepared.canonical["drive"] = Value(std::move(drives));
   prepared.canonical["clearance"] = Value(std::move(clearances));
   prepared.canonical["simulation"] = study::write_fields(s);

@@ -264,7 +264,8 @@ class Reporter {
     if (table("ideal")) p.baseline = "ideal";
   }
   void plots() {
-    std::vector<std::string> paths, errors, hodograph, forces, spectrum, reactions, drives, map, angles;
+    std::vector<std::string> paths, errors, hodograph, forces, spectrum, reactions, drives, map, times,
+        angles;
     for (std::size_t k = 0; k < s_.traces.size(); ++k) {
       const std::string t = trace_key(k);
       for (const char* end : {"_x_m", "_y_m", "_ideal_x_m", "_ideal_y_m"}) paths.push_back(t + end);
@@ -276,9 +277,8 @@ class Reporter {
         hodograph.push_back(key(k) + end);
       forces.push_back(key(k) + (contact() ? "_contact_N" : "_tension_N"));
       spectrum.push_back(key(k) + "_amplitude_N");
-      for (const char* end : {"_force_ring_x_m", "_force_ring_y_m", "_time_ring_x_m", "_time_ring_y_m",
-                              "_bush_ring_x_m", "_bush_ring_y_m"})
-        map.push_back(key(k) + end);
+      for (const char* end : {"_force_x_N", "_force_y_N"}) map.push_back(key(k) + end);
+      for (const char* end : {"_time_share_x", "_time_share_y"}) times.push_back(key(k) + end);
       angles.push_back(key(k) + (contact() ? "_contact_angle_rad" : "_lead_rad"));
     }
     plot("hodograph", "Ways of the pins in their bushes", "hodograph", "", hodograph, Style::polar);
@@ -286,9 +286,12 @@ class Reporter {
          contact() ? "Contact forces" : "Tension of the clearance links: contact while positive", "pins",
          "time_s", forces);
     plot("contact-map",
-         "Contact map: how hard and how long the pins press on each place of their bushes, as seen from the "
-         "bush",
+         "Contact map: largest force of the pins on each place of their bushes, as seen from the bush",
          "contact_map", "", map, Style::polar);
+    plot("contact-time-map",
+         "Contact map: share of the time in which the pins touch each place of their bushes, as seen from "
+         "the bush",
+         "contact_map", "", times, Style::polar);
     plot("contact-angles",
          contact() ? "Where the pins touch: directions in their bushes" : "Leads of the clearance links",
          "pins", "time_s", angles, contact() ? Style::points : Style::line);

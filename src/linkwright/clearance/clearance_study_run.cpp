@@ -202,7 +202,9 @@ class Recorder {
   void with_contacts() {
     const ContactRun run = simulate_contact(
         s_.linkage, s_.contacts, s_.courses, times_,
-        {.tolerance = s_.relative_tolerance, .max_steps = s_.max_steps},
+        {.tolerance = s_.relative_tolerance,
+         .max_steps = s_.max_steps,
+         .stop_when_hopeless = s_.periodic() == nullptr},
         [&](const ContactRow& row) { return rows_.add(row); }, &context_);
     fail(run.status, run.message);
     take(run);
@@ -211,7 +213,8 @@ class Recorder {
   void with_continuous_contact() {
     const JointClearanceRun run = simulate_joint_clearance(
         s_.linkage, starts_, s_.courses, times_, continuous_options(),
-        [&](const JointClearanceRow& row) { return rows_.add(row); }, &context_);
+        [&](const JointClearanceRow& row) { return rows_.add(row); }, &context_, AtSeparation::go_on,
+        s_.periodic() ? AtHopeless::go_on : AtHopeless::stop);
     fail(run.status, run.message);
     take(run.simulation);
     out_.validity = run.joints;
@@ -221,7 +224,10 @@ class Recorder {
     for (std::size_t k = 0; k < starts_.size(); ++k)
       pins.push_back({s_.contacts[k], starts_[k].angle, starts_[k].rate});
     const AutomaticContactRun run = simulate_automatic_contact(
-        s_.linkage, pins, s_.courses, times_, {.tolerance = s_.relative_tolerance, .max_steps = s_.max_steps},
+        s_.linkage, pins, s_.courses, times_,
+        {.tolerance = s_.relative_tolerance,
+         .max_steps = s_.max_steps,
+         .stop_when_hopeless = s_.periodic() == nullptr},
         {.continuous = [&](const JointClearanceRow& row) { return rows_.add(row); },
          .contact = [&](const ContactRow& row) { return rows_.add(row); }},
         &context_);

@@ -74,23 +74,19 @@ Table contact_map_table(const ClearanceStudy& s, const ClearanceRecording& r) {
       if (at(e.joint) == k) press(e.bush_angle, e.force, e.depth);
     for (std::vector<double>* ring : {&force, &depth, &share}) ring->back() = ring->front();
     const std::string pin = s.pin_name(k);
-    // Rings around the bush, drawn in its size (without one, in that of the clearance): the largest lies as
-    // far outside as the middle does inside.
-    const double radius = s.contacts.empty() ? s.clearance_of(k) : s.contacts[k].bush_radius;
-    const auto ring = [&](const char* end, const std::string& label, const std::vector<double>& of) {
-      const double highest = std::max(*std::max_element(of.begin(), of.end()), 1e-300);
+    // As vectors from the middle of the bush, each in its own unit.
+    const auto rose = [&](const std::string& end, const char* unit, const std::string& label,
+                          const std::vector<double>& of) {
       std::vector<double> x, y;
       for (std::size_t i = 0; i < directions.size(); ++i) {
-        x.push_back(radius * (1 + of[i] / highest) * std::cos(directions[i]));
-        y.push_back(radius * (1 + of[i] / highest) * std::sin(directions[i]));
+        x.push_back(of[i] * std::cos(directions[i]));
+        y.push_back(of[i] * std::sin(directions[i]));
       }
-      table.add(key(s, k) + end + "_ring_x_m", label + " x (m)", std::move(x));
-      table.add(key(s, k) + end + "_ring_y_m", label + " y (m)", std::move(y));
+      table.add(key(s, k) + end + "_x" + unit, label + " x" + (*unit ? " (N)" : ""), std::move(x));
+      table.add(key(s, k) + end + "_y" + unit, label + " y" + (*unit ? " (N)" : ""), std::move(y));
     };
-    const double most = *std::max_element(force.begin(), force.end());
-    ring("_force", fmt::format("{} largest force, outermost {:.4g} N", pin, most), force);
-    ring("_time", pin + " time in contact", share);
-    ring("_bush", pin + " bush", std::vector<double>(directions.size(), 0.0));
+    rose("_force", "_N", pin + " largest force", force);
+    rose("_time_share", "", pin + " time in contact", share);
     table.add(key(s, k) + "_force_N", pin + " largest force there (N)", std::move(force));
     if (!only_links(s)) table.add(key(s, k) + "_depth_m", pin + " largest depth there (m)", std::move(depth));
     table.add(key(s, k) + "_time_share", pin + " share of the rows in which it touches there",

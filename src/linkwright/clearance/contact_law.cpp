@@ -66,6 +66,34 @@ double effective_restitution(const ContactLaw& law) {
   return math::zero_between(f, 0, pole > 1 ? 1 : pole * (1 - 1e-14));
 }
 
+ImpactShape impact_shape(const ContactLaw& law) {
+  const double a = damping_factor(law), n = law.exponent;
+  ImpactShape out{.restitution = effective_restitution(law)};
+  if (a == 0) return out;
+  // Both terms nearly cancel where a (1 - u) is small; the series of the integrand in x does not.
+  const auto integral = [a](double u) {
+    if (a < 1e-3) return (1 - u * u) / 2 - a * (1 - u * u * u) / 3;
+    return (1 - u) / a - std::log((1 + a) / (1 + a * u)) / (a * a);
+  };
+  out.depth = std::pow(2 * integral(0), 1 / (n + 1));
+  out.force = 0;
+  constexpr int steps = 1000;
+  for (int i = 0; i <= steps; ++i) {
+    const double u = 1 - (1 + out.restitution) * i / steps;
+    out.force = std::max(out.force, std::pow(std::max(2 * integral(u), 0.0), n / (n + 1)) * (1 + a * u));
+  }
+  return out;
+}
+
+double least_restitution(ContactDamping damping, double share) {
+  for (int percent = 99; percent >= 1; --percent) {
+    const double c = percent / 100.0;
+    const ContactLaw law{.stiffness = 1, .restitution = c, .damping = damping};
+    if (std::abs(effective_restitution(law) - c) > share * c) return (percent + 1) / 100.0;
+  }
+  return 0.01;
+}
+
 double contact_time(const ContactLaw& law, double mass, double approach) {
   const double v = std::max(approach, least_approach), n = law.exponent;
   const double depth = std::pow((n + 1) * mass * v * v / (2 * law.stiffness), 1 / (n + 1));

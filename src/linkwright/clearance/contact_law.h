@@ -60,6 +60,19 @@ double friction_force(const ContactLaw& law, double normal, double tangential_sp
 /// mass, speed, stiffness and exponent.
 double effective_restitution(const ContactLaw& law);
 
+/// A free impact by the law, by an elastic one of the same mass, speed, stiffness and exponent.
+struct ImpactShape {
+  double restitution = 1;  ///< effective_restitution
+  double force = 1;        ///< largest force by its largest force
+  double depth = 1;        ///< largest depth by its largest depth
+};
+/// With u = speed / approach, S(u) = (1 - u) / a - ln((1 + a) / (1 + a u)) / a^2 is the integral of
+/// x / (1 + a x) from u to 1, and depth^(n+1) = (n + 1) m v^2 S / K; elastic, S(0) = 1/2.
+ImpactShape impact_shape(const ContactLaw& law);
+/// Least coefficient of restitution, in hundredths, from which on the effective one of the law differs by no
+/// more than `share` of it.
+double least_restitution(ContactDamping damping, double share);
+
 /// About how long an impact lasts (s): 3.2 (m^2 / (K^2 v))^(1/5), elastic, exponent 1.5; in general the same
 /// for the depth that takes up all energy. `mass` (kg) is the effective one, `approach` in m/s.
 double contact_time(const ContactLaw& law, double mass, double approach);

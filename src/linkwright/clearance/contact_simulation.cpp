@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "linkwright/clearance/step_pace.h"
 #include "linkwright/core/check.h"
 #include "linkwright/planar/linkage_dynamics.h"
 
@@ -53,15 +54,20 @@ class Simulation {
 
   ContactRun run(std::span<const double> times, const RunContext* context) {
     duration_ = times.back() - times.front();
+    pace_ = StepPace(times.front(), times.back(), options_.max_steps);
     if (!start(times.front())) return std::move(run_);
     std::vector<double> y = state();
     const std::vector<double> tolerances = absolute_tolerances();
+    // Over the long steps of bdf errors of one sign add up where those of vibrations cancel.
+    constexpr double bdf_share = 0.01;
+    std::vector<double> bdf_tolerances = tolerances;
+    for (double& tolerance : bdf_tolerances) tolerance *= bdf_share;
     std::vector<math::OdeEvent> events(joints_.size(), {.terminal = true});
     math::OdeWorkspace workspace;
     double t = times.front(), length = 0;
     std::size_t shown = 0;
     while (true) {
-      const double longest = longest_step();
+      const double longest = longest_step(t);
       for (std::size_t k = 0; k < joints_.size(); ++k)
         events[k].crossing = contact_[k].on ? math::OdeCrossing::falling : math::OdeCrossing::rising;
       stiff_ = stiffness() * longest > (stiff_ ? 1 : 5);
@@ -78,23 +84,29 @@ class Simulation {
         for (const std::size_t k : which) change(k, time, s);
         return math::OdeAction::go_on;
       };
-      const math::OdeReport ode =
-          math::integrate([&](double time, std::span<const double> s,
-                              std::span<double> rate) { return slope(time, s, rate); },
-                          y, t, times.back(),
-                          {.method = stiff_ ? math::OdeMethod::bdf : options_.method,
-                           .relative_tolerance = options_.tolerance,
-                           .absolute_tolerances = tolerances,
-                           .initial_step = std::min(length, std::min(longest, times.back() - t)),
-                           .max_step = longest,
-                           .max_steps = options_.max_steps - run_.steps},
-                          hooks, workspace);
+      const math::OdeReport ode = math::integrate(
+          [&](double time, std::span<const double> s, std::span<double> rate) {
+            return slope(time, s, rate);
+          },
+          y, t, times.back(),
+          {.method = stiff_ ? math::OdeMethod::bdf : options_.method,
+           .relative_tolerance = std::max(options_.tolerance * (stiff_ ? bdf_share : 1), 1e-14),
+           .absolute_tolerances = stiff_ ? bdf_tolerances : tolerances,
+           .initial_step = std::min(length, std::min(longest, times.back() - t)),
+           .max_step = longest,
+           .max_steps = options_.max_steps - run_.steps},
+          hooks, workspace);
       run_.steps += ode.steps;
       run_.evaluations += ode.evaluations;
       run_.time = t = ode.t;
       length = ode.end == math::OdeEnd::event ? 0 : std::abs(ode.last_step);
       if (ode.status != Status::done) {
         fail(ode);
+        break;
+      }
+      if (hopeless_) {
+        run_.status = Status::not_converged;
+        run_.message = pace_.message(t);
         break;
       }
       if (ended_ || t >= times.back()) break;
@@ -294,13 +306,14 @@ class Simulation {
       if (!c.on) c.mass = 0;
     }
   }
-  double longest_step() {
+  double longest_step(double t) {
     double longest = duration_ / 20;
     for (std::size_t k = 0; k < joints_.size(); ++k) {
       const Contact& c = contact_[k];
       if (c.on) {
-        longest = std::min(longest, options_.contact_step *
-                                        contact_time(joints_[k].law, c.mass, run_.events[c.event].approach));
+        const ContactEvent& e = run_.events[c.event];
+        const double impact = contact_time(joints_[k].law, c.mass, e.approach);
+        longest = std::min(longest, options_.contact_step * std::max(impact, t - e.start - impact));
       } else {
         const double pace = norm(pins_[k].rate);
         if (pace > 0) longest = std::min(longest, joints_[k].clearance / 4 / pace);
@@ -384,6 +397,8 @@ class Simulation {
 
   bool after_step(double t, std::span<const double> y, double longest) {
     run_.time = t;
+    if (options_.stop_when_hopeless && !pace_.step(t)) hopeless_ = true;
+    if (hopeless_) return false;
     if (place(t, y) != Status::done) return true;
     remember(t);
     if (ended_) return false;
@@ -392,7 +407,7 @@ class Simulation {
     const double rate = stiffness() * longest;
     if (stiff_ ? rate < 1 : rate > 5) return false;
     // A new pace of the flight needs another length of the steps.
-    const double wanted = longest_step();
+    const double wanted = longest_step(t);
     return wanted > longest / 2 && wanted < 4 * longest;
   }
 
@@ -448,7 +463,8 @@ class Simulation {
   double start_kinetic_ = 0, start_potential_ = 0, start_elastic_ = 0;
   double noise_ = 0;  // m, rounding of the depth: a contact ends that much behind zero
   Status last_status_ = Status::done;
-  bool ended_ = false, stiff_ = false;
+  bool ended_ = false, stiff_ = false, hopeless_ = false;
+  StepPace pace_{0, 1, 1};
   ContactRun run_;
 };
 

@@ -21,9 +21,13 @@ struct ContactOptions {
   math::OdeMethod method = math::OdeMethod::explicit_runge_kutta_5;
   /// Error of a step, relative; absolute: this times the clearance for the ways of the pin.
   double tolerance = 1e-9;
-  /// Longest step in contact as a share of the time that the impact would last by itself.
+  /// Longest step in contact as a share of the time that the impact would last by itself, or, where the
+  /// bodies stay pressed together beyond that, of the time since then: what vibrates has the steps that its
+  /// errors ask for, what has come to rest takes long ones, by bdf.
   double contact_step = 0.05;
   long max_steps = 10'000'000;
+  /// Ends early, not_converged, when StepPace sees that max_steps will not do.
+  bool stop_when_hopeless = false;
 };
 
 /// One contact, from the touch to the separation.

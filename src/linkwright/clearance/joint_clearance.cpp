@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/angles.h"
@@ -75,6 +76,49 @@ Status start_bars(const ClearedLinkage& cleared, std::span<const JointClearance>
     if (change <= 1e-14) return Status::done;
   }
   return Status::not_converged;
+}
+
+// To how many roundings of the whole linkage the direction of a short bar is known.
+constexpr double roundings = 100;
+
+// What rounding leaves of the free inputs of a cleared linkage and their rates. Places are known to roundings
+// of the size of the linkage, which is many in the angle of a bar that is short against it; the rate of the
+// bar, which swings about the direction of its force, is known to that times the frequency of the swing.
+// Steps that are to be more exact than that only follow the rounding.
+struct Resolution {
+  std::vector<double> values, rates;
+};
+Resolution resolution_of(const ClearedLinkage& cleared, std::span<const planar::InputCourse> courses,
+                         double tolerance, double t, std::span<const InputMotion> start) {
+  std::vector<bool> is_free;
+  for (const planar::InputCourse& c : courses) is_free.push_back(!c.law);
+  planar::LinkageDynamics dynamics(cleared.linkage, cleared.plan, is_free);
+  std::vector<InputMotion> inputs(start.begin(), start.end());
+  Resolution out;
+  for (const std::size_t k : dynamics.free()) {
+    out.values.push_back(0);
+    out.rates.push_back(0);
+    const auto bar = std::find_if(cleared.bars.begin(), cleared.bars.end(),
+                                  [k](const ClearanceBar& b) { return at(b.input) == k; });
+    if (bar == cleared.bars.end()) continue;
+    const double angle =
+        roundings * std::numeric_limits<double>::epsilon() * cleared.plan.size / bar->clearance;
+    if (angle < tolerance) continue;
+    constexpr double step = 1e-3;  // rad
+    double apart = 0;
+    bool solved = true;
+    for (const double side : {1.0, -1.0}) {
+      inputs[k].value = start[k].value + side * step;
+      solved = solved && dynamics.solve(t, inputs) == Status::done;
+      apart += side * inputs[k].acceleration;
+    }
+    std::copy(start.begin(), start.end(), inputs.begin());
+    if (!solved || !std::isfinite(apart)) continue;
+    const double frequency = std::sqrt(std::abs(apart) / (2 * step));
+    out.values.back() = angle;
+    out.rates.back() = angle * frequency;
+  }
+  return out;
 }
 
 // Follows the tensions along a simulation.
@@ -235,7 +279,7 @@ JointClearanceRun simulate_joint_clearance(const Linkage& linkage, std::span<con
                                            std::span<const double> times,
                                            const planar::SimulationOptions& options,
                                            const JointClearanceOutput& output, const RunContext* context,
-                                           AtSeparation at_separation) {
+                                           AtSeparation at_separation, AtHopeless at_hopeless) {
   LINKWRIGHT_REQUIRE(courses.size() == linkage.driven.size(), "the linkage has {} inputs, got {}",
                      linkage.driven.size(), courses.size());
   LINKWRIGHT_REQUIRE(!clearances.empty() && !times.empty(), "{} clearances, {} times", clearances.size(),
@@ -269,15 +313,25 @@ JointClearanceRun simulate_joint_clearance(const Linkage& linkage, std::span<con
   std::vector<planar::InputCourse> all(courses.begin(), courses.end());
   for (const ClearanceBar& bar : cleared.bars)
     all.push_back({{}, inputs[at(bar.input)].value, inputs[at(bar.input)].rate});
+  StepPace pace(times.front(), times.back(), options.max_steps);
+  bool hopeless = false;
   planar::SimulationWatch watch;
   if (at_separation != AtSeparation::ignore)
     watch = {.count = clearances.size(),
              .values = [&](const planar::SimulationInstant& i,
                            std::span<double> tensions) { watcher.tensions(i, tensions); },
-             .note = [&](const planar::SimulationInstant& i,
-                         std::span<const std::size_t> crossed) { return watcher.note(i, crossed); }};
+             .note =
+                 [&](const planar::SimulationInstant& i, std::span<const std::size_t> crossed) {
+                   if (at_hopeless == AtHopeless::stop && !pace.step(i.time)) hopeless = true;
+                   return watcher.note(i, crossed) && !hopeless;
+                 }};
+  const Resolution resolution =
+      resolution_of(cleared, all, options.relative_tolerance, times.front(), inputs);
+  planar::SimulationOptions resolved = options;
+  resolved.value_resolution = resolution.values;
+  resolved.rate_resolution = resolution.rates;
   run.simulation = planar::simulate_watched(
-      cleared.linkage, cleared.plan, all, times, options,
+      cleared.linkage, cleared.plan, all, times, resolved,
       [&](const planar::SimulationInstant& i) {
         if (i.status == Status::done && !watcher.look(i)) return false;
         return !output || output({i, run.end});
@@ -286,6 +340,10 @@ JointClearanceRun simulate_joint_clearance(const Linkage& linkage, std::span<con
   watcher.finish(times.front());
   run.status = run.simulation.status;
   run.message = run.simulation.message;
+  if (hopeless && run.status == Status::done) {
+    run.status = run.simulation.status = Status::not_converged;
+    run.message = run.simulation.message = pace.message(run.simulation.time);
+  }
   return run;
 }
 

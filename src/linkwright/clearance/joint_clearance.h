@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/clearance/step_pace.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/planar/linkage_plan.h"
 #include "linkwright/planar/linkage_simulation.h"
@@ -92,14 +93,20 @@ struct JointClearanceRun {
 /// validity is that of the rows alone, which saves half of the time.
 enum class AtSeparation { go_on, stop, ignore };
 
+/// What to do when the steps that are allowed are seen early not to be enough.
+enum class AtHopeless { go_on, stop };
+
 /// Motion under forces with clearance: `courses` are those of the inputs of the original linkage, laws or
-/// free. Times, options and the rest as in planar::simulate, whose contract errors it throws, too. With
-/// AtSeparation::stop it ends, with status done, at the first instant at which a tension is not positive, and
-/// there is no row beyond.
+/// free. Times, options and the rest as in planar::simulate, whose contract errors it throws, too. Tolerances
+/// that are finer than the rounding of a short bar's angle (100 units in the last place of the size of the
+/// linkage, by the clearance) are widened to that. With AtSeparation::stop it ends, with status done, at the
+/// first instant at which a tension is not positive, and there is no row beyond. With AtHopeless::stop
+/// it ends early, not_converged, when StepPace sees that options.max_steps will not do.
 JointClearanceRun simulate_joint_clearance(
     const planar::Linkage& linkage, std::span<const JointClearance> clearances,
     std::span<const planar::InputCourse> courses, std::span<const double> times,
     const planar::SimulationOptions& options, const JointClearanceOutput& output = {},
-    const RunContext* context = nullptr, AtSeparation at_separation = AtSeparation::go_on);
+    const RunContext* context = nullptr, AtSeparation at_separation = AtSeparation::go_on,
+    AtHopeless at_hopeless = AtHopeless::go_on);
 
 }  // namespace linkwright::clearance

@@ -16,6 +16,7 @@
 #include "linkwright/app/catalogue.h"
 #include "linkwright/app/checkpoint_file.h"
 #include "linkwright/app/result_json.h"
+#include "linkwright/app/result_schema.h"
 #include "linkwright/app/run.h"
 #include "linkwright/cli/arguments.h"
 #include "linkwright/cli/progress.h"
@@ -213,6 +214,10 @@ int make(const Arguments& arguments, std::span<const study::Kind> kinds) {
 }
 
 int schema(const Arguments& arguments, std::span<const study::Kind> kinds) {
+  if (arguments.kind == "result") {
+    fmt::print("{}", study::to_json_readable(app::result_schema()));
+    return 0;
+  }
   if (arguments.kind.empty()) {
     fmt::print("{}", study::to_json_readable(study::schema_of(kinds)));
     return 0;
@@ -251,6 +256,8 @@ std::string aligned(const std::vector<study::Comparison>& rows) {
 int reproduce(const Arguments& arguments, std::span<const study::Reproduction> all) {
   if (arguments.table.empty()) {
     for (const study::Reproduction& r : all) fmt::print("{}\n    {}\n", r.id, r.title);
+    if (!all.empty())
+      fmt::print("\nWhich table of which source each one is, and why a few are not here: docs/published-tables.md\n");
     return 0;
   }
   Diagnostics diagnostics;

@@ -16,6 +16,10 @@ std::string_view to_string(Status status) {
       return "branch_lost";
     case Status::limit_reached:
       return "limit_reached";
+    case Status::at_rest:
+      return "at_rest";
+    case Status::self_locking:
+      return "self_locking";
     case Status::infeasible:
       return "infeasible";
     case Status::deadline:

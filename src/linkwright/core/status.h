@@ -13,6 +13,8 @@ enum class Status {
   not_converged,  ///< iteration stopped before its tolerance
   branch_lost,    ///< continuation could not stay on the branch it followed
   limit_reached,  ///< motion stopped at a limit
+  at_rest,        ///< friction brought the motion to rest and holds it: an answer, complete up to there
+  self_locking,   ///< friction blocks: no finite force of the drives keeps the motion going
   infeasible,     ///< no candidate met every constraint; the least violated one is returned
   deadline,       ///< time limit reached: best so far
   cancelled,      ///< asked to stop: best so far

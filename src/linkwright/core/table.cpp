@@ -10,8 +10,9 @@
 namespace linkwright {
 namespace {
 
+// Quoted is also what a reader would take for a remark or for a blank line.
 std::string csv_cell(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  if (!text.empty() && text.find_first_of(",\"\r\n#") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";
   for (char c : text) {
     if (c == '"') quoted += '"';

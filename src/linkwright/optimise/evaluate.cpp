@@ -1,7 +1,9 @@
 #include "linkwright/optimise/evaluate.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "linkwright/core/interruption.h"
 #include "linkwright/optimise/parallel.h"
 
 namespace linkwright::optimise {
@@ -16,6 +18,20 @@ void evaluate(const Problem& problem, const PopulationView& candidates, std::spa
   if (threads == 1 || candidates.size <= block_size) return problem.evaluate(candidates, cost, violation);
   const std::size_t m = problem.objectives, blocks = (candidates.size + block_size - 1) / block_size;
   parallel_for(blocks, threads, [&](std::size_t block) {
+    const std::size_t first = block * block_size, count = std::min(block_size, candidates.size - first);
+    problem.evaluate(candidates.slice(first, count), cost.subspan(first * m, count * m),
+                     violation.subspan(first, count));
+  });
+}
+
+void evaluate(const Problem& problem, const PopulationView& candidates, std::span<double> cost,
+              std::span<double> violation, const RunContext& context) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  std::fill(cost.begin(), cost.end(), nan);
+  std::fill(violation.begin(), violation.end(), nan);
+  const std::size_t m = problem.objectives, blocks = (candidates.size + block_size - 1) / block_size;
+  parallel_for(blocks, context.threads(), [&](std::size_t block) {
+    if (block > 0) go_on(context);
     const std::size_t first = block * block_size, count = std::min(block_size, candidates.size - first);
     problem.evaluate(candidates.slice(first, count), cost.subspan(first * m, count * m),
                      violation.subspan(first, count));

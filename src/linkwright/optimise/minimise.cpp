@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "linkwright/core/checkpoint.h"
+#include "linkwright/core/interruption.h"
 #include "linkwright/optimise/combine.h"
 #include "linkwright/optimise/evaluate.h"
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::size_t longest_reserved_log = 1 << 16, longest_reserved_generation = 1 << 16;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::chrono::milliseconds between_looks(50);
 
 /// The one number that several objectives are reported by.
 double mean_of(std::span<const double> costs) {
@@ -105,6 +107,42 @@ void tell_front(ParetoArchive& front, const PopulationView& candidates, std::spa
   }
 }
 
+/// The best of those candidates of a generation that were evaluated before it was cut short, if that is
+/// better than what is known. One that was not evaluated has a violation that is NaN; the first is taken
+/// where there is nothing else, so that there is a candidate in any case.
+void take_evaluated(const PopulationView& candidates, const Combination* combination, std::size_t m,
+                    std::span<const double> costs, std::span<const double> violations, Report& report) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const std::size_t of_parts = report.costs.size();
+  const auto take = [&](std::size_t i) {
+    for (std::size_t j = 0; j < report.x.size(); ++j) report.x[j] = candidates(j, i);
+  };
+  if (candidates.size > 0 && report.violation == infinity) take(0);
+  for (std::size_t i = 0; i < candidates.size; ++i) {
+    if (std::isnan(violations[i])) continue;
+    ++report.evaluations;
+    const std::span<const double> of = costs.subspan(i * of_parts, of_parts);
+    const double cost = combination ? combination->cost(of) : mean_of(of);
+    const double violation = violations[i] + (combination ? excess(*combination, of) : 0);
+    if (m > 1 && report.violation < infinity
+            ? !better(of, violation, std::span<const double>(report.costs), report.violation)
+            : !better(cost, violation, report.cost, report.violation))
+      continue;
+    take(i);
+    report.cost = cost;
+    report.violation = violation;
+    std::copy(of.begin(), of.end(), report.costs.begin());
+  }
+}
+
+/// A minimisation between two generations, for the checkpoint of a run that is interrupted within the next.
+struct Snapshot {
+  OptimiserState optimiser;
+  double cost = 0, violation = 0;
+  std::vector<double> costs;
+  std::int64_t evaluations = 0;
+};
+
 constexpr std::size_t log_part = 4096;  // generations; finished parts of the log are kept once
 constexpr std::size_t log_numbers = 6;  // of a generation
 constexpr std::int64_t most_evaluations = std::int64_t{1} << 53;  // exact as a double
@@ -145,20 +183,42 @@ class StateKeeper {
   /// Keeps the state if that is due.
   void generation_done(const Optimiser& optimiser, const Report& report, int unimproved,
                        const std::optional<ParetoArchive>& front) {
-    if (checkpoint_ && Clock::now() - kept_ >= interval_) keep(optimiser, report, unimproved, front);
+    if (checkpoint_ && Clock::now() - kept_ >= interval_) keep(optimiser.state(), report, unimproved, front);
   }
 
-  /// At an interruption the state is kept in any case. The end of a minimisation that was quicker than it
-  /// could be kept need not be.
+  /// At an interruption the state is kept in any case, that before the generation if it was cut short. The
+  /// end of a minimisation that was quicker than it could be kept need not be.
   void ended(const Optimiser& optimiser, const Report& report, int unimproved,
              const std::optional<ParetoArchive>& front, bool interrupted) {
-    if (checkpoint_ && (interrupted || kept_once_)) keep(optimiser, report, unimproved, front);
+    if (checkpoint_ && (interrupted || kept_once_)) keep(optimiser.state(), report, unimproved, front);
+  }
+
+  /// Before a generation that is likely to take long: what to keep if it is cut short.
+  void about_to_begin(const Optimiser& optimiser, const Report& report) {
+    constexpr std::chrono::milliseconds long_generation(20);
+    constexpr std::size_t in_parts = 256;  // more candidates than this are, see evaluate.h
+    if (!checkpoint_ || report.generations == 0) return;
+    const Clock::time_point now = Clock::now();
+    if (now - began_ > long_generation || optimiser.population() > in_parts)
+      before_ = {optimiser.state(), report.cost, report.violation, report.costs, report.evaluations};
+    else
+      before_.reset();
+    began_ = now;
+  }
+  /// What was kept last stays where the generation came too quickly for more.
+  void cut_short(Report report, int unimproved, const std::optional<ParetoArchive>& front) {
+    if (!before_) return;
+    report.cost = before_->cost;
+    report.violation = before_->violation;
+    report.costs = before_->costs;
+    report.evaluations = before_->evaluations;
+    keep(before_->optimiser, report, unimproved, front);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void keep(const Optimiser& optimiser, const Report& report, int unimproved,
+  void keep(const OptimiserState& state, const Report& report, int unimproved,
             const std::optional<ParetoArchive>& front) {
     for (; kept_log_ < report.log.size(); kept_log_ = std::min(kept_log_ + log_part, report.log.size())) {
       kept_log_ -= kept_log_ % log_part;
@@ -170,7 +230,6 @@ class StateKeeper {
       }
       checkpoint_->keep(log_name(kept_log_), pack_numbers(numbers));
     }
-    const OptimiserState state = optimiser.state();
     Value value;
     value["generations"] = report.generations;
     value["evaluations"] = report.evaluations;
@@ -243,6 +302,8 @@ class StateKeeper {
   std::chrono::duration<double> interval_{};
   std::size_t kept_log_ = 0;  // entries of the log
   bool kept_once_ = false;
+  Clock::time_point began_ = Clock::now();  // the generation before
+  std::optional<Snapshot> before_;
 };
 
 }  // namespace
@@ -291,15 +352,29 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
   keeper.restore(optimiser, problem.variables, generations, options.log, report, unimproved, front);
   Status interruption = Status::done;
   const bool was_at_its_end = !report.stop_reason.empty();
+  bool cut = false;
   while (report.stop_reason.empty()) {
     of_generation.clear();
+    keeper.about_to_begin(optimiser, report);
     bool improved = false, equalled = false;
     const std::uint32_t generation = optimiser.generation();
+    const auto began = std::chrono::steady_clock::now();
     while (optimiser.generation() == generation) {
       const PopulationView candidates = optimiser.ask();
       const std::size_t asked = candidates.size;
       const std::span<double> costs(cost.data(), asked * of_parts), violations(violation.data(), asked);
-      if (asked > 0) evaluate(parts, candidates, costs, violations, context.threads());
+      try {
+        std::fill(violations.begin(), violations.end(), nan);
+        // Rounds of a quick generation are not worth a look each.
+        if (std::chrono::steady_clock::now() - began > between_looks) go_on(context);
+        if (asked > 0) evaluate(parts, candidates, costs, violations, context);
+      } catch (const Interrupted& why) {
+        interruption = why.status();
+        cut = true;
+        keeper.cut_short(report, unimproved, front);
+        take_evaluated(candidates, combination, m, costs, violations, report);
+        break;
+      }
       for (std::size_t i = 0; combination && i < asked; ++i) {
         const std::span<const double> of_one = costs.subspan(i * of_parts, of_parts);
         combined[i] = combination->cost(of_one);
@@ -325,6 +400,7 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
       }
       if (options.log) of_generation.add(told, violations);
     }
+    if (cut) break;
     ++report.generations;
     unimproved = improved ? 0 : unimproved + 1;
     if (options.log) {
@@ -359,7 +435,8 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
     else
       keeper.generation_done(optimiser, report, unimproved, front);
   }
-  if (!was_at_its_end) keeper.ended(optimiser, report, unimproved, front, interruption != Status::done);
+  if (!was_at_its_end && !cut)
+    keeper.ended(optimiser, report, unimproved, front, interruption != Status::done);
   if (interruption != Status::done)
     report.stop_reason = interruption == Status::deadline ? "time limit reached" : "cancelled";
   if (front) report.front = front->points();

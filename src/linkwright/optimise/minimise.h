@@ -124,9 +124,11 @@ struct Report {
   std::vector<ParetoPoint> front;
 };
 
-/// Minimises a problem by a population method. Interruption is looked for after every generation; the first
-/// one always runs. Populations of more than 256 candidates are evaluated in parts by RunContext::threads()
-/// threads; the result does not depend on that. Throws ContractError for options out of range.
+/// Minimises a problem by a population method. Interruption is looked for after every generation and before
+/// each part of it but the first; a problem may look itself and throw Interrupted out of `evaluate`. Of a
+/// generation that was cut short the best of what was evaluated counts. Populations of more than 256
+/// candidates are evaluated in parts by RunContext::threads() threads; the result does not depend on that.
+/// Throws ContractError for options out of range.
 ///
 /// Several objectives are minimised together by those methods that can, see takes_several_objectives: what
 /// is best, and stays so, is told at Optimiser::best. The target cost and the log are about the mean of the
@@ -134,7 +136,8 @@ struct Report {
 /// combine.h and priorities.h.
 ///
 /// With a checkpoint the state is kept whenever Checkpoint::interval() has passed since the last time, and at
-/// an interruption; a later call goes on from there and ends with the same bits. Throws CheckpointError when
+/// an interruption (before the generation that it cut short); a later call goes on from there and ends with
+/// the same bits. Throws CheckpointError when
 /// what was kept is not of such a minimisation.
 Report minimise(const Problem& problem, const OptimiserOptions& method, const MinimiseOptions& options,
                 const Seed& seed, RunContext& context);

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/checkpoint.h"
+#include "linkwright/core/interruption.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/minimise_largest.h"
 #include "linkwright/optimise/nonnegative_fit.h"
@@ -98,13 +100,21 @@ std::vector<std::vector<double>> choose_starts(const Task& task, const Seed& see
       population(j, i) = std::clamp(random.uniform(v.lower, v.upper), v.lower, v.upper);
     }
   }
-  std::vector<double> values(count * width), cost(count), violation(count);
+  // Candidates that an interruption leaves out count as designs that do not exist.
+  std::vector<double> values(count * width, infinity), cost(count), violation(count);
+  std::atomic<std::int64_t> evaluated = 0;
   parallel_for((count + evaluation_block - 1) / evaluation_block, context.threads(), [&](std::size_t block) {
+    if (block > 0 && context.interrupted()) return;
     const std::size_t first = block * evaluation_block, part = std::min(evaluation_block, count - first);
-    problem.evaluate(population.view().slice(first, part),
-                     std::span(values).subspan(first * width, part * width));
+    try {
+      problem.evaluate(population.view().slice(first, part),
+                       std::span(values).subspan(first * width, part * width));
+    } catch (const Interrupted&) {
+      return;
+    }
+    evaluated += static_cast<std::int64_t>(part);
   });
-  evaluations += static_cast<std::int64_t>(count);
+  evaluations += evaluated;
   for (std::size_t i = 0; i < count; ++i) {
     const std::span<const double> of = std::span<const double>(values).subspan(i * width, width);
     // Limits that are not met count as cost: a search repairs them at once, but not a bad design.
@@ -140,9 +150,9 @@ std::vector<std::vector<double>> choose_starts(const Task& task, const Seed& see
   return starts;
 }
 
-SmoothEnd search(const Task& task, std::span<const double> start, RunContext& context) {
+SmoothEnd search(const Task& task, SmoothDifferences& at, std::span<const double> start,
+                 RunContext& context) {
   const SmoothProblem& problem = task.problem;
-  SmoothDifferences at(problem);
   const std::size_t n = at.free(), m = problem.objectives;
   std::vector<double> u(start.begin(), start.end()), lower(n, 0.0), upper(n, 1.0);
   // Beyond the designs that exist the cost is a plateau, far above: steps that end there are shortened.
@@ -203,6 +213,22 @@ SmoothEnd search(const Task& task, std::span<const double> start, RunContext& co
   if (!task.exists(values)) out.violation = violation_of(values, m);
   out.evaluations = at.evaluations();
   return out;
+}
+
+SmoothEnd search(const Task& task, std::span<const double> start, RunContext& context) {
+  SmoothDifferences at(task.problem);
+  try {
+    return search(task, at, start, context);
+  } catch (const Interrupted&) {
+    // Not even the start has been evaluated.
+    SmoothEnd out{.cost = infinity,
+                  .violation = infinity,
+                  .end = LocalEnd::interrupted,
+                  .evaluations = at.evaluations(),
+                  .x = std::vector<double>(task.problem.variables.size())};
+    at.from_unit(start, out.x);
+    return out;
+  }
 }
 
 /// Prices of the limits at x: multipliers of a least-squares fit of the conditions of Karush, Kuhn and
@@ -300,7 +326,11 @@ void conclude(const Task& task, SmoothReport& report, Status interruption) {
   for (const SmoothEnd& e : report.ends)
     report.reached_best +=
         e.violation == 0 && e.cost <= end.cost + task.options.same_cost * std::abs(end.cost);
-  find_prices(task, report);
+  try {
+    find_prices(task, report);
+  } catch (const Interrupted&) {
+    report.active.clear();  // they take evaluations of their own
+  }
   report.status = status_of(end.end, end.violation, interruption);
   if (interruption != Status::done) report.status = interruption;
 }

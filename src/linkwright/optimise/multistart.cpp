@@ -1,8 +1,35 @@
 #include "linkwright/optimise/multistart.h"
 
+#include <cmath>
+
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
 
 namespace linkwright::optimise {
+namespace {
+
+/// Of a search that was interrupted at x, the best of what it came to.
+math::LeastSquaresReport cut_short(math::ResidualFunction function, std::size_t m, std::span<const double> x,
+                                   std::int64_t& evaluations) {
+  math::LeastSquaresReport out{.status = Status::not_converged, .end = math::LeastSquaresEnd::iterations};
+  std::vector<double> residuals(m);
+  double sum = 0;
+  try {
+    ++evaluations;
+    if (!function(x, residuals, {})) sum = std::numeric_limits<double>::infinity();
+  } catch (const Interrupted&) {
+    sum = std::numeric_limits<double>::infinity();
+  }
+  for (const double r : residuals) sum += r * r;
+  out.evaluations = static_cast<int>(evaluations);
+  if (std::isfinite(sum))
+    out.cost = sum / 2;
+  else
+    out.status = Status::infeasible;
+  return out;
+}
+
+}  // namespace
 
 MultistartReport multistart_least_squares(math::ResidualFunction function, std::size_t m, std::size_t n,
                                           std::span<const double> lower, std::span<const double> upper,
@@ -16,9 +43,21 @@ MultistartReport multistart_least_squares(math::ResidualFunction function, std::
   for (std::size_t start = 0; start < static_cast<std::size_t>(options.starts); ++start) {
     RandomStream random({seed.seed, seed.run, 0, static_cast<std::uint32_t>(start)});
     if (!generate(start, random, x)) continue;
-    const auto local = math::minimise_least_squares(function, m, x, lower, upper, options.local, workspace);
+    std::int64_t evaluations = 0;
+    const auto looking = [&](std::span<const double> at, std::span<double> residuals,
+                             std::span<double> jacobian) {
+      if (evaluations > 0) go_on(context);
+      ++evaluations;
+      return function(at, residuals, jacobian);
+    };
+    math::LeastSquaresReport local;
+    try {
+      local = math::minimise_least_squares(looking, m, x, lower, upper, options.local, workspace);
+    } catch (const Interrupted&) {
+      local = cut_short(function, m, x, evaluations);
+    }
     report.ends.push_back({start, local, x});
-    report.evaluations += local.evaluations;
+    report.evaluations += evaluations;
     if (local.cost < best) {
       best = local.cost;
       report.best = report.ends.size() - 1;

@@ -21,7 +21,7 @@ using StartGenerator = math::FunctionRef<bool(std::size_t start, RandomStream& r
 struct MultistartOptions {
   int starts = 100;
   std::int64_t evaluations =
-      0;  ///< no start begins after so many; 0 = no limit. A local search is not cut short
+      0;  ///< no start begins after so many; 0 = no limit. They do not cut a local search short
   double target_cost =
       -std::numeric_limits<double>::infinity();  ///< end when half the sum of squares is at most this
   double same_cost =
@@ -45,7 +45,8 @@ struct MultistartReport {
 };
 
 /// Local least squares from many starts, one after the other (seeds are what runs in parallel, see
-/// for_each_seed). Arguments of the local searches as in math::minimise_least_squares.
+/// for_each_seed). Arguments of the local searches as in math::minimise_least_squares. An interruption cuts
+/// the search that is on short: its end is the best it had come to, not_converged.
 MultistartReport multistart_least_squares(math::ResidualFunction function, std::size_t m, std::size_t n,
                                           std::span<const double> lower, std::span<const double> upper,
                                           StartGenerator generate, const MultistartOptions& options,

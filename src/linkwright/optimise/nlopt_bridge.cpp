@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
 #include "linkwright/optimise/optimiser.h"
 
 namespace linkwright::optimise {
@@ -91,13 +92,22 @@ struct Search {
 };
 
 // Exceptions must not pass through the C frames of NLopt.
+void note_exception(Search& search) {
+  try {
+    throw;
+  } catch (const Interrupted& why) {
+    search.interruption = why.status();
+  } catch (...) {
+    search.thrown = std::current_exception();
+  }
+  search.stop(LocalEnd::interrupted);
+}
 double call_cost(unsigned n, const double* x, double* gradient, void* data) {
   Search& search = *static_cast<Search*>(data);
   try {
     return search.evaluate_cost({x, n}, {gradient, gradient ? n : 0});
   } catch (...) {
-    search.thrown = std::current_exception();
-    search.stop(LocalEnd::interrupted);
+    note_exception(search);
     return 0;
   }
 }
@@ -106,8 +116,7 @@ void call_constraints(unsigned m, double* values, unsigned n, const double* x, d
   try {
     search.evaluate_constraints({x, n}, {values, m}, {jacobian, jacobian ? std::size_t{m} * n : 0});
   } catch (...) {
-    search.thrown = std::current_exception();
-    search.stop(LocalEnd::interrupted);
+    note_exception(search);
   }
 }
 

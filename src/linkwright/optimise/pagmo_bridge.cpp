@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "linkwright/core/checkpoint.h"
+#include "linkwright/core/interruption.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/evaluate.h"
 
@@ -29,7 +30,7 @@ constexpr double largest_cost = 1e75, violation_unit = 1e100, least_violated_cos
 /// Evaluates what pagmo asks for: designs of the free variables only, as pagmo takes none without a range.
 class Evaluator {
  public:
-  Evaluator(const Problem& problem, int threads) : problem_(problem), threads_(threads) {
+  Evaluator(const Problem& problem, const RunContext& context) : problem_(problem), context_(context) {
     for (std::size_t j = 0; j < problem.variables.size(); ++j) {
       const Variable& v = problem.variables[j];
       LINKWRIGHT_REQUIRE(std::isfinite(v.lower) && std::isfinite(v.upper) && v.lower <= v.upper,
@@ -49,6 +50,7 @@ class Evaluator {
 
   /// x is design after design; likewise the costs that pagmo is told.
   pagmo::vector_double operator()(const pagmo::vector_double& x) {
+    if (evaluations > 0) go_on(context_);  // moead asks for one design after the other
     const std::size_t n = free_.size(), m = problem_.objectives, count = x.size() / n;
     if (candidates_.size() != count) {
       candidates_ = Population(problem_.variables.size(), count);
@@ -60,7 +62,7 @@ class Evaluator {
         candidates_(free_[j], i) = std::clamp(x[i * n + j], lower[j], upper[j]);
     cost_.resize(count * m);
     violation_.resize(count);
-    evaluate(problem_, candidates_.view(), cost_, violation_, threads_);
+    evaluate(problem_, candidates_.view(), cost_, violation_, context_);
     pagmo::vector_double told(count * m);
     for (std::size_t i = 0; i < count; ++i) {
       ++evaluations;
@@ -88,6 +90,9 @@ class Evaluator {
     return d;
   }
 
+  /// A design of which nothing is known.
+  ParetoPoint nothing() const { return design(lower, pagmo::vector_double(problem_.objectives, infinity)); }
+
   /// The population that all methods begin with, as Optimiser has it.
   pagmo::vector_double first_population(std::size_t size, const Seed& seed) const {
     pagmo::vector_double x;
@@ -107,7 +112,7 @@ class Evaluator {
 
  private:
   const Problem& problem_;
-  int threads_;
+  const RunContext& context_;
   std::vector<std::size_t> free_;
   Population candidates_;
   std::vector<double> cost_, violation_;
@@ -279,7 +284,7 @@ FrontReport minimise_with_pagmo(const Problem& problem, const PagmoOptions& meth
                      "moead: neighbours must be less than population {}, got {}", population,
                      method.moead.neighbours);
 
-  Evaluator evaluator(problem, context.threads());
+  Evaluator evaluator(problem, context);
   FrontReport report;
   pagmo::algorithm algorithm = make_algorithm(method, evaluator.lower.size(), problem.objectives);
   pagmo::population members(pagmo::problem(EvaluatorProblem{&evaluator}), 0, 0);
@@ -290,15 +295,22 @@ FrontReport minimise_with_pagmo(const Problem& problem, const PagmoOptions& meth
   while (report.stop_reason.empty()) {
     const std::int64_t before = evaluator.evaluations;
     evaluator.violated = 0;
-    if (report.generations == 0) {
-      const pagmo::vector_double x = evaluator.first_population(population, seed);
-      fill(members, population, x, evaluator(x));
-    } else {
-      // Half of the streams are kept for uses like this one, see Optimiser::Optimiser.
-      algorithm.set_seed(
-          RandomStream({seed.seed, seed.run, static_cast<std::uint32_t>(report.generations), 1u << 31})
-              .bits());
-      members = algorithm.evolve(members);
+    try {
+      if (report.generations == 0) {
+        const pagmo::vector_double x = evaluator.first_population(population, seed);
+        fill(members, population, x, evaluator(x));
+      } else {
+        // Half of the streams are kept for uses like this one, see Optimiser::Optimiser.
+        algorithm.set_seed(
+            RandomStream({seed.seed, seed.run, static_cast<std::uint32_t>(report.generations), 1u << 31})
+                .bits());
+        members = algorithm.evolve(members);
+      }
+    } catch (const Interrupted& why) {
+      // The generation does not count; the members are those before it.
+      interruption = why.status();
+      evaluator.evaluations = before;
+      break;
     }
     ++report.generations;
     if (options.log) {
@@ -322,13 +334,15 @@ FrontReport minimise_with_pagmo(const Problem& problem, const PagmoOptions& meth
     else
       keeper.generation_done(members, evaluator, report);
   }
-  if (!was_at_its_end) keeper.ended(members, evaluator, report, interruption != Status::done);
+  if (!was_at_its_end && report.generations > 0)
+    keeper.ended(members, evaluator, report, interruption != Status::done);
   if (interruption != Status::done)
     report.stop_reason = interruption == Status::deadline ? "time limit reached" : "cancelled";
   report.evaluations = evaluator.evaluations;
   report.front = non_dominated(feasible(members, evaluator));
   report.status = interruption;
   if (report.front.empty()) {
+    if (evaluator.least_violated.x.empty()) evaluator.least_violated = evaluator.nothing();
     report.front.push_back(evaluator.least_violated);
     report.violation = evaluator.least_violation;
     if (interruption == Status::done) report.status = Status::infeasible;

@@ -11,8 +11,10 @@ PreparedRobot prepare(const DesignedRobot& designed, const WorkingMode& mode, co
   LINKWRIGHT_REQUIRE(what.length > 0, "the characteristic length must be more than 0, got {} m", what.length);
   PreparedRobot out{.count = designed.count,
                     .output = what.output,
+                    .constraint = what.constraint && designed.robot.freedom == Freedom::space_translation,
                     .per_length = 1 / what.length,
                     .assembly = static_cast<double>(designed.assembly),
+                    .turned = static_cast<double>(designed.constraint),
                     .origin = designed.offset * designed.ahead};
   for (int i = 0; i < designed.robot.legs(); ++i) {
     PreparedLeg& leg = out.leg[i];
@@ -70,6 +72,7 @@ void measure(const DesignedRobot& designed, const WorkingMode& mode, const Dexte
   const std::size_t size = poses.size();
   const int legs = designed.robot.legs();
   enlarge(out.conditioning, size);
+  enlarge(out.constraint, size);
   for (int i = 0; i < legs; ++i)
     for (auto* values : {&out.input_square[i], &out.cosine[i], &out.sine[i], &out.side[i], &out.output[i]})
       enlarge(*values, size);

@@ -28,9 +28,10 @@ struct PreparedLeg {
 };
 struct PreparedRobot {
   int count = 0;  ///< dimensions
-  bool output = false;
+  bool output = false, constraint = false;
   double per_length = 1;
   double assembly = 1;  ///< sign of det J^-1 where the conditioning is positive
+  double turned = 1;    ///< sign of det C where the constraint index is
   Vec3 origin;          ///< of the region
   std::array<PreparedLeg, most_legs> leg{};
 };
@@ -170,6 +171,38 @@ LINKWRIGHT_KERNEL void measure(const PreparedRobot& robot, const math::Vector3<T
       largest;
   out.conditioning = S::choose(fits, conditioning, least);
 
+  out.constraint = T(1.0);
+  if constexpr (derivatives)
+    for (int j = 0; j < n; ++j) out.constraint_by[j] = T(0.0);
+  [[maybe_unused]] std::array<T, order> couple_left{}, couple_right{};  // of the least singular value of C
+  [[maybe_unused]] T held(1.0);
+  if constexpr (order == 3) {
+    if (robot.constraint) {
+      std::array<std::array<T, 3>, 3> couples;
+      for (int i = 0; i < 3; ++i) {
+        const math::Vector3<T> c = cross(robot.leg[i].axis, at[i].rod);
+        const double per_rod = 1 / robot.leg[i].leg.rod;
+        couples[i] = {c.x * per_rod, c.y * per_rod, c.z * per_rod};
+      }
+      const auto turns_by = math::singular_values<3>(couples);
+      T least_held = turns_by.value[0];
+      for (int i = 0; i < 3; ++i) {
+        couple_left[i] = turns_by.left[i][0];
+        couple_right[i] = turns_by.right[i][0];
+      }
+      for (int k = 1; k < 3; ++k) {
+        const auto less = turns_by.value[k] < least_held;
+        least_held = S::choose(less, turns_by.value[k], least_held);
+        for (int i = 0; i < 3; ++i) {
+          couple_left[i] = S::choose(less, turns_by.left[i][k], couple_left[i]);
+          couple_right[i] = S::choose(less, turns_by.right[i][k], couple_right[i]);
+        }
+      }
+      held = S::choose(determinant<3>(couples) < T(0.0), T(-robot.turned), T(robot.turned)) * least_held;
+      out.constraint = S::choose(fits, held, least);
+    }
+  }
+
   // Twist for a unit of one leg alone, from the same decomposition: Jx^-1 = V S^-1 U^T Jq^-1.
   std::array<std::array<T, order>, order> twist;
   if (robot.output) {
@@ -192,6 +225,7 @@ LINKWRIGHT_KERNEL void measure(const PreparedRobot& robot, const math::Vector3<T
     for (int j = 0; j < n; ++j) {
       std::array<std::array<T, order>, order> changed;  // d rows
       T first(0.0), last(0.0);
+      [[maybe_unused]] T turned_by(0.0);
       for (int i = 0; i < order; ++i) {
         const PreparedLeg& prepared = robot.leg[i];
         const PreparedLeg::By& by = prepared.by[j];
@@ -201,6 +235,16 @@ LINKWRIGHT_KERNEL void measure(const PreparedRobot& robot, const math::Vector3<T
         const T change = by.arm * dot(at[i].rod, at[i].normal) +
                          prepared.leg.arm * (dot(ds, at[i].normal) - turned * dot(at[i].rod, at[i].arm));
         const std::array<T, 3> d{ds.x, ds.y, ds.z};
+        if constexpr (order == 3) {
+          if (robot.constraint) {
+            // d sigma = u . dC v with rows of C = axis x s / L.
+            const math::Vector3<T> shrunk = ds - T(by.rod / prepared.leg.rod) * at[i].rod;
+            const math::Vector3<T> dc = cross(prepared.axis, shrunk);
+            turned_by =
+                turned_by + couple_left[i] * (1 / prepared.leg.rod) *
+                                (dc.x * couple_right[0] + dc.y * couple_right[1] + dc.z * couple_right[2]);
+          }
+        }
         for (int k = 0; k < (order < 3 ? order : 3); ++k) changed[i][k] = d[k];
         if constexpr (turns) {
           const math::Vector3<T> m = cross(by.lever, at[i].rod) + cross(prepared.lever, ds);
@@ -220,6 +264,9 @@ LINKWRIGHT_KERNEL void measure(const PreparedRobot& robot, const math::Vector3<T
       // So far `first` and `last` have one factor sigma too many.
       const T slope = conditioning * (last / (smallest * smallest) - first / (largest * largest));
       out.conditioning_by[j] = S::choose(fits, slope, least_by[j]);
+      // `left` has sigma u; the sign of the index is that of its value.
+      if constexpr (order == 3)
+        if (robot.constraint) out.constraint_by[j] = S::choose(fits, turned_by / held, least_by[j]);
       if (!robot.output) continue;
       for (int i = 0; i < order; ++i) {
         std::array<T, order> rate;
@@ -267,6 +314,7 @@ LINKWRIGHT_KERNEL void measure_set(const PreparedRobot& robot, const PoseSet& po
       for (std::size_t l = 0; l < count; ++l) at[l] = lane[0][l];
     };
     store(pose.conditioning, out.conditioning);
+    if (robot.constraint) store(pose.constraint, out.constraint);
     for (int i = 0; i < order; ++i) {
       store(pose.input_square[i], out.input_square[i]);
       store(pose.cosine[i], out.cosine[i]);

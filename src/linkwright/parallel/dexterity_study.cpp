@@ -10,6 +10,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/robot_scene.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/memory.h"
 #include "linkwright/study/run_seeds.h"
 
 namespace linkwright::parallel {
@@ -49,11 +50,11 @@ Answer answer_of(const DexterityStudy& s, std::uint64_t seed, RunContext& contex
   std::visit(
       [&](const auto& method) {
         if constexpr (!std::is_same_v<std::decay_t<decltype(method)>, RecommendedDexterity>) {
-          const optimise::Problem problem = population_problem(s.task);
+          const optimise::Problem problem = population_problem(s.task, &context);
           const auto optimiser = optimise::make_optimiser(problem.variables, method.options, {.seed = seed});
           optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
                                                        choice_word(method).name, method.minimise, context);
-          out.best = assess(s.task, report.x);
+          if (report.violation < std::numeric_limits<double>::infinity()) out.best = assess(s.task, report.x);
           out.status = report.status == Status::done ? out.best.status : report.status;
           out.evaluations = report.evaluations;
           out.log = std::move(report.log);
@@ -255,6 +256,7 @@ goal      = "size"            # or worst, mean: conditioning as good as possible
 
 [target.limits]
 conditioning   = 0.4
+constraint     = 0.2          # how firmly the parallelograms hold the platform: 0.2 if left out
 input          = 0.5
 arm_travel_deg = 120
 side_swing_deg = 40
@@ -392,11 +394,25 @@ std::optional<DexterityStudy> read_dexterity_study(study::ObjectReader& document
                  three(form.nodes, {5, 61, 5}),
                  three(form.cells, {8, 12, 5})};
   task.goal = form.goal;
-  const DexterityLimitsForm& l = form.limits;
+  DexterityLimitsForm& l = form.limits;
+  if (family != RobotFamily::delta && l.constraint) {
+    if (auto limits = target->table("limits"))
+      limits->error("constraint", "only the legs of a DELTA are parallelograms", "leave it out");
+    return std::nullopt;
+  }
+  if (family == RobotFamily::delta) {
+    l.constraint = l.constraint.value_or(task.limits.constraint);
+    task.limits.constraint = *l.constraint;
+  }
   task.limits.conditioning = l.conditioning;
   task.limits.input = l.input;
   task.limits.output = l.output;
   task.limits.transmission = l.transmission;
+  if (task.goal == DexterityGoal::size && !size_is_limited(task.limits)) {
+    constexpr double usual = 0.3;
+    l.transmission = task.limits.transmission = usual;
+    out.transmission_put_in = true;
+  }
   if (l.arm_travel) task.limits.arm_travel = *l.arm_travel;
   if (l.side_swing) task.limits.side_swing = *l.side_swing;
   if (l.size) task.limits.size = *l.size;
@@ -408,6 +424,16 @@ std::optional<DexterityStudy> read_dexterity_study(study::ObjectReader& document
   if (const auto wrong = problem(task)) {
     target->error("type", *wrong);
     return std::nullopt;
+  }
+  // Coordinates, place and weight of a point, copied once, and its place and indices as they are measured.
+  constexpr double bytes_of_point = 2 * sizeof(RegionPoint) + 6 * sizeof(Vec3);
+  for (const auto& [key, counts] :
+       {std::pair{"nodes", &task.region.nodes}, std::pair{"cells", &task.region.cells}}) {
+    double points = 1;
+    for (std::size_t k = 0; k < count; ++k) points *= (*counts)[k];
+    if (!study::require_memory(*target, key, bytes_of_point * points, fmt::format("{:.0f} {}", points, key),
+                               fmt::format("take fewer {}", key)))
+      return std::nullopt;
   }
   out.method = optimiser.method;
   canonical["mechanism"] = written;
@@ -463,6 +489,29 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
       return fmt::format("{:.3f} to {:.3f} mm", 1e3 * diagonal(joint, d.lowest),
                          1e3 * diagonal(joint, d.highest));
     }());
+  if (s.task.family == RobotFamily::delta)
+    for (const DexterityStand& l : a.best.limits)
+      if (l.limit == DexterityLimit::constraint)
+        fact("least constraint index", fmt::format("{:.6f}", l.value),
+             l.excess <= 0 || l.active ? Verdict::good : Verdict::bad);
+  if (s.transmission_put_in)
+    fact("limit put in",
+         "transmission index at least 0.3: without a limit of conditioning or transmission the "
+         "smallest robot is a singular one");
+  BodyProof proof;
+  if (good) {
+    proof = prove_region(s.task, a.best);
+    fact("whole region free of singularities",
+         proof.proven     ? "proven, between the nodes, too"
+         : proof.violated ? fmt::format("no: at ({:.4g}, {:.4g}, {:.4g}) m the constraint index misses its "
+                                        "limit, or it is singular",
+                                        proof.violated->x, proof.violated->y, proof.violated->z)
+                          : fmt::format("not proven within {} poses; the nodes are", proof.looks),
+         proof.proven     ? Verdict::good
+         : proof.violated ? Verdict::bad
+                          : Verdict::plain);
+    if (proof.violated && result.status == Status::done) result.status = Status::infeasible;
+  }
   std::string held;
   for (const DexterityStand& l : a.best.limits)
     if (l.active) held += fmt::format("{}{}", held.empty() ? "" : ", ", name_of(l.limit));
@@ -476,9 +525,15 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
              runs.answers.size()),
          Verdict::plain);
   result.scenes.push_back(scene_of(s, a.best));
-  result.headline = good ? fmt::format("Best {} found: {}.", name_of(s.task.family),
-                                       objective_text(s.task.goal, a.best.objective))
-                         : fmt::format("No design meets every limit: {}.", a.best.reason);
+  result.headline =
+      proof.violated
+          ? fmt::format(
+                "The best design misses the constraint index, or is singular, between the nodes, at "
+                "({:.4g}, {:.4g}, {:.4g}) m: ask for more nodes.",
+                proof.violated->x, proof.violated->y, proof.violated->z)
+      : good ? fmt::format("Best {} found: {}.", name_of(s.task.family),
+                           objective_text(s.task.goal, a.best.objective))
+             : fmt::format("No design meets every limit: {}.", a.best.reason);
   return result;
 }
 

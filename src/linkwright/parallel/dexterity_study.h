@@ -14,7 +14,7 @@ namespace linkwright::parallel {
 /// `[target.limits]`.
 struct DexterityLimitsForm {
   double conditioning = 0, input = 0, output = 0, transmission = 0;
-  std::optional<double> arm_travel, side_swing, size;
+  std::optional<double> constraint, arm_travel, side_swing, size;
 };
 template <class Visitor>
 void fields(Visitor&& visit, DexterityLimitsForm& l) {
@@ -24,7 +24,14 @@ void fields(Visitor&& visit, DexterityLimitsForm& l) {
   visit(index("conditioning", "least local conditioning index"), l.conditioning);
   visit(index("input", "least input transmission index"), l.input);
   visit(index("output", "least output transmission index"), l.output);
-  visit(index("transmission", "least of both"), l.transmission);
+  visit(index("transmission",
+              "least of both; default: 0.3 for goal = \"size\" without a limit of conditioning, "
+              "transmission, or both input and output, else none"),
+        l.transmission);
+  visit(index("constraint",
+              "least constraint index of a DELTA: how firmly its parallelograms keep the platform from "
+              "turning; default 0.2; 0: only never to be lost"),
+        l.constraint);
   visit(Field{.key = "arm_travel",
               .summary = "largest less least arm angle, over all legs",
               .dimension = Dimension::angle,
@@ -129,6 +136,7 @@ void fields(Visitor&& visit, DexterityOptimiser& o) {
 struct DexterityStudy {
   DexterityTask task;
   DexterityMethod method;
+  bool transmission_put_in = false;  ///< its limit: without any the smallest robot is singular
 };
 
 /// "synthesis" of "parallel.delta", "parallel.hexa" and "parallel.five_bar" for a "region".

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/parallel.h"
 #include "linkwright/parallel/dexterity_synthesis_search.h"
@@ -13,7 +14,8 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr int round_starts = 4;  ///< between looks at what was found
+constexpr int round_starts = 4;           ///< between looks at what was found
+constexpr std::size_t many_poses = 1000;  ///< of a draw: so many are worth a look at the context
 
 struct Drawn {
   std::vector<double> unknowns;
@@ -43,11 +45,22 @@ Drawn draw(const DexterityModel& model, std::uint64_t seed, int index, Dexterity
   return out;
 }
 
+/// Of the legs, that one does not get to a node.
+bool is_out_of_reach(const DexterityStand& stand) {
+  return (stand.limit == DexterityLimit::reach || stand.limit == DexterityLimit::input) && stand.value < 0;
+}
+
 std::string described(const DexterityStand& stand) {
+  if (is_out_of_reach(stand))
+    return fmt::format("leg {} does not reach ({:.4g}, {:.4g}, {:.4g}) m, and all of the region is asked for",
+                       stand.leg + 1, stand.place.x, stand.place.y, stand.place.z);
   std::string text = fmt::format("{} is {:.6g}, {} {:.6g} is asked for", name_of(stand.limit), stand.value,
                                  stand.at_least ? "at least" : "at most", stand.bound);
-  if (stand.leg >= 0)
-    text += fmt::format(", at leg {} in ({:.4g}, {:.4g}, {:.4g}) m", stand.leg + 1, stand.place.x,
+  const bool of_pose =
+      stand.limit == DexterityLimit::conditioning || stand.limit == DexterityLimit::constraint;
+  if (stand.leg >= 0 || of_pose)
+    text += fmt::format(", at {}({:.4g}, {:.4g}, {:.4g}) m",
+                        stand.leg >= 0 ? fmt::format("leg {} in ", stand.leg + 1) : "", stand.place.x,
                         stand.place.y, stand.place.z);
   return text;
 }
@@ -62,13 +75,13 @@ void add_stands(const DexterityModel& model, const Extremes& extremes, std::span
   const auto of_pose = [&](DexterityLimit limit, PoseLimit::Kind kind, bool at_least, auto&& extreme_of,
                            auto&& value_of, double bound) {
     DexterityStand stand{.limit = limit, .bound = bound, .at_least = at_least, .excess = -HUGE_VAL};
-    for (int i = 0; i < (kind == PoseLimit::conditioning ? 1 : model.legs()); ++i) {
+    for (int i = 0; i < model.entries(kind); ++i) {
       const Extreme& extreme = extreme_of(i);
       const double g = model.limit(kind, extreme, unknowns);
       if (g <= stand.excess) continue;
       stand.excess = g;
       stand.value = value_of(extreme.value);
-      stand.leg = kind == PoseLimit::conditioning ? -1 : i;
+      stand.leg = model.entries(kind) == 1 ? -1 : i;
       stand.place = out.origin + model.at(extreme.pose).place;
     }
     finish(stand);
@@ -86,6 +99,10 @@ void add_stands(const DexterityModel& model, const Extremes& extremes, std::span
         DexterityLimit::conditioning, PoseLimit::conditioning, true,
         [&](int) -> const Extreme& { return extremes.conditioning; }, same,
         model.bound(PoseLimit::conditioning));
+  if (model.wants(PoseLimit::constraint))
+    of_pose(
+        DexterityLimit::constraint, PoseLimit::constraint, true,
+        [&](int) -> const Extreme& { return extremes.constraint; }, same, model.bound(PoseLimit::constraint));
   if (model.wants(PoseLimit::output))
     of_pose(
         DexterityLimit::output, PoseLimit::output, true,
@@ -126,7 +143,7 @@ void add_drives(const DexterityModel& model, const DesignedRobot& designed, std:
   }
 }
 
-DexterityDesign assessed(const DexterityModel& model, std::span<const double> x) {
+DexterityDesign assessed(const DexterityModel& model, std::span<const double> x, const Extremes& extremes) {
   const DexterityTask& task = model.task();
   DexterityModel::Work work;
   DexterityDesign out;
@@ -143,13 +160,16 @@ DexterityDesign assessed(const DexterityModel& model, std::span<const double> x)
   const DesignedRobot designed = model.designed(x);
   out.robot = designed.robot;
   out.origin = designed.offset * designed.ahead;
-  const Extremes extremes = model.extremes(designed, work);
   const std::vector<double> unknowns = model.unknowns_of(x, extremes);
   std::tie(out.arm_lowest, out.arm_highest) = model.travel(extremes);
   out.size = x[designed.arm()] + x[designed.rod()];
   out.worst = extremes.conditioning.value;
   out.worst_place = out.origin + model.at(extremes.conditioning.pose).place;
-  out.mean = model.mean(designed, work, {});
+  try {
+    out.mean = model.mean(designed, work, {});
+  } catch (const Interrupted&) {
+    out.mean = std::numeric_limits<double>::quiet_NaN();  // the rest is known
+  }
   out.objective = task.goal == DexterityGoal::size   ? out.size
                   : task.goal == DexterityGoal::mean ? out.mean
                                                      : out.worst;
@@ -160,9 +180,16 @@ DexterityDesign assessed(const DexterityModel& model, std::span<const double> x)
   if (out.violation > 0) {
     const auto most = std::max_element(out.limits.begin(), out.limits.end(),
                                        [](const auto& a, const auto& b) { return a.excess < b.excess; });
-    out.reason = described(*most);
+    // Out of reach no other index has a meaning.
+    const auto reach = std::find_if(out.limits.begin(), out.limits.end(), is_out_of_reach);
+    out.reason = described(reach != out.limits.end() ? *reach : *most);
   }
   return out;
+}
+
+DexterityDesign assessed(const DexterityModel& model, std::span<const double> x) {
+  DexterityModel::Work work;
+  return assessed(model, x, model.extremes(model.designed(x), work));
 }
 
 /// What the nodes overlook.
@@ -173,7 +200,7 @@ void look_between(const DexterityModel& model, RunContext& context, DexteritySyn
   const auto worst_of = [&](PoseLimit::Kind kind) {
     const bool more = kind == PoseLimit::side_swing;
     double worst = more ? -HUGE_VAL : HUGE_VAL;
-    for (int i = 0; i < (kind == PoseLimit::conditioning ? 1 : model.legs()); ++i) {
+    for (int i = 0; i < model.entries(kind); ++i) {
       const double found = between_nodes(model, designed, kind, i, close, context, out.poses)[0].value;
       worst = more ? std::max(worst, found) : std::min(worst, found);
     }
@@ -183,6 +210,7 @@ void look_between(const DexterityModel& model, RunContext& context, DexteritySyn
   for (const DexterityStand& stand : best.limits) {
     double value = std::numeric_limits<double>::quiet_NaN();
     if (stand.limit == DexterityLimit::conditioning) value = out.worst_between_nodes;
+    if (stand.limit == DexterityLimit::constraint) value = worst_of(PoseLimit::constraint);
     if (stand.limit == DexterityLimit::reach) value = worst_of(PoseLimit::input);
     if (stand.limit == DexterityLimit::input) value = std::sqrt(std::max(0.0, worst_of(PoseLimit::input)));
     if (stand.limit == DexterityLimit::output) value = worst_of(PoseLimit::output);
@@ -214,6 +242,31 @@ DexterityDesign assess(const DexterityTask& task, std::span<const double> x) {
   return assessed(model, x);
 }
 
+BodyProof prove_region(const DexterityTask& task, const DexterityDesign& design) {
+  const auto trouble = problem(task);
+  LINKWRIGHT_REQUIRE(!trouble, "{}", trouble.value_or(""));
+  const PrescribedRegion& r = task.region;
+  const bool round = r.shape == RegionShape::cylinder || r.shape == RegionShape::circle;
+  const Vec3 middle = design.origin + middle_of(r);
+  Body body{.shape = r.shape == RegionShape::cylinder ? InscribedShape::cylinder
+                     : r.shape == RegionShape::circle ? InscribedShape::ball
+                                                      : InscribedShape::box,
+            .centre = middle,
+            .half = {r.width / 2, round ? r.width / 2 : r.length / 2, r.height / 2}};
+  if (is_planar(r.shape)) body.half = {r.width / 2, round ? r.width / 2 : r.height / 2, 0};
+  BodyProof out{.proven = true};
+  for (const Mat3& rotation : task.orientations) {
+    const auto home =
+        trouble_task(design.robot, {middle, rotation}, task.mode, task.length, task.limits.constraint);
+    if (!home) return {.violated = middle};
+    const BodyProof found = prove(*home, body, rotation);
+    out.looks += found.looks;
+    out.proven = out.proven && found.proven;
+    if (found.violated && !out.violated) out.violated = found.violated;
+  }
+  return out;
+}
+
 DexteritySynthesis synthesise(const DexterityTask& task, const DexterityOptions& options, std::uint64_t seed,
                               RunContext& context) {
   LINKWRIGHT_REQUIRE(options.draws >= 1 && options.starts >= 1 && options.confirmations >= 0 &&
@@ -221,17 +274,20 @@ DexteritySynthesis synthesise(const DexterityTask& task, const DexterityOptions&
                      "draws {}, starts {}, confirmations {}, exchanges {}, evaluations {}, same {}",
                      options.draws, options.starts, options.confirmations, options.exchanges,
                      options.evaluations, options.same);
-  const DexterityModel model(task);
+  const DexterityModel model(task, &context);
   DexteritySynthesis out;
   std::vector<Drawn> drawn(options.draws);
   constexpr int part = 32;
   optimise::parallel_for((drawn.size() + part - 1) / part, context.threads(), [&](std::size_t p) {
     DexterityModel::Work work;
-    for (std::size_t i = p * part; i < std::min(drawn.size(), (p + 1) * part); ++i)
+    for (std::size_t i = p * part; i < std::min(drawn.size(), (p + 1) * part); ++i) {
+      if (i > 0 && model.poses(true) > many_poses && context.interrupted()) return;
       drawn[i] = draw(model, seed, static_cast<int>(i), work);
+    }
   });
-  out.evaluations = options.draws;
-  out.poses = options.draws * static_cast<std::int64_t>(model.poses(true));
+  std::erase_if(drawn, [](const Drawn& d) { return d.unknowns.empty(); });
+  out.evaluations = static_cast<std::int64_t>(drawn.size());
+  out.poses = out.evaluations * static_cast<std::int64_t>(model.poses(true));
   std::stable_sort(drawn.begin(), drawn.end(), [](const Drawn& a, const Drawn& b) {
     return optimise::better(a.cost, a.violation, b.cost, b.violation);
   });
@@ -248,11 +304,13 @@ DexteritySynthesis synthesise(const DexterityTask& task, const DexterityOptions&
   };
   Status stop = Status::done;
   std::size_t best = 0;
+  std::vector<Descent> ends(most);
   while (out.starts.size() < most && stop == Status::done) {
     const std::size_t first = out.starts.size(), count = std::min<std::size_t>(round_starts, most - first);
     out.starts.resize(first + count);
     optimise::parallel_for(count, context.threads(), [&](std::size_t i) {
-      out.starts[first + i] = descend(model, options, drawn[first + i].unknowns, context);
+      ends[first + i] = descend(model, options, drawn[first + i].unknowns, context);
+      out.starts[first + i] = ends[first + i].start;
     });
     for (std::size_t i = first; i < first + count; ++i)
       if (better(out.starts[i], out.starts[best])) best = i;
@@ -270,9 +328,17 @@ DexteritySynthesis synthesise(const DexterityTask& task, const DexterityOptions&
     out.poses += start.poses;
     start.x = model.design_of(start.x);
   }
-  out.best = assessed(model, out.starts[best].x);
-  out.poses += static_cast<std::int64_t>(model.nodes() + model.cells());
-  if (stop == Status::done) look_between(model, context, out);
+  if (ends[best].known) {
+    out.best = assessed(model, out.starts[best].x, ends[best].extremes);
+    out.poses += static_cast<std::int64_t>(model.nodes() + model.cells());
+    try {
+      if (stop == Status::done) look_between(model, context, out);
+    } catch (const Interrupted& why) {
+      stop = why.status();
+      out.between_nodes.clear();
+      out.worst_between_nodes = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
   out.status = stop != Status::done ? stop : out.best.status;
   out.reason = out.best.reason;
   return out;

@@ -14,6 +14,7 @@
 #include "linkwright/parallel/drives.h"
 #include "linkwright/parallel/pi_design_synthesis.h"
 #include "linkwright/parallel/prescribed_region.h"
+#include "linkwright/parallel/proven_body.h"
 #include "linkwright/parallel/robot_family.h"
 
 /// Dimensions of parallel robots for a prescribed region: as dexterous as possible, or as small as limits
@@ -28,10 +29,15 @@ constexpr std::array<EnumName<DexterityGoal>, 3> names(DexterityGoal) {
            {DexterityGoal::size, "size", "arm and rod as short as the limits allow"}}};
 }
 
-/// What the robot must keep to at every node of the region; at its default a limit asks for nothing, but the
-/// robot always has to reach all nodes.
+/// What the robot must keep to at every node of the region; at its default a limit asks for nothing but for
+/// that of the constraint. The robot always has to reach all nodes, in the assembly that it has in the middle
+/// of the region.
 struct DexterityLimits {
   double conditioning = 0;  ///< local conditioning index at least, in [0, 1]
+  /// Constraint index of a DELTA at least, in [0, 1]; 0 leaves the sign of det C and the floor
+  /// (constraint.h). With 0.2 loads and errors of the parallelograms are at most five times those of the best
+  /// pose.
+  double constraint = 0.2;
   double input = 0;         ///< input transmission index at least, in [0, 1]
   double output = 0;        ///< output transmission index at least, in [0, 1]
   double transmission = 0;  ///< both of them at least, in [0, 1]
@@ -79,6 +85,7 @@ std::vector<optimise::Variable> design_variables(const DexterityTask& task);
 enum class DexterityLimit {
   reach,
   conditioning,
+  constraint,
   input,
   output,
   side_swing,
@@ -92,10 +99,11 @@ enum class DexterityLimit {
   pi_rate_least,
   pi_rate_most,
 };
-constexpr std::array<EnumName<DexterityLimit>, 14> names(DexterityLimit) {
+constexpr std::array<EnumName<DexterityLimit>, 15> names(DexterityLimit) {
   return {
       {{DexterityLimit::reach, "reach", "square of the input transmission index, below 0 beyond reach"},
        {DexterityLimit::conditioning, "conditioning", "local conditioning index"},
+       {DexterityLimit::constraint, "constraint", "constraint index of the parallelograms"},
        {DexterityLimit::input, "input", "input transmission index"},
        {DexterityLimit::output, "output", "output transmission index"},
        {DexterityLimit::side_swing, "side_swing", "swing of a rod out of the plane of its arm (rad)"},
@@ -147,8 +155,17 @@ struct DexterityDesign {
   double arm_lowest = 0, arm_highest = 0;  ///< outward angles used (rad)
   std::vector<DexterityStand> limits;
 };
+/// Whether a goal of size has the limits without which the smallest robot is a singular one: conditioning, or
+/// transmission, or both input and output.
+bool size_is_limited(const DexterityLimits& limits);
+
 /// Throws ContractError for a task with a problem and another number of values than variables.
 DexterityDesign assess(const DexterityTask& task, std::span<const double> x);
+
+/// What holds not at the nodes alone, but all over the region and in every orientation: the legs reach,
+/// nothing is singular, the assembly is that of the middle, the constraint index is at most 5e-4 below its
+/// limit.
+BodyProof prove_region(const DexterityTask& task, const DexterityDesign& design);
 
 struct DexterityOptions {
   int draws = 256;        ///< designs drawn to choose starts from
@@ -177,7 +194,7 @@ struct DexteritySynthesis {
   /// done; infeasible: no start met every limit; deadline or cancelled, with the best so far.
   Status status = Status::infeasible;
   std::string reason;
-  DexterityDesign best;
+  DexterityDesign best;  ///< without x when the run ended before all nodes had been looked at once
   /// The least or most that a search between the nodes found for the goal's or limits' indices of `best`:
   /// what the nodes overlook. Same order as best.limits; NaN for limits that are not of a pose.
   std::vector<double> between_nodes;
@@ -198,10 +215,11 @@ DexteritySynthesis synthesise(const DexterityTask& task, const DexterityOptions&
 
 /// The same task for population methods: candidates rank by the sum of the limits they miss, then by the
 /// objective. All nodes are looked at for every candidate.
-optimise::Problem population_problem(const DexterityTask& task);
+/// Throws Interrupted out of an evaluation of many nodes when `context` asks for it.
+optimise::Problem population_problem(const DexterityTask& task, const RunContext* context = nullptr);
 
 struct DexterityEvolution {
-  DexterityDesign best;
+  DexterityDesign best;  ///< without x when the run ended before one was evaluated
   optimise::Report report;
   std::int64_t poses = 0;  ///< poses measured
 };

@@ -2,18 +2,25 @@
 #include <limits>
 #include <memory>
 
+#include "linkwright/core/interruption.h"
 #include "linkwright/parallel/dexterity_synthesis_model.h"
 
 namespace linkwright::parallel {
+namespace {
 
-optimise::Problem population_problem(const DexterityTask& task) {
-  const auto model = std::make_shared<const DexterityModel>(task);
+constexpr std::size_t many_nodes = 1000;  // worth a look at the context
+
+}  // namespace
+
+optimise::Problem population_problem(const DexterityTask& task, const RunContext* context) {
+  const auto model = std::make_shared<const DexterityModel>(task, context);
   optimise::Problem out{.variables = design_variables(task)};
-  out.evaluate = [model](const optimise::PopulationView& candidates, std::span<double> cost,
-                         std::span<double> violation) {
+  out.evaluate = [model, context](const optimise::PopulationView& candidates, std::span<double> cost,
+                                  std::span<double> violation) {
     DexterityModel::Work work;
     std::vector<double> x(candidates.dimension);
     for (std::size_t i = 0; i < candidates.size; ++i) {
+      if (i > 0 && model->nodes() > many_nodes) go_on(context);
       for (std::size_t j = 0; j < x.size(); ++j) x[j] = candidates(j, i);
       const DesignedRobot designed = model->designed(x);
       const Extremes extremes = model->extremes(designed, work);
@@ -32,8 +39,9 @@ DexterityEvolution evolve(const DexterityTask& task, const optimise::OptimiserOp
                           const optimise::MinimiseOptions& options, std::uint64_t seed, RunContext& context) {
   const DexterityModel model(task);
   DexterityEvolution out;
-  out.report = optimise::minimise(population_problem(task), method, options, {.seed = seed}, context);
-  out.best = assess(task, out.report.x);
+  out.report =
+      optimise::minimise(population_problem(task, &context), method, options, {.seed = seed}, context);
+  if (out.report.violation < std::numeric_limits<double>::infinity()) out.best = assess(task, out.report.x);
   const std::size_t poses = model.nodes() + (task.goal == DexterityGoal::mean ? model.cells() : 0);
   out.poses = out.report.evaluations * static_cast<std::int64_t>(poses);
   return out;

@@ -5,14 +5,25 @@
 #include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
+#include "linkwright/parallel/constraint.h"
 #include "linkwright/parallel/pi_range.h"
+#include "linkwright/parallel/regular_ball.h"
 
 namespace linkwright::parallel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-void add(PoseSet& set, const Vec3& place) {
+/// Poses of a part: about a millisecond. A multiple of what registers hold, so that parts change no bits.
+constexpr std::size_t part_size = 4096;
+
+void add(std::vector<PoseSet>& parts, const Mat3& rotation, const Vec3& place) {
+  if (parts.empty() || parts.back().size() == part_size) {
+    parts.emplace_back();
+    parts.back().rotation = rotation;
+  }
+  PoseSet& set = parts.back();
   set.x.push_back(place.x);
   set.y.push_back(place.y);
   set.z.push_back(place.z);
@@ -38,15 +49,18 @@ double most_rate(const PiRequirements& l) {
 
 }  // namespace
 
-DexterityModel::DexterityModel(const DexterityTask& task)
+DexterityModel::DexterityModel(const DexterityTask& task, const RunContext* context)
     : task_(task),
+      context_(context),
       dimensions_(static_cast<int>(parallel::dimensions(task.family).size())),
       points_(region_nodes(task.region)) {
   const auto found = problem(task);
   LINKWRIGHT_REQUIRE(!found, "{}", *found);
   legs_ = task.family == RobotFamily::delta ? 3 : task.family == RobotFamily::hexa ? 6 : 2;
   travels_ = std::isfinite(task.limits.arm_travel) || task.pi_joint;
-  measures_ = {.length = task.length, .output = bound(PoseLimit::output) > 0};
+  measures_ = {.length = task.length,
+               .output = bound(PoseLimit::output) > 0,
+               .constraint = task.family == RobotFamily::delta};
   for (std::size_t i = 0; i < points_.size(); ++i)
     if (stands_out(task.region, points_[i])) few_points_.push_back(i);
   const std::vector<RegionPoint> cells = region_cells(task.region);
@@ -54,10 +68,9 @@ DexterityModel::DexterityModel(const DexterityTask& task)
     cell_weight_.push_back(cell.weight / static_cast<double>(task.orientations.size()));
   for (const Mat3& rotation : task.orientations) {
     Group group;
-    for (const RegionPoint& point : points_) add(group.all, point.place);
-    for (const std::size_t i : few_points_) add(group.few, points_[i].place);
-    for (const RegionPoint& cell : cells) add(group.cells, cell.place);
-    group.all.rotation = group.few.rotation = group.cells.rotation = rotation;
+    for (const RegionPoint& point : points_) add(group.all, rotation, point.place);
+    for (const std::size_t i : few_points_) add(group.few, rotation, points_[i].place);
+    for (const RegionPoint& cell : cells) add(group.cells, rotation, cell.place);
     groups_.push_back(std::move(group));
   }
   nodes_ = points_.size() * groups_.size();
@@ -89,32 +102,42 @@ std::vector<std::size_t> DexterityModel::few() const {
 }
 
 DesignedRobot DexterityModel::designed(std::span<const double> unknowns) const {
-  return design(task_.family, unknowns.first(dimensions_));
+  DesignedRobot out = design(task_.family, unknowns.first(dimensions_));
+  if (task_.family == RobotFamily::delta) {
+    const Vec3 middle = out.offset * out.ahead + middle_of(task_.region);
+    if (regular_at(out.robot, {middle}, task_.mode, 1).marks.constraint < 0) out.constraint = -1;
+  }
+  return out;
 }
 
 Extremes DexterityModel::extremes(const DesignedRobot& designed, Work& work, bool few) const {
   Extremes out;
   bool first = true;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const PoseSet& poses = few ? groups_[g].few : groups_[g].all;
-    measure(designed, task_.mode, measures_, poses, false, work.set);
-    for (std::size_t k = 0; k < poses.size(); ++k, first = false) {
-      const std::size_t pose = g * points_.size() + (few ? few_points_[k] : k);
-      const auto less = [&](double value, Extreme& extreme) {
-        if (first || !(value >= extreme.value)) extreme = {value, pose};
-      };
-      const auto more = [&](double value, Extreme& extreme) {
-        if (first || !(value <= extreme.value)) extreme = {value, pose};
-      };
-      less(work.set.conditioning[k], out.conditioning);
-      for (int i = 0; i < legs_; ++i) {
-        less(work.set.input_square[i][k], out.input_square[i]);
-        if (measures_.output) less(work.set.output[i][k], out.output[i]);
-        more(work.set.side[i][k], out.side[i]);
-        const double angle = std::atan2(work.set.sine[i][k], work.set.cosine[i][k]);
-        less(angle, out.lowest[i]);
-        more(angle, out.highest[i]);
+    std::size_t before = 0;
+    for (const PoseSet& poses : few ? groups_[g].few : groups_[g].all) {
+      if (before > 0) go_on(context_);
+      measure(designed, task_.mode, measures_, poses, false, work.set);
+      for (std::size_t k = 0; k < poses.size(); ++k, first = false) {
+        const std::size_t pose = g * points_.size() + (few ? few_points_[before + k] : before + k);
+        const auto less = [&](double value, Extreme& extreme) {
+          if (first || !(value >= extreme.value)) extreme = {value, pose};
+        };
+        const auto more = [&](double value, Extreme& extreme) {
+          if (first || !(value <= extreme.value)) extreme = {value, pose};
+        };
+        less(work.set.conditioning[k], out.conditioning);
+        if (measures_.constraint) less(work.set.constraint[k], out.constraint);
+        for (int i = 0; i < legs_; ++i) {
+          less(work.set.input_square[i][k], out.input_square[i]);
+          if (measures_.output) less(work.set.output[i][k], out.output[i]);
+          more(work.set.side[i][k], out.side[i]);
+          const double angle = std::atan2(work.set.sine[i][k], work.set.cosine[i][k]);
+          less(angle, out.lowest[i]);
+          more(angle, out.highest[i]);
+        }
       }
+      before += poses.size();
     }
   }
   return out;
@@ -123,43 +146,52 @@ Extremes DexterityModel::extremes(const DesignedRobot& designed, Work& work, boo
 void DexterityModel::indices(const DesignedRobot& designed, PoseLimit::Kind kind, int leg, Work& work,
                              std::vector<double>& out) const {
   out.clear();
-  for (const Group& group : groups_) {
-    measure(designed, task_.mode, measures_, group.all, false, work.set);
-    const SetDexterity& set = work.set;
-    const std::vector<double>& from = kind == PoseLimit::conditioning ? set.conditioning
-                                      : kind == PoseLimit::input      ? set.input_square[leg]
-                                      : kind == PoseLimit::output     ? set.output[leg]
-                                                                      : set.side[leg];
-    for (std::size_t k = 0; k < group.all.size(); ++k)
-      out.push_back(kind == PoseLimit::arm_low || kind == PoseLimit::arm_high
-                        ? std::atan2(set.sine[leg][k], set.cosine[leg][k])
-                        : from[k]);
-  }
+  for (const Group& group : groups_)
+    for (const PoseSet& poses : group.all) {
+      if (!out.empty()) go_on(context_);
+      measure(designed, task_.mode, measures_, poses, false, work.set);
+      const SetDexterity& set = work.set;
+      const std::vector<double>& from = kind == PoseLimit::conditioning ? set.conditioning
+                                        : kind == PoseLimit::constraint ? set.constraint
+                                        : kind == PoseLimit::input      ? set.input_square[leg]
+                                        : kind == PoseLimit::output     ? set.output[leg]
+                                                                        : set.side[leg];
+      for (std::size_t k = 0; k < poses.size(); ++k)
+        out.push_back(kind == PoseLimit::arm_low || kind == PoseLimit::arm_high
+                          ? std::atan2(set.sine[leg][k], set.cosine[leg][k])
+                          : from[k]);
+    }
 }
 
 double DexterityModel::mean(const DesignedRobot& designed, Work& work, std::span<double> by) const {
   double sum = 0;
   std::fill(by.begin(), by.end(), 0.0);
   for (const Group& group : groups_) {
-    measure(designed, task_.mode, measures_, group.cells, !by.empty(), work.set);
-    for (std::size_t k = 0; k < cell_weight_.size(); ++k) sum += cell_weight_[k] * work.set.conditioning[k];
-    for (int j = 0; !by.empty() && j < dimensions_; ++j)
-      for (std::size_t k = 0; k < cell_weight_.size(); ++k)
-        by[j] += cell_weight_[k] * work.set.conditioning_by[j][k];
+    const double* weight = cell_weight_.data();
+    for (const PoseSet& poses : group.cells) {
+      if (weight != cell_weight_.data()) go_on(context_);
+      measure(designed, task_.mode, measures_, poses, !by.empty(), work.set);
+      for (std::size_t k = 0; k < poses.size(); ++k) sum += weight[k] * work.set.conditioning[k];
+      for (int j = 0; !by.empty() && j < dimensions_; ++j)
+        for (std::size_t k = 0; k < poses.size(); ++k) by[j] += weight[k] * work.set.conditioning_by[j][k];
+      weight += poses.size();
+    }
   }
   return sum;
 }
 
 bool DexterityModel::wants(PoseLimit::Kind kind) const {
   switch (kind) {
-    case PoseLimit::conditioning:
     case PoseLimit::output:
       return bound(kind) > 0;
+    case PoseLimit::constraint:
+      return measures_.constraint;
     case PoseLimit::side_swing:
       return task_.limits.side_swing < pi / 2;
     case PoseLimit::arm_low:
     case PoseLimit::arm_high:
       return travels_;
+    case PoseLimit::conditioning:  // at least its sign, that of the assembly
     case PoseLimit::input:
       break;
   }
@@ -171,6 +203,8 @@ double DexterityModel::bound(PoseLimit::Kind kind) const {
   switch (kind) {
     case PoseLimit::conditioning:
       return l.conditioning;
+    case PoseLimit::constraint:
+      return std::max(l.constraint, constraint_floor);
     case PoseLimit::input:
       return std::max(l.input, l.transmission);
     case PoseLimit::output:
@@ -194,6 +228,9 @@ double DexterityModel::limit(const PoseLimit& which, const PoseDexterity<double>
     case PoseLimit::conditioning:
       row(-1, there.conditioning_by);
       return limit(which.kind, {there.conditioning, 0}, unknowns);
+    case PoseLimit::constraint:
+      row(-1, there.constraint_by);
+      return limit(which.kind, {there.constraint, 0}, unknowns);
     case PoseLimit::input:
       row(-1, there.input_square_by[i]);
       return limit(which.kind, {there.input_square[i], 0}, unknowns);
@@ -227,6 +264,7 @@ double DexterityModel::limit(PoseLimit::Kind kind, const Extreme& extreme,
     case PoseLimit::arm_high:
       return extreme.value - unknowns[low_angle() + 1];
     case PoseLimit::conditioning:
+    case PoseLimit::constraint:
     case PoseLimit::output:
       break;
   }
@@ -340,6 +378,7 @@ double DexterityModel::violation(std::span<const double> x, const Extremes& extr
   double sum = 0;
   const auto missed = [&](double g) { sum += g > feasible ? g : 0; };
   if (wants(PoseLimit::conditioning)) missed(limit(PoseLimit::conditioning, extremes.conditioning, unknowns));
+  if (wants(PoseLimit::constraint)) missed(limit(PoseLimit::constraint, extremes.constraint, unknowns));
   for (int i = 0; i < legs_; ++i) {
     missed(limit(PoseLimit::input, extremes.input_square[i], unknowns));
     if (wants(PoseLimit::output)) missed(limit(PoseLimit::output, extremes.output[i], unknowns));

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/run_context.h"
 #include "linkwright/parallel/dexterity.h"
 #include "linkwright/parallel/dexterity_synthesis.h"
 
@@ -14,12 +15,12 @@ namespace linkwright::parallel {
 
 /// A limit of one pose, one entry of a working set.
 struct PoseLimit {
-  enum Kind { conditioning, input, output, side_swing, arm_low, arm_high } kind = conditioning;
+  enum Kind { conditioning, input, output, side_swing, arm_low, arm_high, constraint } kind = conditioning;
   int leg = 0;
   std::size_t pose = 0;
   friend bool operator==(const PoseLimit&, const PoseLimit&) = default;
 };
-inline constexpr int pose_limit_kinds = 6;
+inline constexpr int pose_limit_kinds = 7;
 
 /// A limit that is missed by less, dimensionless, is met.
 inline constexpr double feasible = 1e-9;
@@ -31,13 +32,15 @@ struct Extreme {
 };
 /// Extremes of all nodes, a leg each: input_square, output, side; outward angles of the arms.
 struct Extremes {
-  Extreme conditioning;
+  Extreme conditioning, constraint;
   std::array<Extreme, most_legs> input_square, output, side, lowest, highest;
 };
 
 class DexterityModel {
  public:
-  explicit DexterityModel(const DexterityTask& task);
+  /// Passes over many nodes or cells look at `context`, if there is one, and throw Interrupted: the first
+  /// some thousand are always looked at.
+  explicit DexterityModel(const DexterityTask& task, const RunContext* context = nullptr);
 
   const DexterityTask& task() const { return task_; }
   int dimensions() const { return dimensions_; }
@@ -59,6 +62,7 @@ class DexterityModel {
   };
   At at(std::size_t node) const;
 
+  /// With the sign of det C that it has in the middle of the region.
   DesignedRobot designed(std::span<const double> unknowns) const;
   const DexterityMeasures& measures() const { return measures_; }
 
@@ -77,6 +81,10 @@ class DexterityModel {
   double mean(const DesignedRobot& designed, Work& work, std::span<double> by) const;
   std::size_t cells() const { return cell_weight_.size() * task_.orientations.size(); }
 
+  /// How many legs a limit counts for: all, or one that stands for the pose.
+  int entries(PoseLimit::Kind kind) const {
+    return kind == PoseLimit::conditioning || kind == PoseLimit::constraint ? 1 : legs_;
+  }
   /// Limits that are asked for, of each pose.
   bool wants(PoseLimit::Kind kind) const;
   /// Bound on the index, for kinds that have one; for `side_swing` on the sine.
@@ -109,10 +117,13 @@ class DexterityModel {
   double violation(std::span<const double> x, const Extremes& extremes) const;
 
  private:
+  /// In parts, between which a pass may end; of one orientation.
+  using Parts = std::vector<PoseSet>;
   struct Group {
-    PoseSet all, few, cells;
+    Parts all, few, cells;
   };
   DexterityTask task_;
+  const RunContext* context_;
   int dimensions_, legs_;
   bool travels_;
   DexterityMeasures measures_;

@@ -4,7 +4,8 @@
 
 namespace linkwright::parallel {
 
-/// Benchmarks of a DELTA that serves a cylinder 0.8 m wide and 0.25 m high on its axis:
+/// Benchmarks of a DELTA that serves a cylinder 0.8 m wide and 0.25 m high on its axis, with a constraint index of at
+/// least 0.2 all over it:
 ///
 ///     worst   B1: the least conditioning index as large as possible, arm + rod at most 1.2 m
 ///     mean    B2: its mean as large as possible, arm + rod at most 1.2 m

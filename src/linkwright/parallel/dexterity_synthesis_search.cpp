@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
+#include "linkwright/core/interruption.h"
 #include "linkwright/optimise/minimise_largest.h"
 #include "linkwright/optimise/nlopt_bridge.h"
 
@@ -22,6 +23,8 @@ double index_of(PoseLimit::Kind kind, int leg, const PoseDexterity<double>& ther
     case PoseLimit::arm_low:
     case PoseLimit::arm_high:
       return std::atan2(there.sine[leg], there.cosine[leg]);
+    case PoseLimit::constraint:
+      return there.constraint;
     case PoseLimit::conditioning:
       break;
   }
@@ -40,6 +43,8 @@ const Extreme& extreme_of(const Extremes& extremes, PoseLimit::Kind kind, int le
       return extremes.lowest[leg];
     case PoseLimit::arm_high:
       return extremes.highest[leg];
+    case PoseLimit::constraint:
+      return extremes.constraint;
     case PoseLimit::conditioning:
       break;
   }
@@ -51,7 +56,7 @@ class Search {
   Search(const DexterityModel& model, const DexterityOptions& options, RunContext& context)
       : model_(model), options_(options), context_(context), n_(model.unknowns()) {}
 
-  DexterityStart run(std::vector<double> u);
+  Descent run(std::vector<double> u);
 
  private:
   bool epigraph() const { return model_.task().goal == DexterityGoal::worst; }
@@ -69,7 +74,10 @@ class Search {
   void measure_at(std::span<const double> u);
   void fill(bool functions, std::span<const double> u, std::span<double> values, std::span<double> jacobian);
   optimise::LocalReport improve(std::vector<double>& u);
-  bool exchange(std::span<const double> u, const Extremes& extremes);
+  void look(const std::vector<double>& u);
+  void go(std::vector<double> u);
+  /// `all`: also what is not missed yet, so that the first step knows of every limit.
+  bool exchange(std::span<const double> u, const Extremes& extremes, bool all = false);
   bool exchange_between(std::span<const double> u, const Extremes& extremes);
 
   const DexterityModel& model_;
@@ -85,6 +93,7 @@ class Search {
   std::vector<DexterityModel::At> between_;
   DexterityModel::Work work_;
   double worst_ = 0;  ///< least index of the working set
+  Descent known_;     ///< the unknowns and extremes that were last looked at
   DexterityStart out_;
 };
 
@@ -162,7 +171,7 @@ optimise::LocalReport Search::improve(std::vector<double>& u) {
   return optimise::minimise_local(cost, m, limits, u, model_.lower(), model_.upper(), local, context_);
 }
 
-bool Search::exchange(std::span<const double> u, const Extremes& extremes) {
+bool Search::exchange(std::span<const double> u, const Extremes& extremes, bool all) {
   // The goal of the epigraph on the working set: nodes that are worse join it.
   measure_at(u);
   for (std::size_t k = 0; k < functions_.size(); ++k) {
@@ -173,11 +182,11 @@ bool Search::exchange(std::span<const double> u, const Extremes& extremes) {
   for (int k = 0; k < pose_limit_kinds; ++k) {
     const auto kind = static_cast<PoseLimit::Kind>(k);
     if (!looks_at(kind)) continue;
-    for (int i = 0; i < (kind == PoseLimit::conditioning ? 1 : model_.legs()); ++i) {
+    for (int i = 0; i < model_.entries(kind); ++i) {
       const Extreme& extreme = extreme_of(extremes, kind, i);
       const PoseLimit which{kind, i, extreme.pose};
       const double g = is_function(which) ? worst_ - extreme.value : model_.limit(kind, extreme, u);
-      if (g > feasible / 2) added |= add(which);
+      if (all || g > feasible / 2) added |= add(which);
     }
   }
   return added;
@@ -190,7 +199,7 @@ bool Search::exchange_between(std::span<const double> u, const Extremes& extreme
   for (int k = 0; k < pose_limit_kinds; ++k) {
     const auto kind = static_cast<PoseLimit::Kind>(k);
     if (!looks_at(kind)) continue;
-    for (int i = 0; i < (kind == PoseLimit::conditioning ? 1 : model_.legs()); ++i) {
+    for (int i = 0; i < model_.entries(kind); ++i) {
       const Extreme& extreme = extreme_of(extremes, kind, i);
       const bool function = is_function({kind, i, extreme.pose});
       if (!function && model_.limit(kind, extreme, u) < -close) continue;
@@ -206,29 +215,52 @@ bool Search::exchange_between(std::span<const double> u, const Extremes& extreme
   return added;
 }
 
-DexterityStart Search::run(std::vector<double> u) {
+void Search::look(const std::vector<double>& u) {
+  known_.extremes = model_.extremes(model_.designed(u), work_);
+  known_.known = true;
+  out_.x = u;
+}
+
+void Search::go(std::vector<double> u) {
   if (epigraph())
     for (const std::size_t node : model_.few()) add({PoseLimit::conditioning, 0, node});
-  Extremes extremes = model_.extremes(model_.designed(u), work_);
-  exchange(u, extremes);
+  look(u);
+  // Nothing but limits keeps a robot from the lower bounds of its size, from where few searches come back.
+  exchange(u, known_.extremes, model_.task().goal == DexterityGoal::size);
   for (out_.exchanges = 1; out_.exchanges <= options_.exchanges; ++out_.exchanges) {
     improve(u);
-    extremes = model_.extremes(model_.designed(u), work_);
+    look(u);
     ++out_.evaluations;
     out_.poses += static_cast<std::int64_t>(model_.nodes());
-    out_.settled = !exchange(u, extremes);
-    if (out_.settled && options_.between_nodes) out_.settled = !exchange_between(u, extremes);
+    out_.settled = !exchange(u, known_.extremes);
+    if (out_.settled && options_.between_nodes) out_.settled = !exchange_between(u, known_.extremes);
     if (out_.settled || context_.interrupted()) break;
+  }
+}
+
+Descent Search::run(std::vector<double> u) {
+  out_.x = u;
+  try {
+    go(std::move(u));
+  } catch (const Interrupted&) {
+    out_.settled = false;
   }
   out_.exchanges = std::min(out_.exchanges, options_.exchanges);
   out_.working = static_cast<int>(functions_.size() + limits_.size());
-  const double mean =
-      model_.task().goal == DexterityGoal::mean ? model_.mean(model_.designed(u), work_, {}) : 0;
-  const double cost = model_.cost(u, extremes, mean);
-  out_.objective = model_.task().goal == DexterityGoal::size ? cost : -cost;
-  out_.violation = model_.violation(model_.design_of(u), extremes);
-  out_.x = std::move(u);
-  return out_;
+  double mean = 0;
+  try {
+    if (known_.known && model_.task().goal == DexterityGoal::mean)
+      mean = model_.mean(model_.designed(out_.x), work_, {});
+  } catch (const Interrupted&) {
+    known_.known = false;
+  }
+  if (known_.known) {
+    const double cost = model_.cost(out_.x, known_.extremes, mean);
+    out_.objective = model_.task().goal == DexterityGoal::size ? cost : -cost;
+    out_.violation = model_.violation(model_.design_of(out_.x), known_.extremes);
+  }
+  known_.start = std::move(out_);
+  return std::move(known_);
 }
 
 }  // namespace
@@ -249,8 +281,12 @@ std::vector<BetweenNodes> between_nodes(const DexterityModel& model, const Desig
   std::vector<double> values;
   model.indices(designed, kind, leg, work, values);
   poses += static_cast<std::int64_t>(values.size());
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  // Of many nodes few are close to the worst: only those are put in order.
+  double worst = std::numeric_limits<double>::infinity();
+  for (const double v : values) worst = std::min(worst, sign * v);
+  std::vector<std::size_t> order;
+  for (std::size_t node = 0; node < values.size(); ++node)
+    if (!(std::abs(sign * values[node] - worst) > close)) order.push_back(node);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return sign * values[a] < sign * values[b]; });
   std::vector<BetweenNodes> out;
@@ -301,8 +337,8 @@ std::vector<BetweenNodes> between_nodes(const DexterityModel& model, const Desig
   return out;
 }
 
-DexterityStart descend(const DexterityModel& model, const DexterityOptions& options,
-                       std::vector<double> start, RunContext& context) {
+Descent descend(const DexterityModel& model, const DexterityOptions& options, std::vector<double> start,
+                RunContext& context) {
   return Search(model, options, context).run(std::move(start));
 }
 

@@ -7,9 +7,16 @@ namespace linkwright::parallel {
 
 /// From a start of all unknowns to a design that no node objects to: sequential quadratic programming on a
 /// working set of poses, to which the nodes that miss a limit most, or are worse than the worst so far, are
-/// added. `x` of the result are the unknowns.
-DexterityStart descend(const DexterityModel& model, const DexterityOptions& options,
-                       std::vector<double> start, RunContext& context);
+/// added. `x` of its start are the unknowns.
+struct Descent {
+  DexterityStart start;
+  /// Of all nodes there; not known when the run ended before they had been looked at once: then `start` has
+  /// no objective.
+  bool known = false;
+  Extremes extremes;
+};
+Descent descend(const DexterityModel& model, const DexterityOptions& options, std::vector<double> start,
+                RunContext& context);
 
 /// A place where an index goes furthest in the direction that its limit does not like, nearby.
 struct BetweenNodes {

@@ -47,6 +47,10 @@ std::optional<std::string> pi_problem(const PiTravelTask& pi) {
 
 }  // namespace
 
+bool size_is_limited(const DexterityLimits& l) {
+  return l.conditioning > 0 || l.transmission > 0 || (l.input > 0 && l.output > 0);
+}
+
 std::optional<std::string> problem(const DexterityTask& task) {
   const auto family = dimensions(task.family);
   if (task.dimensions.size() != family.size())
@@ -69,6 +73,11 @@ std::optional<std::string> problem(const DexterityTask& task) {
   if (!(task.length > 0)) return fmt::format("characteristic length = {} m", task.length);
   const DexterityLimits& l = task.limits;
   if (const auto p = share_problem("conditioning", l.conditioning)) return p;
+  if (const auto p = share_problem("constraint", l.constraint)) return p;
+  if (task.goal == DexterityGoal::size && !size_is_limited(l))
+    return "the smallest robot without limits is singular: give a limit of conditioning, of transmission, or "
+           "of both "
+           "input and output";
   if (const auto p = share_problem("input", l.input)) return p;
   if (const auto p = share_problem("output", l.output)) return p;
   if (const auto p = share_problem("transmission", l.transmission)) return p;

@@ -9,6 +9,7 @@
 #include "linkwright/math/sincos.h"
 #include "linkwright/math/singular_values.h"
 #include "linkwright/math/small_lu.h"
+#include "linkwright/parallel/constraint.h"
 #include "linkwright/parallel/legs_kernel.h"
 
 namespace linkwright::parallel {
@@ -24,8 +25,6 @@ math::SmallLu<N> factored(const Matrix6& matrix) {
   out.factor(matrix);
   return out;
 }
-
-double determinant3(const std::array<Vec3, 3>& rows) { return dot(rows[0], cross(rows[1], rows[2])); }
 
 Vec3 platform_speed(const Robot& robot, const Jacobians& at, int leg, const Vector6& twist) {
   Vec3 v{twist[0], twist[1], 0};
@@ -176,11 +175,11 @@ Quality quality(const Robot& robot, const Jacobians& at, double characteristic_l
     out.transmission = std::min({out.transmission, std::abs(out.input[i]), out.output[i]});
   }
   out.constraint = robot.freedom == Freedom::space ? std::numeric_limits<double>::quiet_NaN() : 1;
+  out.constraint_index = out.constraint;
   if (robot.freedom == Freedom::space_translation) {
-    std::array<Vec3, 3> rows;
-    for (int i = 0; i < 3; ++i)
-      rows[i] = unit(cross(cross(robot.leg[i].ahead, robot.leg[i].aside), at.rod[i]));
-    out.constraint = determinant3(rows);
+    const Constraint held = constraint(robot, at);
+    out.constraint = held.unit_determinant;
+    out.constraint_index = held.index;
   }
   sized(robot, [&](auto size) {
     constexpr int n = size;
@@ -214,7 +213,7 @@ Singularity singularity(const Robot& robot, const Quality& quality, double limit
   if (first && second) return Singularity::type3;
   if (first) return Singularity::type1;
   if (second) return Singularity::type2;
-  if (std::abs(quality.constraint) <= limit) return Singularity::constraint;
+  if (quality.constraint_index <= constraint_floor) return Singularity::constraint;
   return Singularity::none;
 }
 

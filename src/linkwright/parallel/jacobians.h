@@ -68,6 +68,8 @@ struct Quality {
   /// det of the unit vectors along t x s, t the arms' axes: 0 where a platform held by parallelograms may
   /// turn. NaN for robots that turn; for planar robots it is 1.
   double constraint = 0;
+  /// Least singular value of the rows t x s/L, in [0, 1], see constraint.h; NaN and 1 as above.
+  double constraint_index = 0;
   Vector6 singular_value{};   ///< of J, descending (m; a HEXA's rows of turning are multiplied by c)
   double condition = 0;       ///< largest over least singular value, infinite in a singularity
   double manipulability = 0;  ///< product of the singular values
@@ -92,7 +94,8 @@ constexpr std::array<EnumName<Singularity>, 5> names(Singularity) {
        {Singularity::type3, "type_3", "types 1 and 2 together"},
        {Singularity::constraint, "constraint", "the parallelograms do not keep the platform from turning"}}};
 }
-/// Which measure of `quality` is at most `limit` in magnitude.
+/// Which measure of `quality` is at most `limit` in magnitude; of the parallelograms, whose constraint index
+/// is at most constraint_floor (constraint.h).
 Singularity singularity(const Robot& robot, const Quality& quality, double limit = 1e-6);
 
 }  // namespace linkwright::parallel

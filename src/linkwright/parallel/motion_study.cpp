@@ -9,7 +9,9 @@
 #include <span>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/parallel/constraint.h"
 #include "linkwright/parallel/drive_use_study.h"
+#include "linkwright/parallel/path_trouble.h"
 #include "linkwright/parallel/robot_scene.h"
 #include "linkwright/parallel/tool_table.h"
 #include "linkwright/study/beside.h"
@@ -34,48 +36,30 @@ struct Instant {
   ArmAngles angles;
   Quality quality;
   double swing = 0, least_elbow = 0, largest_elbow = 0;  ///< of all legs (rad)
-  int assembly = 0;
   DrivesState drives;
   DynamicLoads loads;  ///< NaN without masses or out of reach
 };
 
-/// Looks at an instant of a robot with rods.
-void look(PathJudge& judge, const RobotDescription& d, const QualityLimits& limits, const Instant& at,
-          int home_assembly) {
-  const auto fail = [&](const char* kind, Status status, const std::string& why) {
-    judge.fail(kind, at.time, status, why);
-  };
-  if (at.status != Status::done) {
-    fail("reach", at.status, reason(at.angles));
-    return;
-  }
-  if (const Singularity s = singularity(d.robot, at.quality); s != Singularity::none)
-    fail("singular", Status::singular, fmt::format("singularity {}", name_of(s)));
-  else if (home_assembly != 0 && at.assembly != home_assembly)
-    fail("singular", Status::singular,
-         "the path has passed a singularity of type 2: here the platform belongs to another assembly");
-  for (int i = 0; i < d.robot.legs(); ++i) judge.travel(at.time, i, d.drives[i], at.drives.drive[i]);
-  if (at.quality.transmission < limits.transmission)
-    fail("transmission", Status::limit_reached,
-         fmt::format("transmission index {:.3f}, at least {:.3f} is asked for", at.quality.transmission,
-                     limits.transmission));
-  if (1 / at.quality.condition < limits.conditioning)
-    fail("conditioning", Status::limit_reached,
-         fmt::format("local conditioning index {:.3f}, at least {:.3f} is asked for",
-                     1 / at.quality.condition, limits.conditioning));
-  if (limits.rod_swing && at.swing > *limits.rod_swing)
-    fail("swing", Status::limit_reached,
-         fmt::format("a rod leans {:.2f} deg out of the plane of its arm, allowed are {:.2f} deg",
-                     math::degrees(at.swing), math::degrees(*limits.rod_swing)));
-  if ((limits.least_elbow && at.least_elbow < *limits.least_elbow) ||
-      (limits.largest_elbow && at.largest_elbow > *limits.largest_elbow))
-    fail("elbow", Status::limit_reached,
-         fmt::format("arms and rods stand at {:.2f} to {:.2f} deg, beyond the limits",
-                     math::degrees(at.least_elbow), math::degrees(at.largest_elbow)));
-  for (int i = 0; i < d.robot.legs(); ++i)
-    judge.transmission(at.time, i, at.drives.drive[i], limits.drive_transmission);
+/// What an instant asks for; nothing out of reach.
+void demands_of(const RobotDescription& d, const QualityLimits& limits, const Instant& at,
+                std::vector<Demand>& out) {
+  out.clear();
+  if (at.status != Status::done) return;
+  for (int i = 0; i < d.robot.legs(); ++i) out.push_back(travel_demand(i, d.drives[i], at.drives.drive[i]));
+  out.push_back(index_demand(Asked::transmission, at.quality.transmission, limits.transmission));
+  out.push_back(index_demand(Asked::conditioning, 1 / at.quality.condition, limits.conditioning));
+  // Its limit is judged by bounds.
+  if (d.robot.freedom == Freedom::space_translation)
+    out.push_back(index_demand(Asked::constraint, at.quality.constraint_index, 0));
+  if (limits.rod_swing) out.push_back(angle_demand(Asked::swing, 0, at.swing, 0, *limits.rod_swing));
+  if (limits.least_elbow || limits.largest_elbow)
+    out.push_back(angle_demand(Asked::elbow, at.least_elbow, at.largest_elbow, limits.least_elbow.value_or(0),
+                               limits.largest_elbow.value_or(std::numbers::pi)));
+  for (int i = 0; i < d.robot.legs() && limits.drive_transmission > 0; ++i)
+    out.push_back(index_demand(Asked::drive_transmission, at.drives.drive[i].transmission,
+                               limits.drive_transmission, i));
   for (int i = 0; i < d.robot.legs() && d.motors_known; ++i)
-    judge.limits(at.time, i, d.drives[i], d.motors[i], at.loads.drive_speed[i], at.loads.drive_effort[i]);
+    add_drive_demands(out, i, d.motors[i], at.loads.drive_speed[i], at.loads.drive_effort[i]);
 }
 
 void passive_angles(const Robot& robot, const Jacobians& at, Instant& out) {
@@ -100,8 +84,6 @@ Instant instant(const RobotDescription& d, const std::optional<RobotMasses>& mas
   const Jacobians at = jacobians(d.robot, pose, out.angles.angle);
   out.quality = quality(d.robot, at, platform_size(d.robot));
   passive_angles(d.robot, at, out);
-  const double det = determinant(d.robot, at);
-  out.assembly = det > 0 ? 1 : det < 0 ? -1 : 0;
   out.drives = drives_at(d.robot, d.drives, out.angles.angle);
   const DynamicState state{pose,
                            {out.tool.velocity, out.tool.angular_velocity},
@@ -161,6 +143,11 @@ Table motion_table(const RobotDescription& d, const std::vector<Instant>& instan
   add("transmission", "transmission index", [](const Instant& i) { return i.quality.transmission; });
   add("local_conditioning", "local conditioning index",
       [](const Instant& i) { return 1 / i.quality.condition; });
+  if (d.robot.freedom == Freedom::space_translation) {
+    add("constraint_determinant", "determinant of the parallelograms' couples",
+        [](const Instant& i) { return i.quality.constraint; });
+    add("constraint_index", "constraint index", [](const Instant& i) { return i.quality.constraint_index; });
+  }
   add("rod_swing_rad", "largest angle between a rod and the plane of its arm (rad)",
       [](const Instant& i) { return i.swing; });
   add("least_elbow_rad", "least angle between arm and rod (rad)",
@@ -171,6 +158,80 @@ Table motion_table(const RobotDescription& d, const std::vector<Instant>& instan
                   [](const Instant& i) { return i.status != Status::done; }))
     for (const Instant& i : instants) table.status.emplace_back(to_string(i.status));
   return table;
+}
+
+/// The deepest that a leg is out of reach from `begin` on: "leg 2 is 12.3 mm too short at worst (...)".
+std::string deepest(const RobotDescription& d, const ToolMotion& motion, double begin) {
+  constexpr int steps = 32;
+  ArmAngles worst;
+  double time = begin;
+  const std::vector<double> breaks = motion.breaks();
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
+    for (int n = 0; n <= steps; ++n) {
+      const double t = breaks[k] + (breaks[k + 1] - breaks[k]) * n / steps;
+      if (t < begin) continue;
+      const ToolState tool = motion(t);
+      const ArmAngles arms = inverse(d.robot, {tool.position, tool.rotation}, d.mode);
+      if (arms.status == Status::done || !(std::abs(arms.shortfall) > std::abs(worst.shortfall))) continue;
+      worst = arms;
+      time = t;
+    }
+  if (worst.status == Status::done) return {};
+  return fmt::format("; at worst {} ({})", reason(worst), motion.where(time));
+}
+
+/// How far the robot gets, and what is worth a fact.
+struct WayVerdict {
+  double gets_to = 0;  // s
+  std::string falls;   // "constraint index 0.001 in step 1 ...": before a singularity
+};
+
+/// Judges the way by bounds.
+WayVerdict judge_way(PathJudge& judge, const RobotDescription& d, const QualityLimits& limits,
+                     const ToolMotion& motion, const Pose& home) {
+  auto task = trouble_task(d.robot, home, d.mode, platform_size(d.robot));
+  if (!task) return {};
+  const auto pose = [&](double t) {
+    const ToolState at = motion(t);
+    return Pose{at.position, at.rotation};
+  };
+  const auto between = [&](double a, double b) { return motion.way(a, b); };
+  const PlatformWay way{pose, between};
+  const std::vector<double> breaks = motion.breaks();
+  WayVerdict out{.gets_to = motion.duration()};
+  if (const auto trouble = first_trouble(*task, way, breaks)) {
+    out.gets_to = trouble->begin;
+    // A singularity is where the determinant vanishes; where it does not, where its index is too small.
+    const double place = trouble->zero.value_or(trouble->begin);
+    std::string text = fmt::format("{}: {}", motion.where_exactly(place), cause(*task, way, *trouble));
+    Status status = Status::singular;
+    switch (trouble->kind) {
+      case Trouble::reach:
+        status = Status::no_assembly;
+        text += deepest(d, motion, trouble->begin);
+        break;
+      case Trouble::type1:
+        text += " (singularity type_1)";
+        break;
+      case Trouble::type2:
+        text += trouble->zero ? " (singularity type_2)" : " (close to a singularity type_2)";
+        break;
+      case Trouble::constraint:
+        text += trouble->zero ? " (constraint singularity)" : " (close to a constraint singularity)";
+        out.falls = fmt::format("{:g} in {}", constraint_floor, motion.where_exactly(trouble->begin));
+        break;
+    }
+    judge.fail(Severity::impossible, trouble->begin, status, text);
+  }
+  if (limits.constraint > constraint_floor) {
+    task->least_constraint = limits.constraint;
+    const auto poor = first_trouble(*task, way, breaks);
+    if (poor && poor->kind == Trouble::constraint)
+      judge.fail(Severity::poor, poor->begin, Status::limit_reached,
+                 fmt::format("{}: the constraint index falls below {:.3f}, which is asked for: {}",
+                             motion.where_exactly(poor->begin), limits.constraint, cause(*task, way, *poor)));
+  }
+  return out;
 }
 
 }  // namespace
@@ -189,7 +250,7 @@ std::optional<MotionStudy> read_motion(study::ObjectReader& document, const stud
     if (!text) continue;
     Diagnostics problems;
     const auto read = read_tool_table(*text, points->file, problems);
-    for (const Diagnostic& one : problems) steps[i].error("file", to_string(one));
+    for (const Diagnostic& one : problems) steps[i].unreadable("file", to_string(one));
     if (!read) continue;
     points->times = read->times;
     points->points = read->points;
@@ -236,15 +297,21 @@ void add_motion(study::Result& result, const RobotDescription& d, const std::opt
                 const QualityLimits& limits, const MotionStudy& study, const Pose& home,
                 RunContext& context) {
   const auto samples = study.motion.samples(study.form.interval);
-  const int side = assembly_at(d.robot, home, d.mode);
-  PathJudge judge(study.motion);
   std::vector<Instant> instants;
   instants.reserve(samples.size());
   for (const auto& sample : samples) {
     if (instants.size() % 256 == 0 && context.interruption() != Status::done) break;
     instants.push_back(instant(d, masses, study, sample.time));
-    look(judge, d, limits, instants.back(), side);
   }
+  const auto legs = static_cast<std::size_t>(d.robot.legs());
+  PathJudge judge(study.motion, std::span(d.drives).first(legs));
+  const WayVerdict got = judge_way(judge, d, limits, study.motion, home);
+  const Status judged = judge.judge(
+      [&](double time, std::vector<Demand>& out) {
+        demands_of(d, limits, instant(d, masses, study, time), out);
+      },
+      got.gets_to, context);
+  if (judged != Status::done) result.status = judged;
   if (instants.size() < samples.size()) result.status = context.interruption();
   if (instants.empty()) {
     result.headline = "Interrupted before the first instant.";
@@ -254,26 +321,37 @@ void add_motion(study::Result& result, const RobotDescription& d, const std::opt
   const bool forces = masses.has_value() || norm(vec(f.force)) > 0 || norm(vec(f.moment)) > 0;
   const Table table = motion_table(d, instants, forces);
   result.tables.push_back(table);
-  if (!judge.uses().empty()) result.tables.push_back(uses_table(judge.uses()));
+  const auto uses = judge.uses();
+  if (!uses.empty()) result.tables.push_back(uses_table(uses));
   result.plots.push_back(motion_plot("tool-speed", "Speed of the tool", {"tool_speed_m_per_s"}));
   result.plots.push_back(
       motion_plot("tool-acceleration", "Acceleration of the tool", {"tool_acceleration_m_per_s2"}));
-  add_drive_plots(result, table, std::span(d.drives).first(static_cast<std::size_t>(d.robot.legs())));
-  result.plots.push_back(
-      motion_plot("transmission", "Transmission and conditioning", {"transmission", "local_conditioning"}));
+  add_drive_plots(result, table, std::span(d.drives).first(legs));
+  std::vector<std::string> indices{"transmission", "local_conditioning"};
+  const bool held = d.robot.freedom == Freedom::space_translation;
+  if (held) indices.emplace_back("constraint_index");
+  result.plots.push_back(motion_plot(
+      "transmission", held ? "Transmission, conditioning and constraint" : "Transmission and conditioning",
+      indices));
 
   const auto fact = [&](std::string label, std::string text) {
     result.facts.push_back({std::move(label), std::move(text)});
   };
   fact("duration of the path", fmt::format("{:.4g} s", study.motion.duration()));
-  const Instant* tightest = nullptr;
-  for (const Instant& i : instants)
-    if (i.status == Status::done && (!tightest || i.quality.transmission < tightest->quality.transmission))
-      tightest = &i;
-  if (tightest)
-    fact("least transmission index",
-         fmt::format("{:.3f} ({})", tightest->quality.transmission, study.motion.where(tightest->time)));
-  add_verdict(result, judge, study.motion, instants.back().time, instants.size() == samples.size());
+  const auto least = [&](Asked asked, const char* label) {
+    if (const auto* p = judge.peak(asked))
+      fact(label, fmt::format("{:.3f} ({})", p->demand.value, study.motion.where(p->time)));
+  };
+  least(Asked::transmission, "least transmission index");
+  if (got.falls.empty())
+    least(Asked::constraint, "least constraint index");
+  else
+    fact("constraint index falls to", got.falls);
+  if (got.gets_to < study.motion.duration())
+    fact("judged up to",
+         fmt::format("{}: the robot gets no farther", study.motion.where_exactly(got.gets_to)));
+  add_verdict(result, judge, study.motion, instants.back().time,
+              instants.size() == samples.size() && judged == Status::done);
   if (!d.motors_known) fact("limits of the drives", "none are known: speeds and forces are not judged");
   if (!masses) fact("masses", "none are given: forces are those of the process alone");
 

@@ -22,7 +22,7 @@ struct MotionForm {
 template <class Visitor>
 void fields(Visitor&& visit, MotionForm& m) {
   visit(Field{.key = "interval",
-              .summary = "time between the instants that are looked at",
+              .summary = "time between the rows of the table; the verdict does not depend on it",
               .dimension = Dimension::time,
               .minimum = 1e-6,
               .maximum = 1e3},

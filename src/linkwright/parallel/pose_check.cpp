@@ -62,6 +62,8 @@ PoseCheckTask prepared(const PoseConditions& c) {
   LINKWRIGHT_REQUIRE(!trouble, "{}", trouble.value_or(""));
   PoseCheckTask out{.freedom = c.robot.freedom,
                     .assembly = c.assembly,
+                    .constraint = c.constraint,
+                    .least_constraint = c.least_constraint,
                     .least_drive_transmission = c.least_drive_transmission,
                     .least_transmission = c.least_transmission,
                     .least_conditioning = c.least_conditioning,
@@ -119,6 +121,8 @@ std::optional<std::string> problem(const PoseConditions& c) {
   if (const auto found = problem(c.robot)) return found;
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
   if (c.assembly < -1 || c.assembly > 1) return fmt::format("assembly {}: must be -1, 0 or 1", c.assembly);
+  if (c.constraint < -1 || c.constraint > 1)
+    return fmt::format("constraint {}: must be -1, 0 or 1", c.constraint);
   for (int i = 0; i < c.robot.legs(); ++i) {
     const Drive& drive = c.drives[i];
     if (std::abs(c.mode[i]) != 1)
@@ -134,7 +138,8 @@ std::optional<std::string> problem(const PoseConditions& c) {
                        c.most_elbow);
   if (!within(c.most_swing, 0, pi / 2))
     return fmt::format("rod swing {} rad: must be between 0 and pi/2", c.most_swing);
-  for (const double limit : {c.least_drive_transmission, c.least_transmission, c.least_conditioning})
+  for (const double limit :
+       {c.least_drive_transmission, c.least_transmission, c.least_conditioning, c.least_constraint})
     if (!within(limit, 0, 1)) return fmt::format("limit {} of an index: must be between 0 and 1", limit);
   if (!(c.characteristic_length > 0 && std::isfinite(c.characteristic_length)))
     return fmt::format("characteristic length {} m: must be positive", c.characteristic_length);
@@ -146,6 +151,10 @@ int assembly_at(const Robot& robot, const Pose& pose, const WorkingMode& mode) {
   if (found.status != Status::done) return 0;
   const double value = determinant(robot, jacobians(robot, pose, found.angle));
   return value > 0 ? 1 : value < 0 ? -1 : 0;
+}
+
+Marks marks_at(const Robot& robot, const Pose& pose, const WorkingMode& mode) {
+  return regular_at(robot, pose, mode, platform_size(robot)).marks;
 }
 
 void check_poses(const PoseConditions& conditions, std::span<const Vec3> positions, const Mat3& rotation,

@@ -11,6 +11,7 @@
 
 #include "linkwright/core/field.h"
 #include "linkwright/parallel/drives.h"
+#include "linkwright/parallel/regular_ball.h"
 
 /// What a pose of a robot must meet to count as usable, and its indices, for many poses at a time: the node
 /// test of workspaces.
@@ -21,8 +22,10 @@ struct PoseConditions {
   Robot robot;
   Drives drives{};
   WorkingMode mode = all_positive;
-  int assembly = 0;                      ///< sign of det Jx, 1 or -1; 0 = either. See assembly_at.
-  double least_elbow = 0;                ///< angle between arm and rod at their joint: 0 = folded (rad)
+  int assembly = 0;             ///< sign of det Jx, 1 or -1; 0 = either. See assembly_at.
+  int constraint = 0;           ///< of a DELTA, sign of det C (constraint.h); 0 = either. See marks_at.
+  double least_constraint = 0;  ///< of a DELTA, constraint index
+  double least_elbow = 0;       ///< angle between arm and rod at their joint: 0 = folded (rad)
   double most_elbow = std::numbers::pi;  ///< pi = stretched (rad)
   double most_swing =
       std::numbers::pi / 2;             ///< angle between a rod and the plane in which its arm moves (rad)
@@ -39,12 +42,16 @@ std::optional<std::string> problem(const PoseConditions& conditions);
 /// singular.
 int assembly_at(const Robot& robot, const Pose& pose, const WorkingMode& mode = all_positive);
 
+/// ... with the sign of det C of a DELTA; both 0 in a pose that is not reached.
+Marks marks_at(const Robot& robot, const Pose& pose, const WorkingMode& mode = all_positive);
+
 /// The first condition that a pose does not meet, in this order: what passes all up to one is a part of what
 /// passes all up to the one before.
 enum class Hurdle : std::uint8_t {
   none,
   leg,
   assembly,
+  constraint,
   travel,
   elbow,
   swing,
@@ -53,11 +60,13 @@ enum class Hurdle : std::uint8_t {
   conditioning,
   open,
 };
-inline constexpr std::size_t hurdle_count = 10;
+inline constexpr std::size_t hurdle_count = 11;
 constexpr std::array<EnumName<Hurdle>, hurdle_count> names(Hurdle) {
   return {{{Hurdle::none, "none", "meets all conditions"},
            {Hurdle::leg, "leg", "a leg cannot reach"},
            {Hurdle::assembly, "assembly", "det Jx has the sign of the other assembly"},
+           {Hurdle::constraint, "constraint",
+            "the parallelograms do not keep the platform from turning, or hold it in the other assembly"},
            {Hurdle::travel, "travel", "a drive is beyond its travel"},
            {Hurdle::elbow, "elbow", "the angle between arm and rod is beyond its limits"},
            {Hurdle::swing, "swing", "a rod leans too far out of the plane of its arm"},
@@ -73,14 +82,15 @@ enum class PoseIndex {
   transmission,        ///< LTI
   input_transmission,  ///< least abs(s . u')/L
   rods,                ///< det of the rods' directions
-  constraint,          ///< det of t x s, only for robots of space_translation, else 1
+  constraint,          ///< det of unit vectors along t x s, only for robots of space_translation, else 1
+  constraint_index,    ///< chi: least singular value of t x s/L, likewise
   manipulability,      ///< product of the singular values
   drive_transmission,  ///< least sin(mu), 1 for motors; NaN where a Pi-joint cannot be, like those below
   axis_resolution,     ///< largest of the bounds along the axes (m)
   worst_resolution,    ///< m
   speed_factor,
 };
-inline constexpr std::size_t pose_index_count = 10;
+inline constexpr std::size_t pose_index_count = 11;
 constexpr std::array<EnumName<PoseIndex>, pose_index_count> names(PoseIndex) {
   return {
       {{PoseIndex::conditioning, "conditioning", "least over largest singular value of the Jacobian (LCI)"},
@@ -88,6 +98,8 @@ constexpr std::array<EnumName<PoseIndex>, pose_index_count> names(PoseIndex) {
        {PoseIndex::input_transmission, "input_transmission", "least input transmission of the legs"},
        {PoseIndex::rods, "rods", "determinant of the rods' directions"},
        {PoseIndex::constraint, "constraint", "determinant that keeps the platform from turning"},
+       {PoseIndex::constraint_index, "constraint_index",
+        "how firmly the parallelograms keep the platform from turning"},
        {PoseIndex::manipulability, "manipulability", "product of the singular values"},
        {PoseIndex::drive_transmission, "drive_transmission", "least transmission of the drives"},
        {PoseIndex::axis_resolution, "axis_resolution", "largest bound of a step along an axis"},
@@ -99,7 +111,7 @@ constexpr std::array<EnumName<PoseIndex>, pose_index_count> names(PoseIndex) {
 using WantedIndices = std::array<bool, pose_index_count>;
 constexpr std::size_t slot(PoseIndex index) { return static_cast<std::size_t>(index); }
 inline constexpr WantedIndices no_indices{};
-inline constexpr WantedIndices all_indices{true, true, true, true, true, true, true, true, true, true};
+inline constexpr WantedIndices all_indices{true, true, true, true, true, true, true, true, true, true, true};
 
 /// Where what is found goes: spans as long as the number of poses, or empty.
 struct PoseFindings {
@@ -138,7 +150,8 @@ struct PoseCheckLeg {
 struct PoseCheckTask {
   Freedom freedom = Freedom::space_translation;
   std::array<PoseCheckLeg, most_legs> leg{};
-  int assembly = 0;
+  int assembly = 0, constraint = 0;
+  double least_constraint = 0;
   double least_drive_transmission = 0, least_transmission = 0, least_conditioning = 0;
   double characteristic_length = 1;
   double rods_scale = 1;  ///< det Jx to det of the rods' directions

@@ -180,17 +180,41 @@ LINKWRIGHT_KERNEL void check_register(const PoseCheckTask& task, std::size_t k) 
       if (wanted(I::worst_resolution)) put(I::worst_resolution, driven, worst_step<N>(steps));
     }
   }
-  if (wanted(I::constraint)) {
-    Batch constraint(1.0);
-    if constexpr (N == 3) {
-      std::array<Vector, N> row;
-      for (int i = 0; i < N; ++i) {
-        row[i] = cross(cross(task.leg[i].leg.ahead, task.leg[i].leg.aside), rod[i]);
-        constraint = constraint * sqrt(dot(row[i], row[i]));
+  Mask held = one == one;
+  if constexpr (N == 3) {
+    const bool limited = task.least_constraint > 0;
+    if (wanted(I::constraint) || wanted(I::constraint_index) || limited || task.constraint != 0) {
+      std::array<Vector, 3> row;
+      std::array<std::array<Batch, 3>, 3> couples;
+      Batch lengths(1.0);
+      for (int i = 0; i < 3; ++i) {
+        const Vector couple = cross(cross(task.leg[i].leg.ahead, task.leg[i].leg.aside), rod[i]);
+        row[i] = (1 / task.leg[i].leg.rod) * couple;
+        lengths = lengths * sqrt(dot(row[i], row[i]));
+        couples[i] = {row[i].x, row[i].y, row[i].z};
       }
-      constraint = dot(row[0], cross(row[1], row[2])) / constraint;
+      const Batch volume = dot(row[0], cross(row[1], row[2]));
+      if (task.constraint != 0) held = volume * Batch(task.constraint) > zero;
+      if (wanted(I::constraint)) put(I::constraint, reaches, volume / lengths);
+      if (wanted(I::constraint_index)) {
+        const auto values = math::singular_values<3, false>(couples).value;
+        put(I::constraint_index, reaches, S::min(values[0], S::min(values[1], values[2])));
+      }
+      if (limited) {
+        // The least singular value is at least x where C C^T - x^2 is positive definite: the signs of its
+        // leading minors, without the singular values.
+        const Batch square(task.least_constraint * task.least_constraint);
+        const Batch a = dot(row[0], row[0]) - square, b = dot(row[1], row[1]) - square,
+                    c = dot(row[2], row[2]) - square;
+        const Batch d = dot(row[0], row[1]), e = dot(row[0], row[2]), f = dot(row[1], row[2]);
+        const Batch second = a * b - d * d;
+        const Batch third = c * second - e * (e * b - d * f) - f * (a * f - d * e);
+        held = held & (a >= zero) & (second >= zero) & (third >= zero);
+      }
     }
-    put(I::constraint, reaches, constraint);
+  } else {
+    for (const auto index : {I::constraint, I::constraint_index})
+      if (wanted(index)) put(index, reaches, one);
   }
   if (wanted(I::speed_factor)) {
     Batch most(0.0);
@@ -214,6 +238,7 @@ LINKWRIGHT_KERNEL void check_register(const PoseCheckTask& task, std::size_t k) 
   demand(in_swing, Hurdle::swing);
   demand(in_elbow, Hurdle::elbow);
   demand(in_travel, Hurdle::travel);
+  demand(held, Hurdle::constraint);
   demand(same_assembly, Hurdle::assembly);
   demand(reaches, Hurdle::leg);
   hurdle.store_unaligned(task.hurdle + k);

@@ -7,6 +7,9 @@
 
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/assembly_modes.h"
+#include "linkwright/parallel/constraint.h"
+#include "linkwright/parallel/led_arms.h"
+#include "linkwright/parallel/path_trouble.h"
 #include "linkwright/parallel/pose_check.h"
 #include "linkwright/parallel/robot_scene.h"
 #include "linkwright/parallel/statics.h"
@@ -40,7 +43,7 @@ void by_leg(Rows& row, const RobotDescription& d, const char* key, const char* u
 /// One row of the table of poses.
 void measures(Rows& row, const RobotDescription& d, const AskedPose& asked, const SolvedPose& solved) {
   const bool there = solved.status == Status::done || solved.status == Status::limit_reached ||
-                     solved.status == Status::singular;
+                     solved.status == Status::singular || solved.status == Status::branch_lost;
   const Jacobians at = jacobians(d.robot, solved.pose, solved.angles.angle);
   const double length = platform_size(d.robot);
   const Quality q = quality(d.robot, at, length);
@@ -64,8 +67,17 @@ void measures(Rows& row, const RobotDescription& d, const AskedPose& asked, cons
   row("condition_number", "condition number", known(q.condition));
   row("manipulability", "manipulability", known(q.manipulability));
   row("rods_determinant", "determinant of the rods' directions", known(q.rods));
-  if (d.robot.freedom == Freedom::space_translation)
+  if (d.robot.freedom == Freedom::space_translation) {
     row("constraint_determinant", "determinant of the parallelograms' couples", known(q.constraint));
+    row("constraint_index", "constraint index: how firmly they keep the platform from turning",
+        known(q.constraint_index));
+  }
+  // Of the working mode of the robot: arms that were given may stand in another.
+  const bool own_mode = there && working_mode(d.robot, solved.pose, solved.angles.angle) == d.mode;
+  row("clear_radius_m", "no singularity is nearer than this (m)",
+      own_mode ? clear_radius(d.robot, regular_at(d.robot, solved.pose, d.mode, length), length) : nan);
+  row("joined_to_home", "1: joined to home, 0: not shown, -1: of another assembly",
+      known(static_cast<double>(solved.joined)));
   const Matrix6 total = total_jacobian(d.robot, jacobian(d.robot, at), drives.drive);
   const bool stepped = d.drives[0].quantum > 0;
   if (stepped) {
@@ -152,11 +164,15 @@ std::vector<Alternative> alternatives(const RobotDescription& d, const SolvedPos
 }
 
 Table assembly_table(study::Result& result, const RobotDescription& d, const PosesForm& form,
-                     const std::vector<SolvedPose>& solved) {
+                     const std::vector<SolvedPose>& solved, const RunContext& context) {
   Table table{.name = "assembly_modes"};
   Rows row(table);
   for (std::size_t i = 0; i < solved.size(); ++i) {
     if (solved[i].angles.leg >= 0) continue;
+    if (i > 0 && context.interrupted()) {
+      result.status = context.interruption();
+      break;
+    }
     std::string note;
     const auto found = alternatives(d, solved[i], note);
     for (const Alternative& a : found) {
@@ -236,6 +252,78 @@ void describe_poses(study::SchemaWriter& document) {
                     study::schema_fields<ModesForm>());
 }
 
+namespace {
+
+/// Marks of a pose whose arms stand anyhow.
+Marks marks_of(const Robot& robot, const Jacobians& at) {
+  const auto sign = [](double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; };
+  const bool held = robot.freedom == Freedom::space_translation;
+  return {sign(determinant(robot, at)), held ? sign(constraint(robot, at).determinant) : 1};
+}
+
+/// Arm angles that are given: where they put the platform. A status that is not done has its reason.
+void place_arms(const RobotDescription& d, const Pose& home, SolvedPose& out) {
+  const auto fail = [&](Status status, std::string why) {
+    out.status = status;
+    out.reason = std::move(why);
+    out.angles.leg = 0;
+  };
+  if (!d.tool_turns()) {
+    const int side = assembly_at(d.robot, home, d.mode);
+    const Placed placed = direct(d.robot, out.angles.angle, side == 0 ? 1 : side);
+    out.pose = placed.pose;
+    if (placed.status == Status::singular)
+      fail(placed.status, "its arm angles leave the platform's place open");
+    if (placed.status == Status::no_assembly) fail(placed.status, "the rods do not meet in one platform");
+    return;
+  }
+  const ArmAngles at_home = inverse(d.robot, home, d.mode);
+  const LedPose led = lead_arms(d.robot, home, at_home.angle, out.angles.angle, platform_size(d.robot));
+  out.pose = led.pose;
+  if (led.status == Status::done) return;
+  const std::string where = fmt::format("{:.4g} % of the way of the arms from home", 100 * led.share);
+  if (led.status == Status::singular)
+    fail(led.status,
+         fmt::format("at {} the rods do not hold the platform: beyond, its assembly is not known", where));
+  else
+    fail(led.status, fmt::format("beyond {} the platform cannot follow", where));
+}
+
+/// Fills `joined` and `way` of a pose that the legs reach.
+void find_way(const RobotDescription& d, const AskedPose& asked, const Pose& home, SolvedPose& out) {
+  const auto task = trouble_task(d.robot, home, d.mode, platform_size(d.robot));
+  if (!task) return;
+  const Jacobians at = jacobians(d.robot, out.pose, out.angles.angle);
+  const Marks marks = marks_of(d.robot, at);
+  if (marks.assembly != task->home.assembly || marks.constraint != task->home.constraint) {
+    out.joined = -1;
+    out.way = marks.assembly != task->home.assembly
+                  ? "of another assembly than home: no way leads there without a singularity of type 2"
+                  : "of another assembly of the platform than home: on every way there the parallelograms "
+                    "let it turn";
+    return;
+  }
+  if (asked.arm_angles && d.tool_turns()) {
+    out.joined = 1;
+    out.way = "joined to home: the arms lead there";
+    return;
+  }
+  if (asked.arm_angles && working_mode(d.robot, out.pose, out.angles.angle) != d.mode) {
+    out.way = "of another working mode than home: no way is shown";
+    return;
+  }
+  const auto trouble = first_trouble(*task, home, out.pose);
+  out.joined = !trouble;
+  out.way = trouble
+                ? fmt::format(
+                      "same signs as home, but the straight way is blocked at {:.4g} % of it ({}): not shown "
+                      "to be joined",
+                      100 * trouble->begin, name_of(trouble->kind))
+                : std::string("joined to home: the straight way is free");
+}
+
+}  // namespace
+
 SolvedPose solve_pose(const RobotDescription& d, const AskedPose& asked, const Pose& home) {
   SolvedPose out;
   if (asked.position) {
@@ -245,27 +333,22 @@ SolvedPose solve_pose(const RobotDescription& d, const AskedPose& asked, const P
     out.reason = reason(out.angles);
   } else {
     std::copy(asked.arm_angles->begin(), asked.arm_angles->end(), out.angles.angle.begin());
-    const int side = assembly_at(d.robot, home, d.mode);
-    const Placed placed = d.tool_turns() ? direct_near(d.robot, out.angles.angle, home)
-                                         : direct(d.robot, out.angles.angle, side == 0 ? 1 : side);
-    out.pose = placed.pose;
-    out.status = placed.status;
-    if (out.status != Status::done) {
-      out.angles.leg = 0;
-      out.reason = out.status == Status::singular ? "its arm angles leave the platform's place open"
-                   : d.tool_turns() ? fmt::format("no pose was found from home: the rods miss by {:.3g} mm",
-                                                  1e3 * placed.residual)
-                                    : "the rods do not meet in one platform";
-    }
+    place_arms(d, home, out);
   }
   if (out.status != Status::done) return out;
+  find_way(d, asked, home, out);
   const DrivesState drives = drives_at(d.robot, d.drives, out.angles.angle);
-  const Quality q = quality(d.robot, jacobians(d.robot, out.pose, out.angles.angle), platform_size(d.robot));
+  const Jacobians at = jacobians(d.robot, out.pose, out.angles.angle);
+  const Quality q = quality(d.robot, at, platform_size(d.robot));
   if (const Singularity s = singularity(d.robot, q); s != Singularity::none) {
     out.status = Status::singular;
     out.reason = fmt::format("singular ({})", name_of(s));
     for (const auto& entry : names(Singularity{}))
       if (entry.value == s) out.reason += fmt::format(": {}", entry.summary);
+    if (s == Singularity::constraint) out.reason += ": " + free_turn(d.robot, at);
+  } else if (out.joined < 0) {
+    out.status = Status::branch_lost;
+    out.reason = out.way;
   } else if (drives.status != Status::done) {
     out.status = Status::limit_reached;
     const double angle = math::degrees(drives.drive[drives.leg].angle);
@@ -274,7 +357,8 @@ SolvedPose solve_pose(const RobotDescription& d, const AskedPose& asked, const P
   return out;
 }
 
-void add_poses(study::Result& result, const RobotDescription& d, const PosesForm& form, const Pose& home) {
+void add_poses(study::Result& result, const RobotDescription& d, const PosesForm& form, const Pose& home,
+               const RunContext& context) {
   if (form.poses.empty()) return;
   std::vector<SolvedPose> solved;
   std::vector<RobotSample> samples;
@@ -293,6 +377,9 @@ void add_poses(study::Result& result, const RobotDescription& d, const PosesForm
                                     {}});
       if (result.status == Status::done) result.status = s.status;
     }
+    // Of robots that do not turn a way that is shown needs no word.
+    if (!s.way.empty() && (d.tool_turns() || s.joined != 1))
+      result.facts.push_back({asked.name + ": way from home", s.way});
     const bool drawn = s.angles.leg < 0;
     samples.push_back({drawn ? Status::done : s.status, s.pose, s.angles.angle});
     numbers.push_back(static_cast<double>(numbers.size() + 1));
@@ -304,7 +391,8 @@ void add_poses(study::Result& result, const RobotDescription& d, const PosesForm
       {"poses reached", fmt::format("{} of {}", good, form.poses.size()),
        good == static_cast<int>(form.poses.size()) ? study::Fact::Verdict::good : study::Fact::Verdict::bad});
   if (form.modes && form.modes->working) result.tables.push_back(working_table(d, form, solved));
-  if (form.modes && form.modes->assembly) result.tables.push_back(assembly_table(result, d, form, solved));
+  if (form.modes && form.modes->assembly)
+    result.tables.push_back(assembly_table(result, d, form, solved, context));
   result.scenes.push_back(
       robot_scene(d.robot, d.drives, {"poses", "poses", "pose", "pose"}, numbers, samples));
 }

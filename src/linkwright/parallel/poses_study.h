@@ -66,9 +66,15 @@ struct SolvedPose {
   std::string reason;  ///< why it is not done
   Pose pose;
   ArmAngles angles;
+  /// What is known of a way from home. 1: the straight one (of arms that were given: with all of them led at
+  /// once) is free of singularities; 0: it is not, and whether another leads there is not shown; -1: none
+  /// does, the marks of regular_ball.h differ.
+  int joined = 0;
+  std::string way;  ///< the same in words
 };
-/// Arm angles of the pose, or the pose of the arm angles: for robots that turn the one that Newton's method
-/// finds from `home`, for others the assembly that `home` has.
+/// Arm angles of the pose, or the pose of the arm angles: of robots that turn the one to which the arms can
+/// be led from `home`, of others that of the assembly that `home` has. A pose of another assembly than home's
+/// is branch_lost.
 SolvedPose solve_pose(const RobotDescription& description, const AskedPose& asked, const Pose& home);
 
 /// Columns of a table that are filled row by row: each row gives the same keys in the same order.
@@ -83,8 +89,8 @@ class Rows {
   std::size_t at_ = 0, rows_ = 0;
 };
 
-/// Tables "poses", "working_modes", "assembly_modes", facts, warnings and a scene.
+/// Tables "poses", "working_modes", "assembly_modes" (as far as there is time), facts, warnings and a scene.
 void add_poses(study::Result& result, const RobotDescription& description, const PosesForm& form,
-               const Pose& home);
+               const Pose& home, const RunContext& context);
 
 }  // namespace linkwright::parallel

@@ -75,6 +75,19 @@ math::Vec3 place(const PrescribedRegion& region, const std::array<double, 3>& at
   return {at[0], at[1], 0};
 }
 
+math::Vec3 middle_of(const PrescribedRegion& region) {
+  switch (region.shape) {
+    case RegionShape::cylinder:
+    case RegionShape::box:
+      return {0, 0, -region.height / 2};
+    case RegionShape::circle:
+      return {0, region.width / 2, 0};
+    case RegionShape::rectangle:
+      break;
+  }
+  return {0, region.height / 2, 0};
+}
+
 std::vector<RegionPoint> region_nodes(const PrescribedRegion& region) {
   std::array<int, 3> count{1, 1, 1};
   for (int k = 0; k < coordinates(region.shape); ++k) count[k] = region.nodes[k] - closed(region, k);

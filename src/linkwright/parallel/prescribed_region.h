@@ -55,6 +55,9 @@ CoordinateRange coordinate_range(const PrescribedRegion& region, int k);
 /// Local place of coordinates (m).
 math::Vec3 place(const PrescribedRegion& region, const std::array<double, 3>& at);
 
+/// Its middle (m).
+math::Vec3 middle_of(const PrescribedRegion& region);
+
 struct RegionPoint {
   std::array<double, 3> at{};  ///< coordinates
   math::Vec3 place{};          ///< local (m)

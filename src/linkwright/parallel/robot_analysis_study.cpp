@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "linkwright/parallel/constraint.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::parallel {
@@ -251,6 +252,17 @@ double reach(const Robot& robot) {
   return out;
 }
 
+/// Why a pose cannot be home; empty if it can.
+std::string singular_home(const RobotDescription& d, const Pose& pose) {
+  const RegularAt there = regular_at(d.robot, pose, d.mode, platform_size(d.robot));
+  if (!there.reached) return fmt::format("arm and rod of leg {} are aligned", there.leg + 1);
+  if (there.rods < rods_floor) return "the rods do not hold the platform";
+  if (there.constraint >= constraint_floor) return {};
+  const ArmAngles arms = inverse(d.robot, pose, d.mode);
+  return fmt::format("constraint index {:.2g}, below {:g}: {}", there.constraint, constraint_floor,
+                     free_turn(d.robot, jacobians(d.robot, pose, arms.angle)));
+}
+
 std::optional<Pose> read_home(study::ObjectReader& document, const RobotDescription& d,
                               const PosesForm& poses, Value& canonical) {
   PoseForm form;
@@ -269,6 +281,11 @@ std::optional<Pose> read_home(study::ObjectReader& document, const RobotDescript
       table->error("position", fmt::format("the robot does not reach its home: {}", reason(angles)));
       return std::nullopt;
     }
+    if (const std::string wrong = singular_home(d, pose_of(form)); !wrong.empty()) {
+      table->error("position", "the robot is singular at its home: " + wrong,
+                   "take a place from which it can be led");
+      return std::nullopt;
+    }
     canonical["home"] = study::write_fields(form);
     return pose_of(form);
   }
@@ -281,6 +298,7 @@ std::optional<Pose> read_home(study::ObjectReader& document, const RobotDescript
     form.position = *p.position;
     form.rotation = p.rotation.value_or(Coordinates{});
     if (inverse(d.robot, pose_of(form), d.mode).status != Status::done) continue;
+    if (!singular_home(d, pose_of(form)).empty()) continue;
     canonical["home"] = study::write_fields(form);
     return pose_of(form);
   }
@@ -305,7 +323,9 @@ std::optional<Pose> usual_home(const Robot& robot, const WorkingMode& mode) {
     const ArmAngles angles = inverse(robot, pose, mode);
     if (angles.status != Status::done) continue;
     const Quality q = quality(robot, jacobians(robot, pose, angles.angle), platform_size(robot));
-    if (q.transmission > best) {
+    // A home that is singular in another way is none.
+    const bool held = robot.freedom != Freedom::space_translation || q.constraint_index >= constraint_floor;
+    if (held && q.transmission > best) {
       best = q.transmission;
       out = pose;
     }
@@ -326,6 +346,9 @@ std::optional<RobotAnalysis> read_robot_analysis(study::ObjectReader& document, 
   s.description = *description;
   s.poses = read_poses(document, *description, canonical);
   document(Field{.key = "limits", .summary = {}}, s.limits);
+  if (s.limits.constraint > 0 && description->robot.freedom != Freedom::space_translation)
+    if (auto table = document.table("limits"))
+      table->error("constraint", "only the legs of a DELTA are parallelograms", "leave it out");
   canonical["limits"] = study::write_fields(s.limits);
   s.masses = read_masses(document, *description, canonical);
   const auto home = document.document().has_errors() ? std::optional<Pose>()
@@ -348,7 +371,7 @@ std::optional<RobotAnalysis> read_robot_analysis(study::ObjectReader& document, 
 study::Result run_robot_analysis(const RobotAnalysis& s, RunContext& context) {
   study::Result result;
   if (s.motion) add_motion(result, s.description, s.masses, s.limits, *s.motion, s.home, context);
-  add_poses(result, s.description, s.poses, s.home);
+  add_poses(result, s.description, s.poses, s.home, context);
   if (s.workspace) add_workspace(result, s.description, s.limits, *s.workspace, s.home, context);
   return result;
 }

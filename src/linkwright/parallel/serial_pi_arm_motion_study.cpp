@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
-#include "linkwright/math/angles.h"
+#include "linkwright/math/zero.h"
 #include "linkwright/parallel/drive_use_study.h"
 #include "linkwright/parallel/serial_pi_arm_scene.h"
 
@@ -47,31 +48,81 @@ Instant instant(const SerialAnalysis& s, double time) {
   return out;
 }
 
-void look(PathJudge& judge, const SerialAnalysis& s, const Instant& at) {
+/// What an instant asks for; nothing out of reach.
+void demands_of(const SerialAnalysis& s, const Instant& at, std::vector<Demand>& out) {
+  out.clear();
+  if (!at.reached() || at.rates.status != Status::done) return;
   const SerialDescription& d = s.description;
   const SerialLimits& limits = s.limits;
-  const auto fail = [&](const char* kind, Status status, const std::string& why) {
-    judge.fail(kind, at.time, status, why);
-  };
-  if (!at.reached()) {
-    fail("reach", at.angles.status, reason(at.angles));
-    return;
-  }
-  if (at.rates.status != Status::done)
-    fail("singular", Status::singular, "the arms are in line: the tool cannot move along them");
-  for (int i = 0; i < 2; ++i) judge.travel(at.time, i, d.arm.drive[i], at.drives.drive[i]);
-  const double lci = 1 / at.quality.condition, elbow = elbow_angle(at.angles.angle);
-  if (lci < limits.conditioning)
-    fail("conditioning", Status::limit_reached,
-         fmt::format("local conditioning index {:.3f}, at least {:.3f} is asked for", lci,
-                     limits.conditioning));
-  if ((limits.least_elbow && elbow < *limits.least_elbow) ||
-      (limits.largest_elbow && elbow > *limits.largest_elbow))
-    fail("elbow", Status::limit_reached,
-         fmt::format("the arms stand at {:.2f} deg, beyond the limits", math::degrees(elbow)));
-  for (int i = 0; i < 2; ++i) judge.transmission(at.time, i, at.drives.drive[i], limits.drive_transmission);
+  for (int i = 0; i < 2; ++i) out.push_back(travel_demand(i, d.arm.drive[i], at.drives.drive[i]));
+  out.push_back(index_demand(Asked::conditioning, 1 / at.quality.condition, limits.conditioning));
+  const double elbow = elbow_angle(at.angles.angle);
+  if (limits.least_elbow || limits.largest_elbow)
+    out.push_back(angle_demand(Asked::elbow, elbow, elbow, limits.least_elbow.value_or(0),
+                               limits.largest_elbow.value_or(std::numbers::pi)));
+  for (int i = 0; i < 2 && limits.drive_transmission > 0; ++i)
+    out.push_back(index_demand(Asked::drive_transmission, at.drives.drive[i].transmission,
+                               limits.drive_transmission, i));
   for (int i = 0; i < 2 && d.motors_known; ++i)
-    judge.limits(at.time, i, d.arm.drive[i], d.motors[i], at.loads.drive_speed[i], at.loads.drive_effort[i]);
+    add_drive_demands(out, i, d.motors[i], at.loads.drive_speed[i], at.loads.drive_effort[i]);
+}
+
+/// Judges the way by its distance from the first pivot, which no step of the tool changes by more than its
+/// own length; the time up to which the arm gets.
+double judge_way(PathJudge& judge, const SerialAnalysis& s) {
+  constexpr double shortest = 1e-9;  // m: closer to the edge of reach nothing is proven
+  const ToolMotion& motion = s.motion->motion;
+  const SerialPiArm& arm = s.description.arm;
+  const double far = arm.arm[0] + arm.arm[1], near = std::abs(arm.arm[0] - arm.arm[1]);
+  // Positive: inside the ring that the arms reach, by so much (m).
+  const auto margin = [&](double t) {
+    const Vec3 p = motion(t).position;
+    const double r = std::hypot(p.x - arm.base[0] - arm.offset[0], p.y - arm.base[1] - arm.offset[1]);
+    return std::min(far - r, r - near);
+  };
+  const std::vector<double> breaks = motion.breaks();
+  std::vector<std::array<double, 2>> open;
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
+    open.assign(1, {breaks[k], breaks[k + 1]});
+    while (!open.empty()) {
+      const auto [from, to] = open.back();
+      open.pop_back();
+      const double middle = from + (to - from) / 2;
+      const double way = std::max(motion.way(from, middle).shift, motion.way(middle, to).shift);
+      if (margin(middle) > way) continue;
+      if (2 * way > shortest) {
+        open.push_back({middle, to});
+        open.push_back({from, middle});
+        continue;
+      }
+      double beyond = to, begin = middle;
+      for (double step = to - from; margin(beyond) > 0 && beyond < breaks[k + 1] && step < 1e3 * (to - from);
+           step *= 2)
+        beyond = std::min(breaks[k + 1], beyond + step);
+      const bool leaves = margin(beyond) < -shortest || margin(middle) < -shortest;
+      if (margin(from) > 0 && margin(beyond) < 0) begin = math::zero_between(margin, from, beyond);
+      std::string text = fmt::format("{}: the arms are in line: the tool cannot move along them",
+                                     motion.where_exactly(begin));
+      SerialAngles worst;
+      double worst_time = begin;
+      constexpr int steps = 32;
+      for (std::size_t piece = k; piece + 1 < breaks.size(); ++piece)
+        for (int n = 0; n <= steps; ++n) {
+          const double t = breaks[piece] + (breaks[piece + 1] - breaks[piece]) * n / steps;
+          if (t < begin) continue;
+          const SerialAngles at = inverse(arm, plane(motion(t).position), s.description.mode);
+          if (at.status == Status::done || !(std::abs(at.shortfall) > std::abs(worst.shortfall))) continue;
+          worst = at;
+          worst_time = t;
+        }
+      if (worst.status != Status::done)
+        text += fmt::format("; at worst {} ({})", reason(worst), motion.where(worst_time));
+      judge.fail(Severity::impossible, begin,
+                 leaves || worst.status != Status::done ? Status::no_assembly : Status::singular, text);
+      return begin;
+    }
+  }
+  return motion.duration();
 }
 
 /// All instants as a table, out of reach NaN.
@@ -112,14 +163,17 @@ void add_serial_motion(study::Result& result, const SerialAnalysis& s, RunContex
   const MotionStudy& study = *s.motion;
   const SerialDescription& d = s.description;
   const auto samples = study.motion.samples(study.form.interval);
-  PathJudge judge(study.motion);
   std::vector<Instant> instants;
   instants.reserve(samples.size());
   for (const auto& sample : samples) {
     if (instants.size() % 256 == 0 && context.interruption() != Status::done) break;
     instants.push_back(instant(s, sample.time));
-    look(judge, s, instants.back());
   }
+  PathJudge judge(study.motion, d.arm.drive);
+  const double gets_to = judge_way(judge, s);
+  const Status judged = judge.judge(
+      [&](double time, std::vector<Demand>& out) { demands_of(s, instant(s, time), out); }, gets_to, context);
+  if (judged != Status::done) result.status = judged;
   if (instants.size() < samples.size()) result.status = context.interruption();
   if (instants.empty()) {
     result.headline = "Interrupted before the first instant.";
@@ -128,7 +182,8 @@ void add_serial_motion(study::Result& result, const SerialAnalysis& s, RunContex
   const bool forces = s.masses.has_value() || study.form.force[0] != 0 || study.form.force[1] != 0;
   const Table table = motion_table(d, instants, forces);
   result.tables.push_back(table);
-  if (!judge.uses().empty()) result.tables.push_back(uses_table(judge.uses()));
+  const auto uses = judge.uses();
+  if (!uses.empty()) result.tables.push_back(uses_table(uses));
   result.plots.push_back(motion_plot("tool-speed", "Speed of the tool", {"tool_speed_m_per_s"}));
   result.plots.push_back(
       motion_plot("tool-acceleration", "Acceleration of the tool", {"tool_acceleration_m_per_s2"}));
@@ -139,13 +194,13 @@ void add_serial_motion(study::Result& result, const SerialAnalysis& s, RunContex
     result.facts.push_back({std::move(label), std::move(text)});
   };
   fact("duration of the path", fmt::format("{:.4g} s", study.motion.duration()));
-  const Instant* worst = nullptr;
-  for (const Instant& i : instants)
-    if (i.reached() && (!worst || i.quality.condition > worst->quality.condition)) worst = &i;
-  if (worst)
+  if (const auto* p = judge.peak(Asked::conditioning))
     fact("least local conditioning index",
-         fmt::format("{:.3f} ({})", 1 / worst->quality.condition, study.motion.where(worst->time)));
-  add_verdict(result, judge, study.motion, instants.back().time, instants.size() == samples.size());
+         fmt::format("{:.3f} ({})", p->demand.value, study.motion.where(p->time)));
+  if (gets_to < study.motion.duration())
+    fact("judged up to", fmt::format("{}: the arm gets no farther", study.motion.where_exactly(gets_to)));
+  add_verdict(result, judge, study.motion, instants.back().time,
+              instants.size() == samples.size() && judged == Status::done);
   if (!d.motors_known) fact("limits of the drives", "none are known: speeds and forces are not judged");
   if (!s.masses) fact("masses", "none are given: forces are those of the process alone");
 

@@ -9,6 +9,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/dual.h"
+#include "linkwright/math/zero.h"
 #include "linkwright/parallel/tool_layout.h"
 #include "linkwright/parallel/tool_timing.h"
 
@@ -88,6 +89,16 @@ std::array<Vec3, 4> at(const std::array<math::PiecewisePolynomial, 3>& s, double
   std::array<Vec3, 4> out;
   for (int k = 0; k < 4; ++k) out[k] = {x[k], y[k], z[k]};
   return out;
+}
+
+// Bound of the length of a curve between two times with no knot between them: |v| from its Taylor series
+// about the middle, whose rest is the third derivative, a parabola within the hull of its Bezier points.
+double way_bound(const std::array<math::PiecewisePolynomial, 3>& s, double a, double b) {
+  const double h = (b - a) / 2;
+  const auto first = at(s, a), middle = at(s, (a + b) / 2), last = at(s, b);
+  const Vec3 control = 2 * middle[3] - 0.5 * (first[3] + last[3]);
+  const double jerk = std::max({norm(first[3]), norm(control), norm(last[3])});
+  return 2 * h * (norm(middle[1]) + h * (norm(middle[2]) + h * jerk / 2));
 }
 
 }  // namespace
@@ -226,6 +237,69 @@ int ToolMotion::piece_at(double t) const {
 
 std::string ToolMotion::where(double t) const {
   return fmt::format("{} at {:.6g} s", names_[piece_at(t)], t);
+}
+
+double ToolMotion::length_at(const Run& run, double t) const {
+  if (t >= run.start + run.duration) return run.length;
+  return std::clamp(progress(run, std::max(0.0, t - run.start)).length, 0.0, run.length);
+}
+
+std::optional<double> ToolMotion::share_at(double t) const {
+  const Run& run = run_at(std::min(t, duration_));
+  if (run.end_piece == run.first_piece) return {};
+  const double length = length_at(run, t);
+  const int step = piece_at(run, length).step;
+  double first = -1, last = 0;
+  for (std::size_t i = run.first_piece; i < run.end_piece; ++i) {
+    if (pieces_[i].step != step) continue;
+    if (first < 0) first = pieces_[i].offset;
+    last = pieces_[i].offset + pieces_[i].curve.length;
+  }
+  return (length - first) / (last - first);
+}
+
+std::string ToolMotion::where_exactly(double t) const {
+  const auto share = share_at(t);
+  return where(t) + (share ? fmt::format(", {:.4g} % of its way", 100 * *share) : "");
+}
+
+std::vector<double> ToolMotion::breaks() const {
+  std::vector<double> out{0};
+  for (const Run& run : runs_) {
+    out.push_back(run.start);
+    out.push_back(run.start + run.duration);
+    for (std::size_t i = run.first_phase; i < run.end_phase; ++i) out.push_back(run.start + phases_[i].start);
+    for (std::size_t i = run.first_piece + 1; i < run.end_piece; ++i) {
+      const auto missing = [&](double time) { return progress(run, time).length - pieces_[i].offset; };
+      if (missing(0) < 0 && missing(run.duration) > 0)
+        out.push_back(run.start + math::zero_between(missing, 0, run.duration));
+    }
+    if (run.spline >= 0)
+      for (const double knot : splines_[run.spline].position[0].knots) out.push_back(run.start + knot);
+  }
+  std::sort(out.begin(), out.end());
+  // Breaks that are one but for rounding.
+  std::vector<double> apart{0};
+  for (const double t : out)
+    if (t - apart.back() > 1e-12 * duration_ && t < duration_) apart.push_back(t);
+  if (apart.size() > 1 && duration_ - apart.back() <= 1e-12 * duration_) apart.pop_back();
+  if (duration_ > 0) apart.push_back(duration_);
+  return apart;
+}
+
+Displaced ToolMotion::way(double a, double b) const {
+  const Run& run = run_at(std::min(a + (b - a) / 2, duration_));
+  if (run.spline >= 0) {
+    const Spline& spline = splines_[run.spline];
+    const double from = a - run.start, to = b - run.start;
+    // The angular velocity is at most as large as the rate of the rotation vector.
+    return {way_bound(spline.position, from, to), spline.turns ? way_bound(spline.rotation, from, to) : 0};
+  }
+  if (run.end_piece == run.first_piece) return {};
+  const double length = length_at(run, b) - length_at(run, a);
+  // On the spot the length is the angle of the turn.
+  const bool moves = pieces_[run.first_piece].curve.tangent != Vec3{};
+  return {moves ? length : 0, run.length > 0 ? norm(run.turn) * length / run.length : 0};
 }
 
 std::vector<ToolMotion::Sample> ToolMotion::samples(double dt) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "linkwright/math/spline.h"
+#include "linkwright/parallel/regular_ball.h"
 #include "linkwright/parallel/robot.h"
 #include "linkwright/parallel/time_law.h"
 #include "linkwright/parallel/tool_curve.h"
@@ -45,6 +46,17 @@ class ToolMotion {
   /// "step 3 (arc) at 0.412 s"
   std::string where(double t) const;
 
+  /// Share of the way of its step that has been gone, in [0, 1]; nothing for a rest and for a table.
+  std::optional<double> share_at(double t) const;
+  /// "step 3 (arc) at 0.412 s, 63.51 % of its way"
+  std::string where_exactly(double t) const;
+
+  /// Times between which the path and its law are smooth, from 0 to the duration, increasing.
+  std::vector<double> breaks() const;
+  /// How far the tool goes, and how far it turns, from time a to time b, between which there is no break:
+  /// along curves the very length, along a table a bound that tends to it. Allocates nothing.
+  Displaced way(double a, double b) const;
+
   /// States at 0, dt, 2 dt, ... and at the duration. Throws ContractError unless dt > 0 and the samples are
   /// at most ten millions.
   struct Sample {
@@ -81,6 +93,7 @@ class ToolMotion {
   Progress progress(const Run& run, double time) const;
   ToolState along(const Run& run, double time) const;
   ToolState on(const Spline& spline, const Run& run, double time) const;
+  double length_at(const Run& run, double t) const;
 
   std::vector<Run> runs_;
   std::vector<Piece> pieces_;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
 #include "linkwright/core/random.h"
 
 namespace linkwright::parallel {
@@ -12,10 +13,27 @@ namespace linkwright::parallel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr std::size_t between_looks = 64;
+
+// Counts work in nodes looked at, and looks at the context from time to time.
+class Work {
+ public:
+  void done(std::size_t nodes, const RunContext& context) {
+    constexpr std::size_t much = 4'000'000;  // some milliseconds
+    if ((nodes_ += nodes) < much) return;
+    nodes_ = 0;
+    go_on(context);
+  }
+
+ private:
+  std::size_t nodes_ = 0;
+};
 
 // Squares of the distances, in steps, to the nearest node outside the set along the first `axes` axes; beyond
 // the grid all is outside.
-std::vector<double> squared_distances(const WorkspaceMap& map, const NodeSet& set, int axes) {
+std::vector<double> squared_distances(const WorkspaceMap& map, const NodeSet& set, int axes,
+                                      const RunContext& context) {
+  Work work;
   std::vector<double> out(map.count());
   for (std::size_t n = 0; n < out.size(); ++n) out[n] = set[n] ? 1e18 : 0;
   std::size_t stride = 1;
@@ -26,6 +44,7 @@ std::vector<double> squared_distances(const WorkspaceMap& map, const NodeSet& se
       if (start / stride % length != 0) continue;
       for (std::size_t i = 0; i < length; ++i) line[i] = out[start + i * stride];
       for (std::size_t i = 0; i < length; ++i) {
+        if (i % between_looks == between_looks - 1) work.done(length, context);
         double best = line[i];
         for (std::size_t t = 1; static_cast<double>(t * t) < best; ++t) {
           const double square = static_cast<double>(t * t);
@@ -40,7 +59,7 @@ std::vector<double> squared_distances(const WorkspaceMap& map, const NodeSet& se
   return out;
 }
 
-struct Body {
+struct GridBody {
   Vec3 centre, half;
   double value = 0;  // product of the half sizes that are not 0
 };
@@ -48,8 +67,8 @@ struct Body {
 // Product of half sizes; in the plane of the two.
 double value_of(const Vec3& half) { return half.x * half.y * (half.z > 0 ? half.z : 1); }
 
-Body ball_on_grid(const WorkspaceMap& map, const NodeSet& set) {
-  const std::vector<double> square = squared_distances(map, set, map.axes);
+GridBody ball_on_grid(const WorkspaceMap& map, const NodeSet& set, const RunContext& context) {
+  const std::vector<double> square = squared_distances(map, set, map.axes, context);
   const auto most = std::max_element(square.begin(), square.end());
   // The nearest node outside is a step further than what is known to pass.
   const double r = std::max(std::sqrt(*most) - 1, 0.5) * map.grid.step;
@@ -58,10 +77,12 @@ Body ball_on_grid(const WorkspaceMap& map, const NodeSet& set) {
   return {map.position(static_cast<std::size_t>(most - square.begin())), half, value_of(half)};
 }
 
-Body cylinder_on_grid(const WorkspaceMap& map, const NodeSet& set, const InscribedTask& task) {
-  const std::vector<double> square = squared_distances(map, set, 2);
+GridBody cylinder_on_grid(const WorkspaceMap& map, const NodeSet& set, const InscribedTask& task,
+                      const RunContext& context) {
+  const std::vector<double> square = squared_distances(map, set, 2, context);
   const double step = map.grid.step;
-  Body best;
+  Work work;
+  GridBody best;
   double best_rank = 0;
   const std::size_t layer = map.nodes[0] * map.nodes[1];
   std::size_t first = 0, last = layer;
@@ -76,6 +97,7 @@ Body cylinder_on_grid(const WorkspaceMap& map, const NodeSet& set, const Inscrib
   }
   for (std::size_t column = first; column < last; ++column)
     for (std::size_t k = 0; k < map.nodes[2]; ++k) {
+      work.done(map.nodes[2] - k, context);
       double least = 1e18;
       for (std::size_t end = k; end < map.nodes[2] && set[column + layer * end]; ++end) {
         least = std::min(least, square[column + layer * end]);
@@ -102,15 +124,17 @@ Body cylinder_on_grid(const WorkspaceMap& map, const NodeSet& set, const Inscrib
 }
 
 // Largest rectangle of nodes in each layer that several layers share, by the stack over a row's heights.
-Body box_on_grid(const WorkspaceMap& map, const NodeSet& set) {
+GridBody box_on_grid(const WorkspaceMap& map, const NodeSet& set, const RunContext& context) {
   const auto [nx, ny, nz] = map.nodes;
   const double step = map.grid.step;
-  Body best;
+  Work work;
+  GridBody best;
   std::vector<std::uint8_t> shared(nx * ny);
   std::vector<std::size_t> height(nx + 1), stack;
   for (std::size_t k = 0; k < nz; ++k) {
     std::fill(shared.begin(), shared.end(), std::uint8_t{1});
     for (std::size_t end = k; end < nz; ++end) {
+      work.done(nx * ny, context);
       bool any = false;
       for (std::size_t n = 0; n < nx * ny; ++n) any = (shared[n] &= set[n + nx * ny * end]) || any;
       if (!any) break;
@@ -203,7 +227,7 @@ class Search {
     free_ = {!task.axis, !task.axis, !plane_, box, (box && !plane_) || free_height};
   }
 
-  Inscribed run(const Body& start, const RunContext& context) {
+  Inscribed run(const GridBody& start, const RunContext& context) {
     Inscribed out;
     Candidate best = candidate(start);
     const auto moves = all_moves();
@@ -238,7 +262,7 @@ class Search {
     double size = 0;                    // half.x
   };
 
-  Candidate candidate(const Body& b) const {
+  Candidate candidate(const GridBody& b) const {
     Candidate out{b.centre, {b.half.y / b.half.x, b.half.z / b.half.x}, b.half.x};
     if (task_.axis) out.centre.x = task_.axis->x, out.centre.y = task_.axis->y;
     return out;
@@ -403,6 +427,41 @@ double measure(InscribedShape shape, const Vec3& half) {
   return (plane ? 4 : 8) * value_of(half);
 }
 
+// Makes the body smaller about its centre until it is proven.
+void make_proven(const InscribedTask& task, Inscribed& out) {
+  // Who asks for no assembly asks for no such proof.
+  const bool delta = task.conditions.robot.freedom == Freedom::space_translation;
+  if (task.conditions.assembly == 0 || (delta && task.conditions.constraint == 0)) return;
+  const auto home = trouble_task(task.conditions.robot, {out.centre, task.rotation}, task.conditions.mode,
+                                 task.conditions.characteristic_length, task.conditions.least_constraint);
+  if (!home) return;
+  const auto smaller = [&](double factor) {
+    Vec3 half = factor * out.half;
+    if (task.height > 0) half.z = out.half.z;  // which is given
+    return half;
+  };
+  bool settled = true;  // else the proof was given up, and would be for other sizes
+  const auto proven = [&](double factor) {
+    const BodyProof found = prove(*home, {task.shape, out.centre, smaller(factor)}, task.rotation);
+    settled = settled && (found.proven || found.violated);
+    return found.proven;
+  };
+  if ((out.proven = proven(1))) return;
+  constexpr int most = 60;
+  double fits = 1, beyond = 1;
+  for (int k = 0; k < most && settled && !out.proven; ++k) {
+    beyond = fits;
+    fits *= 0.97;
+    out.proven = proven(fits);
+  }
+  if (!out.proven) return;
+  for (int k = 0; k < 12 && settled; ++k) {
+    const double middle = (fits + beyond) / 2;
+    (proven(middle) ? fits : beyond) = middle;
+  }
+  out.half = smaller(fits);
+}
+
 }  // namespace
 
 Inscribed inscribed(const WorkspaceMap& map, const NodeSet& set, const InscribedTask& task,
@@ -417,20 +476,25 @@ Inscribed inscribed(const WorkspaceMap& map, const NodeSet& set, const Inscribed
                      "axis, height and ratio are those of a cylinder");
   LINKWRIGHT_REQUIRE(task.height >= 0 && task.ratio >= 0 && !(task.height > 0 && task.ratio > 0),
                      "height {} m and ratio {}: at most one is given", task.height, task.ratio);
-  Body start;
-  switch (task.shape) {
-    case InscribedShape::cylinder:
-      start = cylinder_on_grid(map, set, task);
-      break;
-    case InscribedShape::ball:
-      start = ball_on_grid(map, set);
-      break;
-    case InscribedShape::box:
-      start = box_on_grid(map, set);
-      break;
+  GridBody start;
+  try {
+    switch (task.shape) {
+      case InscribedShape::cylinder:
+        start = cylinder_on_grid(map, set, task, context);
+        break;
+      case InscribedShape::ball:
+        start = ball_on_grid(map, set, context);
+        break;
+      case InscribedShape::box:
+        start = box_on_grid(map, set, context);
+        break;
+    }
+  } catch (const Interrupted& why) {
+    return {.status = why.status()};  // no body has been found yet
   }
   if (start.value == 0) return {.status = Status::infeasible};
   Inscribed out = Search(map, set, task).run(start, context);
+  if (out.status == Status::done) make_proven(task, out);
   out.on_grid = measure(task.shape, start.half);
   out.measure = out.status == Status::infeasible ? 0 : measure(task.shape, out.half);
   return out;

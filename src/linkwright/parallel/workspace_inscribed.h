@@ -2,18 +2,11 @@
 
 #include <optional>
 
+#include "linkwright/parallel/proven_body.h"
 #include "linkwright/parallel/workspace.h"
 
 /// Largest bodies of simple shape within what passes: what a user can be promised of a workspace.
 namespace linkwright::parallel {
-
-/// All stand along the axes.
-enum class InscribedShape { cylinder, ball, box };
-constexpr std::array<EnumName<InscribedShape>, 3> names(InscribedShape) {
-  return {{{InscribedShape::cylinder, "cylinder", "with its axis along z, only in space"},
-           {InscribedShape::ball, "ball", "in the plane: a circle"},
-           {InscribedShape::box, "box", "with edges along x, y, z; in the plane: a rectangle"}}};
-}
 
 struct InscribedTask {
   PoseConditions conditions;  ///< those of the map
@@ -31,13 +24,18 @@ struct Inscribed {
   Vec3 half;                     ///< half the extent along each axis (m); z = 0 in the plane
   double measure = 0;            ///< volume (m3) or area (m2)
   double on_grid = 0;            ///< the same of the body of nodes where the search began
+  /// Where the conditions ask for an assembly (of a DELTA also of its platform): all of it is free of
+  /// singularities, of the assembly that it has in the middle, with the constraint index that is asked for
+  /// (less 5e-4): see proven_body.h. A body that could not be proven has been made smaller until it could.
+  bool proven = false;
 };
 
 /// The largest body of the shape on the grid, whose nodes are all in `set` (for example passing(map)), grown
 /// from there while points on its surface meet the conditions: a search by steps in all directions that are
 /// halved down to 1e-4 of the grid's step. The points lie 1.25 deg and 1/32 of the extents apart at the end,
 /// in the plane sixteen times closer than 5 deg and 1/32: between them the boundary may be crossed by some
-/// 1e-4 of the size. The inside is held by the grid: a hole finer than a step of it is not seen. The search
+/// 1e-4 of the size. The inside is held by the grid: a hole finer than a step of it is not seen, but for
+/// singularities, of which the body is proven to be free. The search
 /// is local: the best of the grid decides where it goes.
 ///
 /// The map has nodes along two axes, x and y, or along three. Throws ContractError for tasks without sense.

@@ -7,79 +7,42 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/optimise/parallel.h"
+#include "linkwright/parallel/path_trouble.h"
 
 namespace linkwright::parallel {
 
 namespace {
 
-// What the bounds need of a place.
-struct Measure {
-  double rods = 0;   // determinant of the rods' directions; NaN where the legs do not reach
-  double input = 0;  // least input transmission
-};
-
-// How far the indices of a place hold.
-class Bounds {
- public:
-  explicit Bounds(const WorkspacePartsTask& task) {
-    const Robot& robot = task.conditions.robot;
-    double rows = 1;
-    for (int i = 0; i < robot.legs(); ++i) {
-      const Leg& leg = robot.leg[i];
-      by_rods_ += 1 / leg.rod;
-      shortest_ = std::min(shortest_, leg.rod);
-      slope_ = std::max(slope_, 1 + leg.rod / leg.arm);
-      if (robot.freedom == Freedom::space)
-        rows *= std::hypot(1, norm(leg.platform) / task.conditions.characteristic_length);
-    }
-    by_rods_ *= rows;
-  }
-
-  /// Whether no pose within `radius` of a place is singular.
-  bool regular(const Measure& at, double radius) const {
-    // q >= b on the way as long as radius (1 + slope/b)/L <= q - b; b = q/2 is near the best choice.
-    const double least = 0.5 * at.input;
-    if (!(radius * (1 + slope_ / least) <= (at.input - least) * shortest_)) return false;
-    return std::abs(at.rods) > radius * by_rods_ * (1 + 1 / least);
-  }
-
- private:
-  double by_rods_ = 0, slope_ = 0, shortest_ = std::numeric_limits<double>::infinity();
+// What the bounds need of a node.
+struct Node {
+  Marks marks;
+  double clear = 0;  // radius (m)
 };
 
 class Edges {
  public:
-  Edges(const WorkspacePartsTask& task) : task_(task), bounds_(task) {}
+  explicit Edges(const WorkspacePartsTask& task)
+      : rotation_(task.rotation),
+        task_{.robot = task.conditions.robot,
+              .mode = task.conditions.mode,
+              .length = task.conditions.characteristic_length} {}
 
-  bool open(const Vec3& a, const Measure& at_a, const Vec3& b, const Measure& at_b) const {
-    return open(a, at_a, b, at_b, task_.most_halvings);
+  Node node(const Vec3& place) const {
+    const RegularAt at = regular_at(task_.robot, {place, rotation_}, task_.mode, task_.length);
+    return {at.marks, clear_radius(task_.robot, at, task_.length)};
+  }
+
+  bool open(const Vec3& a, const Node& at_a, const Vec3& b, const Node& at_b) const {
+    if (at_a.marks != at_b.marks || at_a.marks.assembly == 0) return false;
+    if (at_a.clear + at_b.clear >= norm(b - a)) return true;
+    TroubleTask task = task_;
+    task.home = at_a.marks;
+    return !first_trouble(task, {a, rotation_}, {b, rotation_});
   }
 
  private:
-  bool open(const Vec3& a, const Measure& at_a, const Vec3& b, const Measure& at_b, int halvings) const {
-    // Also false where the legs do not reach.
-    if (!(at_a.rods * at_b.rods > 0)) return false;
-    const double half = 0.5 * norm(b - a);
-    if (bounds_.regular(at_a, half) && bounds_.regular(at_b, half)) return true;
-    // One end alone may vouch for the whole edge.
-    if (bounds_.regular(at_a, 2 * half) || bounds_.regular(at_b, 2 * half)) return true;
-    if (halvings == 0) return false;
-    const Vec3 middle = 0.5 * (a + b);
-    const Measure at = measure(middle);
-    return open(a, at_a, middle, at, halvings - 1) && open(middle, at, b, at_b, halvings - 1);
-  }
-
-  Measure measure(const Vec3& place) const {
-    Measure out;
-    PoseFindings findings;
-    findings.index[slot(PoseIndex::rods)] = {&out.rods, 1};
-    findings.index[slot(PoseIndex::input_transmission)] = {&out.input, 1};
-    check_poses(task_.conditions, {&place, 1}, task_.rotation, findings);
-    return out;
-  }
-
-  const WorkspacePartsTask& task_;
-  Bounds bounds_;
+  Mat3 rotation_;
+  TroubleTask task_;
 };
 
 // Half of the neighbours: the other half are the same edges.
@@ -115,29 +78,30 @@ std::size_t WorkspaceParts::all() const { return std::accumulate(size.begin(), s
 WorkspaceParts workspace_parts(const WorkspaceMap& map, const NodeSet& set, const WorkspacePartsTask& task,
                                const RunContext& context) {
   LINKWRIGHT_REQUIRE(set.size() == map.count(), "a set of {} nodes for a map of {}", set.size(), map.count());
-  LINKWRIGHT_REQUIRE(task.most_halvings >= 0, "{} halvings", task.most_halvings);
   WorkspaceParts out;
-  WorkspaceTask indices{.conditions = task.conditions, .grid = map.grid, .rotation = task.rotation};
-  indices.wanted[slot(PoseIndex::rods)] = indices.wanted[slot(PoseIndex::input_transmission)] = true;
-  const WorkspaceMap at = workspace(indices, context);
   const auto stopped = [&](Status status) {
     out.status = status;
     return status != Status::done;
   };
-  if (stopped(at.status)) return out;
-  const auto& rods = at.index[slot(PoseIndex::rods)];
-  const auto& input = at.index[slot(PoseIndex::input_transmission)];
-
   // Every layer looks at the edges that begin in it.
   const auto ways = directions(task);
   const Edges edges(task);
   const auto [nx, ny, nz] = map.nodes;
+  std::vector<Node> at(map.count());
+  optimise::parallel_for(ny * nz, context.threads(), [&, nx = nx](std::size_t row) {
+    if (context.interrupted()) return;
+    for (std::size_t n = row * nx; n < (row + 1) * nx; ++n)
+      if (set[n]) at[n] = edges.node(map.position(n));
+  });
+  if (stopped(context.interruption())) return out;
   std::vector<std::uint32_t> open(map.count());  // bit w: the edge along ways[w]
   std::vector<std::size_t> edge_count(ny * nz), closed_count(ny * nz);
   optimise::parallel_for(ny * nz, context.threads(), [&, nx = nx, ny = ny, nz = nz](std::size_t row) {
     if (context.interrupted()) return;
     const std::size_t j = row % ny, k = row / ny;
+    constexpr std::size_t between_looks = 256;
     for (std::size_t i = 0; i < nx; ++i) {
+      if (i % between_looks == between_looks - 1 && context.interrupted()) return;
       const std::size_t n = map.number(i, j, k);
       if (!set[n]) continue;
       for (std::size_t w = 0; w < ways.size(); ++w) {
@@ -146,7 +110,7 @@ WorkspaceParts workspace_parts(const WorkspaceMap& map, const NodeSet& set, cons
         const std::size_t m = map.number(to_i, to_j, to_k);
         if (!set[m]) continue;
         ++edge_count[row];
-        if (edges.open(map.position(n), {rods[n], input[n]}, map.position(m), {rods[m], input[m]}))
+        if (edges.open(map.position(n), at[n], map.position(m), at[m]))
           open[n] |= 1u << w;
         else
           ++closed_count[row];

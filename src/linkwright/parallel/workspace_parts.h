@@ -24,8 +24,9 @@ struct WorkspaceParts {
   std::vector<std::size_t> size;   ///< nodes of each part; numbered in the order of their first nodes
   int home = -1;                   ///< part of the node nearest to home; -1: that one is not in the set
   std::size_t home_node = 0;
-  std::size_t edges = 0;   ///< between neighbours of the set
-  std::size_t closed = 0;  ///< of these: singular between their ends, or not shown to be regular
+  std::size_t edges = 0;  ///< between neighbours of the set
+  std::size_t closed =
+      0;  ///< of these: singular between their ends, or so near to it that nothing else is shown
 
   /// Nodes that can be reached from home, and all of the set.
   std::size_t reachable() const { return home < 0 ? 0 : size[static_cast<std::size_t>(home)]; }
@@ -34,22 +35,18 @@ struct WorkspaceParts {
 
 /// `set`: nodes of the map that count, for example passing(map); all must be within reach of the legs.
 ///
-/// An edge is open when on all of it the legs reach, no arm and rod are aligned and det Jx does not vanish.
-/// This is shown by a bound on how fast the indices change. With q the least input transmission s . u'/L, l
-/// and L arm and rod, dn a step of the platform point,
-///     abs(ds/L) <= (1 + 1/q)/L dn,   abs(dq) <= (1 + (1 + L/l)/q)/L dn,
-/// and the determinant of rows [s/L, r x s/(L c)] changes by no more than the lengths of the rows times the
-/// sum of abs(ds/L). Where both ends do not suffice the edge is halved, `most_halvings` times at most; an
-/// edge that is not settled then counts as closed. (The bound is exact; it is evaluated in rounded numbers.)
+/// An edge is open when nothing on all of it is singular: the legs reach, no arm and rod are aligned, the
+/// rods hold the platform, and the parallelograms of a DELTA keep it from turning. The clear radii of both
+/// ends (regular_ball.h) show it nearly always, else first_trouble (path_trouble.h). (The bounds are exact;
+/// they are evaluated in rounded numbers.)
 ///
-/// Limits of drives and joints are those of the nodes alone: between two nodes that pass they may be exceeded
-/// by what a step of the grid makes of them.
+/// Limits of drives, joints and indices are those of the nodes alone: between two nodes that pass they may be
+/// exceeded by what a step of the grid makes of them.
 struct WorkspacePartsTask {
   PoseConditions conditions;  ///< those of the map
   Mat3 rotation{};            ///< that of the map
   Vec3 home;                  ///< m
   Neighbours neighbours = Neighbours::along_axes;
-  int most_halvings = 12;
 };
 WorkspaceParts workspace_parts(const WorkspaceMap& map, const NodeSet& set, const WorkspacePartsTask& task,
                                const RunContext& context);

@@ -9,6 +9,7 @@
 
 #include "linkwright/core/units.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/parallel/constraint.h"
 #include "linkwright/parallel/workspace_parts.h"
 #include "linkwright/parallel/workspace_rays.h"
 #include "linkwright/study/bind_write.h"
@@ -138,7 +139,12 @@ std::string body_text(const Inscribed& body, const InscribedForm& f, bool planar
 
 PoseConditions conditions_of(const RobotDescription& d, const QualityLimits& limits, const Pose& home) {
   PoseConditions out{.robot = d.robot, .drives = d.drives, .mode = d.mode};
-  out.assembly = assembly_at(d.robot, home, d.mode);
+  const Marks marks = marks_at(d.robot, home, d.mode);
+  out.assembly = marks.assembly;
+  if (d.robot.freedom == Freedom::space_translation) {
+    out.constraint = marks.constraint;
+    out.least_constraint = std::max(limits.constraint, constraint_floor);
+  }
   if (limits.least_elbow) out.least_elbow = *limits.least_elbow;
   if (limits.largest_elbow) out.most_elbow = *limits.largest_elbow;
   if (limits.rod_swing) out.most_swing = *limits.rod_swing;
@@ -260,9 +266,12 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
     inner.height = f.inscribed->height.value_or(0);
     inner.ratio = f.inscribed->ratio.value_or(0);
     const Inscribed body = inscribed(map, passing(map), inner, context);
-    fact(fmt::format("largest {}", name_of(f.inscribed->shape)), body.status == Status::infeasible
-                                                                     ? std::string("none fits")
-                                                                     : body_text(body, *f.inscribed, planar));
+    if (body.status != Status::done && body.status != Status::infeasible) result.status = body.status;
+    fact(fmt::format("largest {}", name_of(f.inscribed->shape)),
+         body.status == Status::infeasible ? std::string("none fits")
+         : body.half.x == 0                ? std::string("not found before the run ended")
+                                           : body_text(body, *f.inscribed, planar) +
+                                                 (body.proven ? ", proven free of singularities" : ""));
   }
   if (d.tool_turns()) {
     const RotationRange range = rotation_range(

@@ -12,7 +12,7 @@ namespace linkwright::parallel {
 
 /// `[limits]` of a robot: what a pose must have to be of use, along a path and in the workspace.
 struct QualityLimits {
-  double transmission = 0, conditioning = 0, drive_transmission = 0;
+  double transmission = 0, conditioning = 0, drive_transmission = 0, constraint = 0;
   std::optional<double> rod_swing, least_elbow, largest_elbow;
 };
 template <class Visitor>
@@ -28,6 +28,10 @@ void fields(Visitor&& visit, QualityLimits& l) {
   visit(index("conditioning", "least local conditioning index"), l.conditioning);
   visit(index("drive_transmission", "least sine of the angle between diagonal and arm of a Pi-joint"),
         l.drive_transmission);
+  visit(index("constraint",
+              "least constraint index of a DELTA: how firmly its parallelograms keep the platform from "
+              "turning; below 0.001 is singular"),
+        l.constraint);
   visit(angle("rod_swing", "largest angle between a rod and the plane of its arm", 1.5707963267948966),
         l.rod_swing);
   visit(angle("least_elbow", "least angle between arm and rod, 0 = folded", 3.1415926535897931),

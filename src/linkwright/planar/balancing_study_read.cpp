@@ -12,6 +12,7 @@
 #include "linkwright/planar/serial_arm_study.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/study.h"
 
 namespace linkwright::planar {
 namespace {
@@ -102,7 +103,7 @@ void check_quantities(study::ObjectReader& document, std::string_view list,
   for (const Column& c : table.columns) known.push_back(c.key);
   std::vector<study::ObjectReader> entries = document.tables(list);
   for (std::size_t k = 0; k < quantities.size() && k < entries.size(); ++k) {
-    if (quantities[k].empty() || table.find(quantities[k])) continue;
+    if (table.find(quantities[k])) continue;
     const std::string_view nearest = nearest_word(quantities[k], known);
     entries[k].error("quantity", fmt::format("the analysis has no column '{}'", quantities[k]),
                      nearest.empty() ? fmt::format("columns are: {}", fmt::join(known, ", "))
@@ -145,7 +146,7 @@ bool read_design(study::ObjectReader& document, const study::Common& common, con
   study::ObjectReader root = reader.root();
   know_type(root);
   s.mechanism->analysis().prepare(root, plain(common));
-  reader.finish();
+  reader.finish([&] { return study::schema_of(s.mechanism->analysis()); });
   for (const Diagnostic& d : problems)
     document.document().report(d.severity, d.position, d.key, d.message + std::string(remark), d.hint);
   return !has_errors(problems);
@@ -201,9 +202,17 @@ BalancingStudy read_balancing_study(study::ObjectReader& document, const study::
   BalancingStudy s;
   std::string type;
   if (auto mechanism = document.table("mechanism")) (*mechanism)(Field{.key = "type", .summary = {}}, type);
-  const auto known = std::find_if(mechanisms.begin(), mechanisms.end(),
-                                  [&](const BalancedMechanism& m) { return m.type == type; });
-  LINKWRIGHT_REQUIRE(known != mechanisms.end(), "mechanism '{}' has no balancing", type);
+  auto known = std::find_if(mechanisms.begin(), mechanisms.end(),
+                            [&](const BalancedMechanism& m) { return m.type == type; });
+  // A wrong type has been reported; without any that is near there is nothing to read the rest by.
+  if (known == mechanisms.end()) {
+    std::vector<std::string_view> types;
+    for (const BalancedMechanism& m : mechanisms) types.push_back(m.type);
+    const std::string_view nearest = nearest_word(type, types);
+    known = std::find_if(mechanisms.begin(), mechanisms.end(),
+                         [&](const BalancedMechanism& m) { return m.type == nearest; });
+    if (known == mechanisms.end()) return s;
+  }
   s.mechanism = &*known;
   s.designed = study::take_designed(document, table_keys);
   read_goals(document, s);

@@ -267,7 +267,7 @@ class Builder {
                       [&](const BodyOnPart& b) { return b.part == part; }) != 1)
       return -1;
     const Group& group = plan.groups[at(plan.group_of_part[at(part)])];
-    if (group.type == GroupType::driver || group.type == GroupType::gear || group.type == GroupType::general)
+    if (group.type == GroupType::driver || group.type == GroupType::gear || has_matrix(group.type))
       return -1;
     return group.joints[group.parts[0] == part ? 0 : 2].joint;
   }
@@ -348,6 +348,32 @@ BentBody bent_body(const ElasticLinkage& elastic, const ElasticPieces& pieces, c
   }
   out.place = (out.spring + 0.5) * pieces.length / static_cast<double>(n);
   return out;
+}
+
+SegmentErrors segment_errors(int segments) {
+  LINKWRIGHT_REQUIRE(segments >= 1, "{} segments", segments);
+  double even = 0, rising = 0;
+  for (int i = 0; i < segments; ++i) {
+    const double x = (i + 0.5) / segments;  // of the length
+    even = std::max(even, 4 * x * (1 - x));
+    rising = std::max(rising, 1.5 * std::sqrt(3.0) * x * (1 - x * x));
+  }
+  const double n = segments, s = std::sin(std::numbers::pi / (2 * n)),
+               full = n * n / (std::numbers::pi * std::numbers::pi);
+  return {.moment = std::max(1 - even, 1 - rising),
+          .frequency = 1 - full * 4 * s * s / std::sqrt(1 - 2 * s * s / 3)};
+}
+
+bool too_few_segments(int segments) {
+  constexpr double much_moment = 0.1, much_frequency = 0.05;
+  const SegmentErrors e = segment_errors(segments);
+  return e.moment > much_moment || e.frequency > much_frequency;
+}
+
+int enough_segments() {
+  int n = most_segments;
+  while (n > 1 && !too_few_segments(n - 1)) --n;
+  return n;
 }
 
 double first_frequency(const ElasticBody& b, double length) {

@@ -116,6 +116,20 @@ struct BentBody {
 BentBody bent_body(const ElasticLinkage& elastic, const ElasticPieces& pieces, const LinkageMotion& motion,
                    const LinkageForces* forces = nullptr);
 
+/// What so many segments leave out, of a beam on two pins that is loaded by its own mass.
+struct SegmentErrors {
+  /// Share of the largest bending moment that no spring feels, as each sits in the middle of its cell: the
+  /// larger one of a load that is the same all along and of one that grows from zero at an end. Moments at
+  /// the springs are exact.
+  double moment = 0;
+  double frequency = 0;  ///< by what share the first frequency is too low
+};
+SegmentErrors segment_errors(int segments);
+/// Whether one of them matters: more than a tenth of the moment, or a twentieth of the frequency.
+bool too_few_segments(int segments);
+/// Least number from which on none does.
+int enough_segments();
+
 /// First frequency of the beam on two pins, by itself: pi^2 sqrt(E I / (density area L^4)), rad/s.
 double first_frequency(const ElasticBody& beam, double length);
 /// Its highest in pieces: (n / L)^2 sqrt(48 E I / (density area)) (see above, j = n), rad/s; what bounds

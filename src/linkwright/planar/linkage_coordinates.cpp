@@ -8,6 +8,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage_assembly.h"
 #include "linkwright/planar/linkage_dynamics.h"
 
 namespace linkwright::planar {
@@ -38,6 +39,7 @@ class Coordinates {
               const SimulationOptions& options, const SimulationOutput& output)
       : l_(l),
         plan_(plan),
+        courses_(courses),
         options_(options),
         output_(output),
         motion_(plan),
@@ -86,15 +88,14 @@ class Coordinates {
     math::OdeHooks hooks{.output_times = times, .context = context};
     hooks.output = [&](double t, std::span<const double> now) { return show(t, now); };
     hooks.project = [&](double t, std::span<double> now) { return project(t, now); };
-    math::OdeWorkspace workspace;
-    const math::OdeReport ode = math::integrate(
+    const math::OdeReport ode = integrate_by_pieces(
         [&](double t, std::span<const double> now, std::span<double> rate) { return slope(t, now, rate); }, y,
-        times.front(), times.back(),
+        times.front(), times.back(), breaks_of(l_, courses_, times.front(), times.back()),
         {.method = options_.method,
          .relative_tolerance = options_.relative_tolerance,
          .absolute_tolerances = tolerances,
          .max_steps = options_.max_steps},
-        hooks, workspace);
+        hooks);
     report_.steps = ode.steps;
     report_.evaluations = ode.evaluations;
     report_.time = ode.t;
@@ -111,7 +112,13 @@ class Coordinates {
   bool start(double t) {
     report_.time = t;
     prescribe(t);
-    solve_motion(plan_, inputs_, motion_);
+    if (!plan_.closed_form()) {
+      // The mode that the drawing shows, wherever the motion starts.
+      InputReach reach;
+      for (const InputMotion& i : inputs_) reach.low.push_back(i.value), reach.high.push_back(i.value);
+      LinkageAssembly(plan_, reach, AtChangePoint::stop).place(inputs_, motion_);
+    }
+    if (motion_.status == Status::done) solve_motion(plan_, inputs_, motion_);
     if (motion_.status == Status::done) return true;
     report_.status = motion_.status;
     report_.group = motion_.failed_group;
@@ -397,6 +404,7 @@ class Coordinates {
 
   const Linkage& l_;
   const LinkagePlan& plan_;
+  std::span<const InputCourse> courses_;
   const SimulationOptions& options_;
   const SimulationOutput& output_;
   LinkageMotion motion_, rows_;  // of the state; of the rows, with groups

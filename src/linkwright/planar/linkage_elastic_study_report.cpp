@@ -192,6 +192,14 @@ class ElasticReporter {
                          : std::string(),
                      p.beam.segments));
     result_.statistics[identifier(name) + "_first_frequency_Hz"] = hertz(first);
+    if (const int n = p.beam.segments; too_few_segments(n)) {
+      const SegmentErrors missed = segment_errors(n), better = segment_errors(enough_segments());
+      warn(fmt::format("{} segment{} of {}: bending moment and stress are up to {:.3g} % too low, as the "
+                       "springs miss the worst section, and the first frequency is {:.3g} % too low",
+                       n, n == 1 ? "" : "s", name, 100 * missed.moment, 100 * missed.frequency),
+           fmt::format("segments = {} leaves {:.2g} % and {:.2g} %", enough_segments(), 100 * better.moment,
+                       100 * better.frequency));
+    }
     const double nyquist = (s_.samples - 1) / (2 * (s_.to - s_.from));
     if (hertz(first) > nyquist)
       warn(fmt::format("rows are {:.3g} s apart, too far to show the first vibration of {} of {:.4g} Hz",

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "linkwright/core/tolerance.h"
-#include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage_joint_rows.h"
 
 namespace linkwright::planar {
 
@@ -23,58 +23,6 @@ struct GeneralGroupMemory {
 
 namespace {
 
-// The equations of a joint at the present places, as rows over the velocities of two parts: `force` is the
-// direction and `moment` the couple that a unit of the row's multiplier puts on the part after, about
-// `point`.
-struct Row {
-  Vec<double> force{0, 0};
-  double moment = 0;
-};
-struct JointRows {
-  Vec<double> point;
-  Vec<double> along;  // of a slide
-  std::array<Row, 3> rows;
-  int count = 2;
-};
-
-JointRows rows_of(const PlanJoint& j, bool driven, const std::vector<PartState<double>>& parts) {
-  JointRows out;
-  out.point = point_on(parts[at(j.after.part)], j.after.at);
-  if (j.slide) {
-    out.along = turn(parts[at(j.before.part)].direction, j.before.direction);
-    out.rows[0].force = left(out.along);
-    out.rows[1].moment = 1;
-    if (driven) out.rows[2].force = out.along;
-  } else {
-    out.rows[0].force = {1, 0};
-    out.rows[1].force = {0, 1};
-    if (driven) out.rows[2].moment = 1;
-  }
-  out.count = driven ? 3 : 2;
-  return out;
-}
-
-double sense(const PlanJoint& j) { return j.reversed ? -1.0 : 1.0; }
-
-// How far the joint's equations are from being met.
-std::array<double, 3> residuals(const PlanJoint& j, const JointRows& r, const InputMotion* input,
-                                const std::vector<PartState<double>>& parts, double size) {
-  const PartState<double>&before = parts[at(j.before.part)], &after = parts[at(j.after.part)];
-  const Vec<double> apart = r.point - point_on(before, j.before.at);
-  if (j.slide) {
-    const Vec<double> other = turn(after.direction, j.after.direction);
-    const double angle = std::atan2(cross(r.along, other), dot(r.along, other));
-    return {cross(r.along, apart), angle * size, input ? dot(r.along, apart) - sense(j) * input->value : 0.0};
-  }
-  double turned = 0;
-  if (input) {
-    const Vec<double> relative =
-        unturn(turn(before.direction, j.before.direction), turn(after.direction, j.after.direction));
-    turned = math::wrap_angle(angle_of(relative) - sense(j) * input->value) * size;
-  }
-  return {apart.x, apart.y, turned};
-}
-
 // Fills the rows of the Jacobian; columns of the angles are divided by `size`, those of angle rows too, so
 // that all entries are of the same order.
 void assemble(const LinkagePlan& plan, const Group& g, const LinkageMotion& motion, GeneralGroupMemory& m) {
@@ -82,9 +30,9 @@ void assemble(const LinkagePlan& plan, const Group& g, const LinkageMotion& moti
   Index row = 0;
   for (std::size_t k = 0; k < g.joints.size(); ++k) {
     const PlanJoint& j = g.joints[k];
-    const JointRows r = rows_of(j, g.inputs[k] >= 0, motion.parts);
+    const JointRows r = joint_rows(j, g.inputs[k] >= 0, motion.parts);
     for (int i = 0; i < r.count; ++i, ++row) {
-      const Row& e = r.rows[at(i)];
+      const JointEquation& e = r.rows[at(i)];
       const double scale = e.moment != 0 ? plan.size : 1.0;
       for (const auto& [part, side] : {std::pair{j.after.part, 1.0}, std::pair{j.before.part, -1.0}}) {
         const int c = m.column[at(part)];
@@ -165,8 +113,8 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
     for (std::size_t k = 0; k < g.joints.size(); ++k) {
       const PlanJoint& j = g.joints[k];
       const InputMotion* input = g.inputs[k] >= 0 ? &inputs[at(g.inputs[k])] : nullptr;
-      const JointRows r = rows_of(j, input != nullptr, motion.parts);
-      const std::array<double, 3> f = residuals(j, r, input, motion.parts, plan.size);
+      const JointRows r = joint_rows(j, input != nullptr, motion.parts);
+      const std::array<double, 3> f = joint_residuals(j, r, input, motion.parts, plan.size);
       for (int i = 0; i < r.count; ++i) m.residual[row++] = f[at(i)];
     }
     largest = m.residual.cwiseAbs().maxCoeff();
@@ -214,7 +162,7 @@ void general_velocity(const LinkagePlan& plan, const Group& g, std::span<const I
   for (std::size_t k = 0; k < g.joints.size(); ++k) {
     const PlanJoint& j = g.joints[k];
     const bool driven = g.inputs[k] >= 0;
-    const JointRows r = rows_of(j, driven, motion.parts);
+    const JointRows r = joint_rows(j, driven, motion.parts);
     // What the known parts move, to the right side.
     Vec<double> slip{0, 0};
     double spin = 0;
@@ -224,7 +172,7 @@ void general_velocity(const LinkagePlan& plan, const Group& g, std::span<const I
         spin += side * motion.parts[at(part)].speed;
       }
     for (int i = 0; i < r.count; ++i) {
-      const Row& e = r.rows[at(i)];
+      const JointEquation& e = r.rows[at(i)];
       double value = dot(e.force, slip) + e.moment * spin;
       if (i == 2) value += sense(j) * inputs[at(g.inputs[k])].rate;
       m.residual[row++] = value * (e.moment != 0 ? plan.size : 1.0);
@@ -244,7 +192,7 @@ void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<con
   for (std::size_t k = 0; k < g.joints.size(); ++k) {
     const PlanJoint& j = g.joints[k];
     const PartState<double>&before = motion.parts[at(j.before.part)], &after = motion.parts[at(j.after.part)];
-    const JointRows r = rows_of(j, g.inputs[k] >= 0, motion.parts);
+    const JointRows r = joint_rows(j, g.inputs[k] >= 0, motion.parts);
     // The accelerations of both fields at the point differ by the Coriolis term of a slide only; on the
     // right side stand the parts of them that do not depend on unknown accelerations.
     Vec<double> slip{0, 0};
@@ -264,7 +212,7 @@ void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<con
       slip = slip + (2 * before.speed * dot(r.along, relative)) * left(r.along);
     }
     for (int i = 0; i < r.count; ++i) {
-      const Row& e = r.rows[at(i)];
+      const JointEquation& e = r.rows[at(i)];
       double value = dot(e.force, slip) + e.moment * spin;
       if (i == 2) value += sense(j) * inputs[at(g.inputs[k])].acceleration;
       m.residual[row++] = value * (e.moment != 0 ? plan.size : 1.0);
@@ -292,11 +240,11 @@ void general_forces(const LinkagePlan& plan, const Group& g, const LinkageMotion
   for (std::size_t k = 0; k < g.joints.size(); ++k) {
     const PlanJoint& j = g.joints[k];
     const bool driven = g.inputs[k] >= 0;
-    const JointRows r = rows_of(j, driven, motion.parts);
+    const JointRows r = joint_rows(j, driven, motion.parts);
     Wrench<double> w{{0, 0}, 0};
     drives[k] = std::numeric_limits<double>::quiet_NaN();
     for (int i = 0; i < r.count; ++i, ++row) {
-      const Row& e = r.rows[at(i)];
+      const JointEquation& e = r.rows[at(i)];
       const double multiplier = m.solution[row];
       w.force = w.force + multiplier * e.force;
       w.moment += multiplier * e.moment * plan.size;

@@ -8,6 +8,7 @@
 #include "linkwright/core/tolerance.h"
 #include "linkwright/planar/four_bar_kernel.h"
 #include "linkwright/planar/linkage_general.h"
+#include "linkwright/planar/linkage_triangle.h"
 
 namespace linkwright::planar {
 namespace {
@@ -39,21 +40,6 @@ double closure_of(const Group& g, const LinkageMotion& m) {
 }
 
 void forget(PartState<double>& part) { part = {{nan, nan}, {nan, nan}, {nan, nan}, nan, {nan, nan}, nan}; }
-
-void fail(const LinkagePlan& plan, LinkageMotion& motion, std::size_t group, Status status) {
-  motion.status = status;
-  motion.failed_group = static_cast<int>(group);
-  // General groups keep their place: the next search starts from it. A group at a dead point has its place,
-  // too, but no rates.
-  for (std::size_t g = group; g < plan.groups.size(); ++g)
-    for (int p : plan.groups[g].parts) {
-      PartState<double>& part = motion.parts[at(p)];
-      const Vec<double> origin = part.origin, direction = part.direction;
-      forget(part);
-      if (plan.groups[g].type == GroupType::general || (status == Status::singular && g == group))
-        part.origin = origin, part.direction = direction;
-    }
-}
 
 void place_gear(const Group& g, std::span<const InputMotion> inputs, LinkageMotion& motion) {
   const PlanJoint& j = g.joints[0];
@@ -110,8 +96,23 @@ LinkageMotion::LinkageMotion(const LinkagePlan& plan) : parts(plan.parts.size())
         parts[at(g.parts[i])].origin = {pose.x, pose.y};
         parts[at(g.parts[i])].direction = unit(pose.angle);
       }
-    general.push_back(g.type == GroupType::general ? general_group_memory(plan, g) : GeneralGroupPointer());
+    general.push_back(has_matrix(g.type) ? general_group_memory(plan, g) : GeneralGroupPointer());
   }
+}
+
+void mark_failed(const LinkagePlan& plan, LinkageMotion& motion, std::size_t group, Status status) {
+  motion.status = status;
+  motion.failed_group = static_cast<int>(group);
+  // General groups keep their place: the next search starts from it. A group at a dead point has its place,
+  // too, but no rates.
+  for (std::size_t g = group; g < plan.groups.size(); ++g)
+    for (int p : plan.groups[g].parts) {
+      PartState<double>& part = motion.parts[at(p)];
+      const Vec<double> origin = part.origin, direction = part.direction;
+      forget(part);
+      if (plan.groups[g].type == GroupType::general || (status == Status::singular && g == group))
+        part.origin = origin, part.direction = direction;
+    }
 }
 
 PartState<double> body_state(const LinkagePlan& plan, const LinkageMotion& motion, int body) {
@@ -149,17 +150,30 @@ void solve_position(const LinkagePlan& plan, std::span<const InputMotion> inputs
       case GroupType::gear:
         place_gear(g, inputs, motion);
         break;
+      case GroupType::triangle: {
+        const double value = inputs[at(g.inputs[1])].value;
+        place_triangle(g, value, motion.modes[k], motion.parts, state);
+        if (!(state.radicand > 0) && (motion.gap = triangle_gap(g, value, motion.parts)) > 0)
+          return mark_failed(plan, motion, k, Status::no_assembly);
+        if (!(std::abs(state.sine) >= tolerance::toggle_angle))
+          return mark_failed(plan, motion, k, Status::singular);
+        // One step of Newton's method makes the matrix for the rates.
+        const Status status = place_general(plan, g, inputs, motion, *motion.general[k]);
+        if (status != Status::done) return mark_failed(plan, motion, k, status);
+        break;
+      }
       case GroupType::general: {
         const Status status = place_general(plan, g, inputs, motion, *motion.general[k]);
         state.sine = determinant_sign(*motion.general[k]) * conditioning(*motion.general[k]);
-        if (status != Status::done) return fail(plan, motion, k, status);
+        if (status != Status::done) return mark_failed(plan, motion, k, status);
         break;
       }
       default:
         for_dyad(g.type, [&](auto type) { place_dyad(type, g, motion.modes[k], parts, state); });
-        if ((motion.gap = gap_of(g, motion, state)) > 0) return fail(plan, motion, k, Status::no_assembly);
+        if ((motion.gap = gap_of(g, motion, state)) > 0)
+          return mark_failed(plan, motion, k, Status::no_assembly);
         if (!(std::abs(state.sine) >= tolerance::toggle_angle))
-          return fail(plan, motion, k, Status::singular);
+          return mark_failed(plan, motion, k, Status::singular);
         motion.closure_residual = std::max(motion.closure_residual, closure_of(g, motion));
     }
   }
@@ -175,6 +189,7 @@ void solve_velocity(const LinkagePlan& plan, std::span<const InputMotion> inputs
       case GroupType::gear:
         gear_velocity(g, inputs, motion);
         break;
+      case GroupType::triangle:
       case GroupType::general:
         general_velocity(plan, g, inputs, motion, *motion.general[k]);
         break;
@@ -196,6 +211,7 @@ void solve_acceleration(const LinkagePlan& plan, std::span<const InputMotion> in
       case GroupType::gear:
         gear_acceleration(g, inputs, motion);
         break;
+      case GroupType::triangle:
       case GroupType::general:
         general_acceleration(plan, g, inputs, motion, *motion.general[k]);
         break;
@@ -204,63 +220,6 @@ void solve_acceleration(const LinkagePlan& plan, std::span<const InputMotion> in
                  [&](auto type) { dyad_acceleration(type, g, motion.parts.data(), motion.groups[k]); });
     }
   }
-}
-
-FollowReport follow(const LinkagePlan& plan, std::span<const double> from, std::span<const double> to,
-                    LinkageMotion& motion) {
-  LINKWRIGHT_REQUIRE(from.size() == plan.inputs() && to.size() == plan.inputs(),
-                     "the linkage has {} inputs, got {} and {}", plan.inputs(), from.size(), to.size());
-  std::vector<InputMotion> inputs(plan.inputs());
-  const auto go = [&](double share) {
-    for (std::size_t i = 0; i < inputs.size(); ++i)
-      inputs[i] = {from[i] + share * (to[i] - from[i]), to[i] - from[i], 0};
-    solve_position(plan, inputs, motion);
-    return motion.status == Status::done;
-  };
-  if (plan.closed_form()) return {go(1), 1};
-  if (!go(0)) return {false, 0};
-  // Step by step along the way: predict by the velocities, correct, and refuse a step that ends far from
-  // where it was predicted or on the other side of a singular position.
-  double reached = 0, step = 0.1;
-  std::vector<PartState<double>> good = motion.parts;
-  std::vector<double> side(plan.groups.size());
-  const auto sides = [&](std::size_t k) {
-    return plan.groups[k].type == GroupType::general ? determinant_sign(*motion.general[k]) : 1.0;
-  };
-  for (std::size_t k = 0; k < side.size(); ++k) side[k] = sides(k);
-  while (reached < 1) {
-    solve_velocity(plan, inputs, motion);
-    good = motion.parts;
-    double furthest = 0;
-    const double next = std::min(1.0, reached + step), ahead = next - reached;
-    for (std::size_t p = 1; p < good.size(); ++p) {
-      PartState<double>& part = motion.parts[p];
-      part.origin = part.origin + ahead * part.velocity;
-      part.direction = turn(part.direction, unit(ahead * part.speed));
-      furthest = std::max({furthest, ahead * norm(part.velocity) / plan.size, std::abs(ahead * part.speed)});
-    }
-    const std::vector<PartState<double>> predicted = motion.parts;
-    bool fine = furthest < 0.3 && go(next);
-    for (std::size_t p = 1; fine && p < good.size(); ++p) {
-      const PartState<double>& part = motion.parts[p];
-      fine = norm(part.origin - predicted[p].origin) < 0.1 * plan.size &&
-             dot(part.direction, predicted[p].direction) > 0.995;
-    }
-    for (std::size_t k = 0; fine && k < side.size(); ++k) fine = sides(k) == side[k];
-    if (fine) {
-      reached = next;
-      step *= 1.5;
-      continue;
-    }
-    motion.parts = good;
-    go(reached);
-    step *= 0.5;
-    if (step < 1e-9) {
-      motion.status = Status::limit_reached;
-      return {false, reached};
-    }
-  }
-  return {};
 }
 
 void solve_motion(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion) {

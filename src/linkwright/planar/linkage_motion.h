@@ -36,7 +36,7 @@ class LinkageMotion {
   std::vector<GroupState<double>> groups;  ///< one a group
   /// Sign of the assembly mode in use, one a group: those of the plan unless changed.
   std::vector<double> modes;
-  std::vector<GeneralGroupPointer> general;  ///< null for closed forms
+  std::vector<GeneralGroupPointer> general;  ///< of groups with a matrix, else null
 };
 
 /// A point of a body in the global frame: where it is and how it moves.
@@ -63,8 +63,8 @@ void solve_acceleration(const LinkagePlan& plan, std::span<const InputMotion> in
 /// Position, velocity and acceleration in one call.
 void solve_motion(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion);
 
-/// Follows the linkage from the inputs it stands at to others, with steps that get shorter where the
-/// mechanism changes fast, so that general groups stay on their branch. False (and the status in `motion`,
+/// Follows the linkage from the inputs it stands at to others, so that general groups stay on
+/// their assembly mode (ModeCurve; change points end the way). False (and the status in `motion`,
 /// which stays at the last good place: `reached` of the way, 0 to 1) when there is no way. Plans in closed
 /// form need no way and are placed directly.
 struct FollowReport {
@@ -73,5 +73,9 @@ struct FollowReport {
 };
 FollowReport follow(const LinkagePlan& plan, std::span<const double> from, std::span<const double> to,
                     LinkageMotion& motion);
+
+/// Marks a group, and those behind it, as not placed: positions are NaN, but those of groups without closed
+/// form stay for the next search.
+void mark_failed(const LinkagePlan& plan, LinkageMotion& motion, std::size_t group, Status status);
 
 }  // namespace linkwright::planar

@@ -41,10 +41,11 @@ class Planner {
     plan().group_of_part.assign(parts(), -1);
     affine_.assign(parts(), std::nullopt);
     affine_[0] = Affine{0, std::vector<double>(l_.driven.size(), 0.0)};
-    while (drive() || gear() || dyad() || general()) {
+    while (drive() || gear() || dyad() || triangle() || general()) {
     }
     diagnose();
     if (result_.problems.empty()) modes();
+    if (result_.problems.empty()) drawn_inputs();
     if (result_.problems.empty() && route == PlanRoute::all_at_once) merge();
     return std::move(result_);
   }
@@ -341,6 +342,43 @@ class Planner {
     return false;
   }
 
+  // Two bodies with a drive between them, pinned to a known part and to an arm on another known pin.
+  bool triangle() {
+    for (Link& inner : links_) {
+      if (inner.used || inner.input < 0) continue;
+      for (const bool swapped : {false, true}) {
+        const int x = swapped ? inner.second.part : inner.first.part,
+                  y = swapped ? inner.first.part : inner.second.part;
+        Link* foot = known_[at(x)] || known_[at(y)] || geared(x) || geared(y) ? nullptr : to_known(x);
+        if (!foot || foot->slide) continue;
+        for (Link& tip : links_) {
+          if (tip.used || tip.slide || tip.input >= 0 || (tip.first.part != y && tip.second.part != y))
+            continue;
+          const int z = tip.first.part == y ? tip.second.part : tip.first.part;
+          Link* base = z == x || known_[at(z)] || geared(z) ? nullptr : to_known(z);
+          if (!base || base->slide) continue;
+          std::vector<bool> chosen(parts(), false);
+          chosen[at(x)] = chosen[at(y)] = chosen[at(z)] = true;
+          if (equations(chosen) != 9) continue;
+          Group g;
+          g.type = GroupType::triangle;
+          g.parts = {x, y, z};
+          const int known = foot->first.part == x ? foot->second.part : foot->first.part;
+          g.joints = {chained(*foot, known), chained(inner, x), chained(tip, y), chained(*base, z)};
+          g.inputs = {-1, inner.input, -1, -1};
+          g.second_link = g.joints[2].after.at - g.joints[3].before.at;
+          g.second_square = dot(g.second_link, g.second_link);
+          g.second_length = std::sqrt(g.second_square);
+          if (g.second_square > 0) g.second_inverse = (1 / g.second_square) * conj(g.second_link);
+          foot->used = inner.used = tip.used = base->used = true;
+          place(std::move(g));
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
   // Equations of the links that run inside `chosen` and to known parts, or -1 when a gear is among them.
   int equations(const std::vector<bool>& chosen) const {
     int count = 0;
@@ -557,9 +595,11 @@ class Planner {
       for (Index i = 0; i < l_.modes.size(); ++i) {
         const DyadMode& m = l_.modes[i];
         const int a = part_of(m.first), b = part_of(m.second);
-        const bool straight = a == g.parts[0] && (b == g.parts[1] || (a == b && is_block(g.parts[1])));
-        const bool swapped =
-            (a == g.parts[1] && b == g.parts[0]) || (a == b && a == g.parts[1] && is_block(g.parts[0]));
+        const bool driven = g.type == GroupType::triangle;
+        const int first = driven && (a == g.parts[1] || b == g.parts[1]) ? g.parts[1] : g.parts[0],
+                  second = g.parts.back();
+        const bool straight = a == first && (b == second || (a == b && is_block(second)));
+        const bool swapped = (a == second && b == first) || (a == b && a == second && is_block(first));
         if (!straight && !swapped) continue;
         used[i] = true;
         g.mode = sign(m.mode) * (swapped && g.type != GroupType::rrp ? -1 : 1);
@@ -577,6 +617,21 @@ class Planner {
               dyads.empty() ? "this linkage has no such pair" : "these are: " + dyads);
       }
   }
+  // What the driven joints stand at in the start poses.
+  void drawn_inputs() {
+    std::vector<double> values(l_.driven.size());
+    for (const Link& link : links_) {
+      if (link.input < 0) continue;
+      const auto &first = start_[at(link.first.part)], &second = start_[at(link.second.part)];
+      if (!first || !second) return;
+      const Vec<double> along = turn(unit(first->angle), link.first.direction),
+                        other = turn(unit(second->angle), link.second.direction),
+                        way = vec(math::transform(*second, number(link.second.at))) -
+                              vec(math::transform(*first, number(link.first.at)));
+      values[at(link.input)] = link.slide ? dot(along, way) : angle_of(unturn(along, other));
+    }
+    plan().drawn_inputs = std::move(values);
+  }
   std::string name_or_number(int body) const {
     return body >= 0 && body < static_cast<int>(l_.bodies.size()) ? body_name(body) : std::to_string(body);
   }
@@ -591,9 +646,11 @@ class Planner {
       return vec(math::transform(*start_[at(p.part)], number(p.at)));
     };
     const auto along = [&](const PartPoint& p) { return turn(unit(start_[at(p.part)]->angle), p.direction); };
-    const Vec<double> a = there(g.joints[0].before), b = there(g.joints[2].after);
+    const Vec<double> a = there(g.joints[0].before), b = there(g.joints.back().after);
     double side = 0;
-    if (g.type == GroupType::rrr)
+    if (g.type == GroupType::triangle)
+      side = cross(b - a, there(g.joints[2].before) - a);
+    else if (g.type == GroupType::rrr)
       side = cross(b - a, there(g.joints[1].before) - a);
     else if (g.type == GroupType::rrp)
       side = dot(along(g.joints[2].after), there(g.joints[1].before) - a);

@@ -14,8 +14,8 @@ namespace linkwright::planar {
 /// The order in which a linkage is solved: drivers first, then groups of bodies, each placed from those
 /// before it (Assur groups). Two bodies with three joints, a dyad, have closed forms; what does not fall into
 /// dyads is a general group and solved by Newton's method.
-enum class GroupType { driver, gear, rrr, rrp, rpr, prp, rpp, general };
-constexpr std::array<EnumName<GroupType>, 8> names(GroupType) {
+enum class GroupType { driver, gear, rrr, rrp, rpr, prp, rpp, triangle, general };
+constexpr std::array<EnumName<GroupType>, 9> names(GroupType) {
   return {{{GroupType::driver, "driver", "a body placed by its drive"},
            {GroupType::gear, "gear", "a body on a known pin, turned by a gear"},
            {GroupType::rrr, "RRR", "dyad of three pins"},
@@ -23,11 +23,18 @@ constexpr std::array<EnumName<GroupType>, 8> names(GroupType) {
            {GroupType::rpr, "RPR", "dyad pin, slide, pin"},
            {GroupType::prp, "PRP", "dyad slide, pin, slide"},
            {GroupType::rpp, "RPP", "dyad pin, slide, slide"},
+           {GroupType::triangle, "triangle",
+            "two bodies with a drive between them, as a cylinder, hold an arm: a triangle of pins"},
            {GroupType::general, "general", "group without closed form, solved by Newton's method"}}};
 }
-/// Whether such a dyad can be assembled in two ways.
+/// Whether such a group is assembled in closed form, in two ways.
 constexpr bool has_modes(GroupType type) {
-  return type == GroupType::rrr || type == GroupType::rrp || type == GroupType::rpr;
+  return type == GroupType::rrr || type == GroupType::rrp || type == GroupType::rpr ||
+         type == GroupType::triangle;
+}
+/// Whether rates and forces of such a group come from one matrix of all its joint equations.
+constexpr bool has_matrix(GroupType type) {
+  return type == GroupType::general || type == GroupType::triangle;
 }
 
 /// One side of a joint as the solver sees it: a part with a point, and a direction for slides.
@@ -48,11 +55,12 @@ struct PlanJoint {
 /// One step of the solution.
 struct Group {
   GroupType type = GroupType::driver;
-  std::vector<int> parts;  ///< that this group places; two of a dyad, chain order
-  std::vector<PlanJoint>
-      joints;               ///< 1 of a driver or gear, 3 of a dyad in chain order, more of a general one
+  std::vector<int> parts;  ///< that this group places; two of a dyad, three of a triangle, chain order
+  /// 1 of a driver or gear, 3 of a dyad and 4 of a triangle in chain order, more of a general one. A triangle:
+  /// known part, pin, first body, drive, second body, pin, arm, pin, known part.
+  std::vector<PlanJoint> joints;
   int input = -1;           ///< of a driver: index into the inputs
-  std::vector<int> inputs;  ///< of a general group with drives inside: one a driven joint, else -1
+  std::vector<int> inputs;  ///< of groups with drives inside: one a driven joint, else -1
   /// gear: turns the part `ratio` times as fast as part `turning`, both seen from part `carrier`.
   double ratio = 1;
   int turning = 0, carrier = 0, gear_joint = -1;
@@ -64,7 +72,7 @@ struct Group {
   double mode = 1;
   bool mode_given = false;
   std::vector<math::Pose> start;  ///< of the parts of a general group, where given; else empty
-  // Constants of the closed forms.
+  // Constants of the closed forms; of a triangle those of the arm alone, as `second`.
   Vec<double> first_link{0, 0}, second_link{0, 0};  ///< from outer to inner joint in the frames of the parts
   double first_square = 0, second_square = 0;       ///< their squared lengths
   double first_length = 0, second_length = 0;
@@ -101,6 +109,9 @@ struct LinkagePlan {
   std::vector<int> group_of_part;  ///< -1 of the ground
   std::vector<bool> rotary;        ///< one an input: whether its joint turns
   double size = 1;                 ///< characteristic length, m
+  /// Inputs of the position that the start poses show, one an input; empty when they do not show all of them.
+  /// Angles are in (-pi, pi].
+  std::vector<double> drawn_inputs;
 
   std::size_t inputs() const { return rotary.size(); }
   /// Whether all groups have closed forms, so that no search and no history is needed.

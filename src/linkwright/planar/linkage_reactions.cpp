@@ -51,31 +51,52 @@ const PartState<double>& part_of(const LinkagePlan& plan, const LinkageMotion& m
 
 double sign_of(double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; }
 
-// Friction by the joint forces found last, as loads on both bodies.
-void friction_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
-                    const std::vector<JointReaction>& joints, std::vector<AppliedLoad>& loads) {
+// What the friction of a joint is proportional to, times its coefficient: N m of a pin, N of a slide.
+double friction_size(const LinkageJoint& j, const JointReaction& r, const Vec<double>& along) {
+  if (j.type == JointType::revolute) return j.friction * j.pin_radius * norm(r.force);
+  const double normal = cross(along, r.force);
+  if (j.guide_length > 0)
+    return j.friction * (std::abs(normal / 2 + r.moment / j.guide_length) +
+                         std::abs(normal / 2 - r.moment / j.guide_length));
+  return j.friction * std::abs(normal);
+}
+
+// Joints with friction that slide, in which sense.
+struct Sliding {
+  std::size_t joint;
+  double sense;
+  Vec<double> along;  // of a slide
+};
+std::vector<Sliding> sliding_joints(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
+                                    const std::vector<JointReaction>& joints) {
+  std::vector<Sliding> out;
   for (std::size_t k = 0; k < l.joints.size(); ++k) {
     const LinkageJoint& j = l.joints[k];
     if (j.friction == 0) continue;
-    const JointReaction& r = joints[k];
     const PartState<double>&first = part_of(plan, motion, j.first.body),
           &second = part_of(plan, motion, j.second.body);
     if (j.type == JointType::revolute) {
-      const double torque = -j.friction * j.pin_radius * norm(r.force) * sign_of(second.speed - first.speed);
-      loads.push_back({j.second.body, r.point, {0, 0}, torque});
-      loads.push_back({j.first.body, r.point, {0, 0}, -torque});
+      out.push_back({k, sign_of(second.speed - first.speed), {0, 0}});
     } else {
       const Vec<double> along = turn(body_state(plan, motion, j.first.body).direction, unit(j.slide_first));
-      const double normal = cross(along, r.force);
-      double pressed = std::abs(normal);
-      if (j.guide_length > 0)
-        pressed = std::abs(normal / 2 + r.moment / j.guide_length) +
-                  std::abs(normal / 2 - r.moment / j.guide_length);
-      const double sliding = dot(along, velocity_at(second, r.point) - velocity_at(first, r.point));
-      const Vec<double> force = (-j.friction * pressed * sign_of(sliding)) * along;
-      loads.push_back({j.second.body, r.point, force, 0});
-      loads.push_back({j.first.body, r.point, -force, 0});
+      const double sliding =
+          dot(along, velocity_at(second, joints[k].point) - velocity_at(first, joints[k].point));
+      out.push_back({k, sign_of(sliding), along});
     }
+  }
+  return out;
+}
+// Friction of given size, as loads on both bodies.
+void friction_load(const LinkageJoint& j, const Sliding& s, const Vec<double>& point, double size,
+                   std::vector<AppliedLoad>& loads) {
+  if (j.type == JointType::revolute) {
+    const double torque = -size * s.sense;
+    loads.push_back({j.second.body, point, {0, 0}, torque});
+    loads.push_back({j.first.body, point, {0, 0}, -torque});
+  } else {
+    const Vec<double> force = (-size * s.sense) * s.along;
+    loads.push_back({j.second.body, point, force, 0});
+    loads.push_back({j.first.body, point, -force, 0});
   }
 }
 
@@ -102,8 +123,7 @@ double along_drive(const PlanJoint& j, const LinkageMotion& motion, const Wrench
 void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& motion, LinkageForces& f) {
   const Vec<double> gravity = vec(linkage.gravity);
   for (std::size_t p = 0; p < plan.parts.size(); ++p)
-    f.needed[p] =
-        p == 0 ? Wrench<double>{{0, 0}, 0} : needed_wrench(plan.masses[p], motion.parts[p], gravity);
+    f.needed[p] = needed_wrench(plan.masses[p], motion.parts[p], gravity);
   for (const AppliedLoad& load : f.loads) {
     const int part = plan.bodies[at(load.body)].part;
     Wrench<double>& n = f.needed[at(part)];
@@ -132,6 +152,7 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
         f.needed[at(g.carrier)].moment += (1 - g.ratio) * torque;
         break;
       }
+      case GroupType::triangle:
       case GroupType::general: {
         const std::span<Wrench<double>> joints(f.group_joints.data(), g.joints.size());
         general_forces(plan, g, motion, *motion.general[k], f.needed, joints, f.group_drives);
@@ -264,6 +285,132 @@ double largest_force(const LinkageForces& f) {
   return largest;
 }
 
+// The friction of the forces of the last pass, again and again: a contraction while friction is moderate.
+bool settle_by_passes(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
+                      const std::vector<Sliding>& sliding, std::size_t others, LinkageForces& f) {
+  double change = 1;
+  for (f.iterations = 1; f.iterations <= 200; ++f.iterations) {
+    const std::vector<JointReaction> before = f.joints;
+    f.loads.resize(others);
+    for (const Sliding& s : sliding)
+      friction_load(l.joints[s.joint], s, before[s.joint].point,
+                    friction_size(l.joints[s.joint], before[s.joint], s.along), f.loads);
+    pass(plan, l, motion, f);
+    change = 0;
+    for (std::size_t k = 0; k < before.size(); ++k)
+      change = std::max({change, norm(f.joints[k].force - before[k].force),
+                         std::abs(f.joints[k].moment - before[k].moment) / plan.size});
+    if (!(change > 1e-12 * largest_force(f))) break;
+  }
+  return change <= 1e-12 * largest_force(f) && std::isfinite(change);
+}
+
+// Joint forces are affine in the sizes z of the frictions, and these are functions of the forces, times their
+// coefficients: z = t g(z) with t = 1. From t = 0, without friction, z is followed as the coefficients grow
+// together; Newton's method takes each step. Where z goes to infinity before t = 1, or the solutions meet and
+// turn back, friction blocks: no finite force of the drives keeps the motion going.
+Status settle_by_growth(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
+                        std::vector<Sliding> sliding, std::size_t others, LinkageForces& f) {
+  std::erase_if(sliding, [](const Sliding& s) { return s.sense == 0; });
+  const std::size_t n = sliding.size();
+  const auto forces_at = [&](const std::vector<double>& z) {
+    f.loads.resize(others);
+    for (std::size_t k = 0; k < n; ++k)
+      friction_load(l.joints[sliding[k].joint], sliding[k], f.joints[sliding[k].joint].point, z[k], f.loads);
+    pass(plan, l, motion, f);
+  };
+  std::vector<double> z(n, 0.0);
+  forces_at(z);
+  const std::vector<JointReaction> base = f.joints;
+  std::vector<std::vector<JointReaction>> unit_forces;
+  const double measure = largest_force(f) > 0 ? largest_force(f) : 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::vector<double> one(n, 0.0);
+    one[k] = measure;
+    forces_at(one);
+    unit_forces.push_back(f.joints);
+    for (std::size_t j = 0; j < base.size(); ++j) {
+      JointReaction& r = unit_forces[k][j];
+      r.force = (1 / measure) * (r.force - base[j].force);
+      r.moment = (r.moment - base[j].moment) / measure;
+    }
+  }
+  const auto reaction = [&](std::size_t joint, const std::vector<double>& sizes) {
+    JointReaction r = base[joint];
+    for (std::size_t k = 0; k < n; ++k) {
+      r.force = r.force + sizes[k] * unit_forces[k][joint].force;
+      r.moment += sizes[k] * unit_forces[k][joint].moment;
+    }
+    return r;
+  };
+  const auto size_at = [&](std::size_t k, const std::vector<double>& sizes) {
+    const std::size_t joint = sliding[k].joint;
+    return friction_size(l.joints[joint], reaction(joint, sizes), sliding[k].along);
+  };
+  std::vector<double> matrix(n * n), right(n);
+  // I - t dg/dz at z, by central differences of what is piecewise a norm; and its determinant by elimination.
+  const auto newton = [&](double t, std::vector<double>& at_z, double& determinant) {
+    for (int i = 0; i < 50; ++i) {
+      double largest = measure;
+      for (const double v : at_z) largest = std::max(largest, std::abs(v));
+      for (std::size_t k = 0; k < n; ++k) {
+        right[k] = t * size_at(k, at_z) - at_z[k];
+        for (std::size_t m = 0; m < n; ++m) {
+          std::vector<double> more = at_z, less = at_z;
+          const double h = 1e-6 * largest;
+          more[m] += h, less[m] -= h;
+          matrix[k * n + m] = (k == m ? 1 : 0) - t * (size_at(k, more) - size_at(k, less)) / (2 * h);
+        }
+      }
+      double wrong = 0;
+      for (const double v : right) wrong = std::max(wrong, std::abs(v));
+      determinant = 1;
+      for (std::size_t c = 0; c < n; ++c) {
+        std::size_t best = c;
+        for (std::size_t r = c + 1; r < n; ++r)
+          if (std::abs(matrix[r * n + c]) > std::abs(matrix[best * n + c])) best = r;
+        if (best != c) {
+          for (std::size_t m = 0; m < n; ++m) std::swap(matrix[c * n + m], matrix[best * n + m]);
+          std::swap(right[c], right[best]);
+          determinant = -determinant;
+        }
+        const double pivot = matrix[c * n + c];
+        determinant *= pivot;
+        if (pivot == 0) return false;
+        for (std::size_t r = c + 1; r < n; ++r) {
+          const double share = matrix[r * n + c] / pivot;
+          for (std::size_t m = c; m < n; ++m) matrix[r * n + m] -= share * matrix[c * n + m];
+          right[r] -= share * right[c];
+        }
+      }
+      for (std::size_t c = n; c-- > 0;) {
+        for (std::size_t m = c + 1; m < n; ++m) right[c] -= matrix[c * n + m] * right[m];
+        right[c] /= matrix[c * n + c];
+      }
+      if (wrong <= 1e-14 * largest || (i > 5 && wrong <= 1e-12 * largest)) return true;
+      for (std::size_t k = 0; k < n; ++k) at_z[k] += right[k];
+    }
+    return false;
+  };
+  double t = 0, step = 0.25;
+  while (t < 1) {
+    const double next = std::min(1.0, t + step);
+    std::vector<double> trial = z;
+    double determinant = 0;
+    const bool good = newton(next, trial, determinant) && determinant > 0 &&
+                      std::all_of(trial.begin(), trial.end(), [](double v) { return v >= 0; });
+    if (good) {
+      z = std::move(trial);
+      t = next;
+      step *= 2;
+    } else if ((step *= 0.5) < 1e-9) {
+      return Status::self_locking;
+    }
+  }
+  forces_at(z);
+  return Status::done;
+}
+
 }  // namespace
 
 void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, double time,
@@ -318,21 +465,10 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
   const std::size_t others = f.loads.size();
   pass(plan, l, motion, f);
   if (std::any_of(l.joints.begin(), l.joints.end(), [](const LinkageJoint& j) { return j.friction > 0; })) {
-    double change = 1;
-    for (f.iterations = 1; f.iterations <= 200; ++f.iterations) {
-      const std::vector<JointReaction> before = f.joints;
-      f.loads.resize(others);
-      friction_loads(l, plan, motion, before, f.loads);
-      pass(plan, l, motion, f);
-      change = 0;
-      for (std::size_t k = 0; k < before.size(); ++k)
-        change = std::max({change, norm(f.joints[k].force - before[k].force),
-                           std::abs(f.joints[k].moment - before[k].moment) / plan.size});
-      if (!(change > 1e-12 * largest_force(f))) break;
-    }
-    if (!(change <= 1e-12 * largest_force(f)) || !std::isfinite(change)) {
-      f.status = Status::not_converged;
-      return nothing(f);
+    const std::vector<Sliding> sliding = sliding_joints(l, plan, motion, f.joints);
+    if (!settle_by_passes(l, plan, motion, sliding, others, f)) {
+      f.status = settle_by_growth(l, plan, motion, sliding, others, f);
+      if (f.status != Status::done) return nothing(f);
     }
   }
   f.shaking_force = -f.needed[0].force;

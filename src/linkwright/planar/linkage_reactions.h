@@ -27,11 +27,12 @@ struct AppliedLoad {
 
 /// Joint forces of a linkage at one instant; use one again and again.
 struct LinkageForces {
-  Status status = Status::done;       ///< that of the motion; not_converged when friction does not settle
+  Status status = Status::done;       ///< that of the motion; self_locking when friction blocks it
   std::vector<JointReaction> joints;  ///< one a joint of the linkage
   std::vector<double> drives;  ///< one an input: torque (N m) or force (N) of the first body on the second
-  std::vector<AppliedLoad> loads;   ///< springs, forces, torques, friction as they acted; no weight
-  Vec<double> shaking_force{0, 0};  ///< of the mechanism on the ground, weight included
+  std::vector<AppliedLoad> loads;  ///< springs, forces, torques, friction as they acted; no weight
+  Vec<double> shaking_force{
+      0, 0};  ///< of the mechanism, and of what is welded to the ground, on the ground, weight included
   /// The moment on the ground about the global origin, with everything that acts on it ...
   double shaking_moment_with_drive = 0;
   /// ... and without the torques of drives that stand on the ground.
@@ -55,11 +56,12 @@ void applied_loads(const Linkage& linkage, const LinkagePlan& plan, const Linkag
 /// All joint forces, drive torques and what the ground feels, by d'Alembert's principle along the
 /// decomposition, last group first: 3 x 3 (in fact 2 x 2) equations a dyad. After solve_acceleration of the
 /// same motion; with a plan made `all_at_once` the Newton-Euler equations of all bodies in one linear system,
-/// the independent route. Friction of joints is iterated until joint forces change by less than 1e-12 of the
-/// largest.
+/// the independent route. Friction of joints is settled until joint forces change by less than 1e-12 of the
+/// largest; of several solutions it is the one that grows out of that without friction. Where that one ceases
+/// to exist before friction has its size the status is self_locking.
 ///
-/// The status is that of the motion; forces are NaN unless it is done. Throws ContractError when a body has
-/// no mass (see LinkagePlan::massless).
+/// Else the status is that of the motion; forces are NaN unless it is done. Throws ContractError when a body
+/// has no mass (see LinkagePlan::massless).
 void solve_forces(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion, double time,
                   double input, LinkageForces& forces);
 

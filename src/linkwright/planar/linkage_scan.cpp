@@ -7,6 +7,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/zero.h"
+#include "linkwright/planar/linkage_triangle.h"
 
 namespace linkwright::planar {
 namespace {
@@ -45,7 +46,7 @@ GroupScan::Closure GroupScan::closure(std::size_t k, double value) {
   m.failed_group = static_cast<int>(k);
   solve_velocity(plan, inputs_, m);
   const Group& g = plan.groups[k];
-  const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
+  const PlanJoint &j1 = g.joints.front(), &j3 = g.joints.back();
   const PartState<double>&before = m.parts[at(j1.before.part)], &after = m.parts[at(j3.after.part)];
   const Vec<double> a = point_on(before, j1.before.at), b = point_on(after, j3.after.at);
   const Vec<double> d = b - a, slip = velocity_at(after, b) - velocity_at(before, a);
@@ -57,6 +58,16 @@ GroupScan::Closure GroupScan::closure(std::size_t k, double value) {
       return {(reach - length) * (reach + length) * (length - fold) * (length + fold),
               2 * dot(d, slip) * (reach * reach + fold * fold - 2 * square),
               std::min(std::abs(reach - length), std::abs(length - fold)) / reach};
+    }
+    case GroupType::triangle: {
+      const InputMotion& drive = inputs_[at(g.inputs[1])];
+      const DrivenSide side = driven_side(g, drive.value);
+      const double l1 = norm(side.way), reach = l1 + g.second_length, fold = l1 - g.second_length,
+                   square = dot(d, d), longer = dot(side.way, side.rate) / l1 * drive.rate;
+      return {(reach - length) * (reach + length) * (length - fold) * (length + fold),
+              2 * dot(d, slip) * (reach * reach + fold * fold - 2 * square) +
+                  2 * longer * (reach * (square - fold * fold) - fold * (reach * reach - square)),
+              std::min(std::abs(reach - length), std::abs(length - std::abs(fold))) / reach};
     }
     case GroupType::rrp: {
       const Vec<double> e = turn(after.direction, j3.after.direction);

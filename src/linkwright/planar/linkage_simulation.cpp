@@ -10,7 +10,9 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage_assembly.h"
 #include "linkwright/planar/linkage_dynamics.h"
+#include "linkwright/planar/linkage_quality.h"
 #include "linkwright/planar/linkage_smooth_branch.h"
 
 namespace linkwright::planar {
@@ -22,6 +24,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double dead_sine = 1e-3;
 // From here on a group is watched for its dead point.
 constexpr double watched_sine = 0.3;
+// Friction chatters when a joint turns round in a tenth of so many steps, and these take so small a share of
+// the time.
+constexpr long chatter_steps = 100;
+constexpr double chatter_share = 1e-5;
 
 std::string place(const Linkage& l, const LinkagePlan& plan, std::size_t input, double value) {
   const std::string& name = l.joints[at(l.driven[input])].name;
@@ -35,6 +41,7 @@ class Simulation {
              const SimulationOptions& options, const SimulationOutput& output, const SimulationWatch& watch)
       : l_(l),
         plan_(plan),
+        courses_(courses),
         options_(options),
         output_(output),
         watch_(watch),
@@ -57,16 +64,25 @@ class Simulation {
   }
 
   SimulationReport run(std::span<const double> times, const RunContext* context) {
+    breaks_ = breaks_of(l_, courses_, times.front(), times.back());
     if (!start(times.front())) return std::move(report_);
     std::vector<double> y = state();
     std::vector<double> tolerances;
-    for (std::size_t i = 0; i < 2; ++i)
-      for (const std::size_t k : dynamics_.free())
-        tolerances.push_back(options_.absolute_tolerance * (plan_.rotary[k] ? 1 : plan_.size));
+    const auto free = dynamics_.free();
+    for (const std::span<const double> coarser : {options_.value_resolution, options_.rate_resolution})
+      for (std::size_t i = 0; i < free.size(); ++i) {
+        const double asked = options_.absolute_tolerance * (plan_.rotary[free[i]] ? 1 : plan_.size);
+        tolerances.push_back(coarser.empty() ? asked : std::max(asked, coarser[i]));
+      }
     tolerances.push_back(work_tolerance());
     std::vector<math::OdeEvent> events;
     if (stops_at_changes()) events.resize(2, {.crossing = math::OdeCrossing::falling});
     if (watches_rest()) events.push_back({.crossing = math::OdeCrossing::either});
+    if (friction_ && !watches_rest())
+      for (std::size_t j = 0; j < l_.joints.size(); ++j)
+        if (l_.joints[j].friction > 0) rubbing_.push_back(static_cast<int>(j));
+    rates_.assign(rubbing_.size(), 1.0);
+    events.resize(events.size() + rubbing_.size(), {.crossing = math::OdeCrossing::either});
     first_watched_ = events.size();
     events.resize(first_watched_ + watch_.count);
     watched_.assign(watch_.count, 1);
@@ -83,6 +99,9 @@ class Simulation {
           values[i++] = std::min(above_ - now[0], 1.0);
         }
         if (watches_rest()) values[i] = now[1];
+        if (!rubbing_.empty()) rubbing_rates(t, now);
+        std::copy(rates_.begin(), rates_.end(),
+                  values.begin() + static_cast<std::ptrdiff_t>(first_watched_ - rates_.size()));
         // Beyond what can be placed they stay what they were.
         if (watch_.count > 0 && watched(t, now).status == Status::done) watch_.values(instant_, watched_);
         std::copy(watched_.begin(), watched_.end(),
@@ -92,15 +111,20 @@ class Simulation {
         return act(t, which, now);
       };
     }
-    math::OdeWorkspace workspace;
-    const math::OdeReport ode = math::integrate(
+    if (stuck_) {  // from the start on
+      show(times.front(), y);
+      finish({.t = times.front()}, y);
+      return std::move(report_);
+    }
+    span_ = times.back() - times.front();
+    const math::OdeReport ode = integrate_by_pieces(
         [&](double t, std::span<const double> now, std::span<double> rate) { return slope(t, now, rate); }, y,
-        times.front(), times.back(),
+        times.front(), times.back(), breaks_,
         {.method = options_.method,
          .relative_tolerance = options_.relative_tolerance,
          .absolute_tolerances = tolerances,
          .max_steps = options_.max_steps},
-        hooks, workspace);
+        hooks);
     finish(ode, y);
     return std::move(report_);
   }
@@ -237,7 +261,25 @@ class Simulation {
       branch_.emplace(plan_, inputs_[0].value, dynamics_.motion.modes);
       if (branch_->path().status != Status::done) branch_.reset();
     }
-    const Answer answer = solve(t);
+    if (!plan_.closed_form()) {
+      // The mode that the drawing shows, wherever the motion starts.
+      InputReach reach;
+      for (const InputMotion& i : inputs_) reach.low.push_back(i.value), reach.high.push_back(i.value);
+      LinkageAssembly(plan_, reach, AtChangePoint::stop).place(inputs_, dynamics_.motion);
+      if (dynamics_.motion.status != Status::done) {
+        report_.status = dynamics_.motion.status;
+        report_.group = dynamics_.motion.failed_group;
+        report_.message = start_message(report_.status);
+        return false;
+      }
+    }
+    Answer answer = solve(t);
+    if (watches_rest() && inputs_[dynamics_.free()[0]].rate == 0) {
+      const InputMotion here = inputs_[dynamics_.free()[0]];
+      stuck_ = holds(t);
+      inputs_[dynamics_.free()[0]] = here;
+      answer = solve(t);
+    }
     if (answer.status != Status::done) {
       report_.status = answer.status;
       report_.group = dynamics_.motion.failed_group;
@@ -326,6 +368,7 @@ class Simulation {
     last_time_ = t;
     last_ = inputs_[0];
     report_.time = t;
+    if (friction_ && chatters(t)) return false;
     if (branch_ && branch_->path().period > 0) {
       note_passages(time_before, before);
       return true;
@@ -416,6 +459,17 @@ class Simulation {
     }
     for (const std::size_t event : which) {
       if (event >= first_watched_) continue;
+      if (!rubbing_.empty()) {
+        const int joint = rubbing_[event];
+        put(t, y);
+        if (sticks(t, joint)) {
+          chattering_ = joint;
+          rests_ = fastest() < 1e-5 * largest_rate_;
+          return math::OdeAction::stop;
+        }
+        action = math::OdeAction::restart;  // friction changes its sign
+        continue;
+      }
       if (!stops_at_changes() || event >= 2) {
         put(t, y);
         if (holds(t)) {
@@ -505,6 +559,86 @@ class Simulation {
     return lost;
   }
 
+  // Where friction turns round again and again while time hardly passes, a joint sticks while others move:
+  // the equations of joints that slide have no motion there.
+  bool chatters(double t) {
+    if (senses_.empty()) {
+      senses_.assign(l_.joints.size(), 0.0);
+      turns_.assign(l_.joints.size(), 0);
+      window_ = t;
+    }
+    solve(t);
+    const double largest = fastest();
+    largest_rate_ = std::max(largest_rate_, largest);
+    for (std::size_t j = 0; j < l_.joints.size(); ++j) {
+      if (l_.joints[j].friction == 0) continue;
+      const double rate = joint_motion(l_, plan_, dynamics_.motion, static_cast<int>(j)).rate;
+      const double sense = rate > 0 ? 1 : rate < 0 ? -1 : 0;
+      turns_[j] += senses_[j] * sense < 0;
+      senses_[j] = sense;
+    }
+    if (++steps_ % chatter_steps != 0) return false;
+    const auto most = std::max_element(turns_.begin(), turns_.end());
+    const bool still = t - window_ < chatter_share * span_ && *most >= chatter_steps / 10;
+    if (still) {
+      chattering_ = static_cast<int>(most - turns_.begin());
+      rests_ = largest < 1e-5 * largest_rate_;
+    }
+    window_ = t;
+    std::fill(turns_.begin(), turns_.end(), 0);
+    return still;
+  }
+
+  double fastest() const {
+    double largest = 0;
+    for (const std::size_t k : dynamics_.free()) largest = std::max(largest, std::abs(inputs_[k].rate));
+    return largest;
+  }
+  // Rates of the joints with friction; beyond what can be placed they stay what they were.
+  void rubbing_rates(double t, std::span<const double> y) {
+    put(t, y);
+    LinkageMotion& motion = dynamics_.motion;
+    solve_position(plan_, inputs_, motion);
+    if (motion.status != Status::done) return restore();
+    solve_velocity(plan_, inputs_, motion);
+    for (std::size_t i = 0; i < rubbing_.size(); ++i)
+      rates_[i] = joint_motion(l_, plan_, motion, rubbing_[i]).rate;
+  }
+  // A joint that has come to rest sticks when friction stops it either way. inputs_ are those of the moment.
+  bool sticks(double t, int joint) {
+    const std::vector<InputMotion> here = inputs_;
+    LinkageMotion& motion = dynamics_.motion;
+    const auto rate_of = [&](std::span<const InputMotion> inputs) {
+      solve_velocity(plan_, inputs, motion);
+      return joint_motion(l_, plan_, motion, joint).rate;
+    };
+    solve_position(plan_, here, motion);
+    const double rate = rate_of(here);
+    std::vector<double> share;
+    double square = 0;
+    for (const std::size_t k : dynamics_.free()) {
+      std::vector<InputMotion> one = here;
+      for (InputMotion& i : one) i.rate = 0;
+      one[k].rate = 1;
+      share.push_back(rate_of(one));
+      square += share.back() * share.back();
+    }
+    if (!(square > 1e-12)) return false;  // the joint stands still whatever moves
+    double acceleration[2];
+    bool answered = true;
+    for (int side = 0; side < 2 && answered; ++side) {
+      inputs_ = here;
+      const double wanted = (side == 0 ? 1e-9 : -1e-9) - rate;
+      for (std::size_t i = 0; i < share.size(); ++i)
+        inputs_[dynamics_.free()[i]].rate += wanted * share[i] / square;
+      answered = solve(t).status == Status::done;
+      solve_motion(plan_, inputs_, motion);
+      acceleration[side] = joint_motion(l_, plan_, motion, joint).acceleration;
+    }
+    inputs_ = here;
+    return !answered || (acceleration[0] < 0 && acceleration[1] > 0);
+  }
+
   // Friction holds a linkage at rest when it stops motion either way.
   bool holds(double t) {
     const std::size_t k = dynamics_.free()[0];
@@ -526,9 +660,21 @@ class Simulation {
     report_.time = ode.t;
     put(ode.t, y);
     const std::string where = fmt::format("{:.6g} s with {}", at_limit_ ? limit_time_ : ode.t, stands());
-    if (stuck_) {
-      report_.status = Status::singular;
+    if (chattering_ < 0 && friction_ && ode.status != Status::done && ode.status != Status::cancelled &&
+        ode.status != Status::deadline && !turns_.empty()) {
+      // Steps that became too short before the window was full.
+      const auto most = std::max_element(turns_.begin(), turns_.end());
+      if (*most >= 5) chattering_ = static_cast<int>(most - turns_.begin());
+    }
+    if (stuck_ || (chattering_ >= 0 && rests_)) {
+      report_.status = Status::at_rest;
       report_.message = fmt::format("friction holds the linkage at rest from {} on", where);
+    } else if (chattering_ >= 0) {
+      report_.status = Status::limit_reached;
+      report_.message = fmt::format(
+          "the motion cannot be followed beyond {}: the friction of joint '{}' holds it while others move on "
+          "(sticking joints are not computed)",
+          where, l_.joints[at(chattering_)].name);
     } else if (at_change_) {
       report_.status = Status::limit_reached;
       report_.message =
@@ -574,6 +720,7 @@ class Simulation {
 
   const Linkage& l_;
   const LinkagePlan& plan_;
+  std::span<const InputCourse> courses_;
   const SimulationOptions& options_;
   const SimulationOutput& output_;
   const SimulationWatch& watch_;
@@ -597,12 +744,71 @@ class Simulation {
   double horizon_ = infinity, limit_time_ = 0;
   double below_ = -infinity, above_ = infinity;
   bool at_limit_ = false, at_change_ = false, stuck_ = false;
+  std::vector<int> rubbing_;             // joints with friction, when several inputs are free
+  std::vector<double> rates_;            // of these joints
+  std::vector<double> breaks_, senses_;  // senses of joints with friction, one a joint
+  std::vector<long> turns_;              // of the senses, within the window
+  double span_ = 1, window_ = 0, largest_rate_ = 0;
+  long steps_ = 0;
+  int chattering_ = -1;  // joint
+  bool rests_ = false;
   Status last_status_ = Status::done;
   int failed_group_ = -1;
   SimulationReport report_;
 };
 
 }  // namespace
+
+std::vector<double> breaks_of(const Linkage& linkage, std::span<const InputCourse> courses, double from,
+                              double to) {
+  std::vector<double> out;
+  const auto corners = [&](const LoadFactor& f) {
+    if (f.against != LoadArgument::time) return;
+    for (const double t : f.argument)
+      if (t > from && t < to) out.push_back(t);
+  };
+  for (const InputCourse& c : courses)
+    if (c.law) {
+      const std::vector<double> own = math::breaks(*c.law, from, to);
+      out.insert(out.end(), own.begin(), own.end());
+    }
+  for (const PointForce& f : linkage.forces) corners(f.factor);
+  for (const BodyTorque& t : linkage.torques) corners(t.factor);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+math::OdeReport integrate_by_pieces(math::OdeFunction f, std::span<double> y, double from, double to,
+                                    std::span<const double> breaks, math::OdeOptions options,
+                                    math::OdeHooks hooks) {
+  math::OdeWorkspace workspace;
+  math::OdeReport sum;
+  const std::span<const double> outputs = hooks.output_times;
+  const auto output = hooks.output;
+  for (std::size_t i = 0; i <= breaks.size(); ++i) {
+    const bool last = i == breaks.size();
+    const double begin = i == 0 ? from : breaks[i - 1], end = last ? to : breaks[i];
+    // Laws are asked on this side of the breaks.
+    const double low = i == 0 ? begin : std::nextafter(begin, infinity),
+                 high = last ? end : std::nextafter(end, -infinity);
+    const auto first = std::lower_bound(outputs.begin(), outputs.end(), begin),
+               beyond = last ? outputs.end() : std::lower_bound(outputs.begin(), outputs.end(), end);
+    hooks.output_times = std::span(first, beyond);
+    hooks.output = first == beyond ? nullptr : output;
+    const auto inside = [&](double t, std::span<const double> now, std::span<double> rate) {
+      return f(std::clamp(t, low, high), now, rate);
+    };
+    const math::OdeReport piece = math::integrate(inside, y, begin, end, options, hooks, workspace);
+    const long steps = sum.steps + piece.steps, evaluations = sum.evaluations + piece.evaluations;
+    sum = piece;
+    sum.steps = steps;
+    sum.evaluations = evaluations;
+    if (piece.end != math::OdeEnd::time) break;
+    options.max_steps = std::max(1L, options.max_steps - piece.steps);
+  }
+  return sum;
+}
 
 SimulationReport simulate_watched(const Linkage& linkage, const LinkagePlan& plan,
                                   std::span<const InputCourse> courses, std::span<const double> times,

@@ -23,6 +23,9 @@ struct SimulationOptions {
   math::OdeMethod method = math::OdeMethod::explicit_runge_kutta_8;
   double relative_tolerance = 1e-9;
   double absolute_tolerance = 1e-10;  ///< rad and rad/s; of ways (m, m/s) times the size of the linkage
+  /// Absolute tolerances of the free inputs (rad, m), in their order, where they are more than the one above:
+  /// what their rounding leaves. And of their rates. Empty: none.
+  std::span<const double> value_resolution = {}, rate_resolution = {};
   long max_steps = 1'000'000;
   AtChangePoint at_change_point = AtChangePoint::smooth;
 };
@@ -63,8 +66,9 @@ struct ChangePassage {
 
 struct SimulationReport {
   /// done: the last time, or the output said stop; limit_reached: a limit of the motion, or a change point
-  /// with `stop`; no_assembly, singular: the start has no motion; singular later: friction holds the linkage,
-  /// so that its acceleration is not determined; not_converged; cancelled, deadline: rows so far are kept.
+  /// with `stop`, or a joint that friction holds while others move on; no_assembly, singular: the start has
+  /// no motion; at_rest: friction has brought the linkage to rest, or never lets it start, and holds it;
+  /// not_converged; cancelled, deadline. Rows so far are kept.
   Status status = Status::done;
   std::string message;       ///< why it is not `done`, in plain words; else empty
   double time = 0;           ///< reached, s
@@ -93,6 +97,16 @@ SimulationReport simulate(const Linkage& linkage, const LinkagePlan& plan,
                           std::span<const InputCourse> courses, std::span<const double> times,
                           const SimulationOptions& options, const SimulationOutput& output,
                           const RunContext* context = nullptr);
+
+/// Times strictly between `from` and `to`, rising, at which accelerations may step or kink: where laws do
+/// (math::breaks), and corners of load tables over time.
+std::vector<double> breaks_of(const Linkage& linkage, std::span<const InputCourse> courses, double from,
+                              double to);
+/// math::integrate from break to break, so that no step lies across one: on either side `f` is asked with
+/// times of that side.
+math::OdeReport integrate_by_pieces(math::OdeFunction f, std::span<double> y, double from, double to,
+                                    std::span<const double> breaks, math::OdeOptions options,
+                                    math::OdeHooks hooks);
 
 /// The same, watched.
 SimulationReport simulate_watched(const Linkage& linkage, const LinkagePlan& plan,

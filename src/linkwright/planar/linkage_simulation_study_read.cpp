@@ -6,6 +6,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/memory.h"
 
 namespace linkwright::planar {
 
@@ -98,7 +99,7 @@ std::vector<InputCourse> read_courses(study::ObjectReader& document, const Linka
     told[i] = true;
     const bool rotary = d.plan.rotary[i];
     bool free = false;
-    drive(free_field, free);
+    if (!drive(free_field, free) && drive.has("free")) continue;
     if (free) {
       drive(drive_field(rotary, 0, "start", "position at the start"), courses[i].value);
       drive(drive_field(rotary, 1, "start_speed", "rate at the start"), courses[i].rate);
@@ -108,10 +109,12 @@ std::vector<InputCourse> read_courses(study::ObjectReader& document, const Linka
       write_start(i);
       continue;
     }
-    courses[i].law = read_law(drive, rotary, false, canonical[i]);
-    if (!courses[i].law && !drive.has("law"))
+    if (!drive.has("law") && !drive.has(drive_field(rotary, 1, "speed", {}))) {
       drive.error("law", fmt::format("joint '{}' has neither a motion law nor free = true", joint),
                   "free = true lets forces move it; law = \"constant_speed\" drives it");
+      continue;
+    }
+    courses[i].law = read_law(drive, rotary, false, canonical[i]);
   }
   for (std::size_t i = 0; i < told.size(); ++i)
     if (!told[i]) write_start(i);  // of samples and shorthands: free
@@ -125,7 +128,7 @@ void describe_courses(study::SchemaWriter& document) {
   for (bool rotary : {true, false})
     for (const auto& [order, key] : {std::pair{0, "start"}, std::pair{1, "start_speed"}})
       drive.property(drive_field(rotary, order, key, "of a free joint"), study::schema_number());
-  drive(Field{.key = "law", .summary = "motion law of a joint that is not free"}, study::RotaryLaw{});
+  drive(Field{.key = "law", .summary = "motion law of a joint that is not free"}, std::optional<study::AnyLaw>());
   document.property(Field{.key = "drive", .summary = "joints that are free, or move as a law says"},
                     study::schema_array(std::move(drive).finish()));
 }
@@ -195,6 +198,15 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
                    "leave it out");
   if (elastic && !document.document().has_errors() && !add_elastic(document, type, *description, s))
     return prepared;
+  if (auto table = document.table("simulation"); table && !document.document().has_errors()) {
+    // Of a linkage that bends there are the rows of the rigid one, too, and some of each beam.
+    constexpr double of_motion = 10, of_beam = 10;
+    const auto columns = static_cast<double>(
+        linkage_columns(description->linkage, description->plan, s.quantities, description->traces).size());
+    const double all = elastic ? 2 * columns + of_beam * static_cast<double>(s.elastic.size()) : columns;
+    study::require_memory(*table, "samples", study::table_bytes(s.samples, all + of_motion),
+                          fmt::format("{} rows", s.samples), "take fewer samples");
+  }
   write_linkage(*description, prepared.canonical);
   prepared.canonical["drive"] = Value(std::move(drives));
   if (elastic) prepared.canonical["elastic"] = Value(std::move(beams));

@@ -188,7 +188,9 @@ class SimulationRunner {
                          report_.passages.size()),
              "simulation.at_change_point = \"stop\" or \"keep_sign\" chooses otherwise"});
     }
-    if (!report_.message.empty()) {
+    if (report_.status == Status::at_rest) {
+      fact("at rest", report_.message, Verdict::plain);
+    } else if (!report_.message.empty()) {
       const bool dead = report_.status == Status::limit_reached && s_.route == SimulationRoute::free_joints &&
                         s_.options.at_change_point != AtChangePoint::stop;
       warn(report_.message,
@@ -209,7 +211,9 @@ class SimulationRunner {
                         shown(k, inputs_[3 * k].front()), shown(k, inputs_[3 * k].back()));
     result_.headline =
         fmt::format("In {:.4g} s {}; energies balance {}.", report_.time - s_.from, text, balance());
-    if (report_.status != Status::done)
+    if (report_.status == Status::at_rest)
+      result_.headline += fmt::format(" Then {}.", report_.message);
+    else if (report_.status != Status::done)
       result_.headline += fmt::format(" It ends before {:.6g} s: {}.", s_.to, to_string(report_.status));
   }
 

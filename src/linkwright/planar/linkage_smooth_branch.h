@@ -5,6 +5,7 @@
 #include <span>
 
 #include "linkwright/planar/linkage_branch.h"
+#include "linkwright/planar/linkage_reactions.h"
 
 namespace linkwright::planar {
 
@@ -51,5 +52,13 @@ class SmoothBranch {
   BranchPath path_;
   double half_width_ = 0;
 };
+
+/// Motion and forces at a change point of a linkage with one input in closed form: the limits from both sides
+/// of the branch that goes on smoothly through it. `path` is a branch with a change point at `value`, `input`
+/// the motion of the input there. Places and rates go into `motion`; where `linkage` is given (forces are
+/// wanted), forces go into `forces`, with the status singular and NaN where one of them grows without bound.
+/// False, and the motion is of no use, when there is no such limit.
+bool limit_at_change(const LinkagePlan& plan, const BranchPath& path, double value, const InputMotion& input,
+                     LinkageMotion& motion, const Linkage* linkage, LinkageForces& forces);
 
 }  // namespace linkwright::planar

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "linkwright/planar/linkage_build.h"
+#include "linkwright/planar/linkage_columns.h"
 #include "linkwright/planar/linkage_samples.h"
 #include "linkwright/planar/linkage_study.h"
 #include "linkwright/study/bind.h"
@@ -79,6 +81,26 @@ std::optional<LinkageSample> sample_named(study::ObjectReader& mechanism) {
   return std::nullopt;
 }
 
+/// Names become parts of column keys: two columns of one key would hide each other.
+bool require_own_columns(study::ObjectReader& mechanism, const Linkage& l, const LinkagePlan& plan,
+                         const std::vector<BodyPoint>& traces) {
+  std::vector<std::pair<std::string, std::string>> columns;  // key and label
+  for (std::size_t k = 0; k < plan.inputs(); ++k)
+    columns.emplace_back(input_key(l, plan, k), input_label(l, plan, k) + " of the drive");
+  for (LinkageColumn& c : linkage_columns(l, plan, {}, traces))
+    columns.emplace_back(std::move(c.key), std::move(c.label));
+  std::sort(columns.begin(), columns.end());
+  const auto twice = std::adjacent_find(columns.begin(), columns.end(),
+                                        [](const auto& a, const auto& b) { return a.first == b.first; });
+  if (twice == columns.end()) return true;
+  mechanism.unreadable("",
+                       fmt::format("two columns of the results would be called '{}': {} and {}", twice->first,
+                                   twice->second, std::next(twice)->second),
+                       "give bodies, joints and points names that differ in letters and digits, and trace a "
+                       "point once");
+  return false;
+}
+
 }  // namespace
 
 std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
@@ -97,6 +119,8 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
     SliderCrankMechanism m;
     mechanism->read(m);
     l = slider_crank(m);
+    // The point of the rod is of interest when it is given.
+    if (traces.empty() && point_index(l.bodies[2], "C") >= 0) out.traces = points_named(l, {"rod.C"});
     if (document.document().has_errors()) return std::nullopt;
   } else if (mechanism->has(sample_field)) {
     auto sample = sample_named(*mechanism);
@@ -172,6 +196,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
     return std::nullopt;
   }
   out.plan = std::move(planned.plan);
+  if (!require_own_columns(*mechanism, l, out.plan, out.traces)) return std::nullopt;
   if (needs_masses && !require_masses(document, type, out.plan)) return std::nullopt;
   return out;
 }

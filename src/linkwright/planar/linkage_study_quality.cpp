@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage_assembly.h"
 #include "linkwright/planar/linkage_branch.h"
 #include "linkwright/planar/linkage_limits.h"
 #include "linkwright/planar/linkage_modes.h"
@@ -43,14 +44,14 @@ void modes_table(const LinkageStudy& s, const std::vector<double>& inputs, study
   result.facts.push_back({"assembly modes at the first position", all.text});
   result.tables.push_back(std::move(table));
 }
-void advantage_table(const LinkageStudy& s, const InputSamples& axis, LinkageMotion& motion,
-                     study::Result& result) {
+void advantage_table(const LinkageStudy& s, const InputSamples& axis, LinkageAssembly& assembly,
+                     LinkageMotion& motion, study::Result& result) {
   const int joint = joint_index(s.linkage, s.quality.output_joint);
   Table table{.name = "advantage"};
   std::vector<double> input, rate, force;
   for (int i = 0; i < axis.samples; ++i) {
     input.push_back(value_at(axis, i));
-    solve_position(s.plan, std::vector<InputMotion>{{input.back(), 0, 0}}, motion);
+    assembly.place(std::vector<InputMotion>{{input.back(), 0, 0}}, motion);
     const Advantage a = advantage(s.linkage, s.plan, 0, joint, motion);
     rate.push_back(a.rate_ratio);
     force.push_back(std::isfinite(a.force_ratio) ? a.force_ratio : nan);
@@ -68,8 +69,8 @@ void advantage_table(const LinkageStudy& s, const InputSamples& axis, LinkageMot
                           .scene = "motion"});
   result.tables.push_back(std::move(table));
 }
-void centres_table(const LinkageStudy& s, const InputSamples& axis, LinkageMotion& motion,
-                   study::Result& result) {
+void centres_table(const LinkageStudy& s, const InputSamples& axis, LinkageAssembly& assembly,
+                   LinkageMotion& motion, study::Result& result) {
   Table table{.name = "instant_centres"};
   std::vector<double> input;
   std::vector<std::vector<double>> x, y;
@@ -77,7 +78,7 @@ void centres_table(const LinkageStudy& s, const InputSamples& axis, LinkageMotio
   for (int i = 0; i < axis.samples; ++i) {
     input.push_back(value_at(axis, i));
     const std::vector<InputMotion> in{{input.back(), 1, 0}};
-    solve_position(s.plan, in, motion);
+    assembly.place(in, motion);
     solve_velocity(s.plan, in, motion);
     table.status.emplace_back(to_string(motion.status));
     const std::vector<InstantCentre> all = instant_centres(s.plan, motion);
@@ -158,11 +159,15 @@ void add_limits(const LinkageStudy& s, const InputLimits& limits, study::Result&
 void add_quality(const LinkageStudy& s, const std::optional<BranchPath>& branch, study::Result& result) {
   const InputSamples& axis = std::get<InputGrid>(s.sweep).inputs[0];
   const std::vector<double> inputs{axis.from};
+  LinkageAssembly assembly(s.plan, {{std::min(axis.from, axis.to)}, {std::max(axis.from, axis.to)}},
+                           s.at_change_point);
   LinkageMotion motion(s.plan);
   if (!s.quality.output_joint.empty()) {
-    advantage_table(s, axis, motion, result);
+    advantage_table(s, axis, assembly, motion, result);
     dead_centres_table(s, axis, branch, result);
   }
+  // Centrodes are followed from the first position.
+  assembly.place(std::vector<InputMotion>{{axis.from, 0, 0}}, motion);
   for (const std::string& body : s.quality.centrodes) {
     Table table = centrodes(s.plan, inputs, 0, axis.from, axis.to, at(axis.samples),
                             body_index(s.linkage, body), 0, motion);
@@ -175,7 +180,7 @@ void add_quality(const LinkageStudy& s, const std::optional<BranchPath>& branch,
                             .style = study::Plot::Style::polar});
     result.tables.push_back(std::move(table));
   }
-  if (s.quality.instant_centres) centres_table(s, axis, motion, result);
+  if (s.quality.instant_centres) centres_table(s, axis, assembly, motion, result);
   if (s.quality.assembly_modes) modes_table(s, inputs, result);
 }
 

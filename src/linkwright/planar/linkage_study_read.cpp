@@ -230,7 +230,7 @@ void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bo
   study::SchemaWriter drive;
   drive(Field{.key = "joint", .summary = "driven joint"}, std::string());
   drive(Field{.key = "law", .summary = "motion law, for a sweep over time"},
-        std::optional<study::RotaryLaw>().value_or(study::RotaryLaw{}));
+        std::optional<study::AnyLaw>());
   for (bool rotary : {true, false})
     for (const auto& [order, key] : {std::pair{1, "speed"}, std::pair{2, "acceleration"}})
       drive.property(drive_field(rotary, order, key, "over a grid: the same at every position"),

@@ -8,11 +8,13 @@
 #include <optional>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage_assembly.h"
 #include "linkwright/planar/linkage_branch.h"
 #include "linkwright/planar/linkage_columns.h"
 #include "linkwright/planar/linkage_limits.h"
 #include "linkwright/planar/linkage_reactions.h"
 #include "linkwright/planar/linkage_scene.h"
+#include "linkwright/planar/linkage_smooth_branch.h"
 #include "linkwright/planar/linkage_study.h"
 
 namespace linkwright::planar {
@@ -100,7 +102,11 @@ struct Worst {
 class Runner {
  public:
   Runner(const LinkageStudy& s, RunContext& context)
-      : s_(s), context_(context), columns_(columns_of(s)), rows_(rows_of(s)) {}
+      : s_(s),
+        context_(context),
+        columns_(columns_of(s)),
+        rows_(rows_of(s)),
+        assembly_(s.plan, reach_of(rows_.inputs), s.at_change_point, over_time()) {}
 
   study::Result run() {
     find_limits();
@@ -145,26 +151,34 @@ class Runner {
     LinkageMotion motion(s_.plan);
     LinkageForces forces;
     const bool dynamic = s_.quantities.dynamic();
-    const bool closed = s_.plan.closed_form();
     values_.assign(columns_.size(), {});
     for (auto& v : values_) v.reserve(rows_.inputs.size());
     LinkageInstant now{.motion = &motion, .forces = &forces};
-    std::vector<double> last;
     for (std::size_t r = 0; r < rows_.inputs.size(); ++r) {
       now.time = rows_.time[r];
       now.inputs = rows_.inputs[r];
-      std::vector<double> next;
-      for (const InputMotion& i : now.inputs) next.push_back(i.value);
-      // General groups are followed from row to row, so that they keep their branch.
       bool there = true;
       if (branch_ && branch_->status == Status::done)
         there = modes_at(*branch_, now.inputs[0].value, motion.modes) == Status::done;
       if (!there) motion.status = Status::limit_reached;
-      if (!closed && !last.empty()) there = follow(s_.plan, last, next, motion).arrived;
-      if (there) solve_motion(s_.plan, now.inputs, motion);
-      if (there && motion.status == Status::done) last = next;
+      if (there) {
+        assembly_.place(now.inputs, motion);
+        solve_velocity(s_.plan, now.inputs, motion);
+        solve_acceleration(s_.plan, now.inputs, motion);
+      }
       if (dynamic) solve_forces(s_.linkage, s_.plan, motion, now.time, now.inputs[0].value, forces);
-      const Status status = dynamic && motion.status == Status::done ? forces.status : motion.status;
+      // At a change point the motion has a limit, but for the rates where it has a kink; forces may have
+      // none.
+      const bool kink = s_.at_change_point == AtChangePoint::keep_sign;
+      const bool passed = there && at_change(now.inputs[0], motion) &&
+                          limit_at_change(s_.plan, *branch_, now.inputs[0].value, now.inputs[0], motion,
+                                          dynamic && !kink ? &s_.linkage : nullptr, forces);
+      if (passed && kink) forget_rates(motion);
+      passed_.push_back(passed);
+      const Status status = motion.status != Status::done ? motion.status
+                            : passed && kink              ? Status::singular
+                            : dynamic                     ? forces.status
+                                                          : Status::done;
       for (std::size_t c = 0; c < columns_.size(); ++c) {
         const bool input = c < s_.plan.inputs() + (over_time() ? 1 : 0);
         values_[c].push_back(input || motion.status == Status::done ? columns_[c].value(now) : nan);
@@ -181,15 +195,32 @@ class Runner {
     }
   }
 
+  // Whether the row stands at a change point that the branch passes or ends at.
+  bool at_change(const InputMotion& input, const LinkageMotion& motion) const {
+    if (!branch_ || branch_->status != Status::done || motion.status != Status::singular) return false;
+    const auto here = [&](const RangeEnd& e) {
+      const double apart = input.value - e.value;
+      return e.kind == EndKind::change_point &&
+             std::abs(limits_->closed ? std::remainder(apart, 2 * pi) : apart) < 1e-6;
+    };
+    return here(branch_->low) || here(branch_->high) ||
+           std::any_of(branch_->change_points.begin(), branch_->change_points.end(), here);
+  }
+  static void forget_rates(LinkageMotion& motion) {
+    for (PartState<double>& s : motion.parts)
+      s.velocity = s.acceleration = {nan, nan}, s.speed = s.angular_acceleration = nan;
+  }
+
   void collect(std::size_t r, const LinkageMotion& motion, const LinkageForces& forces, bool dynamic) {
     if (motion.status == Status::no_assembly) gap_.larger(motion.gap, r);
-    if (motion.status != Status::done) {
-      if (failed_group_ < 0) failed_group_ = motion.failed_group;
+    if (motion.status != Status::done || passed_.back()) {
+      if (!passed_.back() && failed_group_ < 0) failed_group_ = motion.failed_group;
       return;
     }
     closure_.larger(motion.closure_residual, r);
     for (std::size_t g = 0; g < s_.plan.groups.size(); ++g)
-      if (s_.plan.groups[g].joints.size() == 3 && s_.plan.groups[g].type != GroupType::general) {
+      if (s_.plan.groups[g].type == GroupType::triangle ||
+          (s_.plan.groups[g].joints.size() == 3 && s_.plan.groups[g].type != GroupType::general)) {
         const double before = transmission_.any ? transmission_.value : 10;
         transmission_.smaller(std::asin(std::min(1.0, std::abs(motion.groups[g].sine))), r);
         if (transmission_.value < before) weakest_ = g;
@@ -213,8 +244,10 @@ class Runner {
       table.add(columns_[c].key, columns_[c].label, std::move(values_[c]));
     }
     for (Status s : statuses_) table.status.emplace_back(to_string(s));
-    const auto bad =
-        std::find_if(statuses_.begin(), statuses_.end(), [](Status s) { return s != Status::done; });
+    auto bad = statuses_.begin();
+    while (bad != statuses_.end() &&
+           (*bad == Status::done || passed_[static_cast<std::size_t>(bad - statuses_.begin())]))
+      ++bad;
     result_.status = interruption_ != Status::done ? interruption_
                      : bad != statuses_.end()      ? *bad
                                                    : Status::done;
@@ -227,6 +260,7 @@ class Runner {
     modes_ = LinkageMotion(s_.plan).modes;
     const auto pairs = std::count_if(s_.plan.groups.begin(), s_.plan.groups.end(),
                                      [](const Group& g) { return has_modes(g.type); });
+    if (!s_.plan.closed_form()) limits_ = assembly_.limits();
     if (s_.plan.inputs() != 1 || over_time() || !s_.plan.closed_form() || pairs > 6) return;
     const InputSamples& axis = std::get<InputGrid>(s_.sweep).inputs[0];
     const std::vector<double> inputs{axis.from};
@@ -342,7 +376,8 @@ class Runner {
     fact("solved in this order", order);
     if (limits_) {
       fact("range of the input", assembly_range_text(*limits_, modes_));
-      fact("circuits", fmt::format("{} over all assembly modes", limits_->circuits));
+      if (s_.plan.closed_form())
+        fact("circuits", fmt::format("{} over all assembly modes", limits_->circuits));
     }
     for (std::size_t k = 0; k < drives_.size(); ++k)
       if (s_.quantities.drive && drives_[k].any)
@@ -372,24 +407,37 @@ class Runner {
       result_.diagnostics.push_back(
           {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
     };
-    const auto count = [&](Status s) { return std::count(statuses_.begin(), statuses_.end(), s); };
-    const auto first = [&](Status s) {
-      return static_cast<std::size_t>(std::find(statuses_.begin(), statuses_.end(), s) - statuses_.begin());
+    // Change points are told of by themselves.
+    std::size_t first_row = 0;
+    const auto count = [&](Status s) {
+      long n = 0;
+      for (std::size_t r = statuses_.size(); r-- > 0;)
+        if (statuses_[r] == s && !passed_[r]) ++n, first_row = r;
+      return n;
     };
     const std::string group = failed_group_ >= 0 ? s_.plan.groups[at(failed_group_)].name : std::string();
-    for (Status s : {Status::singular, Status::no_assembly, Status::limit_reached, Status::not_converged}) {
+    for (Status s : {Status::singular, Status::no_assembly, Status::limit_reached, Status::self_locking,
+                     Status::not_converged}) {
       const auto n = count(s);
       if (n == 0) continue;
       const std::string place =
-          fmt::format("{} of {} positions, the first at {}", n, statuses_.size(), where(first(s)));
+          fmt::format("{} of {} positions, the first at {}", n, statuses_.size(), where(first_row));
       if (s == Status::singular)
         warn(fmt::format("{} stand at a dead point of {}: speeds and forces are not determined there", place,
                          group),
              {});
       else if (s == Status::no_assembly)
-        warn(fmt::format("{} do not assemble: {} would have to be longer, or shorter, by up to {:.4g} mm",
-                         place, group, gap_.value * 1e3),
+        warn(gap_.any && gap_.value > 0
+                 ? fmt::format(
+                       "{} do not assemble: {} would have to be longer, or shorter, by up to {:.4g} mm",
+                       place, group, gap_.value * 1e3)
+                 : fmt::format("{} do not assemble", place),
              assembled_ranges());
+      else if (s == Status::self_locking)
+        warn(
+            fmt::format("{} lock by friction: no force of the drive, however large, keeps the linkage moving",
+                        place),
+            "less friction, or a position farther from the dead point, frees it");
       else
         warn(fmt::format("{} have no answer ({})", place, to_string(s)),
              s == Status::limit_reached ? "a limit of the motion lies before them" : "");
@@ -409,6 +457,15 @@ class Runner {
   // Positions where the branch is a choice.
   void change_points(const std::function<void(std::string, std::string)>& warn) const {
     if (!branch_) return;
+    for (std::size_t r = 0; r < statuses_.size(); ++r)
+      if (passed_[r] && statuses_[r] == Status::singular) {
+        warn(s_.at_change_point == AtChangePoint::keep_sign
+                 ? fmt::format("at {} the motion has a kink: the row holds the position alone", where(r))
+                 : fmt::format("at {} the joint forces grow without bound: the row holds the motion alone",
+                               where(r)),
+             {});
+        break;
+      }
     std::vector<double> told;
     for (const RangeEnd& end : branch_->change_points) {
       const double value = limits_->rotary ? math::wrap_angle(end.value) : end.value;
@@ -456,8 +513,10 @@ class Runner {
   RunContext& context_;
   std::vector<LinkageColumn> columns_;
   LinkageRows rows_;
+  LinkageAssembly assembly_;
   std::vector<std::vector<double>> values_;
   std::vector<Status> statuses_;
+  std::vector<bool> passed_;  // rows at change points that hold what is known there
   std::vector<LinkageRecord> recorded_;
   Status interruption_ = Status::done;
   Worst gap_, closure_, transmission_, shaking_, power_, balance_;
@@ -479,23 +538,20 @@ Table linkage_table(const LinkageStudy& s, std::span<const std::string> wanted) 
       return std::find(wanted.begin(), wanted.end(), c.key) == wanted.end();
     });
   const LinkageRows rows = rows_of(s);
-  const bool closed = s.plan.closed_form();
+  LinkageAssembly assembly(s.plan, reach_of(rows.inputs), s.at_change_point,
+                           std::holds_alternative<study::TimeSamples>(s.sweep));
   LinkageMotion motion(s.plan);
   LinkageForces forces;
   LinkageInstant now{.motion = &motion, .forces = &forces};
   Table table{.name = "sweep"};
   for (const LinkageColumn& c : columns)
     table.add(c.key, c.label, std::vector<double>(rows.inputs.size(), nan));
-  std::vector<double> last, next;
   for (std::size_t r = 0; r < rows.inputs.size(); ++r) {
     now.time = rows.time[r];
     now.inputs = rows.inputs[r];
-    next.clear();
-    for (const InputMotion& i : now.inputs) next.push_back(i.value);
-    // General groups are followed from row to row, so that they keep their branch.
-    const bool there = closed || last.empty() || follow(s.plan, last, next, motion).arrived;
-    if (there) solve_motion(s.plan, now.inputs, motion);
-    if (there && motion.status == Status::done) last = next;
+    assembly.place(now.inputs, motion);
+    solve_velocity(s.plan, now.inputs, motion);
+    solve_acceleration(s.plan, now.inputs, motion);
     if (s.quantities.dynamic())
       solve_forces(s.linkage, s.plan, motion, now.time, now.inputs[0].value, forces);
     const Status status =

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "linkwright/core/check.h"
+#include "linkwright/planar/linkage_assembly.h"
 
 namespace linkwright::planar {
 namespace {
@@ -32,7 +34,7 @@ const Kernel& kernel() {
 bool all_in_registers(const Linkage& l, const LinkagePlan& plan, bool forces) {
   if (plan.parts.size() > most_sweep_parts || plan.groups.size() > most_sweep_parts) return false;
   for (const Group& g : plan.groups)
-    if (g.type == GroupType::general || g.type == GroupType::gear) return false;
+    if (has_matrix(g.type) || g.type == GroupType::gear) return false;
   if (!forces) return true;
   return l.springs.empty() && l.torsion_springs.empty() && l.forces.empty() && l.torques.empty() &&
          std::all_of(l.joints.begin(), l.joints.end(),
@@ -61,8 +63,8 @@ struct LinkageSweep::Memory {
   LinkageMotion motion;
   LinkageForces forces;
   std::vector<InputMotion> inputs;
-  std::vector<double> stand, go;  // inputs where a general group stands, and where it goes
-  bool stands = false;
+  std::vector<double> modes;                // signs, one a group
+  std::optional<LinkageAssembly> assembly;  // of plans without closed form
 
   double& number(std::size_t row, std::size_t sample) { return task.data[row * task.stride + sample]; }
   std::span<const double> row(std::size_t r) const { return {task.data + r * task.stride, samples}; }
@@ -89,35 +91,26 @@ struct LinkageSweep::Memory {
   // One sample by the functions for one position.
   void scalar(std::size_t i, double time) {
     read(i);
-    bool arrived = true;
-    if (!plan.closed_form()) {
-      for (std::size_t k = 0; k < inputs.size(); ++k) go[k] = inputs[k].value;
-      if (!stands) solve_position(plan, inputs, motion);
-      if (stands) arrived = follow(plan, stand, go, motion).arrived;
-      if (arrived && motion.status == Status::done) {
-        stand = go;
-        stands = true;
-      }
-    }
-    if (arrived) {
+    if (assembly)
+      assembly->place(inputs, motion);
+    else
       solve_position(plan, inputs, motion);
-      if (wanted.rates) {
-        solve_velocity(plan, inputs, motion);
-        solve_acceleration(plan, inputs, motion);
-      }
+    if (wanted.rates) {
+      solve_velocity(plan, inputs, motion);
+      solve_acceleration(plan, inputs, motion);
     }
     status[i] = motion.status;
     if (wanted.forces) {
       solve_forces(linkage, plan, motion, time, inputs.empty() ? 0.0 : inputs[0].value, forces);
       status[i] = forces.status;
     }
-    write(i, arrived);
+    write(i);
   }
 
-  void write(std::size_t i, bool arrived) {
+  void write(std::size_t i) {
     const std::size_t failed = motion.failed_group < 0 ? plan.groups.size() : at(motion.failed_group);
     for (std::size_t p = 1; p < plan.parts.size(); ++p) {
-      const bool known = arrived && plan.group_of_part[p] >= 0 && at(plan.group_of_part[p]) < failed;
+      const bool known = plan.group_of_part[p] >= 0 && at(plan.group_of_part[p]) < failed;
       const PartState<double>& s = motion.parts[p];
       const double values[] = {
           s.origin.x,   s.origin.y, s.direction.x,    s.direction.y,    s.velocity.x,
@@ -128,7 +121,7 @@ struct LinkageSweep::Memory {
     for (std::size_t k = 0; k < plan.groups.size(); ++k) {
       const GroupType type = plan.groups[k].type;
       const bool dyad = type != GroupType::driver && type != GroupType::gear;
-      const bool known = arrived && (k < failed || (k == failed && type != GroupType::general));
+      const bool known = (k < failed || (k == failed && type != GroupType::general));
       const GroupState<double>& s = motion.groups[k];
       number(task.groups + 2 * k, i) = !known ? nan : dyad && type != GroupType::general ? s.radicand : 1.0;
       number(task.groups + 2 * k + 1, i) = !known ? nan : dyad ? s.sine : 1.0;
@@ -155,8 +148,7 @@ LinkageSweep::LinkageSweep(Linkage linkage, LinkagePlan plan, const SweepWanted&
                      m.plan.massless[0]);
   m.batched = all_in_registers(m.linkage, m.plan, wanted.forces);
   m.inputs.resize(m.plan.inputs());
-  m.stand.resize(m.plan.inputs());
-  m.go.resize(m.plan.inputs());
+  m.modes = m.motion.modes;
   SweepTask& t = m.task;
   t.plan = &m.plan;
   t.gravity = vec(m.linkage.gravity);
@@ -184,7 +176,8 @@ LinkageSweep& LinkageSweep::operator=(LinkageSweep&&) noexcept = default;
 void LinkageSweep::set_modes(std::span<const double> modes) {
   LINKWRIGHT_REQUIRE(modes.size() == memory_->plan.groups.size(), "{} groups, got {} modes",
                      memory_->plan.groups.size(), modes.size());
-  std::copy(modes.begin(), modes.end(), memory_->motion.modes.begin());
+  memory_->modes.assign(modes.begin(), modes.end());
+  memory_->motion.modes = memory_->modes;
 }
 
 void LinkageSweep::run(std::span<const SweepInput> inputs, std::span<const double> time) {
@@ -216,7 +209,15 @@ void LinkageSweep::run(std::span<const SweepInput> inputs, std::span<const doubl
     }
   }
   LINKWRIGHT_REQUIRE(finite, "inputs must be finite, {} samples", n);
-  m.stands = false;
+  if (!m.plan.closed_form()) {
+    InputReach reach;
+    for (const SweepInput& in : inputs) {
+      const auto [least, most] = std::minmax_element(in.value.begin(), in.value.end());
+      reach.low.push_back(*least);
+      reach.high.push_back(*most);
+    }
+    m.assembly.emplace(m.plan, reach, AtChangePoint::smooth, false, m.modes);
+  }
   if (!m.batched) {
     for (std::size_t i = 0; i < n; ++i) m.scalar(i, of(time, i));
     return;

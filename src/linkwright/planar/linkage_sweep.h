@@ -46,7 +46,8 @@ struct SweepInput {
 /// Positions, rates and joint forces of one linkage at many inputs: flat rows, one number a sample. Dyads and
 /// drivers are solved as many samples at a time as a SIMD register holds, by the formulas of
 /// linkage_kernel.h; plans with general groups or gears, and forces with springs, loads, friction or welds,
-/// go sample by sample, general groups followed from sample to sample. Both ways agree up to rounding.
+/// go sample by sample, general groups on the assembly mode that their drawing shows (LinkageAssembly). Both ways
+/// agree up to rounding.
 ///
 /// Make one a linkage (and thread) and run it again and again: nothing is allocated while the number of
 /// samples does not grow (but for friction, welds and a sweep that follows general groups).

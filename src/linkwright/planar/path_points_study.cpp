@@ -21,7 +21,7 @@ void read_points_file(study::ObjectReader& reader, const study::Common& common, 
   if (!text) return;
   Diagnostics problems;
   const std::optional<Table> table = read_csv(*text, (common.folder / file).string(), problems);
-  for (const Diagnostic& problem : problems) reader.error("points_file", to_string(problem));
+  for (const Diagnostic& problem : problems) reader.unreadable("points_file", to_string(problem));
   if (!table) return;
   const auto column = [&](std::string_view base) -> std::vector<double> {
     for (const Column& c : table->columns) {

@@ -45,6 +45,18 @@ double closure_residual(const FourBar& l, double angle, const FourBarPosition& p
 
 bool has_coupler_point(const FourBar& l) { return l.coupler_u != 0 || l.coupler_v != 0; }
 
+// Velocity and acceleration of C, global: those of A and of C about A.
+std::pair<std::complex<double>, std::complex<double>> coupler_point_motion(const ReactionsStudy& s,
+                                                                           const Row& r) {
+  const FourBar& l = s.mechanism.linkage;
+  const std::complex<double> i(0, 1), crank = std::polar(l.crank, l.frame_angle + r.angle),
+                                      arm = r.pose.coupler_point - r.pose.crank_pin;
+  const double crank_speed = s.drive.speed, speed = r.rates.coupler_speed;
+  return {i * crank_speed * crank + i * speed * arm,
+          (i * s.drive.acceleration - crank_speed * crank_speed) * crank +
+              (i * r.rates.coupler_acceleration - speed * speed) * arm};
+}
+
 std::vector<double> crank_angles(const CrankSamples& s) {
   std::vector<double> out(static_cast<std::size_t>(s.samples));
   for (int i = 0; i < s.samples; ++i)
@@ -144,6 +156,18 @@ Table sweep_table(const ReactionsStudy& s, const std::vector<Row>& rows) {
     point("O2", [](const Row& r) { return r.pose.crank_pin; });
     point("O3", [](const Row& r) { return r.pose.coupler_pin; });
     if (has_coupler_point(s.mechanism.linkage)) point("C", [](const Row& r) { return r.pose.coupler_point; });
+  }
+  if (q.rates && has_coupler_point(s.mechanism.linkage)) {
+    const auto vector = [&](const std::string& name, const std::string& key_unit, const std::string& unit,
+                            auto&& what) {
+      add("C_" + name + "_x_" + key_unit, "C " + name + " x (" + unit + ")",
+          [&](const Row& r) { return what(r).real(); });
+      add("C_" + name + "_y_" + key_unit, "C " + name + " y (" + unit + ")",
+          [&](const Row& r) { return what(r).imag(); });
+    };
+    vector("speed", "m_per_s", "m/s", [&](const Row& r) { return coupler_point_motion(s, r).first; });
+    vector("acceleration", "m_per_s2", "m/s2",
+           [&](const Row& r) { return coupler_point_motion(s, r).second; });
   }
   if (q.reactions)
     for (int k = 0; k < 4; ++k) {

@@ -20,6 +20,7 @@
 #include "linkwright/planar/four_bar_reactions.h"
 #include "linkwright/planar/measures.h"
 #include "linkwright/planar/published_four_bars.h"
+#include "linkwright/planar/reproductions_paths.h"
 #include "linkwright/planar/serial_arm_balancing.h"
 #include "linkwright/planar/serial_arm_reactions.h"
 
@@ -280,7 +281,7 @@ const std::vector<std::string> design_notes = {
 }  // namespace
 
 std::vector<study::Reproduction> reproductions() {
-  return {
+  std::vector<study::Reproduction> tables = {
       {"boskovic-2018-table-2.1",
        "an arm of two links: joint forces by motion law and by counterweights",
        "Boskovic 2018, section 2.2, Table 2.1",
@@ -311,6 +312,8 @@ std::vector<study::Reproduction> reproductions() {
        "Boskovic 2018, Table 2.7, of the designs in Tables 2.4 and 2.6", corrections,
        [](RunContext&) { return change_table("2.7"); }},
   };
+  for (study::Reproduction& table : path_reproductions()) tables.push_back(std::move(table));
+  return tables;
 }
 
 }  // namespace linkwright::planar

@@ -7,11 +7,13 @@
 #include "linkwright/planar/path_study.h"
 #include "linkwright/planar/reactions_study.h"
 #include "linkwright/planar/serial_arm_study.h"
+#include "linkwright/planar/slider_crank_path_study.h"
 
 namespace linkwright::planar {
 
 std::vector<study::Kind> studies() {
   std::vector<study::Kind> kinds = {path_kind(),
+          slider_path_kind(),
           reactions_kind(),
           linkage_kind(),
           slider_crank_kind(),

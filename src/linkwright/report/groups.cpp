@@ -1,14 +1,11 @@
 #include "linkwright/report/groups.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string_view>
 #include <utility>
 
-#include "linkwright/report/markup.h"
+#include "linkwright/report/units.h"
 
 namespace linkwright::report {
 
@@ -31,13 +28,15 @@ std::vector<Group> groups_of(const study::Plot& plot, const Table& table) {
     if (std::isfinite(v)) values.push_back(v);
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
-  const std::string unit = unit_of(*column);
-  std::string name = label_of(*column);
-  if (!unit.empty()) name.resize(name.size() - unit.size() - 1);
-  const std::string_view symbol = unit.empty() ? "" : std::string_view(unit).substr(1, unit.size() - 2);
+  DisplayUnit unit = display_unit(
+      column->key, values.empty() ? 0 : std::max(std::abs(values.front()), std::abs(values.back())));
+  const std::string own = unit_of(*column);
+  if (unit.symbol.empty() && !own.empty()) unit.symbol = own.substr(1, own.size() - 2);
+  std::string name = label_with(*column, unit);
+  if (!unit.symbol.empty()) name.resize(name.size() - unit.symbol.size() - 3);
   std::vector<Group> out;
   for (const double value : values) {
-    Group group{fmt::format("{} {}{}{}", name, number(value), symbol.empty() ? "" : " ", symbol), {}};
+    Group group{name + " " + quantity(value, unit), {}};
     for (std::size_t i = 0; i < column->values.size(); ++i)
       if (column->values[i] == value) group.rows.push_back(i);
     out.push_back(std::move(group));

@@ -18,7 +18,7 @@ std::string unit_of(const Column& column);
 
 /// Rows of one value of a diagram's group column.
 struct Group {
-  std::string label;  ///< "rack -30 mm"; empty = all rows
+  std::string label;  ///< "rack -30 mm", in the unit that is shown; empty = all rows
   std::vector<std::size_t> rows;
 };
 

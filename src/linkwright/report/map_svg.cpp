@@ -14,6 +14,7 @@
 #include "linkwright/report/drawing.h"
 #include "linkwright/report/groups.h"
 #include "linkwright/report/markup.h"
+#include "linkwright/report/units.h"
 
 namespace linkwright::report {
 namespace {
@@ -66,6 +67,8 @@ struct Maps {
   double high = -low;
   bool missing = false;    // whether a place has no value
   std::size_t groups = 0;  // of which `maps` may be a choice
+  DisplayUnit unit;        // of both coordinates
+  DisplayUnit value_unit;
 };
 
 Maps maps_of(const study::Plot& plot, const Table& table) {
@@ -77,11 +80,13 @@ Maps maps_of(const study::Plot& plot, const Table& table) {
   const auto stands = [&](std::size_t row) {
     return row < rows && std::isfinite(x->values[row]) && std::isfinite(y->values[row]);
   };
+  out.unit = display_unit(plot.x, std::max(largest_size(x->values), largest_size(y->values)));
+  out.value_unit = display_unit(plot.y[1], largest_size(values->values));
   std::vector<double> xs, ys;
   for (std::size_t row = 0; row < rows; ++row)
     if (stands(row)) {
-      xs.push_back(x->values[row]);
-      ys.push_back(y->values[row]);
+      xs.push_back(x->values[row] * out.unit.factor);
+      ys.push_back(y->values[row] * out.unit.factor);
     }
   if (xs.empty()) return out;
   out.x = axis_of(std::move(xs));
@@ -93,7 +98,8 @@ Maps maps_of(const study::Plot& plot, const Table& table) {
     if (axis->pitch == 0) axis->pitch = some;
 
   const auto value_at = [&](std::size_t row) {
-    const double v = plot.logarithmic_y ? std::log10(values->values[row]) : values->values[row];
+    const double shown = values->values[row] * out.value_unit.factor;
+    const double v = plot.logarithmic_y ? std::log10(shown) : shown;
     return std::isfinite(v) ? v : std::numeric_limits<double>::quiet_NaN();
   };
   const std::vector<Group> groups = groups_of(plot, table);
@@ -105,7 +111,8 @@ Maps maps_of(const study::Plot& plot, const Table& table) {
     // From the last row on, so that of several values at one place the last is the one that stays.
     for (auto row = group.rows.rbegin(); row != group.rows.rend(); ++row)
       if (stands(*row))
-        map.cells.push_back({out.x.index(x->values[*row]), out.y.index(y->values[*row]), value_at(*row)});
+        map.cells.push_back({out.x.index(x->values[*row] * out.unit.factor),
+                             out.y.index(y->values[*row] * out.unit.factor), value_at(*row)});
     std::stable_sort(map.cells.begin(), map.cells.end(),
                      [](const Cell& a, const Cell& b) { return a.j != b.j ? a.j < b.j : a.i < b.i; });
     map.cells.erase(std::unique(map.cells.begin(), map.cells.end(),
@@ -225,7 +232,7 @@ void draw_bar(std::string& out, const Maps& maps, const Column& values, bool log
     named(0.5, "middle", maps.low, 6);
   }
   put(out, "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" font-size=\"12\">{}</text>",
-      left + length / 2, y + bar_height + 32, escape(label_of(values)));
+      left + length / 2, y + bar_height + 32, escape(label_with(values, maps.value_unit)));
   if (maps.missing)
     put(out,
         "<rect x=\"{0:.1f}\" y=\"{1:.1f}\" width=\"24\" height=\"{2}\" fill=\"{3}\"/>"
@@ -270,10 +277,10 @@ std::string map_svg(const study::Plot& plot, const Table& table) {
   put(out,
       "<g fill=\"#526170\" font-size=\"12\"><text x=\"{:.1f}\" y=\"{:.1f}\" "
       "text-anchor=\"middle\">{}{}</text>",
-      begin + all / 2, bottom + 34, escape(label_of(*table.find(plot.x))),
+      begin + all / 2, bottom + 34, escape(label_with(*table.find(plot.x), maps.unit)),
       maps.maps.size() < maps.groups ? fmt::format("; {} of {} maps", maps.maps.size(), maps.groups) : "");
   put(out, "<text transform=\"translate({:.1f},{:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text></g>\n",
-      begin - 58, (top + bottom) / 2, escape(label_of(*table.find(plot.y[0]))));
+      begin - 58, (top + bottom) / 2, escape(label_with(*table.find(plot.y[0]), maps.unit)));
   draw_bar(out, maps, *table.find(plot.y[1]), plot.logarithmic_y, layout.height() + 2);
   out += "</svg>\n";
   return out;

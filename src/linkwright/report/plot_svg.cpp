@@ -16,6 +16,7 @@
 #include "linkwright/report/groups.h"
 #include "linkwright/report/map_svg.h"
 #include "linkwright/report/markup.h"
+#include "linkwright/report/units.h"
 
 namespace linkwright::report {
 namespace {
@@ -26,10 +27,19 @@ constexpr double width = 640, left = 74, right = 16, top = 14, foot = 46;  // px
 constexpr double line_height = 20;                                         // px, of the legend
 constexpr std::size_t most_points = 3000;                                  // a curve; more cannot be seen
 constexpr std::size_t most_named = 7;                                      // more curves are one bundle
-// Okabe and Ito's colours; dashes tell the curves apart without them.
+constexpr double rounding = 1e-16;  // of the largest: less than this is zero on a logarithmic axis
+// Okabe and Ito's colours; dashes tell the curves apart without them, and those of one colour, too.
 constexpr std::array<std::string_view, 6> colours = {"#0072B2", "#D55E00", "#009E73",
                                                      "#CC79A7", "#E69F00", "#56B4E9"};
 constexpr std::array<std::string_view, 6> dashes = {"none", "8 4", "2 3", "10 3 2 3", "5 2", "1 2"};
+
+struct Look {
+  std::string_view colour, dash;
+};
+
+Look look_of(std::size_t curve) {
+  return {colours[curve % colours.size()], dashes[(curve + curve / colours.size()) % dashes.size()]};
+}
 
 constexpr std::string_view pale = "#8fa0ae", band_colour = "#009E73";
 
@@ -54,7 +64,27 @@ std::string name_of_pair(const Column& column) {
   return label;
 }
 
-std::vector<Curve> curves_of(const study::Plot& plot, const Table& table) {
+// Units of both axes. All that a diagram draws along one axis has one unit.
+struct Shown {
+  DisplayUnit x, y;
+};
+
+Shown shown_of(const study::Plot& plot, const Table& table) {
+  const Column* x = table.find(plot.x);
+  double most = 0;
+  const auto count = [&](const std::string& key) {
+    if (const Column* column = table.find(key)) most = std::max(most, largest_size(column->values));
+  };
+  for (const auto& key : plot.y) count(key);
+  for (const auto& band : plot.bands) count(band.lower), count(band.upper);
+  Shown out;
+  if (x) out.x = display_unit(plot.x, largest_size(x->values));
+  if (!plot.y.empty()) out.y = display_unit(plot.y.front(), most);
+  if (plot.style == Style::polar) out.x = out.y;
+  return out;
+}
+
+std::vector<Curve> curves_of(const study::Plot& plot, const Table& table, const Shown& shown) {
   std::vector<Curve> out;
   const std::vector<Group> groups = groups_of(plot, table);
   const auto add = [&](const std::string& label, const Column* x, const Column* y) {
@@ -66,7 +96,7 @@ std::vector<Curve> curves_of(const study::Plot& plot, const Table& table) {
       Curve curve{group.label.empty() ? label : alone ? group.label : label + ", " + group.label, {}};
       for (std::size_t i = 0; i < group.rows.size(); i += step)
         if (const std::size_t row = group.rows[i]; row < end)
-          curve.points.push_back({x->values[row], y->values[row]});
+          curve.points.push_back({x->values[row] * shown.x.factor, y->values[row] * shown.y.factor});
       out.push_back(std::move(curve));
     }
   };
@@ -75,18 +105,35 @@ std::vector<Curve> curves_of(const study::Plot& plot, const Table& table) {
       if (const Column* x = table.find(plot.y[i])) add(name_of_pair(*x), x, table.find(plot.y[i + 1]));
   } else {
     for (const auto& key : plot.y)
-      if (const Column* y = table.find(key)) add(label_of(*y), table.find(plot.x), y);
+      if (const Column* y = table.find(key)) add(label_with(*y, shown.y), table.find(plot.x), y);
   }
-  if (plot.logarithmic_y)
-    for (auto& curve : out)
-      for (Place& p : curve.points)
-        p.y = p.y > 0 ? std::log10(p.y) : std::numeric_limits<double>::quiet_NaN();
   return out;
+}
+
+// Puts decimal logarithms in the place of values; none is less than that of `rounding` times the largest.
+// True when a value was raised to that.
+bool take_logarithms(std::initializer_list<std::vector<Curve>*> drawn) {
+  double most = 0;
+  for (const auto* curves : drawn)
+    for (const auto& curve : *curves)
+      for (const Place& p : curve.points)
+        if (p.finite()) most = std::max(most, p.y);
+  const double floor = std::log10(most) + std::log10(rounding);
+  bool raised = false;
+  for (auto* curves : drawn)
+    for (auto& curve : *curves)
+      for (Place& p : curve.points) {
+        const double power = p.y > 0 ? std::log10(p.y) : std::numeric_limits<double>::quiet_NaN();
+        raised = raised || power < floor;
+        p.y = power < floor ? floor : power;
+      }
+  return raised;
 }
 
 // A band as pairs of points, lower and upper edge by turns; NaN interrupts it. Of groups the first in which
 // it has values is taken.
-Curve band_of(const study::Plot& plot, const study::Plot::Band& band, const Table& table) {
+Curve band_of(const study::Plot& plot, const study::Plot::Band& band, const Table& table,
+              const Shown& shown) {
   const Column *x = table.find(plot.x), *lower = table.find(band.lower), *upper = table.find(band.upper);
   Curve out{band.label, {}};
   if (!x || !lower || !upper) return out;
@@ -96,8 +143,8 @@ Curve band_of(const study::Plot& plot, const study::Plot::Band& band, const Tabl
     out.points.clear();
     for (const std::size_t row : group.rows) {
       if (row >= end) continue;
-      out.points.push_back({x->values[row], lower->values[row]});
-      out.points.push_back({x->values[row], upper->values[row]});
+      for (const Column* edge : {lower, upper})
+        out.points.push_back({x->values[row] * shown.x.factor, edge->values[row] * shown.y.factor});
       any = any || (out.points.back().finite() && out.points[out.points.size() - 2].finite());
     }
     if (any) return out;
@@ -107,14 +154,14 @@ Curve band_of(const study::Plot& plot, const study::Plot::Band& band, const Tabl
 }
 
 // Counts of the values of all columns, as the outline of bars.
-Curve histogram(const study::Plot& plot, const Table& table) {
+Curve histogram(const study::Plot& plot, const Table& table, const DisplayUnit& unit) {
   std::vector<double> values;
   Curve out;
   for (const auto& key : plot.y)
     if (const Column* column = table.find(key)) {
-      out.label = label_of(*column);
+      out.label = label_with(*column, unit);
       for (const double v : column->values)
-        if (std::isfinite(v)) values.push_back(v);
+        if (std::isfinite(v)) values.push_back(v * unit.factor);
     }
   if (values.empty()) return out;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -249,12 +296,12 @@ void draw_baseline(std::string& out, const Axes& axes, const Curve& curve, std::
 void draw_curve(std::string& out, const Axes& axes, const Curve& curve, std::size_t index, bool bundle,
                 bool points) {
   const std::string path = path_of(axes, curve, points);
-  const std::size_t look = bundle ? 0 : index % colours.size();
+  const Look look = look_of(bundle ? 0 : index);
   put(out,
       "<path class=\"curve\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
       "stroke-dasharray=\"{}\" "
       "stroke-linejoin=\"round\" stroke-linecap=\"{}\" stroke-opacity=\"{}\"><title>{}</title></path>\n",
-      path, colours[look], points ? 6 : 1.8, points ? "none" : dashes[look], points ? "round" : "butt",
+      path, look.colour, points ? 6 : 1.8, points ? "none" : look.dash, points ? "round" : "butt",
       bundle ? 0.5 : 1.0, escape(curve.label));
 }
 
@@ -263,13 +310,16 @@ void draw_curve(std::string& out, const Axes& axes, const Curve& curve, std::siz
 std::string plot_svg(const study::Plot& plot, const Table& table, const Table* baseline) {
   if (plot.style == Style::map) return map_svg(plot, table);
   const bool counts = plot.style == Style::histogram, polar = plot.style == Style::polar;
-  const std::vector<Curve> curves =
-      counts ? std::vector<Curve>{histogram(plot, table)} : curves_of(plot, table);
+  const Shown shown = shown_of(plot, table);
+  std::vector<Curve> curves =
+      counts ? std::vector<Curve>{histogram(plot, table, shown.y)} : curves_of(plot, table, shown);
   std::vector<Curve> bands, before;
   if (plot.style == Style::line || plot.style == Style::points)
     for (const auto& band : plot.bands)
-      if (Curve edges = band_of(plot, band, table); !edges.points.empty()) bands.push_back(std::move(edges));
-  if (baseline && !counts) before = curves_of(plot, *baseline);
+      if (Curve edges = band_of(plot, band, table, shown); !edges.points.empty())
+        bands.push_back(std::move(edges));
+  if (baseline && !counts) before = curves_of(plot, *baseline, shown);
+  const bool raised = plot.logarithmic_y && !polar && !counts && take_logarithms({&curves, &bands, &before});
   const Axes axes = axes_of({&curves, &bands, &before}, plot.style);
   const bool bundle = curves.size() > most_named, empty = axes.box.empty();
   const bool named = !bundle && !counts && (polar || curves.size() > 1);
@@ -280,7 +330,7 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
   if (named)
     for (std::size_t i = 0; i < curves.size(); ++i)
       legend.push_back({fmt::format("stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"",
-                                    colours[i % colours.size()], dashes[i % dashes.size()]),
+                                    look_of(i).colour, look_of(i).dash),
                         curves[i].label});
   else if (bundle && !plot.group.empty())
     legend.push_back(
@@ -292,6 +342,11 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
   if (!before.empty())
     legend.push_back(
         {fmt::format("stroke=\"{}\" stroke-width=\"1.8\" stroke-dasharray=\"5 4\"", pale), baseline->name});
+  if (raised)
+    legend.push_back({"stroke=\"none\"",
+                      fmt::format("values below {:g} of the largest lie on the lower edge: they are zero up "
+                                  "to rounding",
+                                  rounding)});
   const double height =
       empty ? 60 : axes.height + (legend.empty() ? 0 : line_height * static_cast<double>(legend.size()) + 6);
   std::string out;
@@ -306,14 +361,20 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
   }
   const Column* first = table.find(plot.y.front());
   const Column* x = table.find(plot.x);
-  const std::string unit = first ? unit_of(*first) : "";
-  const std::string x_label = polar ? "x " + unit : counts ? curves.front().label : x ? label_of(*x) : plot.x;
+  const std::string unit = !shown.y.symbol.empty() ? "(" + shown.y.symbol + ")"
+                           : first                 ? unit_of(*first)
+                                                   : "";
+  const auto along = [&](const char* axis) { return unit.empty() ? axis : fmt::format("{} {}", axis, unit); };
+  const std::string x_label = polar    ? along("x")
+                              : counts ? curves.front().label
+                              : x      ? label_with(*x, shown.x)
+                                       : plot.x;
   const bool one = curves.size() == 1 || (!plot.group.empty() && plot.y.size() == 1 && first);
   const std::string y_label =
-      polar    ? "y " + unit
+      polar    ? along("y")
       : counts ? "count"
-      : one    ? (curves.size() == 1 && plot.group.empty() ? curves.front().label : label_of(*first))
-               : unit;
+      : one ? (curves.size() == 1 && plot.group.empty() ? curves.front().label : label_with(*first, shown.y))
+            : unit;
   draw_axes(out, axes, x_label, y_label, plot.logarithmic_y && !polar, polar);
   for (const auto& band : bands) draw_band(out, axes, band);
   for (const auto& curve : before) draw_baseline(out, axes, curve, baseline->name);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <iterator>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "linkwright/report/markup.h"
 #include "linkwright/report/plot_svg.h"
 #include "linkwright/report/svg.h"
+#include "linkwright/report/units.h"
 
 namespace linkwright::report {
 namespace {
@@ -58,7 +58,7 @@ void write_banner(std::string& out, const ReportInput& input) {
       std::count_if(result.checks.begin(), result.checks.end(), [](const auto& c) { return !c.passed; });
   put(out, "<header><p class=\"kicker\">Linkwright report</p><h1>{}</h1>", escape(input.title));
   if (!input.source.empty()) put(out, "<p class=\"source\">{}</p>", escape(input.source));
-  const bool good = failed == 0 && result.status == Status::done;
+  const bool good = failed == 0 && (result.status == Status::done || result.status == Status::at_rest);
   put(out, "<div class=\"verdict {}\"><strong>{}</strong><span>status {}", good ? "good" : "bad",
       escape(result.headline), to_string(result.status));
   if (!result.checks.empty())
@@ -80,24 +80,22 @@ void write_banner(std::string& out, const ReportInput& input) {
   }
 }
 
-// The instant for which the arrows of a drawing hold.
-std::string input_text(std::string_view key, double value) {
-  return key.ends_with("_rad") ? number(value * 180 / std::numbers::pi, 5) + "°"
-         : key.ends_with("_s") ? number(value, 5) + " s"
-         : key.ends_with("_m") ? number(value, 5) + " m"
-                               : number(value, 5);
+// One of the inputs of a scene.
+std::string input_text(std::string_view key, const std::vector<double>& inputs, std::size_t sample) {
+  return quantity(inputs[sample], display_unit(key, largest_size(inputs)));
 }
 
+// The instant for which the arrows of a drawing hold.
 std::string shown_at(const study::Scene& scene) {
   if (scene.samples() == 0) return {};
   const std::size_t sample = reference_sample(scene);
   const std::string text = fmt::format("{} {}", scene.input_label,
-                                       input_text(scene.input_key, scene.input[sample % scene.input.size()]));
+                                       input_text(scene.input_key, scene.input, sample % scene.input.size()));
   const std::string second =
       scene.second.empty()
           ? ""
           : fmt::format(", {} {}", scene.second_label,
-                        input_text(scene.second_key, scene.second[sample / scene.input.size()]));
+                        input_text(scene.second_key, scene.second, sample / scene.input.size()));
   return fmt::format("{} {}{}", scene.spatial() ? ", at" : ", arrows at", text, second);
 }
 

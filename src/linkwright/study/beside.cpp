@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "linkwright/core/csv.h"
+
 namespace linkwright::study {
 
 std::optional<std::string> read_beside(ObjectReader& reader, std::string_view key,
@@ -14,17 +16,20 @@ std::optional<std::string> read_beside(ObjectReader& reader, std::string_view ke
   std::error_code failed;
   const auto size = std::filesystem::file_size(path, failed);
   if (failed || !std::filesystem::is_regular_file(path, failed)) {
-    reader.error(key, fmt::format("cannot read '{}'", path.string()),
+    reader.unreadable(key, fmt::format("cannot read '{}'", path.string()),
                  "file names are relative to the folder of the study");
     return std::nullopt;
   }
   if (size > largest) {
-    reader.error(key, fmt::format("'{}' has {} bytes, at most {} are allowed", file, size, largest));
+    reader.unreadable(key, fmt::format("'{}' has {} bytes, at most {} are allowed", file, size, largest));
     return std::nullopt;
   }
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
+  std::string no_text;
+  std::optional<std::string> utf8 = to_utf8(text.str(), no_text);
+  if (!utf8) reader.unreadable(key, fmt::format("'{}' cannot be read: {}", file, no_text));
+  return utf8;
 }
 
 }  // namespace linkwright::study

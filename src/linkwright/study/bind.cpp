@@ -32,6 +32,7 @@ std::string shown(std::string_view text) {
 }
 
 std::string join_path(const std::string& path, std::string_view key) {
+  if (key.empty()) return path;
   const std::string last = is_bare_key(key) ? std::string(key) : "'" + shown(key) + "'";
   return path.empty() ? last : path + "." + last;
 }
@@ -79,6 +80,57 @@ Dimension key_dimension(const Field& field) {
   return field.inherits_unit ? Dimension::none : field.dimension;
 }
 
+/// A JSON Schema and what it is composed of: every schema that may describe the same value.
+std::vector<const Value*> alternatives_of(const Value& schema) {
+  std::vector<const Value*> all{&schema};
+  for (const char* word : {"oneOf", "anyOf", "allOf"})
+    if (const Value* parts = schema.find(word); parts && parts->is_array())
+      for (const Value& part : parts->as_array())
+        for (const Value* one : alternatives_of(part)) all.push_back(one);
+  return all;
+}
+
+std::vector<const Value*> elements_of(const std::vector<const Value*>& schemas) {
+  std::vector<const Value*> all;
+  for (const Value* schema : schemas)
+    if (const Value* items = schema->find("items"))
+      for (const Value* one : alternatives_of(*items)) all.push_back(one);
+  return all;
+}
+
+/// Whether a key fits "^base_(mm|cm)$", the only form of patternProperties that SchemaWriter writes.
+bool fits(std::string_view pattern, std::string_view key) {
+  const std::size_t open = pattern.rfind('(');
+  if (open == std::string_view::npos || !pattern.starts_with('^') || !pattern.ends_with(")$")) return false;
+  const std::string_view stem = pattern.substr(1, open - 1);
+  if (!key.starts_with(stem)) return false;
+  const std::string_view unit = key.substr(stem.size());
+  std::string_view units = pattern.substr(open + 1, pattern.size() - open - 3);
+  while (!units.empty()) {
+    const std::size_t end = std::min(units.find('|'), units.size());
+    if (units.substr(0, end) == unit) return true;
+    units.remove_prefix(std::min(end + 1, units.size()));
+  }
+  return false;
+}
+
+/// What the schemas say of a member; empty if none knows its key.
+std::vector<const Value*> members_of(const std::vector<const Value*>& schemas, std::string_view key) {
+  std::vector<const Value*> all;
+  const auto add = [&](const Value& schema) {
+    for (const Value* one : alternatives_of(schema)) all.push_back(one);
+  };
+  for (const Value* schema : schemas) {
+    if (const Value* properties = schema->find("properties"))
+      if (const Value* found = properties->find(key)) add(*found);
+    if (const Value* patterns = schema->find("patternProperties"); patterns && patterns->is_object())
+      for (const Value::Member& pattern : patterns->as_object())
+        if (fits(pattern.key, key)) add(pattern.value);
+    if (const Value* free = schema->find("additionalProperties"); free && free->is_object()) add(*free);
+  }
+  return all;
+}
+
 }  // namespace
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -107,9 +159,13 @@ bool DocumentReader::has_errors() const {
                      [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
 }
 
-void DocumentReader::finish_object(const Value& value) {
+void DocumentReader::poison(std::string_view path) {
+  unreadable_.emplace_back(path.substr(0, path.find_first_of(".[")));
+}
+
+void DocumentReader::finish_object(const Value& value, const std::vector<const Value*>& schemas) {
   if (value.is_array()) {
-    for (const Value& element : value.as_array()) finish_object(element);
+    for (const Value& element : value.as_array()) finish_object(element, elements_of(schemas));
     return;
   }
   const auto entry = records_.find(&value);
@@ -123,10 +179,13 @@ void DocumentReader::finish_object(const Value& value) {
     allowed += (allowed.empty() ? "" : ", ") + si_key(known.base, known.dimension);
   }
   for (const Value::Member& member : value.as_object()) {
+    const std::vector<const Value*> described = members_of(schemas, member.key);
     if (std::find(record.used.begin(), record.used.end(), &member) != record.used.end()) {
-      finish_object(member.value);
+      finish_object(member.value, described);
       continue;
     }
+    // Known, but the reader gave up before it came to it.
+    if (!described.empty()) continue;
     if (++unknown_ > most_unknown_keys) continue;
     // "crnk_mm" is compared as "crnk" and comes back with its own unit when that fits.
     const auto parts = split_unit(member.key);
@@ -141,21 +200,45 @@ void DocumentReader::finish_object(const Value& value) {
         meant = known->base + "_" + std::string(parts->unit->suffix);
       hint = fmt::format("did you mean '{}'?", meant);
       // The misspelt key is the missing one; one message is enough.
-      std::erase_if(record.missing, [&](const Known& missing) { return missing.base == base; });
+      if (std::erase_if(record.missing, [&](const Known& missing) { return missing.base == base; }) > 0)
+        poison(join_path(record.path, member.key));
+      misspelt_.push_back(join_path(record.path, meant));
+      misspelt_.push_back(join_path(record.path, base));
     }
-    report(Diagnostic::Severity::error, member.key_position, join_path(record.path, member.key),
+    report(Diagnostic::Severity::error, member.key_position,
+           member.key.empty() ? record.path + (record.path.empty() ? "''" : ".''")
+                              : join_path(record.path, member.key),
            "unknown key", hint);
   }
   for (const Known& missing : record.missing) {
     const bool bare = missing.dimension == Dimension::none;
+    poison(join_path(record.path, missing.base));
     report(Diagnostic::Severity::error, value.position,
            join_path(record.path, si_key(missing.base, missing.dimension)), "this key is missing",
            bare ? std::string() : "write " + keys_with_units(missing.base, missing.dimension));
   }
 }
 
-void DocumentReader::finish() {
-  finish_object(document_);
+void DocumentReader::drop_follow_ups() {
+  const auto unreadable = [&](std::string_view table) {
+    return std::find(unreadable_.begin(), unreadable_.end(), table) != unreadable_.end();
+  };
+  const bool mechanism = unreadable("mechanism");
+  const auto follows = [&](const std::string& path) {
+    const std::string_view table = std::string_view(path).substr(0, path.find_first_of(".["));
+    // What is written and checked does not build on the mechanism.
+    return unreadable(table) || (mechanism && table != "output" && table != "check") ||
+           std::find(misspelt_.begin(), misspelt_.end(), path) != misspelt_.end();
+  };
+  for (auto index = meaning_.rbegin(); index != meaning_.rend(); ++index)
+    if (follows(diagnostics_[*index].key))
+      diagnostics_.erase(diagnostics_.begin() + static_cast<std::ptrdiff_t>(*index));
+}
+
+void DocumentReader::finish(const std::function<Value()>& schema) {
+  const Value described = schema && has_errors() ? schema() : Value();
+  finish_object(document_, described.is_object() ? alternatives_of(described) : std::vector<const Value*>());
+  drop_follow_ups();
   if (unknown_ > most_unknown_keys)
     report(Diagnostic::Severity::error, {}, {},
            fmt::format("{} more unknown keys", unknown_ - most_unknown_keys));
@@ -178,6 +261,7 @@ void DocumentReader::finish() {
 const std::string& ObjectReader::path() const { return record_->path; }
 
 void ObjectReader::problem(const Found& found, std::string message, std::string hint) {
+  document_->poison(found.path);
   document_->report(Diagnostic::Severity::error, found.value->position, found.path, std::move(message),
                     std::move(hint));
 }
@@ -203,6 +287,7 @@ std::optional<ObjectReader::Found> ObjectReader::find(const Field& field) {
   bool in_error = false;
   const auto refuse = [&](const Value::Member& member, std::string message, std::string hint) {
     in_error = true;
+    document_->poison(join_path(path(), member.key));
     document_->report(Diagnostic::Severity::error, member.key_position, join_path(path(), member.key),
                       std::move(message), std::move(hint));
   };
@@ -264,17 +349,29 @@ bool ObjectReader::is_table(const Field& field) {
   return member && member->value.is_object();
 }
 
-void ObjectReader::error(std::string_view key, std::string message, std::string hint) {
+void ObjectReader::report_at(std::string_view key, std::string message, std::string hint) {
+  Position position = object_->position;
+  std::string path = join_path(record_->path, key);
   for (const auto& known : record_->known) {
     if (known.base != key) continue;
     if (const Value::Member* member = member_of({.key = key, .summary = {}, .dimension = known.dimension})) {
-      document_->report(Diagnostic::Severity::error, member->value.position, join_path(path(), member->key),
-                        std::move(message), std::move(hint));
-      return;
+      position = member->value.position;
+      path = join_path(record_->path, member->key);
+      break;
     }
   }
-  document_->report(Diagnostic::Severity::error, object_->position, join_path(path(), key),
-                    std::move(message), std::move(hint));
+  document_->report(Diagnostic::Severity::error, position, std::move(path), std::move(message),
+                    std::move(hint));
+}
+
+void ObjectReader::unreadable(std::string_view key, std::string message, std::string hint) {
+  document_->poison(join_path(path(), key));
+  report_at(key, std::move(message), std::move(hint));
+}
+
+void ObjectReader::error(std::string_view key, std::string message, std::string hint) {
+  document_->meaning_.push_back(document_->diagnostics_.size());
+  report_at(key, std::move(message), std::move(hint));
 }
 
 void ObjectReader::warning(std::string_view key, std::string message, std::string hint) {

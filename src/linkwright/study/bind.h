@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -38,6 +39,10 @@ class ObjectReader;
 
 /// Reads one document: collects what is wrong with it and which keys were asked for, so that `finish` can
 /// tell the unknown ones. Values that cannot be read keep what the member held before.
+///
+/// One mistake, one message: what could not be read is remembered, and `finish` drops the errors of meaning
+/// (ObjectReader::error) that may only follow from it, those in the same top-level table and, if the mechanism
+/// could not be read, those of all tables that build on it.
 class DocumentReader {
  public:
   /// `document` must outlive this; problems are appended to `diagnostics` under the name `file`.
@@ -48,8 +53,9 @@ class DocumentReader {
   ObjectReader root();
 
   /// Reports unknown and missing keys and puts all problems into the order of the file. Call once, when
-  /// everything has been read.
-  void finish();
+  /// everything has been read. Where a reader gave up because of an error, it has not asked for all keys: then
+  /// those that `schema` (JSON Schema of the document) allows are not unknown.
+  void finish(const std::function<Value()>& schema = nullptr);
 
   void report(Diagnostic::Severity severity, Position position, std::string key, std::string message,
               std::string hint = {});
@@ -71,13 +77,18 @@ class DocumentReader {
     std::vector<Known> missing;
   };
   Record& open(const Value& object, std::string path, const Unit* unit);
-  void finish_object(const Value& value);
+  void finish_object(const Value& value, const std::vector<const Value*>& schemas);
+  void poison(std::string_view path);
+  void drop_follow_ups();
 
   const Value& document_;
   std::string file_;
   Diagnostics& diagnostics_;
   std::size_t first_;
   std::map<const Value*, Record> records_;
+  std::vector<std::size_t> meaning_;   // which of the diagnostics may follow from others
+  std::vector<std::string> unreadable_;  // top-level tables in which something could not be read
+  std::vector<std::string> misspelt_;    // paths of the keys that unknown ones were probably meant to be
   std::size_t unknown_ = 0;
 };
 
@@ -115,8 +126,10 @@ class ObjectReader {
   std::optional<std::size_t> word(const Field& field, std::span<const Word> words);
 
   /// An error of meaning at a key ("crank" finds crank_m or crank_mm): position and path are filled in. An
-  /// absent key puts it at the table.
+  /// absent key puts it at the table, an empty one names the table itself.
   void error(std::string_view key, std::string message, std::string hint = {});
+  /// An error that leaves others in its wake, such as two bodies of one name: those are dropped.
+  void unreadable(std::string_view key, std::string message, std::string hint = {});
   void warning(std::string_view key, std::string message, std::string hint = {});
 
   /// "mechanism.parameters", empty for the document itself.
@@ -153,6 +166,7 @@ class ObjectReader {
   /// The member of a field; problems with its unit and its absence are noted.
   std::optional<Found> find(const Field& field);
   const Value::Member* member_of(const Field& field) const;
+  void report_at(std::string_view key, std::string message, std::string hint);
   void know(const Field& field);
   const Value::Array* elements(const Found& found, std::string_view expected);
 

@@ -79,14 +79,17 @@ void SchemaWriter::property(const Field& field, Value schema) {
   if (field.required) one_of_units_.push_back(with("oneOf", Value(std::move(either))));
 }
 
-void SchemaWriter::alternative(const Field& field, const Word& word, SchemaWriter options) {
+void SchemaWriter::alternative(const Field& field, const Word& word, SchemaWriter options, bool chosen,
+                               Value::Array& alternatives) {
   Value schema = std::move(options).finish();
   // Keys of the surrounding table stand beside these.
   std::erase_if(schema.as_object(),
                 [](const Value::Member& member) { return member.key == "unevaluatedProperties"; });
   schema["properties"][field.key] = with("const", word.name);
   if (!word.summary.empty()) schema["description"] = word.summary;
-  alternatives_.push_back(std::move(schema));
+  // Without the key just one option holds, so that exactly one fits.
+  if (!chosen) schema["required"].push_back(Value(field.key));
+  alternatives.push_back(std::move(schema));
 }
 
 Value SchemaWriter::finish() && {
@@ -94,8 +97,12 @@ Value SchemaWriter::finish() && {
   schema["properties"] = std::move(properties_);
   if (!patterns_.as_object().empty()) schema["patternProperties"] = std::move(patterns_);
   if (!required_.empty()) schema["required"] = Value(std::move(required_));
-  if (!one_of_units_.empty()) schema["allOf"] = Value(std::move(one_of_units_));
-  if (!alternatives_.empty()) schema["oneOf"] = Value(std::move(alternatives_));
+  Value::Array all = std::move(one_of_units_);
+  if (choices_.size() == 1)
+    schema["oneOf"] = Value(std::move(choices_.front()));
+  else
+    for (Value::Array& options : choices_) all.push_back(with("oneOf", Value(std::move(options))));
+  if (!all.empty()) schema["allOf"] = Value(std::move(all));
   schema["unevaluatedProperties"] = false;
   return schema;
 }

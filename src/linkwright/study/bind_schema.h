@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "linkwright/core/units.h"
 #include "linkwright/core/value.h"
@@ -20,10 +21,15 @@ class SchemaWriter {
   template <class T>
   void operator()(const Field& field, const T& member) {
     if constexpr (is_variant<T>) {
-      choice(field, member);
+      choice(field, member, true);
+    } else if constexpr (is_optional<T>) {
+      if constexpr (is_variant<typename T::value_type>)
+        choice(field, typename T::value_type{}, false);
+      else
+        property(field, of(field, member));
     } else {
       Value schema = of(field, member);
-      if constexpr (!is_optional<T> && !HasFields<T> && !HasOwnForm<T>) {
+      if constexpr (!HasFields<T> && !HasOwnForm<T>) {
         if (!field.required) schema["default"] = ObjectWriter::to_value(member);
       }
       property(field, std::move(schema));
@@ -45,15 +51,18 @@ class SchemaWriter {
   static Value words(std::span<const Word> words);
   static Value array(Value items, std::size_t count);
 
+  /// `has_default`: without the key, `member` holds; else the whole choice may be absent.
   template <class... Options>
-  void choice(const Field& field, const std::variant<Options...>& member);
-  void alternative(const Field& field, const Word& word, SchemaWriter options);
+  void choice(const Field& field, const std::variant<Options...>& member, bool has_default);
+  /// `chosen`: the option holds where the key is absent.
+  void alternative(const Field& field, const Word& word, SchemaWriter options, bool chosen,
+                   Value::Array& alternatives);
 
   Value properties_ = Value::object();
   Value patterns_ = Value::object();
   Value::Array required_;
   Value::Array one_of_units_;
-  Value::Array alternatives_;
+  std::vector<Value::Array> choices_;  // of each choice the options
 };
 
 /// Schema of a table that is read by the field list of T.
@@ -109,17 +118,26 @@ Value SchemaWriter::of(const Field& field, const T& member) {
 }
 
 template <class... Options>
-void SchemaWriter::choice(const Field& field, const std::variant<Options...>& member) {
+void SchemaWriter::choice(const Field& field, const std::variant<Options...>& member, bool has_default) {
+  Value::Array alternatives;
   const auto add = [&](auto options) {
     SchemaWriter writer;
     const Word word = choice_word(options);
     fields(writer, options);
-    alternative(field, word, std::move(writer));
+    const bool chosen =
+        has_default && !field.required && std::holds_alternative<decltype(options)>(member);
+    alternative(field, word, std::move(writer), chosen, alternatives);
   };
   (add(Options{}), ...);
+  if (!has_default && !field.required) {
+    Value absent;
+    absent["not"]["required"].push_back(Value(field.key));
+    alternatives.push_back(std::move(absent));
+  }
+  choices_.push_back(std::move(alternatives));
   Value schema;
   schema["type"] = "string";
-  if (!field.required)
+  if (has_default && !field.required)
     schema["default"] =
         std::visit([](const auto& options) { return Value(choice_word(options).name); }, member);
   property(field, std::move(schema));

@@ -22,6 +22,15 @@ using DrivenLaw = std::variant<Driven<kind, math::ConstantSpeed>, Driven<kind, m
 using RotaryLaw = DrivenLaw<JointKind::rotary>;
 using LinearLaw = DrivenLaw<JointKind::linear>;
 
+/// Any of them, for the schema of joints that may be either.
+template <class Rotary, class Linear>
+struct EitherLaw;
+template <class... Rotary, class... Linear>
+struct EitherLaw<std::variant<Rotary...>, std::variant<Linear...>> {
+  using type = std::variant<Rotary..., Linear...>;
+};
+using AnyLaw = EitherLaw<RotaryLaw, LinearLaw>::type;
+
 /// The law itself.
 template <JointKind kind>
 math::MotionLaw motion_law(const DrivenLaw<kind>& law) {

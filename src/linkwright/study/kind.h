@@ -12,6 +12,7 @@
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/checks.h"
+#include "linkwright/study/display_units.h"
 #include "linkwright/study/result.h"
 
 namespace linkwright::study {
@@ -25,11 +26,20 @@ constexpr std::array<EnumName<Format>, 5> names(Format) {
            {Format::dxf, "dxf", "a drawing of each solution for CAD, in millimetres, 1:1"}}};
 }
 
+/// Digits of the numbers in result.json and CSV.
+enum class Digits { full, six };
+constexpr std::array<EnumName<Digits>, 2> names(Digits) {
+  return {{{Digits::full, "full", "as many as read back to the same number"},
+           {Digits::six, "six", "six significant digits"}}};
+}
+
 /// `[output]` of a study.
 struct Output {
   std::string dir;  ///< folder, relative to the current one; empty = "out/" and the name of the study file
   std::vector<Format> formats{Format::json, Format::csv, Format::html};
   int samples = 361;                    ///< of curves and animations
+  OutputUnits units;                    ///< of tables, parameters and objectives in result.json and CSV
+  Digits digits = Digits::full;
   std::vector<std::string> quantities;  ///< out of Kind::quantities; empty = all
 };
 template <class Visitor>
@@ -39,6 +49,8 @@ void fields(Visitor&& visit, Output& o) {
   visit(
       Field{.key = "samples", .summary = "samples of curves and animations", .minimum = 2, .maximum = 100000},
       o.samples);
+  visit(Field{.key = "units", .summary = "units of the numbers in result.json and CSV"}, o.units);
+  visit(Field{.key = "digits", .summary = "digits of the numbers in result.json and CSV"}, o.digits);
 }
 
 /// `[optimiser] seeds` of a study: the seeds first, first + 1, ..., each an independent run.
@@ -61,6 +73,7 @@ struct Common {
   Seeds seeds;
   std::vector<CheckRequest> checks;
   std::filesystem::path folder;  ///< of the study file: file names in a study are relative to it
+  DisplayUnits units;            ///< those of the study's keys: for messages, facts and headlines
 };
 
 /// The part of a study that its domain has read.

@@ -100,6 +100,19 @@ struct Solution {
   std::string scene;     ///< name of its scene; empty = none
 };
 
+/// Something that stands in the way of an answer: a limit that is exceeded, a place that cannot be reached.
+struct Trouble {
+  struct Place {
+    std::string key;  ///< with unit: "crank_angle_rad", "time_s"
+    double value = 0;
+  };
+  std::string what;          ///< "torque of drive 2", "no_assembly"
+  std::vector<Place> where;  ///< input, time and place, as far as they are known
+  /// How much of the limit is used: 1.96 for 96 % more than allowed. NaN = cannot be compared.
+  double share = std::numeric_limits<double>::quiet_NaN();
+  std::string why;  ///< one sentence
+};
+
 /// What a study gives back. Tables, scenes and plots are all that a report draws.
 struct Result {
   Status status = Status::done;
@@ -116,6 +129,7 @@ struct Result {
   std::vector<Comparison> comparisons;
   std::vector<Change> changes;
   std::vector<Check> checks;
+  std::vector<Trouble> troubles;  ///< in the order in which they occur; see study/answer.h
   Diagnostics diagnostics;  ///< remarks and warnings about the answer
 };
 

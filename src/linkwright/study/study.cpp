@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <thread>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/interruption.h"
+#include "linkwright/core/units.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/memory.h"
 
 namespace linkwright::study {
 namespace {
@@ -133,6 +138,59 @@ void add_property(Value& document, std::string_view table, std::string_view key,
   if (required) described["required"].push_back(Value(key));
 }
 
+/// Two columns of one name would hide each other in plots, checks and spreadsheets.
+void make_unique(Table& table, Diagnostics& diagnostics) {
+  std::set<std::string> names;
+  for (Column& column : table.columns) {
+    if (names.insert(column.key).second) continue;
+    const auto parts = split_unit(column.key);
+    const std::string base = parts ? std::string(parts->base) : column.key;
+    const std::string unit = parts ? "_" + std::string(parts->unit->suffix) : std::string();
+    int number = 2;
+    while (!names.insert(fmt::format("{}_{}{}", base, number, unit)).second) ++number;
+    const std::string key = fmt::format("{}_{}{}", base, number, unit);
+    diagnostics.push_back({.severity = Diagnostic::Severity::warning,
+                           .key = table.name + "." + column.key,
+                           .message = fmt::format("two columns have this name; that of '{}' is now {}",
+                                                  column.label, key),
+                           .hint = "give bodies, joints and points names that differ in letters and digits"});
+    column.key = key;
+  }
+}
+
+/// Ranges { min, max } in a value: unknowns, for all that the study room knows.
+std::size_t ranges_in(const Value& value) {
+  std::size_t out = 0;
+  if (value.is_object()) {
+    out += value.find("min") != nullptr && value.find("max") != nullptr;
+    for (const Value::Member& member : value.as_object()) out += ranges_in(member.value);
+  } else if (value.is_array()) {
+    for (const Value& element : value.as_array()) out += ranges_in(element);
+  }
+  return out;
+}
+
+/// Every kind with an optimiser has these keys; seeds run at once on all threads.
+void require_room_for_candidates(ObjectReader& root, const Value& document, const Common& common) {
+  constexpr std::size_t usual_unknowns = 10;
+  const Value* optimiser = document.find("optimiser");
+  if (!optimiser || !optimiser->is_object()) return;
+  const std::size_t unknowns = std::max(usual_unknowns, ranges_in(document));
+  const double at_once =
+      std::min<double>(common.seeds.count, std::max(1u, std::thread::hardware_concurrency()));
+  for (const char* key : {"population", "candidates"}) {
+    const Value* count = optimiser->find(key);
+    if (!count || !count->is_integer()) continue;
+    if (auto table = root.table("optimiser"))
+      require_memory(
+          *table, key,
+          at_once * population_bytes(static_cast<double>(count->as_integer()), static_cast<double>(unknowns)),
+          fmt::format("{} candidates of {} unknowns{}", count->as_integer(), unknowns,
+                      at_once > 1 ? fmt::format(", {:.0f} seeds at once", at_once) : std::string()),
+          "take fewer candidates");
+  }
+}
+
 }  // namespace
 
 std::optional<Study> prepare(const Value& document, const std::string& file,
@@ -144,6 +202,7 @@ std::optional<Study> prepare(const Value& document, const std::string& file,
   Study study;
   Common& common = study.common;
   common.folder = folder;
+  common.units = units_of(document);
   read_schema_version(root);
   root(title_field, common.title);
   root(source_field, common.source);
@@ -154,6 +213,7 @@ std::optional<Study> prepare(const Value& document, const std::string& file,
   if (study.kind) {
     if (study.kind->seeded)
       if (auto optimiser = root.table("optimiser")) (*optimiser)(seeds_field, common.seeds);
+    if (study.kind->seeded) require_room_for_candidates(root, document, common);
     prepared = study.kind->prepare(root, common);
   } else {
     // Without a kind nobody knows what else may stand here.
@@ -161,7 +221,7 @@ std::optional<Study> prepare(const Value& document, const std::string& file,
     for (const char* name : {"mechanism", "target"})
       if (root.is_table(Field{.key = name, .summary = {}})) root.table(name)->members();
   }
-  reader.finish();
+  reader.finish([&] { return study.kind ? schema_of(*study.kind) : Value(); });
   if (reader.has_errors() || !study.kind) return std::nullopt;
   LINKWRIGHT_REQUIRE(prepared.run != nullptr, "the kind '{}' accepted '{}' but cannot run it",
                      name_of(*study.kind), file);
@@ -171,7 +231,14 @@ std::optional<Study> prepare(const Value& document, const std::string& file,
 }
 
 Result run_study(const Study& study, RunContext& context) {
-  Result result = study.run(context);
+  Result result;
+  try {
+    result = study.run(context);
+  } catch (const Interrupted& why) {
+    result.status = why.status();
+    result.headline = "Interrupted before there was anything to tell.";
+  }
+  for (Table& table : result.tables) make_unique(table, result.diagnostics);
   for (const CheckRequest& check : study.common.checks) result.checks.push_back(evaluate(check, result));
   return result;
 }

@@ -70,8 +70,7 @@ class Saddle {
     for (ElasticBar& bar : of.couplers) bar.multiplier = bar.stiffness == rigid ? size_++ : -1;
     if (of.spring) of.spring->multiplier = support == Support::spring_held ? size_++ : -1;
     height_ = support == Support::wheel_centre_held || support == Support::contact_held ? size_++ : -1;
-    const int idle = size_;
-    size_ += static_cast<int>(of.idle.size());
+    for (HeldTurn& turn : of.held_turns) turn.multiplier = size_++;
 
     matrix_ = MatrixXd::Zero(size_, size_);
     for (const ElasticJoint& joint : of.joints) add_joint(joint);
@@ -83,10 +82,10 @@ class Saddle {
       row.tail<6>() << eigen(up), eigen(cross(of.height_arm, up));
       hold(height_, ground, 0, row);
     }
-    for (std::size_t i = 0; i < of.idle.size(); ++i) {
+    for (const HeldTurn& turn : of.held_turns) {
       Row12 row = Row12::Zero();
-      row.segment<3>(9) = eigen(of.idle[i].second);
-      hold(idle + static_cast<int>(i), ground, of.idle[i].first, row);
+      row.segment<3>(9) = eigen(turn.about);
+      hold(turn.multiplier, ground, turn.body, row);
     }
     const int n = of.displacements();
     scale_ = std::max(1.0, matrix_.topLeftCorner(n, n).diagonal().cwiseAbs().maxCoeff());
@@ -246,6 +245,9 @@ std::array<Vec3, 2> joint_force(const ElasticAssembly& of, const ElasticJoint& j
       force = -(i < 3 ? joint.stiffness.translation[i] : joint.stiffness.rotation[i - 3]) * relative[i];
     out[i / 3] += force * joint.axes.row[i % 3];
   }
+  if (joint.first == ground)  // a K joint that holds the link's spin
+    for (const HeldTurn& turn : of.held_turns)
+      if (turn.link == joint.link && turn.body == joint.second) out[1] += -x(turn.multiplier) * turn.about;
   return out;
 }
 
@@ -285,6 +287,13 @@ void add_geometric(const ElasticAssembly& of, const Solution& x, const PointLoad
     to.add(b, b, own + own.transpose());
     to.add(b, a, other);
     to.add(a, b, turn_block(-0.5 * skew(turning)));
+  }
+  // A K joint keeps its axes across each other: standing . exp(turn) turning = 0, to second order.
+  for (const HeldTurn& turn : of.held_turns) {
+    if (turn.link < 0) continue;
+    const Eigen::Vector3d a = eigen(turn.standing), b = eigen(turn.turning);
+    to.add(turn.body, turn.body,
+           turn_block(0.5 * x(turn.multiplier) * (a * b.transpose() + b * a.transpose())));
   }
   const auto add_bar = [&](const ElasticBar& bar) {
     const double pull = tension(of, bar, x), length = norm(bar.to - bar.from);

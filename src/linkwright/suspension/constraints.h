@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "linkwright/suspension/constructions.h"
 #include "linkwright/suspension/suspension.h"
 
 /// The equations of a wheel guide: residuals of its joints and of a driver, with exact derivatives.
@@ -45,6 +46,7 @@ struct BasicLinkConstants {
   std::array<T, 2> length{};         ///< of the distances that it keeps
   Vector3<T> axis;                   ///< unit: strut line, hinge axis in the body (R, RR)
   Vector3<T> carrier_axis;           ///< unit: hinge axis in the carrier (R, RR)
+  Vector3<T> standing_axis;          ///< unit: axis of the K joint in the body (KS)
   std::array<Vector3<T>, 2> across;  ///< unit, normal to the strut line or to the carrier's axis
 };
 using LinkConstants = BasicLinkConstants<double>;
@@ -57,10 +59,20 @@ struct BasicAffinePoint {
 };
 using AffinePoint = BasicAffinePoint<double>;
 
+/// A point fixed to a rod: its share of the rod's line, and where a K joint holds the rod's spin its offsets
+/// from the line (m), along the axis of the joint that turns with the rod and across both.
+template <class T>
+struct BasicRodPoint {
+  T along{0}, beside{0}, above{0};
+  bool held = false;
+};
+using RodPoint = BasicRodPoint<double>;
+
 template <class T>
 struct BasicCouplerConstants {
   int first = 0, second = 0;
-  T fraction{0}, length{0};
+  BasicRodPoint<T> begin;
+  T length{0};
   BasicAffinePoint<T> point;
 };
 using CouplerConstants = BasicCouplerConstants<double>;
@@ -70,7 +82,8 @@ struct BasicSpringConstants {
   Vector3<T> body;
   Vector3<T> offset;  ///< carrier: from the wheel centre; RR arm: from its first body point
   int link = -1;
-  T length{0}, fraction{0};
+  T length{0};
+  BasicRodPoint<T> on_rod;
   BasicAffinePoint<T> point;
 };
 using SpringConstants = BasicSpringConstants<double>;
@@ -86,6 +99,7 @@ struct BasicGuidePlan {
   std::vector<BasicLinkConstants<T>> links;
   std::vector<BasicCouplerConstants<T>> couplers;
   std::optional<BasicSpringConstants<T>> spring;
+  GuideConstruction construction;
   std::vector<std::string> labels;  ///< of the links and couplers
   int unknowns = 6;                 ///< 7 with an RR arm
 };

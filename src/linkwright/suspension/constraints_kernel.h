@@ -95,17 +95,53 @@ struct LinkPoint {
   Vector3<T> at;
   const BasicLinkConstants<T>* link = nullptr;  ///< null = the carrier
   Vector3<T> offset;                            ///< carrier
-  T fraction{0};                                ///< KS
+  BasicRodPoint<T> rod;                         ///< KS, SS
+  Vector3<T> line, turning;    ///< KS: along the rod, and the K joint's axis that turns with it
   BasicAffinePoint<T> affine;  ///< SR: from the first hinge point; RS: from the first body point
   Vector3<T> f1, f2, r1, r2;
 };
 
 template <class T>
-LinkPoint<T> rod_point(const Placed<T>& placed, const BasicLinkConstants<T>& link, const T& fraction) {
-  LinkPoint<T> out{.link = &link, .fraction = fraction};
+LinkPoint<T> rod_point(const Placed<T>& placed, const BasicLinkConstants<T>& link,
+                       const BasicRodPoint<T>& rod) {
+  LinkPoint<T> out{.link = &link, .rod = rod};
   out.r1 = placed.offset(link.offset[0]);
   const Vector3<T> from = placed.body(link, 0);
-  out.at = from + fraction * (placed.point(out.r1) - from);
+  out.line = placed.point(out.r1) - from;
+  out.at = from + rod.along * out.line;
+  if (!rod.held) return out;
+  out.turning = unit(cross(link.standing_axis, out.line));
+  out.at += rod.beside * out.turning + (rod.above / link.length[0]) * cross(out.line, out.turning);
+  return out;
+}
+
+/// Weight on the rod's carrier point that gives weight . (shift of the point) to first order, the body point
+/// standing still.
+template <class T>
+Vector3<T> rod_weight(const LinkPoint<T>& point, const Vector3<T>& weight) {
+  const BasicRodPoint<T>& rod = point.rod;
+  Vector3<T> out = rod.along * weight;
+  if (!rod.held) return out;
+  // The rod keeps its length, so that what the offset across both axes turns by is the line and the axis.
+  const T above = rod.above / point.link->length[0];
+  const Vector3<T>& b = point.turning;
+  const Vector3<T> by_axis = rod.beside * weight + above * cross(weight, point.line);
+  const T lever = norm(cross(point.link->standing_axis, point.line));
+  const Vector3<T> across = (1 / lever) * (by_axis - dot(by_axis, b) * b);
+  return out + above * cross(b, weight) + cross(across, point.link->standing_axis);
+}
+
+/// The point of a rod that is at `point` when the rod lies between `body` and `carrier`.
+template <class T>
+BasicRodPoint<T> rod_point_of(const Vector3<T>& point, const Vector3<T>& body, const Vector3<T>& carrier,
+                              LinkType type, const Vector3<T>& standing_axis) {
+  const Vector3<T> line = carrier - body, from = point - body;
+  BasicRodPoint<T> out{.along = dot(from, line) / dot(line, line)};
+  if (type != LinkType::KS) return out;
+  const Vector3<T> turning = unit(cross(standing_axis, line));
+  out.held = true;
+  out.beside = dot(from, turning);
+  out.above = dot(from, cross(unit(line), turning));
   return out;
 }
 
@@ -143,8 +179,9 @@ void add_point(const Placed<T>& placed, const LinkPoint<T>& point, const Vector3
     row.point(w2, point.r1);
     row.by_rack += dot(weight - w2, speed);
   } else {
-    row.point(point.fraction * weight, point.r1);
-    row.by_rack += (1 - point.fraction) * dot(weight, speed);
+    const Vector3<T> w1 = rod_weight(point, weight);
+    row.point(w1, point.r1);
+    row.by_rack += dot(weight - w1, speed);
   }
 }
 
@@ -245,7 +282,7 @@ struct CouplerEnds {
 
 template <class T>
 CouplerEnds<T> ends(const Placed<T>& placed, const BasicCouplerConstants<T>& coupler) {
-  CouplerEnds<T> out{rod_point(placed, placed.plan.links[coupler.first], coupler.fraction),
+  CouplerEnds<T> out{rod_point(placed, placed.plan.links[coupler.first], coupler.begin),
                      frame_point(placed, placed.plan.links[coupler.second], coupler.point),
                      {}};
   out.between = out.second.at - out.first.at;
@@ -285,7 +322,7 @@ T spring_length(const Placed<T>& placed, Row<T>& row) {
   }
   const bool rod = link->type == LinkType::KS || link->type == LinkType::SS;
   const LinkPoint<T> end =
-      rod ? rod_point(placed, *link, spring.fraction) : frame_point(placed, *link, spring.point);
+      rod ? rod_point(placed, *link, spring.on_rod) : frame_point(placed, *link, spring.point);
   const auto [length, weight] = pull(end.at);
   add_point(placed, end, weight, row);
   return length;
@@ -321,7 +358,8 @@ BasicGuidePlan<T> prepare(const BasicWheelGuide<T>& guide) {
   BasicGuidePlan<T> plan{.side = guide.side,
                          .wheel = guide.wheel,
                          .wheel_axis = wheel_axis(guide.side, guide.wheel.toe, guide.wheel.camber),
-                         .rack_direction = guide.rack_direction};
+                         .rack_direction = guide.rack_direction,
+                         .construction = construction_of(guide.links)};
   const Vector3<T>& centre = guide.wheel.centre;
   plan.contact = centre + contact_offset(guide.side, guide.wheel.tyre_diameter,
                                          BasicWheelAngles<T>{guide.wheel.toe, guide.wheel.camber, T(0)});
@@ -334,6 +372,8 @@ BasicGuidePlan<T> prepare(const BasicWheelGuide<T>& guide) {
       case LinkType::KS:
       case LinkType::SS:
         link.length[0] = from.length.value_or(norm(from.carrier[0] - from.body[0]));
+        if (from.type == LinkType::KS)
+          link.standing_axis = standing_axis(from.cross_axis, from.carrier[0] - from.body[0]);
         break;
       case LinkType::RS:
         for (int k = 0; k < 2; ++k) link.length[k] = norm(from.carrier[0] - from.body[k]);
@@ -363,9 +403,15 @@ BasicGuidePlan<T> prepare(const BasicWheelGuide<T>& guide) {
   }
   for (const BasicCoupler<T>& from : guide.couplers) {
     const BasicGuideLink<T>&rod = guide.links[from.first], &second = guide.links[from.second];
-    BasicCouplerConstants<T> coupler{.first = from.first, .second = from.second, .fraction = from.fraction};
+    BasicCouplerConstants<T> coupler{.first = from.first, .second = from.second};
+    coupler.begin.along = from.fraction;
+    if (from.begin)
+      coupler.begin = rod_point_of(*from.begin, rod.body[0], rod.carrier[0], rod.type,
+                                   plan.links[from.first].standing_axis);
     coupler.point = affine_of(from.point, second.carrier[0], second.body[0], second.carrier[1]);
-    coupler.length = norm(from.point - (rod.body[0] + from.fraction * (rod.carrier[0] - rod.body[0])));
+    coupler.length =
+        norm(from.point -
+             (from.begin ? *from.begin : rod.body[0] + from.fraction * (rod.carrier[0] - rod.body[0])));
     plan.couplers.push_back(coupler);
   }
   if (guide.spring) {
@@ -383,8 +429,8 @@ BasicGuidePlan<T> prepare(const BasicWheelGuide<T>& guide) {
       } else if (link.type == LinkType::SR) {
         spring.point = affine_of(from.moving, link.carrier[0], link.body[0], link.carrier[1]);
       } else {
-        const Vector3<T> along = link.carrier[0] - link.body[0];
-        spring.fraction = dot(from.moving - link.body[0], along) / dot(along, along);
+        spring.on_rod = rod_point_of(from.moving, link.body[0], link.carrier[0], link.type,
+                                     plan.links[from.link].standing_axis);
       }
     }
     plan.spring = spring;

@@ -80,6 +80,50 @@ Sphere fit_sphere(const Track& track, double l) {
   return s;
 }
 
+/// The point of the box (m, vehicle frame) whose sphere is nearest to the track for an offset: least squares
+/// with limits, exact by trying which coordinates stand at one.
+Vec3 best_in_box(const Track& track, double l, const PointBox& box) {
+  const auto n = static_cast<Eigen::Index>(track.size());
+  Eigen::MatrixXd a(n, 3);
+  Eigen::VectorXd b(n);
+  const Eigen::Vector3d t0 = track.at(0, l);
+  Eigen::Matrix3d frame;  // coordinates of the link's frame from those of the vehicle
+  for (int k = 0; k < 3; ++k)
+    frame.row(k) << track.frame.row[k].x, track.frame.row[k].y, track.frame.row[k].z;
+  const Eigen::Vector3d origin(track.origin.x, track.origin.y, track.origin.z);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Vector3d t = track.at(static_cast<std::size_t>(i), l);
+    a.row(i) = (t - t0).transpose() * frame;
+    b[i] = (t - t0).dot(t + t0) / 2 + a.row(i).dot(origin);
+  }
+  const Eigen::Vector3d lower(box.lower.x, box.lower.y, box.lower.z),
+      upper(box.upper.x, box.upper.y, box.upper.z);
+  Eigen::Vector3d best = 0.5 * (lower + upper);
+  double least = std::numeric_limits<double>::infinity();
+  for (int sides = 0; sides < 27; ++sides) {  // each coordinate free, at its lower, at its upper limit
+    const std::array side{sides % 3, sides / 3 % 3, sides / 9};
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    std::array<int, 3> free{};
+    int count = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (side[static_cast<std::size_t>(k)] == 0)
+        free[static_cast<std::size_t>(count++)] = k;
+      else
+        point[k] = side[static_cast<std::size_t>(k)] == 1 ? lower[k] : upper[k];
+    }
+    if (count > 0) {
+      Eigen::MatrixXd columns(n, count);
+      for (int k = 0; k < count; ++k) columns.col(k) = a.col(free[static_cast<std::size_t>(k)]);
+      const Eigen::VectorXd at = columns.colPivHouseholderQr().solve(b - a * point);
+      for (int k = 0; k < count; ++k) point[free[static_cast<std::size_t>(k)]] = at[k];
+    }
+    if ((point - lower).minCoeff() < 0 || (upper - point).minCoeff() < 0) continue;
+    const double square = (b - a * point).squaredNorm();
+    if (square < least) least = square, best = point;
+  }
+  return {best.x(), best.y(), best.z()};
+}
+
 bool inside(const PointBox& box, const Vec3& p, double by) {
   return p.x >= box.lower.x - by && p.x <= box.upper.x + by && p.y >= box.lower.y - by &&
          p.y <= box.upper.y + by && p.z >= box.lower.z - by && p.z <= box.upper.z + by;
@@ -109,7 +153,8 @@ bool coupler_errors(const Track& track, std::span<const double> x, std::span<dou
 }
 
 constexpr int offsets_tried = 24;
-constexpr double in_box = 1e-9;  // m
+constexpr double in_box = 1e-9;      // m
+constexpr double exact_rms = 1e-14;  // m: nothing left to gain
 
 }  // namespace
 
@@ -175,10 +220,24 @@ CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink>
     const std::array lower{task.least_offset, task.point.lower.x, task.point.lower.y, task.point.lower.z};
     const std::array upper{length, task.point.upper.x, task.point.upper.y, task.point.upper.z};
     options.max_iterations = 500;
-    math::minimise_least_squares([&](std::span<const double> at, std::span<double> r,
-                                     std::span<double> j) { return coupler_errors(track, at, r, j); },
-                                 n - 1, x, lower, upper, options, workspace);
-    errors();
+    const auto search = [&] {
+      math::minimise_least_squares([&](std::span<const double> at, std::span<double> r,
+                                       std::span<double> j) { return coupler_errors(track, at, r, j); },
+                                   n - 1, x, lower, upper, options, workspace);
+      errors();
+    };
+    search();
+    // A search within limits ends where a limit and the valley meet, which need not be the best place of the
+    // box: begin at the best point for each offset, too.
+    CouplerFit best = fit;
+    std::array best_x = x;
+    for (int k = 0; k <= offsets_tried && !(best.rms <= exact_rms); ++k) {
+      x[0] = task.least_offset + (length - task.least_offset) * k / offsets_tried;
+      set_point(best_in_box(track, x[0], task.point));
+      search();
+      if (fit.rms < best.rms) best = fit, best_x = x;
+    }
+    fit = best, x = best_x;
   }
   if (!std::isfinite(fit.rms)) return fit;
   fit.status = fit.rms <= tolerance ? Status::done : Status::not_converged;

@@ -19,8 +19,10 @@ struct CouplerFit {
 
 /// Finds a coupler between links that are known: seen from the second link, the point on the first one moves
 /// on a sphere about the coupler's other end. The centre solves a linear problem for every offset, so one
-/// unknown is searched (Poznanovic 2016, section 5.3.4, decoupled). Throws ContractError for links of other
-/// types and for a position without spin.
+/// unknown is searched (Poznanovic 2016, section 5.3.4, decoupled). Where the centre then lies outside its
+/// box, or the length changes by more than the tolerance, offset and point are searched together within their
+/// limits, from the best point in the box for each of a row of offsets; the best end is taken. Throws
+/// ContractError for links of other types and for a position without spin.
 CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink> links,
                        const CouplerTask& task, double tolerance = 1e-8);
 

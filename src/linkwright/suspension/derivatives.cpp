@@ -33,14 +33,17 @@ BasicWheelGuide<T> constant(const WheelGuide& guide) {
     out.links.push_back({.type = link.type,
                          .body = constants(link.body),
                          .carrier = constants(link.carrier),
-                         .moved_by_rack = link.moved_by_rack});
+                         .moved_by_rack = link.moved_by_rack,
+                         .cross_axis = link.cross_axis});
     if (link.length) out.links.back().length = T(*link.length);
   }
-  for (const Coupler& coupler : guide.couplers)
+  for (const Coupler& coupler : guide.couplers) {
     out.couplers.push_back({.first = coupler.first,
                             .fraction = T(coupler.fraction),
                             .second = coupler.second,
                             .point = constant(coupler.point)});
+    if (coupler.begin) out.couplers.back().begin = constant(*coupler.begin);
+  }
   if (guide.spring)
     out.spring = {constant(guide.spring->body), constant(guide.spring->moving), guide.spring->link};
   return out;
@@ -227,7 +230,10 @@ WheelDerivatives by_numbers(const DerivativePlan& plan, const GuidePosition& pos
     const Columns<N> shifts = linear.shifts(pass);
     const auto place = linear.moved(shifts);
     auto parameters = kernel::parameters_at_rest(pass, place, rack);
-    if (extent == Extent::all) linear.add_rates(pass, place, rack, parameters);
+    if (extent == Extent::all) {
+      kernel::add_constructions(pass, place, rack, parameters);
+      linear.add_rates(pass, place, rack, parameters);
+    }
     const std::size_t first = i * W, count = std::min<std::size_t>(W, plan.numbers.size() - first);
     take_apart(parameters, out.parameters, std::span(out.by).subspan(first, count));
     for (std::size_t k = 0; k < count; ++k)
@@ -254,6 +260,7 @@ InputDerivatives by_inputs(const DerivativePlan& plan, const GuidePosition& posi
   const auto place = linear.moved(shifts);
   const auto rack = T::variable(position.input.rack, 1);
   auto parameters = kernel::parameters_at_rest(plan.inputs, place, rack);
+  kernel::add_constructions(plan.inputs, place, rack, parameters);
   linear.add_rates(plan.inputs, place, rack, parameters);
   std::array<WheelParameters, 2> by;
   take_apart(parameters, out.parameters, by);

@@ -43,6 +43,10 @@ T* find(Guide& guide, const DesignNumber& number) {
       auto* coupler = entry(guide.couplers, number.index);
       return coupler ? &coupler->fraction : nullptr;
     }
+    case DesignKind::coupler_begin: {
+      auto* coupler = entry(guide.couplers, number.index);
+      return coupler && coupler->begin ? coordinate<T>(*coupler->begin, number.axis) : nullptr;
+    }
     case DesignKind::spring_body:
       return guide.spring ? coordinate<T>(guide.spring->body, number.axis) : nullptr;
     case DesignKind::spring_moving:
@@ -97,6 +101,8 @@ std::string label(const WheelGuide& guide, const DesignNumber& number) {
       return coupler(fmt::format("point_{}", axes[number.axis]));
     case DesignKind::coupler_fraction:
       return coupler("fraction");
+    case DesignKind::coupler_begin:
+      return coupler(fmt::format("first_point_{}", axes[number.axis]));
     case DesignKind::spring_body:
       return fmt::format("spring.body_{}", axes[number.axis]);
     case DesignKind::spring_moving:
@@ -124,7 +130,10 @@ std::vector<DesignNumber> hard_points(const WheelGuide& guide) {
   }
   for (int i = 0; i < static_cast<int>(guide.couplers.size()); ++i) {
     point(DesignKind::coupler_point, i, 0);
-    out.push_back({DesignKind::coupler_fraction, i});
+    if (guide.couplers[i].begin)
+      point(DesignKind::coupler_begin, i, 0);
+    else
+      out.push_back({DesignKind::coupler_fraction, i});
   }
   if (guide.spring) {
     point(DesignKind::spring_body, 0, 0);

@@ -14,18 +14,20 @@ enum class DesignKind {
   length,
   coupler_point,
   coupler_fraction,
+  coupler_begin,
   spring_body,
   spring_moving,
   wheel_centre,
   wheel_toe,
   wheel_camber,
 };
-constexpr std::array<EnumName<DesignKind>, 10> names(DesignKind) {
+constexpr std::array<EnumName<DesignKind>, 11> names(DesignKind) {
   return {{{DesignKind::body, "body", "coordinate of a body point of a link"},
            {DesignKind::carrier, "carrier", "coordinate of a carrier point of a link"},
            {DesignKind::length, "length", "prescribed length of a KS or SS link"},
            {DesignKind::coupler_point, "coupler_point", "coordinate of a coupler's point"},
            {DesignKind::coupler_fraction, "coupler_fraction", "where a coupler holds its first link"},
+           {DesignKind::coupler_begin, "coupler_begin", "coordinate of a coupler's beginning off the line"},
            {DesignKind::spring_body, "spring_body", "coordinate of the spring's end at the body"},
            {DesignKind::spring_moving, "spring_moving", "coordinate of the spring's other end"},
            {DesignKind::wheel_centre, "wheel_centre", "coordinate of the wheel centre"},

@@ -75,7 +75,7 @@ class TargetReader {
       if (const auto text = study::read_beside(target_, "file", common_.folder, file)) {
         Diagnostics problems;
         table_ = read_csv(*text, file, problems);
-        for (const Diagnostic& d : problems) target_.error("file", to_string(d));
+        for (const Diagnostic& d : problems) target_.unreadable("file", to_string(d));
       }
     std::vector<study::ObjectReader> curves = target_.tables("curve");
     if (curves.empty() && !target_.has("curve"))
@@ -133,6 +133,9 @@ class TargetReader {
       return std::nullopt;
     }
     c.column = guide_column(bases[*which]);
+    if (!s_.description.guide.links.empty())
+      if (const std::string why = why_missing(s_.description.guide, *c.column); !why.empty())
+        table.error("quantity", fmt::format("this guide has no '{}': {}", bases[*which], why));
     if (c.objective.empty()) c.objective = bases[*which];
     const Dimension dimension = dimension_of(*c.column, c.measure);
     const auto number = [&](std::string_view key, double least) {
@@ -352,7 +355,6 @@ std::optional<DirectStudy> read_direct_study(study::ObjectReader& document, cons
         (s.lock == Driver::spring || s.task.driver == Driver::spring))
       target->error(s.lock == Driver::spring ? "steering_lock" : "coordinate", "there is no spring",
                     "add [mechanism.spring], or take wheel_centre_z");
-    if (s.lock == Driver::contact_z) target->error("steering_lock", "must be spring or wheel_centre_z");
   }
   std::vector<DesignForm> lengths;
   document(Field{.key = "constraint", .summary = {}}, s.constraints);

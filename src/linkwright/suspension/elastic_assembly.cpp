@@ -42,10 +42,8 @@ class Builder {
       add_link(i, elasticity.links.empty() ? LinkElasticity{} : elasticity.links[i]);
     for (std::size_t i = 0; i < guide.couplers.size(); ++i) {
       const Coupler& coupler = guide.couplers[i];
-      const Vec3 from = body_point(guide, coupler.first, 0, rack);
-      const Vec3 to = carrier_point(guide, coupler.first, 0, place.carrier);
       of_.couplers.push_back({body_[coupler.first], body_[coupler.second],
-                              from + coupler.fraction * (to - from),
+                              coupler_begin(guide, coupler, place, rack),
                               placed(poses_[coupler.second], coupler.point),
                               elasticity.couplers.empty() ? rigid : elasticity.couplers[i]});
     }
@@ -103,7 +101,17 @@ class Builder {
     bool held = false;
     for (std::size_t i = first_joint; i < of_.joints.size(); ++i)
       held = held || resists_turning(of_.joints[i], line);
-    if (!held) of_.idle.emplace_back(body, line);
+    if (held) return;
+    HeldTurn turn{.body = body, .about = line};
+    if (link.type == LinkType::KS) {
+      const auto [standing, turning] = cross_axes(*of_.guide, index, place_.carrier, rack_);
+      turn = {.body = body,
+              .about = cross(turning, standing),
+              .link = index,
+              .standing = standing,
+              .turning = turning};
+    }
+    of_.held_turns.push_back(turn);
   }
 
   ElasticAssembly of_;

@@ -35,6 +35,17 @@ struct ElasticBar {
   int multiplier = -1;
 };
 
+/// A turn of a body that no joint of it resists: of an SS link and a strut about their line, which no force
+/// feels; of a KS link about the direction across both axes of its K joint, which holds it rigidly. The joint
+/// keeps its axes across each other.
+struct HeldTurn {
+  int body = 0;
+  Vec3 about;              ///< unit
+  int link = -1;           ///< KS
+  Vec3 standing, turning;  ///< KS: axes of the K joint, unit; `about` = turning x standing
+  int multiplier = -1;  ///< moment of the body joint on the link about `about`, with the opposite sign (N m)
+};
+
 struct ElasticAssembly {
   const WheelGuide* guide = nullptr;
   std::vector<Vec3> origin;         ///< of the bodies: 0 is the carrier
@@ -42,8 +53,8 @@ struct ElasticAssembly {
   std::vector<ElasticJoint> joints;
   std::vector<ElasticBar> couplers;
   std::optional<ElasticBar> spring;
-  std::vector<std::pair<int, Vec3>> idle;  ///< bodies free to turn about a direction that nothing resists
-  Vec3 height_arm;                         ///< from the wheel centre to the point whose height can be held
+  std::vector<HeldTurn> held_turns;
+  Vec3 height_arm;  ///< from the wheel centre to the point whose height can be held
 
   int displacements() const { return 6 * static_cast<int>(origin.size()); }
   Vec3 arm(int body, const Vec3& point) const { return point - origin[body]; }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "linkwright/suspension/wheel_quantities.h"
@@ -20,8 +21,9 @@ struct GuideColumn {
   std::string_view key;    ///< with unit: "toe_rad"
   std::string_view label;  ///< for people: "toe (rad)"
   std::string_view group;  ///< word of `output.quantities` that it belongs to: "steering_axis"
-  /// The quantity: with the height of the wheel centre held, and with the spring held, where that matters.
-  std::optional<WheelQuantity> at_height, at_spring;
+  /// The quantity: with the height of the wheel centre, the spring, the height of the contact point held,
+  /// where that matters.
+  std::optional<WheelQuantity> at_height, at_spring, at_contact;
   double (*place)(const GuidePosition& position) = nullptr;  ///< where it is no quantity of the wheel
 };
 
@@ -37,6 +39,10 @@ std::string_view words_of(const GuideColumn& column);
 std::optional<WheelQuantity> quantity_of(const GuideColumn& column, Driver lock);
 /// Its value; NaN without a position, steering axis or spring.
 double value_of(const GuideColumn& column, const GuideRow& row);
+
+/// Empty, or why a guide has no such number: without a spring, without a link on the rack, without two ball
+/// joints or two planes of arms. Its values are then missing.
+std::string why_missing(const WheelGuide& guide, const GuideColumn& column);
 
 /// The steering axis with `lock` held; null when the guide is not steered or has no spring to hold.
 const SteeringAxis* steering_axis_of(const WheelParameters& wheel, Driver lock);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "linkwright/math/vector3.h"
+#include "linkwright/suspension/link_poses.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -145,12 +146,9 @@ class Drawing {
   }
 
   void add(const Coupler& c) {
-    const GuideLink &first = guide_.links[static_cast<std::size_t>(c.first)],
-                    &second = guide_.links[static_cast<std::size_t>(c.second)];
-    const Vec3 centre = guide_.wheel.centre;
+    const GuideLink& second = guide_.links[static_cast<std::size_t>(c.second)];
     const int from = point(named(c.name + " 1"), [&](const GuidePosition& p) {
-      const Vec3 body = first.body[0] + p.input.rack * (first.moved_by_rack ? guide_.rack_direction : Vec3{});
-      return body + c.fraction * (place(p.place.carrier, first.carrier[0], centre) - body);
+      return coupler_begin(guide_, c, p.place, p.input.rack);
     });
     const int to =
         point(named(c.name + " 2"), [&](const GuidePosition& p) { return link_point(second, p, c.point); });
@@ -166,10 +164,6 @@ class Drawing {
     std::vector<Vec3> then, now;
     for (const Vec3& b : link.body) then.push_back(b), now.push_back(b + p.input.rack * along);
     for (const Vec3& c : link.carrier) then.push_back(c), now.push_back(place(p.place.carrier, c, centre));
-    if (then.size() == 2) {  // a point on the line of a rod
-      const Vec3 d = then[1] - then[0];
-      return now[0] + (dot(at - then[0], d) / dot(d, d)) * (now[1] - now[0]);
-    }
     const auto frame = [](const std::vector<Vec3>& q) {
       const Vec3 x = unit(q[1] - q[0]), z = unit(cross(x, q[2] - q[0]));
       return std::array{x, cross(z, x), z};
@@ -183,9 +177,11 @@ class Drawing {
     const Vec3 centre = guide_.wheel.centre;
     const int top = point(named("spring, body"), [&](const GuidePosition&) { return spring.body; });
     const int bottom = point(named("spring, moving end"), [&](const GuidePosition& p) {
-      return spring.link < 0
-                 ? place(p.place.carrier, spring.moving, centre)
-                 : link_point(guide_.links[static_cast<std::size_t>(spring.link)], p, spring.moving);
+      if (spring.link < 0) return place(p.place.carrier, spring.moving, centre);
+      const GuideLink& link = guide_.links[static_cast<std::size_t>(spring.link)];
+      if (link.type == LinkType::KS || link.type == LinkType::SS)
+        return spring_end(guide_, p.place, p.input.rack);
+      return link_point(link, p, spring.moving);
     });
     scene_.bodies.push_back({named("spring"), {top, bottom}, Scene::BodyStyle::spring});
   }

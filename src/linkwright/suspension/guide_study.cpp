@@ -8,6 +8,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/suspension/plausibility.h"
 #include "linkwright/suspension/samples.h"
 #include "linkwright/suspension/structure.h"
 
@@ -205,11 +206,13 @@ class GuideReader {
   std::optional<GuideDescription> read() {
     mechanism_.read(form_);
     if (!form_.sample.empty()) return sample();
+    // A name that cannot be read: the rest is not needed.
+    if (mechanism_.has("sample") && mechanism_.document().has_errors()) return std::nullopt;
     hard_points();
     wheel();
     if (!mechanism_.has("link"))
-      mechanism_.error("link", "there are no links",
-                       "add [[mechanism.link]], or sample = \"2RS-KS\" for a canned wheel guide");
+      mechanism_.unreadable("link", "there are no links",
+                            "add [[mechanism.link]], or sample = \"2RS-KS\" for a canned wheel guide");
     std::vector<study::ObjectReader> tables = mechanism_.tables("link");
     for (std::size_t i = 0; i < form_.links.size() && i < tables.size(); ++i) link(form_.links[i], tables[i]);
     tables = mechanism_.tables("coupler");
@@ -260,7 +263,7 @@ class GuideReader {
       if (const auto text = study::read_beside(*table, "file", common_.folder, *h.file)) {
         Diagnostics problems;
         const auto points = read_hard_points(*text, *h.file, h.unit, problems);
-        for (const Diagnostic& d : problems) table->error("file", to_string(d));
+        for (const Diagnostic& d : problems) table->unreadable("file", to_string(d));
         if (points) hard_ = *points;
       }
     for (const auto& [name, at] : h.points) {
@@ -385,6 +388,10 @@ class GuideReader {
                    .carrier = {},
                    .length = form.length,
                    .moved_by_rack = form.moved_by.has_value()};
+    if (form.cross_axis) {
+      const auto& axis = *form.cross_axis;
+      made.cross_axis = {axis[0], axis[1], axis[2]};
+    }
     LinkTask task{
         .name = form.name, .type = form.type, .body = {}, .carrier = {}, .moved_by_rack = made.moved_by_rack};
     for (const PointForm& p : body) made.body.push_back(p.at), task.body.push_back(p.box);
@@ -416,15 +423,24 @@ class GuideReader {
     if (rod.body.size() != 1 || rod.carrier.size() != 1)
       return;  // told already, or by the check of the guide
     const double length = rod.length.value_or(norm(rod.carrier[0] - rod.body[0]));
-    if (form.fraction.has_value() == form.offset.has_value())
-      return table.error("fraction", "needs fraction or offset, one of them");
+    if (form.fraction.has_value() + form.offset.has_value() + form.first_point.has_value() != 1)
+      return table.error("fraction", "needs fraction, offset or first_point, one of them");
+    std::optional<Vec3> begin;
+    if (form.first_point) {
+      begin = one_given(table, "first_point", *form.first_point);
+      if (!begin) return;
+      if (suspension::open(point))
+        return table.error("point", "is open, and only couplers on the line of their first link are searched",
+                           "give fraction or offset in the place of first_point");
+    }
     const bool searched = suspension::open(point) || (form.offset && !form.offset->fixed());
     if (searched && open_ == OpenPoints::none)
       return table.error("point", "is open, but nothing is looked for in this kind of study",
                          "give its coordinates");
-    const double fraction =
-        form.fraction ? *form.fraction : (form.offset->lower + form.offset->upper) / 2 / length;
-    out_.guide.couplers.push_back({form.name, first, fraction, second, point.at});
+    const double fraction = form.fraction ? *form.fraction
+                            : form.offset ? (form.offset->lower + form.offset->upper) / 2 / length
+                                          : 0.5;
+    out_.guide.couplers.push_back({form.name, first, fraction, second, point.at, begin});
     out_.couplers.push_back({.name = form.name,
                              .first = first,
                              .second = second,
@@ -519,7 +535,9 @@ std::optional<GuideDescription> read_guide(study::ObjectReader& document, const 
   if (!mechanism) return std::nullopt;
   std::optional<GuideDescription> out = GuideReader(*mechanism, common, open).read();
   if (!out) return std::nullopt;
-  const Diagnostics problems = anything_open(*out) ? check(out->guide) : check_structure(out->guide);
+  Diagnostics problems = implausible(out->guide);
+  const Diagnostics structure = anything_open(*out) ? check(out->guide) : check_structure(out->guide);
+  problems.insert(problems.end(), structure.begin(), structure.end());
   report(*mechanism, problems);
   if (has_errors(problems)) return std::nullopt;
   return out;
@@ -547,19 +565,26 @@ Value write_guide(const GuideDescription& d) {
                        .carrier = {},
                        .points = {},
                        .length = l.length,
-                       .moved_by = {}};
+                       .moved_by = {},
+                       .cross_axis = {}};
     if (!l.carrier.empty()) link.carrier = form(l.carrier, d.links[i].carrier);
     if (l.moved_by_rack) link.moved_by = MovedBy::rack;
+    if (l.cross_axis) link.cross_axis = {l.cross_axis->x, l.cross_axis->y, l.cross_axis->z};
     out.links.push_back(std::move(link));
   }
   for (std::size_t i = 0; i < g.couplers.size(); ++i) {
     const Coupler& c = g.couplers[i];
     out.couplers.push_back({.name = c.name,
                             .first = g.links[static_cast<std::size_t>(c.first)].name,
-                            .fraction = c.fraction,
+                            .fraction = {},
                             .offset = {},
+                            .first_point = {},
                             .second = g.links[static_cast<std::size_t>(c.second)].name,
                             .point = PointsForm{{{c.point, d.couplers[i].point}}}});
+    if (c.begin)
+      out.couplers.back().first_point = PointsForm{{given(*c.begin)}};
+    else
+      out.couplers.back().fraction = c.fraction;
   }
   if (g.spring)
     out.spring = GuideSpringForm{.body = PointsForm{{given(g.spring->body)}},

@@ -95,6 +95,7 @@ struct GuideLinkForm {
   std::vector<std::string> points;  ///< hard points, those of the body first
   std::optional<double> length;
   std::optional<MovedBy> moved_by;
+  std::optional<std::array<double, 3>> cross_axis;
 };
 template <class Visitor>
 void fields(Visitor&& visit, GuideLinkForm& l) {
@@ -113,6 +114,14 @@ void fields(Visitor&& visit, GuideLinkForm& l) {
               .maximum = 1e3},
         l.length);
   visit(Field{.key = "moved_by", .summary = "what moves its body points"}, l.moved_by);
+  visit(
+      Field{.key = "cross_axis",
+            .summary =
+                "of a KS link: direction of the axis of its K joint that stands in the body; default: level "
+                "and across the link. What is fixed to the link off its line turns with it",
+            .minimum = -1e6,
+            .maximum = 1e6},
+      l.cross_axis);
 }
 
 struct GuideCouplerForm {
@@ -120,6 +129,7 @@ struct GuideCouplerForm {
   std::string first;
   std::optional<double> fraction;
   std::optional<Range> offset;
+  std::optional<PointsForm> first_point;
   std::string second;
   std::optional<PointsForm> point;
 };
@@ -138,6 +148,9 @@ void fields(Visitor&& visit, GuideCouplerForm& c) {
               .minimum = 0,
               .maximum = 1e3},
         c.offset);
+  visit(guide_fields::place("first_point",
+                            "its point on that link, off the line too, in the place of fraction"),
+        c.first_point);
   visit(Field{.key = "second", .summary = "name of the SR link that it ends on", .required = true}, c.second);
   visit(guide_fields::place("point", "its point on that link", true), c.point);
 }

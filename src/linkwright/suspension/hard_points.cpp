@@ -150,7 +150,8 @@ class Collector {
 
 std::optional<std::vector<HardPoint>> from_csv(std::string_view text, const std::string& file,
                                                Diagnostics& diagnostics) {
-  const std::optional<Table> table = read_csv(text, file, diagnostics);
+  std::vector<int> lines;
+  const std::optional<Table> table = read_csv(text, file, diagnostics, &lines);
   if (!table) return std::nullopt;
   Collector collect(file, diagnostics);
   if (table->names.size() != table->rows()) {
@@ -178,11 +179,30 @@ std::optional<std::vector<HardPoint>> from_csv(std::string_view text, const std:
     for (std::size_t row = 0; row < table->rows(); ++row) {
       const Vec3 p{at[0][row], at[1][row], at[2][row]};
       if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
-        collect.add(static_cast<int>(row) + 2, table->names[row], p);
+        collect.add(lines[row], table->names[row], p);
       else
-        collect.problem(static_cast<int>(row) + 2, plain_name(table->names[row]), "a coordinate is missing");
+        collect.problem(lines[row], plain_name(table->names[row]), "a coordinate is missing");
     }
   return collect.finish();
+}
+
+/// Whether the first line that is no remark is a header whose first column is called `name`; blanks, tabs and
+/// semicolons also separate the headings of printed lists, which have no units.
+bool is_csv(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    const std::size_t begin = line.find_first_not_of(" \t\r\"");
+    if (begin == std::string_view::npos || line[begin] == '#' || line.starts_with("sep=")) continue;
+    std::string first;
+    for (const char c : line.substr(begin, 4))
+      first += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const std::size_t next = line.find_first_not_of(" \"", begin + 4);
+    if (first != "name" || next == std::string_view::npos) return false;
+    const bool units = line.find_first_of("_[(") != std::string_view::npos;
+    return line[next] == ',' || ((line[next] == ';' || line[next] == '\t') && units);
+  }
+  return false;
 }
 
 }  // namespace
@@ -237,6 +257,8 @@ std::vector<HardPoint> points_of(const WheelGuide& guide) {
   for (std::size_t i = 0; i < guide.couplers.size(); ++i) {
     const std::string& name = guide.couplers[i].name;
     add(name.empty() ? fmt::format("coupler {}", i + 1) : name, "point", {guide.couplers[i].point});
+    if (guide.couplers[i].begin)
+      add(name.empty() ? fmt::format("coupler {}", i + 1) : name, "first point", {*guide.couplers[i].begin});
   }
   if (guide.spring) {
     add("spring", "body", {guide.spring->body});
@@ -262,6 +284,7 @@ std::string plain_name(std::string_view name) {
 std::optional<std::vector<HardPoint>> read_hard_points(std::string_view text, const std::string& file,
                                                        PointUnit unit, Diagnostics& diagnostics) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (is_csv(text)) return from_csv(text, file, diagnostics);
   const Unit* in = find_unit(Dimension::length, name_of(unit));
   Collector collect(file, diagnostics);
   for (int line = 1; !text.empty(); ++line) {
@@ -271,8 +294,6 @@ std::optional<std::vector<HardPoint>> read_hard_points(std::string_view text, co
     const auto& w = words.all;
     const bool comment =
         w.empty() || std::string_view("#$!%").find(w[0].empty() ? '#' : w[0][0]) != std::string_view::npos;
-    if (line == 1 && w.size() > 1 && words.comma_separates && w[0] == "name")
-      return from_csv(text, file, diagnostics);
     text.remove_prefix(std::min(end + 1, text.size()));
     if (comment || w.size() < 3) continue;
     // The last three words are the coordinates, what is before them the name, less a number of the list.

@@ -7,6 +7,7 @@
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/suspension/indirect_study.h"
+#include "linkwright/suspension/plausibility.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -73,7 +74,7 @@ void read_poses(study::ObjectReader& target, const study::Common& common, Indire
     const std::optional<Table> table = read_csv(*text, *form.file, problems);
     std::optional<CarrierTargets> targets;
     if (table) targets = carrier_targets(task.targets, *table, *form.file, problems);
-    for (const Diagnostic& d : problems) target.error("file", to_string(d));
+    for (const Diagnostic& d : problems) target.unreadable("file", to_string(d));
     if (targets) task.targets = std::move(*targets);
   } else {
     for (const PoseEntry& p : *form.poses)
@@ -85,6 +86,9 @@ void read_poses(study::ObjectReader& target, const study::Common& common, Indire
   if (task.targets.poses.size() > most_poses)
     target.error(key,
                  fmt::format("{} positions, at most {} are allowed", task.targets.poses.size(), most_poses));
+  for (const Diagnostic& d : implausible(task.targets))
+    d.severity == Diagnostic::Severity::error ? target.error(key, d.message, d.hint)
+                                              : target.warning(key, d.message, d.hint);
   const bool elsewhere = std::any_of(
       task.targets.poses.begin(), task.targets.poses.end(),
       [&](const CarrierTarget& p) { return !(p.centre == task.targets.wheel.centre && p.rack == 0); });
@@ -118,6 +122,13 @@ std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, 
     if (!open)
       mechanism->error("link", "nothing is to be found: all points are given",
                        "write body_m = { near = [x, y, z], box_m = 0.15 } for a point to be found");
+    for (const Coupler& c : guide.couplers)
+      if (c.begin)
+        mechanism->error(
+            "coupler",
+            fmt::format("'{}' begins off the line of its first link: this synthesis takes it on the line",
+                        c.name),
+            "give fraction or offset in the place of first_point");
     for (const GuideLink& l : guide.links)
       if (l.length)
         mechanism->error(

@@ -196,6 +196,11 @@ class Assembly {
   bool rod_assembles_ = true;
 };
 
+/// Further starts of links that share a coupler, and of each link within one; a start's random numbers are
+/// those of runs that no single link has.
+constexpr std::uint32_t group_starts = 12, group_run_stride = 1000;
+constexpr int starts_of_a_group_link = 8;
+
 /// Rods that fit seven positions exactly, found when they are first asked for.
 class ExactRods {
  public:
@@ -244,8 +249,41 @@ std::vector<std::size_t> all_places(std::size_t count) {
   return out;
 }
 
-/// Links that share couplers, all together, from where they are.
-void refine(const IndirectTask& task, const LinkFitOptions& options, Assembly& assembly) {
+/// A group of links and their couplers as one start found them.
+struct GroupStart {
+  std::vector<GuideLink> links;
+  std::vector<Coupler> couplers;
+};
+
+/// Another start of a group: every link that is to be found from starts of its own, then the couplers.
+/// Nothing if a link or a coupler is not found at all.
+std::optional<GroupStart> another_start(const CarrierTargets& targets, std::span<const LinkTask> links,
+                                        std::span<const CouplerTask> couplers, const LinkFitOptions& options,
+                                        std::uint64_t seed, std::uint32_t run, std::int64_t& evaluations,
+                                        RunContext& context) {
+  GroupStart out;
+  LinkFitOptions quick = options;
+  quick.starts = std::min(options.starts, starts_of_a_group_link);
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    const LinkFit fit =
+        fit_link(targets, links[l], quick, {}, seed, context, run + static_cast<std::uint32_t>(l));
+    evaluations += fit.evaluations;
+    if (!std::isfinite(fit.rms)) return std::nullopt;
+    out.links.push_back(fit.link);
+  }
+  for (const CouplerTask& coupler : couplers) {
+    const CouplerFit fit = fit_coupler(targets, out.links, coupler, options.tolerance);
+    if (!std::isfinite(fit.rms)) return std::nullopt;
+    out.couplers.push_back(fit.coupler);
+  }
+  return out;
+}
+
+/// Links that share couplers, all together, from where they are, and where that is not exact from other
+/// starts: positions may determine the links poorly, so that each by itself ends at an exact place that
+/// leaves no exact coupler within its box.
+void refine(const IndirectTask& task, const LinkFitOptions& options, Assembly& assembly, std::uint64_t seed,
+            RunContext& context) {
   for (const std::vector<std::size_t>& group : assembly.groups(false)) {
     std::vector<std::size_t> places;
     const std::vector<CouplerTask> couplers = assembly.couplers_of(group, places);
@@ -266,9 +304,20 @@ void refine(const IndirectTask& task, const LinkFitOptions& options, Assembly& a
       found.push_back(fit.coupler);
     }
     if (exact || !there) continue;
-    const SpinFit together = fit_together(task.targets, assembly.links_of(group), couplers, links, found,
-                                          {.tolerance = options.tolerance, .distinct_links = 0});
-    if (!together.links.empty()) assembly.take(together, group, places, options.tolerance);
+    const std::vector<LinkTask> tasks = assembly.links_of(group);
+    const SpinFitOptions spin{.tolerance = options.tolerance, .distinct_links = 0};
+    SpinFit best = fit_together(task.targets, tasks, couplers, links, found, spin);
+    for (std::uint32_t s = 1; s <= group_starts; ++s) {
+      if (best.rms <= options.tolerance || context.interrupted()) break;
+      const auto start = another_start(task.targets, tasks, couplers, options, seed, s * group_run_stride,
+                                       assembly.result.evaluations, context);
+      if (!start) continue;
+      SpinFit next = fit_together(task.targets, tasks, couplers, start->links, start->couplers, spin);
+      // `take` counts those of the one that is taken.
+      if (next.rms < best.rms) std::swap(next, best);
+      assembly.result.evaluations += next.evaluations;
+    }
+    if (!best.links.empty()) assembly.take(best, group, places, options.tolerance);
   }
 }
 
@@ -317,7 +366,7 @@ IndirectSynthesis synthesise(const IndirectTask& task, const IndirectOptions& op
   }
   IndirectTask complete = task;
   complete.targets = result.targets;
-  refine(complete, options.link, assembly);
+  refine(complete, options.link, assembly, seed, context);
   return assembly.finish(context);
 }
 

@@ -46,7 +46,8 @@ struct IndirectOptions {
 
 /// Finds the links one after the other, each from its own starts and none twice, then the couplers. Where no
 /// start of a rod is exact and there are seven positions, the rods that fit seven of them exactly are starts,
-/// too. Links that share a coupler are at last fitted together if they are not exact.
+/// too. Links that share a coupler are at last fitted together if they are not exact, from where they are and
+/// then from starts of their own; the best is taken.
 ///
 /// Spins that are not prescribed follow from a KS link whose coordinates are all given, if there is one
 /// (section 5.3.5.1); else all links are found together with them.

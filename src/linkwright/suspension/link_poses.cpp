@@ -40,7 +40,16 @@ std::vector<LinkPose> link_poses(const WheelGuide& guide, const GuidePlace& at, 
     const auto carrier = [&](int k) { return carrier_point(guide, i, k, at.carrier); };
     LinkPose pose{link.body[0], body(0), {}};
     switch (link.type) {
-      case LinkType::KS:
+      case LinkType::KS: {
+        const Vec3 then = unit(link.carrier[0] - link.body[0]), now = unit(carrier(0) - body(0));
+        const Vec3 axis = standing_axis(link.cross_axis, link.carrier[0] - link.body[0]);
+        const auto axes = [&](const Vec3& line) {
+          const Vec3 turning = unit(cross(axis, line));
+          return transposed(Mat3{{line, turning, cross(line, turning)}});
+        };
+        pose.rotation = axes(now) * transposed(axes(then));
+        break;
+      }
       case LinkType::SS:
         pose.rotation = turn_between(unit(link.carrier[0] - link.body[0]), unit(carrier(0) - body(0)));
         break;
@@ -66,6 +75,35 @@ std::vector<LinkPose> link_poses(const WheelGuide& guide, const GuidePlace& at, 
   return out;
 }
 
+std::array<Vec3, 2> cross_axes(const WheelGuide& guide, int link, const CarrierPose& carrier, double rack) {
+  const GuideLink& rod = guide.links.at(link);
+  LINKWRIGHT_REQUIRE(rod.type == LinkType::KS, "{} has no K joint", link_label(guide, link));
+  const Vec3 standing = standing_axis(rod.cross_axis, rod.carrier[0] - rod.body[0]);
+  const Vec3 line = carrier_point(guide, link, 0, carrier) - body_point(guide, link, 0, rack);
+  return {standing, unit(cross(standing, line))};
+}
+
+namespace {
+
+/// A point fixed to a rod: a share of the rod, whose length need not be the distance of its reference points,
+/// and what lies off its line as the rod has turned.
+Vec3 rod_point(const WheelGuide& guide, int index, const Vec3& reference, const GuidePlace& at, double rack) {
+  const GuideLink& link = guide.links.at(index);
+  const Vec3 from = body_point(guide, index, 0, rack), along = link.carrier[0] - link.body[0];
+  const double share = dot(reference - link.body[0], along) / dot(along, along);
+  const Vec3 on_line = from + share * (carrier_point(guide, index, 0, at.carrier) - from);
+  if (link.type == LinkType::SS) return on_line;
+  return on_line + link_poses(guide, at, rack)[index].rotation * (reference - link.body[0] - share * along);
+}
+
+}  // namespace
+
+Vec3 coupler_begin(const WheelGuide& guide, const Coupler& coupler, const GuidePlace& at, double rack) {
+  if (coupler.begin) return rod_point(guide, coupler.first, *coupler.begin, at, rack);
+  const Vec3 from = body_point(guide, coupler.first, 0, rack);
+  return from + coupler.fraction * (carrier_point(guide, coupler.first, 0, at.carrier) - from);
+}
+
 Vec3 spring_end(const WheelGuide& guide, const GuidePlace& at, double rack) {
   LINKWRIGHT_REQUIRE(guide.spring, "the guide has no spring");
   const GuideSpring& spring = *guide.spring;
@@ -73,10 +111,7 @@ Vec3 spring_end(const WheelGuide& guide, const GuidePlace& at, double rack) {
   const GuideLink& link = guide.links.at(spring.link);
   if (link.type != LinkType::KS && link.type != LinkType::SS)
     return placed(link_poses(guide, at, rack)[spring.link], spring.moving);
-  // A share of the rod, whose length need not be the distance of its reference points.
-  const Vec3 from = body_point(guide, spring.link, 0, rack), along = link.carrier[0] - link.body[0];
-  const double share = dot(spring.moving - link.body[0], along) / dot(along, along);
-  return from + share * (carrier_point(guide, spring.link, 0, at.carrier) - from);
+  return rod_point(guide, spring.link, spring.moving, at, rack);
 }
 
 }  // namespace linkwright::suspension

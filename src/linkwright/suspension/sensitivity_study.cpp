@@ -37,7 +37,11 @@ void complete_quantities(study::ObjectReader& table, std::vector<std::string>& q
   for (const GuideColumn& c : guide_columns())
     if (quantity_of(c, lock)) known.push_back(study::base_of(c.key));
   for (const std::string& q : quantities) {
-    if (std::find(known.begin(), known.end(), q) != known.end()) continue;
+    if (std::find(known.begin(), known.end(), q) != known.end()) {
+      if (const std::string why = why_missing(guide, *guide_column(q)); !why.empty())
+        table.error("quantities", fmt::format("this guide has no '{}': {}", q, why));
+      continue;
+    }
     const std::vector<std::string_view> words(known.begin(), known.end());
     const std::string_view nearest = nearest_word(q, words);
     table.error("quantities",

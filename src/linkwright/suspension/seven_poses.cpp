@@ -230,6 +230,7 @@ SevenPoseReport seven_pose_rods(const LinkMotion& motion, const SixPositions& po
   }
 
   SevenPoseReport report;
+  report.positions = positions;
   bool regular = true;
   std::vector<Point<Complex>> solutions;
   std::vector<Point<double>> family;
@@ -266,12 +267,28 @@ SevenPoseReport seven_pose_rods(const LinkMotion& motion, const SixPositions& po
   find_arms(family, false, origin, moved_by_rack, report.arms);
 
   std::vector<double> errors(motion.size());
+  std::vector<SevenPoseSolution> complex;
+  // Rods and their solutions, to be sorted together.
+  std::vector<std::pair<SevenPoseRod, SevenPoseSolution>> real;
   for (const Point<Complex>& p : solutions) {
-    if (p.x.imag().norm() + p.y.imag().norm() > 1e-8 * (1 + p.x.norm() + p.y.norm())) continue;
+    SevenPoseSolution solution;
+    const std::array<double, 3> from{origin.x, origin.y, origin.z};
+    for (int k = 0; k < 3; ++k) {
+      solution.carrier[static_cast<std::size_t>(k)] =
+          p.x[k] * length_scale + from[static_cast<std::size_t>(k)];
+      solution.body[static_cast<std::size_t>(k)] = p.y[k] * length_scale + from[static_cast<std::size_t>(k)];
+    }
+    if (p.x.imag().norm() + p.y.imag().norm() > 1e-8 * (1 + p.x.norm() + p.y.norm())) {
+      complex.push_back(solution);
+      continue;
+    }
     SevenPoseRod rod{.link = {.body = {plain(p.y.real() * length_scale)},
                               .carrier = {plain(p.x.real() * length_scale)},
                               .moved_by_rack = moved_by_rack}};
-    if (!structural_errors(motion, rod.link, errors, {}, {})) continue;  // no length
+    if (!structural_errors(motion, rod.link, errors, {}, {})) {  // no length
+      complex.push_back(solution);
+      continue;
+    }
     for (const double e : errors) {
       rod.rms += e * e / static_cast<double>(errors.size());
       rod.largest = std::max(rod.largest, std::abs(e));
@@ -279,10 +296,21 @@ SevenPoseReport seven_pose_rods(const LinkMotion& motion, const SixPositions& po
     rod.rms = std::sqrt(rod.rms);
     rod.link.body[0] += origin;
     rod.link.carrier[0] += origin;
-    report.rods.push_back(rod);
+    real.emplace_back(rod, solution);
   }
-  std::stable_sort(report.rods.begin(), report.rods.end(),
-                   [](const SevenPoseRod& a, const SevenPoseRod& b) { return a.rms < b.rms; });
+  std::stable_sort(real.begin(), real.end(),
+                   [](const auto& a, const auto& b) { return a.first.rms < b.first.rms; });
+  for (auto& [rod, solution] : real) {
+    solution.rod = static_cast<int>(report.rods.size());
+    report.rods.push_back(rod);
+    report.all.push_back(solution);
+  }
+  // Conjugate pairs beside each other.
+  std::stable_sort(complex.begin(), complex.end(),
+                   [](const SevenPoseSolution& a, const SevenPoseSolution& b) {
+                     return a.carrier[0].real() < b.carrier[0].real();
+                   });
+  report.all.insert(report.all.end(), complex.begin(), complex.end());
   return report;
 }
 

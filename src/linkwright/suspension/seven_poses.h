@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -22,12 +23,21 @@ struct SevenPoseRod {
   double largest = 0;  ///< m
 };
 
+/// One of the isolated solutions, in the frame of the vehicle (m). Complex ones come in conjugate pairs and
+/// are no rods; where positions change, two real ones may meet and leave as such a pair.
+struct SevenPoseSolution {
+  std::array<std::complex<double>, 3> body, carrier;
+  int rod = -1;  ///< place among `rods`; -1 = complex, or a rod without length
+};
+
 struct SevenPoseReport {
   /// done; singular: the positions are those of a hinged arm, or fewer than seven apart, and rods come in
   /// families - see `arms`.
   Status status = Status::done;
-  int solutions = 0;               ///< isolated ones, complex ones included: 20 in general
-  std::vector<SevenPoseRod> rods;  ///< the real ones, least rms first
+  int solutions = 0;                   ///< isolated ones, complex ones included: 20 in general
+  std::vector<SevenPoseRod> rods;      ///< the real ones, least rms first
+  std::vector<SevenPoseSolution> all;  ///< real ones in the order of `rods`, then the complex ones
+  SixPositions positions{};            ///< of the motion, that were taken
   /// Families of rods that share a point at one end while the other goes along a line: an RS link (the line
   /// is its hinge axis in the body) or an SR link (in the carrier). Two points 0.1 m apart stand for the
   /// axis.

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include "linkwright/core/check.h"
+#include "linkwright/suspension/constraints_kernel.h"
 #include "linkwright/suspension/link_poses.h"
 #include "linkwright/suspension/structure.h"
 
@@ -69,15 +70,18 @@ GuideForces solve_forces(const WheelGuide& guide, const GuidePlan& plan, const G
       on_carrier[i].moment += of.moment;
     }
   }
+  const kernel::Placed<double> placed_plan{plan, position.place, rack};
   const std::vector<LinkPose> poses = link_poses(guide, position.place, rack);
   for (const Coupler& coupler : guide.couplers) {
-    const Vec3 from = body_point(guide, coupler.first, 0, rack);
     const Vec3 end = carrier_point(guide, coupler.first, 0, carrier);
-    const Vec3 at_rod = from + coupler.fraction * (end - from);
+    const Vec3 at_rod = coupler_begin(guide, coupler, position.place, rack);
     const Vec3 at_second = placed(poses[coupler.second], coupler.point);
     const Vec3 pull = -factor(row) * unit(at_second - at_rod);  // on the rod, of a coupler in tension
     Wrench passed;
-    add(passed, coupler.fraction * pull, end - carrier.centre);
+    const CouplerConstants& constants = plan.couplers[out.couplers.size()];
+    add(passed,
+        kernel::rod_weight(kernel::rod_point(placed_plan, plan.links[coupler.first], constants.begin), pull),
+        end - carrier.centre);
     add(on_link[coupler.first], pull, at_rod - carrier.centre);
     add(on_link[coupler.second], -pull, at_second - carrier.centre);
     // The row holds both ends; the share that the rod passes on is known, the rest goes by the other link.

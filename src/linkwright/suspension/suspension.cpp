@@ -67,6 +67,15 @@ void check_link(const WheelGuide& guide, int index, Findings& found) {
         off_line(link.carrier[1], link.body[0], link.body[1]) < no_length)
       found.add(key, "both hinges have the same axis: the arm moves nothing");
   }
+  if (link.cross_axis) {
+    if (link.type != LinkType::KS)
+      found.add(key, fmt::format("the axis of a K joint can be given to KS links only, this is {}", type));
+    else if (!finite(*link.cross_axis) || !(norm(*link.cross_axis) > 1e-9))
+      found.add(key, "the axis of its K joint has no direction");
+    else if (norm(cross(unit(*link.cross_axis), unit(link.carrier[0] - link.body[0]))) < 1e-3)
+      found.add(key, "the axis of its K joint lies along the rod, which then could not swing",
+                "give one across the rod");
+  }
   if (link.length) {
     if (link.type != LinkType::KS && link.type != LinkType::SS)
       found.add(key, fmt::format("a length can be given to KS and SS links only, this is {}", type));
@@ -86,7 +95,12 @@ WheelGuide mirrored(const WheelGuide& guide) {
   for (GuideLink& link : out.links)
     for (auto* points : {&link.body, &link.carrier})
       for (Vec3& point : *points) point = math::mirrored(point);
-  for (Coupler& coupler : out.couplers) coupler.point = math::mirrored(coupler.point);
+  for (GuideLink& link : out.links)
+    if (link.cross_axis) link.cross_axis = math::mirrored(*link.cross_axis);
+  for (Coupler& coupler : out.couplers) {
+    coupler.point = math::mirrored(coupler.point);
+    if (coupler.begin) coupler.begin = math::mirrored(*coupler.begin);
+  }
   // The same rack pulls one wheel and pushes the other.
   out.rack_direction = -math::mirrored(guide.rack_direction);
   if (out.spring) {
@@ -147,6 +161,24 @@ Diagnostics check(const WheelGuide& guide) {
   if (!found.list.empty()) return found.list;  // what follows looks at the links
 
   const int links = static_cast<int>(guide.links.size());
+  // What is fixed to a rod off its line needs a joint that holds the rod's spin.
+  const auto check_hold = [&](const std::string& key, const char* what, int link, const Vec3& point) {
+    const GuideLink& rod = guide.links[link];
+    const double off = off_line(point, rod.body[0], rod.carrier[0]);
+    if (!(off > no_length)) return;
+    if (rod.type == LinkType::SS)
+      found.add(key,
+                fmt::format("{} lies {:.3g} mm off the line of {}, which may turn about it", what, off * 1e3,
+                            link_label(guide, link)),
+                "a KS link holds its spin by its K joint");
+    else if (!rod.cross_axis && is_upright(rod.carrier[0] - rod.body[0]))
+      found.add(
+          key,
+          fmt::format("{} lies {:.3g} mm off the line of {}, which stands upright, so that no axis of its K "
+                      "joint can be taken for granted",
+                      what, off * 1e3, link_label(guide, link)),
+          "give the link cross_axis = [x, y, z]");
+  };
   const auto is = [&](int link, std::initializer_list<LinkType> types) {
     for (LinkType type : types)
       if (link >= 0 && link < links && guide.links[link].type == type) return true;
@@ -160,7 +192,11 @@ Diagnostics check(const WheelGuide& guide) {
     else if (guide.links[coupler.first].length)
       found.add(key, "its KS link has a length of its own: the coupler's length would not be known");
     if (!is(coupler.second, {LinkType::SR})) found.add(key, "its second link has to be an SR link");
-    if (!finite(coupler.point) || !std::isfinite(coupler.fraction)) found.add(key, "a number is not finite");
+    if (!finite(coupler.point) || !std::isfinite(coupler.fraction) ||
+        (coupler.begin && !finite(*coupler.begin)))
+      found.add(key, "a number is not finite");
+    else if (coupler.begin && is(coupler.first, {LinkType::KS, LinkType::SS}))
+      check_hold(key, "its beginning", coupler.first, *coupler.begin);
   }
   if (guide.spring) {
     const GuideSpring& spring = *guide.spring;
@@ -175,14 +211,8 @@ Diagnostics check(const WheelGuide& guide) {
                       ? fmt::format("there is no link {}", spring.link)
                       : fmt::format("{} cannot hold it", link_label(guide, spring.link)),
                   "fix it to the carrier, or to a KS, RS, SR or RR link");
-      else if (is(spring.link, {LinkType::KS, LinkType::SS})) {
-        const GuideLink& rod = guide.links[spring.link];
-        const double off = off_line(spring.moving, rod.body[0], rod.carrier[0]);
-        if (off > no_length)
-          found.add("spring",
-                    fmt::format("its moving end lies {:.3g} mm off the line of {}, which may turn about it",
-                                off * 1e3, link_label(guide, spring.link)));
-      }
+      else if (is(spring.link, {LinkType::KS, LinkType::SS}))
+        check_hold("spring", "its moving end", spring.link, spring.moving);
     }
   }
   return found.list;

@@ -47,11 +47,15 @@ struct BasicGuideLink {
   /// what is reported at zero travel has to be solved for, too.
   std::optional<T> length;
   bool moved_by_rack = false;  ///< its body points move with the rack
+  /// KS: direction of the axis of its K joint that stands in the body; the other axis of the joint lies
+  /// across it and across the rod. It says how the rod turns about its own line, which only what is fixed to
+  /// the rod off that line feels. Not given: level, and across the rod at the reference.
+  std::optional<Vec3> cross_axis{};
 };
 using GuideLink = BasicGuideLink<double>;
 
-/// A rod between two links (interconnected mechanisms): from a point on the line of a KS link to a point
-/// fixed to an SR link. Its length is the distance at the reference position.
+/// A rod between two links (interconnected mechanisms): from a point of a KS link to a point fixed to an SR
+/// link. Its length is the distance at the reference position.
 template <class T>
 struct BasicCoupler {
   std::string name;
@@ -59,6 +63,8 @@ struct BasicCoupler {
   T fraction{0.5};   ///< of the KS link's length, from its body point
   int second = 0;    ///< SR link
   Vector3<T> point;  ///< on the SR link
+  /// Where it begins on the KS link, off its line too, in the place of `fraction`.
+  std::optional<Vector3<T>> begin{};
 };
 using Coupler = BasicCoupler<double>;
 
@@ -67,7 +73,8 @@ template <class T>
 struct BasicGuideSpring {
   Vector3<T> body;
   Vector3<T> moving;  ///< its other end
-  int link = -1;  ///< KS, RS, SR or RR link that it is fixed to; -1 = the carrier. On a KS link: on its line
+  int link =
+      -1;  ///< KS, SS, RS, SR or RR link that it is fixed to; -1 = the carrier. On an SS link: on its line
 };
 using GuideSpring = BasicGuideSpring<double>;
 
@@ -121,9 +128,27 @@ Vec3 wheel_axis(Side side, double toe, double camber);
 /// one.
 WheelGuide mirrored(const WheelGuide& guide);
 
+/// Whether a rod is within a thousandth of the vertical.
+template <class T>
+bool is_upright(const Vector3<T>& along) {
+  return along.x * along.x + along.y * along.y < 1e-6 * (along.z * along.z);
+}
+
 /// Points that a link of this type has at the body and at the carrier.
 int body_points(LinkType type);
 int carrier_points(LinkType type);
+
+/// The axis of a rod's K joint that stands in the body, unit: `given`, or level and across the rod. Of an
+/// upright rod no level axis is more across than another: then x.
+template <class T>
+Vector3<T> standing_axis(const std::optional<Vec3>& given, const Vector3<T>& along) {
+  if (given) {
+    const Vec3 axis = unit(*given);
+    return {T(axis.x), T(axis.y), T(axis.z)};
+  }
+  if (is_upright(along)) return {T(1), T(0), T(0)};
+  return unit(Vector3<T>{-along.y, along.x, T(0)});
+}
 
 /// What messages call the link: its name, or "link 3 (KS)".
 std::string link_label(const WheelGuide& guide, int link);

@@ -46,8 +46,8 @@ template <class Visitor>
 void fields(Visitor&& visit, GuideSweep& s) {
   visit(Field{.key = "type", .summary = "which positions are taken"}, s.type);
   visit(Field{.key = "steering_lock",
-              .summary = "what is held while the wheel is steered about its steering axis: spring or "
-                         "wheel_centre_z; default: the spring if there is one"},
+              .summary = "what is held while the wheel is steered about its steering axis: spring, "
+                         "wheel_centre_z or contact_z; default: the spring if there is one"},
         s.steering_lock);
   visit(Field{.key = "assemblies", .summary = "table of the other ways to put the guide together"},
         s.assemblies);
@@ -58,7 +58,7 @@ struct SweepStudy {
   GuideDescription description;
   Driver travel = Driver::wheel_centre_z;
   std::vector<double> travels, racks;        ///< m, ascending
-  Driver lock = Driver::wheel_centre_z;      ///< of the steering axis: wheel_centre_z or spring
+  Driver lock = Driver::wheel_centre_z;      ///< of the steering axis
   std::vector<std::string> quantities;       ///< empty = all that the guide has
   bool assemblies = false;                   ///< the other ways to put it together are looked for
   bool drawn = true;                         ///< whether a scene is wanted: a grid may have many positions

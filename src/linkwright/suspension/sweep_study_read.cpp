@@ -42,14 +42,14 @@ std::optional<GuideDescription> read_baseline(study::ObjectReader& document, con
     if (!out && !has_errors(problems)) table->error("file", fmt::format("'{}' has no wheel guide", file));
   }
   for (const Diagnostic& d : problems)
-    if (d.severity == Diagnostic::Severity::error) table->error("file", to_string(d));
+    if (d.severity == Diagnostic::Severity::error) table->unreadable("file", to_string(d));
   return out;
 }
 
 std::vector<Word> quantity_words() {
   return {{"carrier", "place of the wheel centre"},
           {"toe", ""},
-          {"camber", ""},
+          {"camber", "angle of the vertical with the wheel's plane, and as the front view shows it"},
           {"spin", "turn of the carrier about the wheel's axis"},
           {"contact", "contact point of the tyre"},
           {"track", "half-track change"},
@@ -59,8 +59,12 @@ std::vector<Word> quantity_words() {
           {"instant_centres", "front and side view, with swing arms"},
           {"support", "support tangents of braking and driving"},
           {"spring", "length and motion ratio"},
-          {"steering_axis", "caster, kingpin inclination, trail, scrub radius, offsets"},
-          {"steering", "toe by rack"}};
+          {"steering_axis", "caster, kingpin inclination, trail, scrub radius, offsets, pitch of the screw"},
+          {"steering", "toe by rack"},
+          {"contact_axis", "the steering axis with the height of the contact point held"},
+          {"geometric_axis", "the line through both ball joints of the carrier: caster, inclination, ..."},
+          {"arm_planes", "roll centre and instant centres by the planes of the arms"},
+          {"screw", "pitch of the carrier's screw as it travels"}};
 }
 
 }  // namespace
@@ -98,7 +102,6 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
         table->error("rack", "no link is moved by the rack",
                      "write moved_by = \"rack\" in the tie rod's table");
     }
-    if (s.lock == Driver::contact_z) table->error("steering_lock", "must be spring or wheel_centre_z");
     if (travels && racks && travels->size() * racks->size() > most_rows)
       table->error("travel",
                    fmt::format("{} travels with {} racks make {} rows, at most {} are allowed",

@@ -7,6 +7,7 @@
 
 #include "linkwright/math/angles.h"
 #include "linkwright/suspension/assemblies.h"
+#include "linkwright/suspension/constructions.h"
 #include "linkwright/suspension/guide_columns.h"
 #include "linkwright/suspension/guide_scene.h"
 #include "linkwright/suspension/hard_points.h"
@@ -26,19 +27,31 @@ std::size_t next_to_zero(std::span<const double> values) {
   return static_cast<std::size_t>(at - values.begin());
 }
 
-/// Rows that are quantities of the study and that the guide has.
+/// Columns that are quantities of the study, whether the guide has them or not, else all that it has.
 std::vector<const GuideColumn*> columns_of(const SweepStudy& s) {
-  const WheelGuide& guide = s.description.guide;
-  const bool steered =
-      std::any_of(guide.links.begin(), guide.links.end(), [](const GuideLink& l) { return l.moved_by_rack; });
   std::vector<const GuideColumn*> out;
   for (const GuideColumn& c : guide_columns()) {
     const bool listed = std::find(s.quantities.begin(), s.quantities.end(), c.group) != s.quantities.end();
-    const bool has = (c.group != "spring" || guide.spring) &&
-                     ((c.group != "steering_axis" && c.group != "steering") || steered);
-    if (listed || (s.quantities.empty() && has)) out.push_back(&c);
+    if (listed || (s.quantities.empty() && why_missing(s.description.guide, c).empty())) out.push_back(&c);
   }
   return out;
+}
+
+/// Why quantities that the study asks for have no values.
+void tell_missing(study::Result& result, const SweepStudy& s) {
+  std::string_view told;
+  for (const GuideColumn* c : columns_of(s)) {
+    if (c->group == told) continue;
+    const std::string why = why_missing(s.description.guide, *c);
+    if (why.empty()) continue;
+    told = c->group;
+    result.diagnostics.push_back({Diagnostic::Severity::warning,
+                                  {},
+                                  {},
+                                  "output.quantities",
+                                  fmt::format("'{}' has no values: {}", c->group, why),
+                                  {}});
+  }
 }
 
 struct Grid {
@@ -216,14 +229,26 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
     fact("camber by travel" + here, degrees_by_metre(w.camber_by_travel));
     fact("roll-centre height" + here, millimetres(w.roll_centre_height));
     if (guide.spring) fact("motion ratio" + here, fmt::format("{:.4f}", w.motion_ratio));
+    if (std::isfinite(w.arms.roll_centre_height))
+      fact("roll-centre height by arm planes" + here, millimetres(w.arms.roll_centre_height));
     if (const SteeringAxis* axis = steering_axis_of(w, s.lock)) {
-      const std::string held = s.lock == Driver::spring ? "spring held" : "wheel centre's height held";
+      const std::string held = s.lock == Driver::spring      ? "spring held"
+                               : s.lock == Driver::contact_z ? "contact point's height held"
+                                                             : "wheel centre's height held";
       fact("caster, kingpin inclination" + here,
            fmt::format("{}, {} ({})", degrees(axis->caster), degrees(axis->inclination), held));
       fact("trail, scrub radius" + here,
            fmt::format("{}, {}", millimetres(axis->trail), millimetres(axis->scrub)));
     }
+    if (const auto& axis = w.geometric_axis)
+      fact("the same by the line through the ball joints" + here,
+           fmt::format("{}, {}, {}, {}", degrees(axis->caster), degrees(axis->inclination),
+                       millimetres(axis->trail), millimetres(axis->scrub)));
   }
+  if (const std::string why = why_no_axis(guide); !why.empty())
+    fact("geometric steering axis", "none: " + why);
+  if (const std::string why = why_no_planes(guide); !why.empty())
+    fact("roll centre by arm planes", "none: " + why);
   const auto limit = [&](int i) {
     return limits.status[static_cast<std::size_t>(i)] == Status::no_assembly
                ? millimetres(limits.value[static_cast<std::size_t>(i)])
@@ -322,6 +347,7 @@ study::Result run_sweep_study(const SweepStudy& s, RunContext& context) {
   add_plots(result, s);
   if (s.baseline) add_baseline(result, s, context);
   add_facts(result, s, grid, centred);
+  tell_missing(result, s);
   if (s.vehicle) add_anti_features(result, *s.vehicle, grid.solved.wheels);
   if (s.axle) add_axle(result, s.description.guide, *s.axle, s.vehicle);
   const SensitivityInputs inputs{s.travel, s.travels, s.racks[next_to_zero(s.racks)], s.lock};

@@ -17,6 +17,7 @@ std::optional<SteeringAxis> steering_axis(Side side, const Vec3& centre, const V
 WheelParameters wheel_parameters(const GuidePlan& plan, const GuidePosition& position) {
   const double rack = position.input.rack;
   WheelParameters out = kernel::parameters_at_rest(plan, position.place, rack);
+  kernel::add_constructions(plan, position.place, rack, out);
   const GuideRates rates = solve_rates(plan, position, Driver::wheel_centre_z);
   out.status = rates.status;
   if (out.status == Status::done) kernel::add_rates(plan, position.place, rack, rates.bump, rates.steer, out);

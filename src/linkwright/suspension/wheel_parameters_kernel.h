@@ -21,14 +21,36 @@ BasicTwist<T> steering_twist(const BasicGuidePlan<T>& plan, const BasicGuidePlac
   return {steer.velocity + by * bump.velocity, steer.turning + by * bump.turning, steer.arm + by * bump.arm};
 }
 
+/// Angles and offsets of an axis through `point` along `up` (unit, upward), both seen on the left like centre
+/// and contact.
+template <class T>
+BasicSteeringAxis<T> axis_along(Side side, const Vector3<T>& centre, const Vector3<T>& contact, const T& toe,
+                                const Vector3<T>& point, const Vector3<T>& up) {
+  using std::atan;
+  using std::cos;
+  using std::sin;
+  const auto seen = [&](const Vector3<T>& a) { return side == Side::left ? a : math::mirrored(a); };
+  const auto at_height = [&](const T& z) { return point + ((z - point.z) / up.z) * up; };
+  const Vector3<T> ground = at_height(contact.z), level = at_height(centre.z);
+  const T cosine = cos(toe), sine = sin(toe);
+  const Vector3<T> forward{cosine, -sine, T(0)}, outboard{sine, cosine, T(0)};
+  BasicSteeringAxis<T> out{.point = seen(point), .direction = seen(up), .ground = seen(ground)};
+  out.caster = -atan(up.x / up.z);
+  out.inclination = -atan(up.y / up.z);
+  out.trail = ground.x - contact.x;
+  out.scrub = contact.y - ground.y;
+  out.wheel_trail = dot(ground - contact, forward);
+  out.wheel_scrub = dot(contact - ground, outboard);
+  out.caster_offset = dot(level - centre, forward);
+  out.kingpin_offset = dot(centre - level, outboard);
+  return out;
+}
+
 template <class T>
 std::optional<BasicSteeringAxis<T>> steering_axis(Side side, const Vector3<T>& wheel_centre,
                                                   const Vector3<T>& contact_point, const T& toe,
                                                   const BasicTwist<T>& steering, Driver lock) {
   using std::abs;
-  using std::atan;
-  using std::cos;
-  using std::sin;
   using std::sqrt;
   // On the left, or in the mirror.
   const bool left = side == Side::left;
@@ -40,21 +62,123 @@ std::optional<BasicSteeringAxis<T>> steering_axis(Side side, const Vector3<T>& w
   const T square = dot(turning, turning);
   const Vector3<T> up = ((turning.z > 0 ? 1.0 : -1.0) / sqrt(square)) * turning;
   const Vector3<T> point = centre + (1 / square) * cross(turning, velocity);
-  const auto at_height = [&](const T& z) { return point + ((z - point.z) / up.z) * up; };
-  const Vector3<T> ground = at_height(contact.z), level = at_height(centre.z);
-  const T cosine = cos(toe), sine = sin(toe);
-  const Vector3<T> forward{cosine, -sine, T(0)}, outboard{sine, cosine, T(0)};
-  BasicSteeringAxis<T> out{.lock = lock, .point = seen(point), .direction = seen(up), .ground = seen(ground)};
-  out.caster = -atan(up.x / up.z);
-  out.inclination = -atan(up.y / up.z);
-  out.trail = ground.x - contact.x;
-  out.scrub = contact.y - ground.y;
-  out.wheel_trail = dot(ground - contact, forward);
-  out.wheel_scrub = dot(contact - ground, outboard);
-  out.caster_offset = dot(level - centre, forward);
-  out.kingpin_offset = dot(centre - level, outboard);
+  BasicSteeringAxis<T> out = axis_along(side, centre, contact, toe, point, up);
+  out.lock = lock;
   out.pitch = dot(turning, velocity) / square;
   return out;
+}
+
+/// A ball joint of the carrier as it stands.
+template <class T>
+Vector3<T> ball_joint(const Placed<T>& placed, const CarrierBall& ball) {
+  const BasicLinkConstants<T>& link = placed.plan.links[ball.link];
+  return ball.at_body ? placed.body(link, 0) : placed.point(placed.offset(link.offset[0]));
+}
+
+/// Line through both ball joints; nothing where it is level, so that it never meets the ground.
+template <class T>
+std::optional<BasicSteeringAxis<T>> geometric_axis(const Placed<T>& placed,
+                                                   const BasicWheelParameters<T>& at) {
+  using std::abs;
+  const GuideConstruction& construction = placed.plan.construction;
+  if (!construction.has_axis()) return std::nullopt;
+  const Side side = placed.plan.side;
+  const auto seen = [&](const Vector3<T>& a) { return side == Side::left ? a : math::mirrored(a); };
+  const Vector3<T> one = seen(ball_joint(placed, construction.balls[0])),
+                   other = seen(ball_joint(placed, construction.balls[1]));
+  const Vector3<T> along = unit(other - one);
+  if (!(abs(along.z) > 1e-6)) return std::nullopt;
+  const Vector3<T> up = along.z > 0 ? along : -along, centre = seen(placed.at.carrier.centre);
+  const Vector3<T> point = one + dot(centre - one, up) * up;
+  BasicSteeringAxis<T> out = axis_along(side, centre, seen(at.contact), at.angles.toe, point, up);
+  out.pitch = BasicWheelParameters<T>::missing;
+  return out;
+}
+
+/// Points p of normal . p = normal . point.
+template <class T>
+struct Plane {
+  Vector3<T> point, normal;
+};
+
+template <class T>
+std::array<Plane<T>, 2> arm_planes(const Placed<T>& placed, const GuideConstruction& construction) {
+  std::array<Plane<T>, 2> out;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Arm& arm = construction.arms[construction.arms.size() == 2 ? i : 0];
+    const BasicLinkConstants<T>& link = placed.plan.links[arm.link];
+    const auto carrier = [&](const BasicLinkConstants<T>& of, int k) {
+      return placed.point(placed.offset(of.offset[k]));
+    };
+    const Vector3<T> body = placed.body(link, 0);
+    switch (arm.kind) {
+      case ArmKind::wishbone:
+        out[i] = {body, cross(link.body[1] - link.body[0], carrier(link, 0) - body)};
+        break;
+      case ArmKind::blade:
+        out[i] = {body, cross(carrier(link, 1) - carrier(link, 0), body - carrier(link, 0))};
+        break;
+      case ArmKind::strut:
+        out[i] = {body, placed.offset(link.axis)};
+        break;
+      case ArmKind::hinge:
+        out[i] = {body, link.across[i]};
+        break;
+      case ArmKind::rods_at_carrier: {
+        const Vector3<T> end = carrier(link, 0);
+        out[i] = {end, cross(body - end, placed.body(placed.plan.links[arm.other], 0) - end)};
+        break;
+      }
+      case ArmKind::rods_at_body:
+        out[i] = {body, cross(carrier(link, 0) - body, carrier(placed.plan.links[arm.other], 0) - body)};
+        break;
+    }
+  }
+  return out;
+}
+
+/// Where the traces of both planes meet in a view, from a point of it: (across, up) / weight.
+template <class T>
+struct Meeting {
+  T across{0}, up{0}, weight{0};
+};
+
+template <class T>
+BasicArmCentres<T> arm_centres(const Placed<T>& placed, const Vector3<T>& contact) {
+  using std::abs;
+  using std::atan;
+  using std::hypot;
+  BasicArmCentres<T> out;
+  if (!placed.plan.construction.has_planes()) return out;
+  const auto [a, b] = arm_planes(placed, placed.plan.construction);
+  const Vector3<T>& c = placed.at.carrier.centre;
+  const auto meet = [&](const Vector3<T>& from, T Vector3<T>::*across) {
+    const T ea = dot(a.normal, a.point - from), eb = dot(b.normal, b.point - from);
+    return Meeting<T>{ea * b.normal.z - eb * a.normal.z, a.normal.*across * eb - b.normal.*across * ea,
+                      a.normal.*across * b.normal.z - a.normal.z * b.normal.*across};
+  };
+  const Meeting<T> front = meet({c.x, contact.y, contact.z}, &Vector3<T>::y);
+  const Meeting<T> side = meet({contact.x, c.y, contact.z}, &Vector3<T>::x);
+  const T beside = front.across / front.weight, above = front.up / front.weight;
+  out.front = {contact.y + beside, contact.z + above};
+  out.front_swing_arm = hypot(beside, above);
+  out.roll_centre_height = -contact.y * front.up / front.across;
+  const T ahead = side.across / side.weight, over = side.up / side.weight;
+  out.side = {contact.x + ahead, contact.z + over};
+  out.side_swing_arm = hypot(ahead, over);
+  // Of parallel traces the ratio still tells the slope.
+  const T slope = side.up / side.across;
+  out.side_swing_angle = atan(ahead < 0 ? -slope : slope);
+  return out;
+}
+
+/// What a place shows by constructions, without motion.
+template <class T>
+void add_constructions(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place, const T& rack,
+                       BasicWheelParameters<T>& out) {
+  const Placed<T> placed{plan, place, rack};
+  out.geometric_axis = geometric_axis(placed, out);
+  out.arms = arm_centres(placed, out.contact);
 }
 
 /// What a place shows by itself.
@@ -63,9 +187,13 @@ BasicWheelParameters<T> parameters_at_rest(const BasicGuidePlan<T>& plan, const 
                                            const T& rack) {
   const BasicCarrierPose<T>& carrier = place.carrier;
   const BasicGuideWheel<T>& wheel = plan.wheel;
+  using std::atan;
+  using std::cos;
+  using std::sin;
   const double outward = plan.side == Side::left ? 1 : -1, diameter = wheel.tyre_diameter;
   BasicWheelParameters<T> out;
   out.angles = kernel::wheel_angles(plan.side, wheel, carrier.rotation);
+  out.front_view_camber = atan(sin(out.angles.camber) / (cos(out.angles.camber) * cos(out.angles.toe)));
   out.contact = carrier.centre + kernel::contact_offset(plan.side, diameter, out.angles);
   out.track = (2 * outward) * out.contact.y;
   out.half_track_change = outward * (out.contact.y - plan.contact.y);
@@ -105,6 +233,7 @@ void add_rates(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place, c
   out.side_swing_angle = atan(above / abs(ahead));
   out.support_tangent = on_carrier.x / on_carrier.z;
   out.support_tangent_free = geometric.x / geometric.z;
+  out.screw_pitch = dot(turning, velocity) / dot(turning, turning);
   if (plan.spring) out.motion_ratio = -kernel::driver_rate(plan, place, rack, Driver::spring, bump, 0);
 
   const bool steered = std::any_of(plan.links.begin(), plan.links.end(),
@@ -115,6 +244,8 @@ void add_rates(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place, c
     return kernel::steering_axis(plan.side, carrier.centre, out.contact, out.angles.toe, steering, lock);
   };
   out.axis_at_height = axis(steer, Driver::wheel_centre_z);
+  out.axis_at_contact =
+      axis(kernel::steering_twist(plan, place, rack, bump, steer, Driver::contact_z), Driver::contact_z);
   if (plan.spring)
     out.axis_at_spring =
         axis(kernel::steering_twist(plan, place, rack, bump, steer, Driver::spring), Driver::spring);
@@ -131,6 +262,7 @@ void for_each_number(const BasicWheelParameters<A>& a, BasicWheelParameters<B>& 
   f(a.angles.toe, b.angles.toe);
   f(a.angles.camber, b.angles.camber);
   f(a.angles.spin, b.angles.spin);
+  f(a.front_view_camber, b.front_view_camber);
   vector(a.contact, b.contact);
   f(a.track, b.track);
   f(a.half_track_change, b.half_track_change);
@@ -156,6 +288,15 @@ void for_each_number(const BasicWheelParameters<A>& a, BasicWheelParameters<B>& 
   f(a.spring_length, b.spring_length);
   f(a.motion_ratio, b.motion_ratio);
   f(a.toe_by_rack, b.toe_by_rack);
+  f(a.screw_pitch, b.screw_pitch);
+  f(a.arms.roll_centre_height, b.arms.roll_centre_height);
+  for (int i : {0, 1}) {
+    f(a.arms.front[i], b.arms.front[i]);
+    f(a.arms.side[i], b.arms.side[i]);
+  }
+  f(a.arms.front_swing_arm, b.arms.front_swing_arm);
+  f(a.arms.side_swing_arm, b.arms.side_swing_arm);
+  f(a.arms.side_swing_angle, b.arms.side_swing_angle);
   const auto axis = [&](const std::optional<BasicSteeringAxis<A>>& from,
                         std::optional<BasicSteeringAxis<B>>& to) {
     if (!from) return;
@@ -176,6 +317,8 @@ void for_each_number(const BasicWheelParameters<A>& a, BasicWheelParameters<B>& 
   };
   axis(a.axis_at_height, b.axis_at_height);
   axis(a.axis_at_spring, b.axis_at_spring);
+  axis(a.axis_at_contact, b.axis_at_contact);
+  axis(a.geometric_axis, b.geometric_axis);
 }
 
 }  // namespace linkwright::suspension::kernel

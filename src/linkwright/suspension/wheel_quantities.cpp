@@ -13,6 +13,12 @@ std::string_view unit_of(WheelQuantity quantity) {
     case inclination_at_height:
     case caster_at_spring:
     case inclination_at_spring:
+    case front_view_camber:
+    case arm_side_swing_angle:
+    case caster_at_contact:
+    case inclination_at_contact:
+    case geometric_caster:
+    case geometric_inclination:
       return "rad";
     case contact_x:
     case contact_y:
@@ -42,6 +48,25 @@ std::string_view unit_of(WheelQuantity quantity) {
     case wheel_scrub_at_spring:
     case caster_offset_at_spring:
     case kingpin_offset_at_spring:
+    case arm_roll_centre_height:
+    case arm_front_centre_y:
+    case arm_front_centre_z:
+    case arm_side_centre_x:
+    case arm_side_centre_z:
+    case arm_front_swing_arm:
+    case arm_side_swing_arm:
+    case trail_at_contact:
+    case scrub_at_contact:
+    case wheel_trail_at_contact:
+    case wheel_scrub_at_contact:
+    case caster_offset_at_contact:
+    case kingpin_offset_at_contact:
+    case geometric_trail:
+    case geometric_scrub:
+    case geometric_wheel_trail:
+    case geometric_wheel_scrub:
+    case geometric_caster_offset:
+    case geometric_kingpin_offset:
       return "m";
     case toe_by_travel:
     case camber_by_travel:
@@ -53,6 +78,8 @@ std::string_view unit_of(WheelQuantity quantity) {
       return "1";
     case axis_pitch_at_height:
     case axis_pitch_at_spring:
+    case axis_pitch_at_contact:
+    case screw_pitch:
       return "m/rad";
   }
   return {};
@@ -152,12 +179,67 @@ double value_of(const WheelParameters& p, WheelQuantity quantity) {
       return axis(p.axis_at_spring, &SteeringAxis::kingpin_offset);
     case axis_pitch_at_spring:
       return axis(p.axis_at_spring, &SteeringAxis::pitch);
+    case front_view_camber:
+      return p.front_view_camber;
+    case screw_pitch:
+      return p.screw_pitch;
+    case arm_roll_centre_height:
+      return p.arms.roll_centre_height;
+    case arm_front_centre_y:
+      return p.arms.front[0];
+    case arm_front_centre_z:
+      return p.arms.front[1];
+    case arm_side_centre_x:
+      return p.arms.side[0];
+    case arm_side_centre_z:
+      return p.arms.side[1];
+    case arm_front_swing_arm:
+      return p.arms.front_swing_arm;
+    case arm_side_swing_arm:
+      return p.arms.side_swing_arm;
+    case arm_side_swing_angle:
+      return p.arms.side_swing_angle;
+    case caster_at_contact:
+      return axis(p.axis_at_contact, &SteeringAxis::caster);
+    case inclination_at_contact:
+      return axis(p.axis_at_contact, &SteeringAxis::inclination);
+    case trail_at_contact:
+      return axis(p.axis_at_contact, &SteeringAxis::trail);
+    case scrub_at_contact:
+      return axis(p.axis_at_contact, &SteeringAxis::scrub);
+    case wheel_trail_at_contact:
+      return axis(p.axis_at_contact, &SteeringAxis::wheel_trail);
+    case wheel_scrub_at_contact:
+      return axis(p.axis_at_contact, &SteeringAxis::wheel_scrub);
+    case caster_offset_at_contact:
+      return axis(p.axis_at_contact, &SteeringAxis::caster_offset);
+    case kingpin_offset_at_contact:
+      return axis(p.axis_at_contact, &SteeringAxis::kingpin_offset);
+    case axis_pitch_at_contact:
+      return axis(p.axis_at_contact, &SteeringAxis::pitch);
+    case geometric_caster:
+      return axis(p.geometric_axis, &SteeringAxis::caster);
+    case geometric_inclination:
+      return axis(p.geometric_axis, &SteeringAxis::inclination);
+    case geometric_trail:
+      return axis(p.geometric_axis, &SteeringAxis::trail);
+    case geometric_scrub:
+      return axis(p.geometric_axis, &SteeringAxis::scrub);
+    case geometric_wheel_trail:
+      return axis(p.geometric_axis, &SteeringAxis::wheel_trail);
+    case geometric_wheel_scrub:
+      return axis(p.geometric_axis, &SteeringAxis::wheel_scrub);
+    case geometric_caster_offset:
+      return axis(p.geometric_axis, &SteeringAxis::caster_offset);
+    case geometric_kingpin_offset:
+      return axis(p.geometric_axis, &SteeringAxis::kingpin_offset);
   }
   return WheelParameters::missing;
 }
 
 bool at_rest(WheelQuantity quantity) {
-  return quantity <= WheelQuantity::recession || quantity == WheelQuantity::spring_length;
+  return quantity <= WheelQuantity::recession || quantity == WheelQuantity::spring_length ||
+         quantity == WheelQuantity::front_view_camber;
 }
 
 }  // namespace linkwright::suspension

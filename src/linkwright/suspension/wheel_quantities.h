@@ -8,8 +8,9 @@
 
 namespace linkwright::suspension {
 
-/// The numbers of WheelParameters by name, for curves, targets and bands. `_at_height` and `_at_spring` say
-/// what the steering axis holds.
+/// The numbers of WheelParameters by name, for curves, targets and bands. `_at_height`, `_at_spring` and
+/// `_at_contact` say what the steering axis holds; `geometric_` is the line through both ball joints, `arm_`
+/// what the planes of the arms make.
 enum class WheelQuantity {
   toe,
   camber,
@@ -55,8 +56,35 @@ enum class WheelQuantity {
   caster_offset_at_spring,
   kingpin_offset_at_spring,
   axis_pitch_at_spring,
+  front_view_camber,
+  screw_pitch,
+  arm_roll_centre_height,
+  arm_front_centre_y,
+  arm_front_centre_z,
+  arm_side_centre_x,
+  arm_side_centre_z,
+  arm_front_swing_arm,
+  arm_side_swing_arm,
+  arm_side_swing_angle,
+  caster_at_contact,
+  inclination_at_contact,
+  trail_at_contact,
+  scrub_at_contact,
+  wheel_trail_at_contact,
+  wheel_scrub_at_contact,
+  caster_offset_at_contact,
+  kingpin_offset_at_contact,
+  axis_pitch_at_contact,
+  geometric_caster,
+  geometric_inclination,
+  geometric_trail,
+  geometric_scrub,
+  geometric_wheel_trail,
+  geometric_wheel_scrub,
+  geometric_caster_offset,
+  geometric_kingpin_offset,
 };
-constexpr std::array<EnumName<WheelQuantity>, 44> names(WheelQuantity) {
+constexpr std::array<EnumName<WheelQuantity>, 71> names(WheelQuantity) {
   using enum WheelQuantity;
   return {
       {{toe, "toe", "toe angle"},
@@ -109,7 +137,44 @@ constexpr std::array<EnumName<WheelQuantity>, 44> names(WheelQuantity) {
        {caster_offset_at_spring, "caster_offset_at_spring", "axis ahead of the wheel centre, spring held"},
        {kingpin_offset_at_spring, "kingpin_offset_at_spring",
         "axis inboard of the wheel centre, spring held"},
-       {axis_pitch_at_spring, "axis_pitch_at_spring", "pitch of the steering screw, spring held"}}};
+       {axis_pitch_at_spring, "axis_pitch_at_spring", "pitch of the steering screw, spring held"},
+       {front_view_camber, "front_view_camber", "camber as the front view shows it"},
+       {screw_pitch, "screw_pitch", "pitch of the carrier's screw by travel"},
+       {arm_roll_centre_height, "arm_roll_centre_height",
+        "roll centre above the ground, by the planes of the arms"},
+       {arm_front_centre_y, "arm_front_centre_y",
+        "instant centre seen from the front, by the planes of the arms"},
+       {arm_front_centre_z, "arm_front_centre_z", "its height"},
+       {arm_side_centre_x, "arm_side_centre_x",
+        "instant centre seen from the side, by the planes of the arms"},
+       {arm_side_centre_z, "arm_side_centre_z", "its height"},
+       {arm_front_swing_arm, "arm_front_swing_arm", "from the contact point to that front centre"},
+       {arm_side_swing_arm, "arm_side_swing_arm", "from the contact point to that side centre"},
+       {arm_side_swing_angle, "arm_side_swing_angle", "of that arm above the ground"},
+       {caster_at_contact, "caster_at_contact", "caster, contact height held"},
+       {inclination_at_contact, "inclination_at_contact", "steering-axis inclination, contact height held"},
+       {trail_at_contact, "trail_at_contact", "trail along x, contact height held"},
+       {scrub_at_contact, "scrub_at_contact", "scrub along y, contact height held"},
+       {wheel_trail_at_contact, "wheel_trail_at_contact", "trail along the wheel, contact height held"},
+       {wheel_scrub_at_contact, "wheel_scrub_at_contact", "scrub across the wheel, contact height held"},
+       {caster_offset_at_contact, "caster_offset_at_contact",
+        "axis ahead of the wheel centre, contact height held"},
+       {kingpin_offset_at_contact, "kingpin_offset_at_contact",
+        "axis inboard of the wheel centre, contact height held"},
+       {axis_pitch_at_contact, "axis_pitch_at_contact", "pitch of the steering screw, contact height held"},
+       {geometric_caster, "geometric_caster", "caster, line through both ball joints"},
+       {geometric_inclination, "geometric_inclination",
+        "steering-axis inclination, line through both ball joints"},
+       {geometric_trail, "geometric_trail", "trail along x, line through both ball joints"},
+       {geometric_scrub, "geometric_scrub", "scrub along y, line through both ball joints"},
+       {geometric_wheel_trail, "geometric_wheel_trail",
+        "trail along the wheel, line through both ball joints"},
+       {geometric_wheel_scrub, "geometric_wheel_scrub",
+        "scrub across the wheel, line through both ball joints"},
+       {geometric_caster_offset, "geometric_caster_offset",
+        "axis ahead of the wheel centre, line through both ball joints"},
+       {geometric_kingpin_offset, "geometric_kingpin_offset",
+        "axis inboard of the wheel centre, line through both ball joints"}}};
 }
 
 /// "m", "rad", "rad/m", "m/rad" or "1".

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/field.h"
+#include "linkwright/study/result.h"
+
+// What a result says in short, for people and programs that do not know its kind.
+namespace linkwright::study {
+
+enum class Verdict { passed, doubtful, incomplete, failed };
+constexpr std::array<EnumName<Verdict>, 4> names(Verdict) {
+  return {{{Verdict::passed, "passed", "done, every check holds and nothing is marked as bad"},
+           {Verdict::doubtful, "doubtful", "done and every check holds, but some facts or the best solution have defects"},
+           {Verdict::incomplete, "incomplete", "stopped by the time limit or on request: best so far"},
+           {Verdict::failed, "failed", "a check does not hold, or there is no answer (see status)"}}};
+}
+
+/// The verdict, why, and the troubles behind it.
+struct Answer {
+  Verdict verdict = Verdict::passed;
+  std::vector<std::string> reasons;  ///< empty for `passed`
+  std::optional<Trouble> first;      ///< the first in time or along the sweep
+  std::optional<Trouble> worst;      ///< the one that exceeds its limit most; the longest stretch of rows
+};
+
+/// The answer of any result: from its status, checks, facts and defects; troubles are its own or, if it has
+/// none, the rows of its tables that are not done.
+Answer answer_of(const Result& result);
+
+/// A fact as a number with its unit where its text is just that: "25.4 deg".
+struct FactValue {
+  double value;
+  std::string unit;  ///< as in the text; empty = a plain number
+};
+std::optional<FactValue> value_of(const Fact& fact);
+
+}  // namespace linkwright::study

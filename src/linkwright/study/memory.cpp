@@ -1,0 +1,28 @@
+#include "linkwright/study/memory.h"
+
+#include <fmt/format.h>
+
+#include "linkwright/core/memory.h"
+
+namespace linkwright::study {
+
+double table_bytes(double rows, double columns) {
+  constexpr double number = 130;
+  return number * rows * columns;
+}
+
+double population_bytes(double population, double variables) {
+  // Members, candidates, two more generations of them that methods keep, velocities and best places of
+  // swarms; costs and violations of each.
+  constexpr double copies = 6, of_costs = 4;
+  return sizeof(double) * population * (copies * variables + of_costs);
+}
+
+bool require_memory(ObjectReader& table, std::string_view key, double bytes, std::string_view what,
+                    std::string_view mend) {
+  const auto problem = memory_problem(bytes, what);
+  if (problem) table.error(key, *problem, fmt::format("{}, {}", mend, memory_hint));
+  return !problem;
+}
+
+}  // namespace linkwright::study

@@ -1,0 +1,33 @@
+#include "linkwright/core/interruption.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+namespace linkwright {
+namespace {
+
+TEST(Interruption, GoesOnUntilTheRunIsToStop) {
+  EXPECT_NO_THROW(go_on(nullptr));
+  RunContext context;
+  EXPECT_NO_THROW(go_on(context));
+  context.cancel();
+  try {
+    go_on(context);
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const Interrupted& i) {
+    EXPECT_EQ(i.status(), Status::cancelled);
+    EXPECT_STREQ(i.what(), "the run was interrupted");
+  }
+  RunContext late;
+  late.set_time_limit(std::chrono::seconds(0));
+  try {
+    go_on(&late);
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const Interrupted& i) {
+    EXPECT_EQ(i.status(), Status::deadline);
+  }
+}
+
+}  // namespace
+}  // namespace linkwright

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "linkwright/planar/slider_crank_path_problem.h"
+#include "planar/path_cases.h"
+
+namespace linkwright::planar::testing {
+
+/// A design of the reference figures, whose H counts the offset the other way.
+inline SliderCrankMechanism slider_crank(const Value& design) {
+  const auto value = [&](std::string_view key) { return number_at(design, key); };
+  const std::complex<double> point = std::polar(value("L4_m"), value("beta_rad"));
+  SliderCrankMechanism m;
+  m.parameters = {.crank = value("L2_m"),
+                  .rod = value("L3_m"),
+                  .offset = -value("H_m"),
+                  .guide_angle = value("delta_rad"),
+                  .pivot_x = value("xA_m"),
+                  .pivot_y = value("yA_m"),
+                  .rod_u = point.real(),
+                  .rod_v = point.imag()};
+  return m;
+}
+
+/// Boskovic 2018, Eqs. (4.28), (4.29), (4.32): 18 points, 20 degree steps, published bounds.
+inline SliderPathProblem eighteen_slider_points() {
+  const PathProblem points = eighteen_points();
+  SliderPathProblem p;
+  p.x = points.x;
+  p.y = points.y;
+  for (std::size_t k = 0; k < p.x.size(); ++k) p.offsets.push_back(points.step * static_cast<double>(k));
+  const Range link{0, 50}, place{-50, 50}, turn{0, 2 * std::numbers::pi};
+  p.bounds = {link, link, link, turn, turn, place, place, place, turn};
+  return p;
+}
+
+/// Crank angles of a start angle in one sense.
+inline std::vector<double> angles_of(const SliderPathProblem& p, double start, double sense = 1) {
+  std::vector<double> out;
+  for (const double offset : p.offsets) out.push_back(start + sense * offset);
+  return out;
+}
+
+}  // namespace linkwright::planar::testing
