@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "linkwright/core/random.h"
 #include "linkwright/planar/four_bar_classify.h"
 #include "planar/path_cases.h"
 
@@ -106,8 +107,8 @@ TEST(PathUsability, OnlyBoundsThatNobodyGaveAreDrawbacks) {
   EXPECT_THAT(drawbacks(p, measure(p, good, 1, {0.5, 1, 1.5})), IsEmpty());
 }
 
-TEST(PathUsability, WhatTheUsableProblemAllowsIsUsable) {
-  PathProblem p = own_path(pipi, 0.5, 0.05, 11, false);
+TEST(PathUsability, TheUsableProblemIsNarrower) {
+  PathProblem p = own_path(pipi, 1, 0.05, 11, false);
   const PathProblem usable = usable_problem(p);
   EXPECT_TRUE(usable.crank_rotates_fully);
   EXPECT_NEAR(usable.min_transmission_angle, 5 * pi / 180, 1e-15);
@@ -116,6 +117,56 @@ TEST(PathUsability, WhatTheUsableProblemAllowsIsUsable) {
   EXPECT_EQ(usable.bounds[6], p.bounds[6]);
   p.min_transmission_angle = 0.5;
   EXPECT_EQ(usable_problem(p).min_transmission_angle, 0.5);
+}
+
+// Random linkages that turn fully, met at random steps of their own path, within bounds of the study or those
+// of the path: what meets the usable problem meets the problem and has no drawbacks.
+TEST(PathUsability, WhatTheUsableProblemAllowsIsUsable) {
+  int allowed = 0, refused = 0;
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+    RandomStream r({.seed = seed});
+    const double size = std::exp(r.uniform(-3, 3));
+    const double a1 = r.uniform(0, 1), a2 = r.uniform(0, 1), a3 = r.uniform(0, 1);
+    const FourBar l{.ground = size * (1 + 0.5 * (a2 + a3)),
+                    .crank = size,
+                    .coupler = size * (1 + 0.5 * (a1 + a2)),
+                    .rocker = size * (1 + 0.5 * (a1 + a3)),
+                    .coupler_u = size * r.uniform(-2, 2),
+                    .coupler_v = size * r.uniform(-2, 2),
+                    .branch = r.bits() % 2 ? Branch::open : Branch::crossed};
+    const bool closed = r.bits() % 2;
+    const std::size_t count = 5 + r.below(40);
+    const double sense = r.bits() % 2 ? 1 : -1, turn = closed ? 2 * pi : r.uniform(0.05, 2 * pi);
+    std::vector<double> angles = {r.uniform(-10, 10)}, steps;
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) sum += steps.emplace_back(std::exp(r.uniform(-1.5, 1.5)));
+    for (std::size_t k = 0; k + 1 < count; ++k) angles.push_back(angles.back() + sense * turn * steps[k] / sum);
+    PathProblem p;
+    p.closed = closed;
+    p.crank_rotates_fully = closed;
+    p.search_negative = true;
+    for (const double angle : angles) {
+      const auto c = position(l, angle).coupler_point;
+      p.x.push_back(c.real());
+      p.y.push_back(c.imag());
+    }
+    p.bounds = derive_bounds(p.x, p.y);
+    if (r.bits() % 2) p.bounds[0] = {0.5 * size, l.ground};  // at the bound of the study: no drawback
+    const PathDesign limited = measure(usable_problem(p), l, sense, angles);
+    const PathDesign design = measure(p, l, sense, angles);
+    // The order of a design is that of its angles; how far apart they stay is up to the search.
+    double least = closed ? sense * (angles.front() - angles.back()) + 2 * pi : 2 * pi;
+    for (std::size_t k = 0; k + 1 < count; ++k) least = std::min(least, sense * (angles[k + 1] - angles[k]));
+    if (!limited.violations.empty() || least < usable_problem(p).least_step) {
+      ++refused;
+      continue;
+    }
+    ++allowed;
+    EXPECT_THAT(design.violations, IsEmpty()) << seed;
+    for (const Drawback& drawback : drawbacks(p, design)) ADD_FAILURE() << seed << ": " << drawback.text;
+  }
+  EXPECT_GT(allowed, 300);
+  EXPECT_GT(refused, 300);
 }
 
 TEST(PathUsability, TheBestUsableDesignKeepsAPlace) {

@@ -402,22 +402,39 @@ bool PathFitter::solve_step(double lambda) {
   return true;
 }
 
+// The share of the step, 1 at most, that keeps it within the longest one.
+double PathFitter::shrink_to_longest() const {
+  double shrink = 1;
+  const auto limit = [&](double step, double longest) {
+    if (std::abs(step) * shrink > longest) shrink = longest / std::abs(step);
+  };
+  for (std::size_t i = 0; i <= index(P::rocker); ++i) limit(step_q_[i], longest_change * q_[i]);
+  limit(step_q_[index(P::frame_angle)], longest_turn);
+  limit(step_q_[index(P::start_angle)], longest_turn);
+  if (free_timing_)
+    for (double step : step_angles_) limit(step, longest_turn);
+  return shrink;
+}
+
 // A step whose variables stay within their bounds: one that would pass goes to its bound, and the others are
-// solved for again. Clipped without that, a step along a narrow valley leaves the valley at every bound.
+// solved for again. Clipped without that, a step along a narrow valley leaves the valley at every bound. With
+// prescribed timing the step is only clipped: those searches start far beyond the bounds, where the first
+// steps decide which answer is found, and a step along several bounds at once leads to worse ones.
 bool PathFitter::solve_within_bounds(double lambda) {
   held_step_.fill(0);
   for (std::size_t i = 0; i < shared; ++i)
     held_[i] = (q_[i] <= lower_[i] && gradient_[i] > 0) || (q_[i] >= upper_[i] && gradient_[i] < 0);
   for (int stops = 0;; ++stops) {
     if (!solve_step(lambda)) return false;
+    const double shrink = shrink_to_longest();
     bool passed = false;
     for (std::size_t i = 0; i < shared; ++i) {
-      const double end = q_[i] + step_q_[i];
+      const double end = q_[i] + shrink * step_q_[i];
       if (!variable_[i] || held_[i] || (end >= lower_[i] && end <= upper_[i])) continue;
       held_[i] = passed = true;
       held_step_[i] = (end < lower_[i] ? lower_[i] : upper_[i]) - q_[i];
     }
-    if (!passed || stops == most_stops_at_bounds) return true;
+    if (!passed || !free_timing_ || stops == most_stops_at_bounds) return true;
   }
 }
 
@@ -430,15 +447,7 @@ double PathFitter::descend(const PathFitOptions& options) {
       lambda *= 10;
       continue;
     }
-    double shrink = 1;
-    const auto limit = [&](double step, double longest) {
-      if (std::abs(step) * shrink > longest) shrink = longest / std::abs(step);
-    };
-    for (std::size_t i = 0; i <= index(P::rocker); ++i) limit(step_q_[i], longest_change * q_[i]);
-    limit(step_q_[8], longest_turn);
-    limit(step_q_[9], longest_turn);
-    if (free_timing_)
-      for (double step : step_angles_) limit(step, longest_turn);
+    const double shrink = shrink_to_longest();
     for (std::size_t i = 0; i < shared; ++i)
       trial_q_[i] = variable_[i] ? std::clamp(q_[i] + shrink * step_q_[i], lower_[i], upper_[i]) : q_[i];
     if (free_timing_)

@@ -55,6 +55,7 @@ class PathFitter {
   void evaluate_order(const std::vector<double>& angles, bool derivatives, double& merit);
   void eliminate_angles(double lambda, double* a, double* b);
   bool solve_step(double lambda);
+  double shrink_to_longest() const;
   bool solve_within_bounds(double lambda);
   double descend(const PathFitOptions& options);
 

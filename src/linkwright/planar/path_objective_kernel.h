@@ -74,12 +74,14 @@ LINKWRIGHT_KERNEL T add_distance(const PathObjective& o, const PathLinkage<T>& l
   if (o.banded) {
     // From the nearest place of the gate, beyond the tolerance (see target_miss).
     const T hx = load(o.gate_x), hy = load(o.gate_y), square = hx * hx + hy * hy;
+    const T unbanded = ex * ex + ey * ey;
     const T along = (ex * hx + ey * hy) / S::choose(square > T(0.0), square, T(1.0));
     const T held = S::min(S::max(along, T(-1.0)), T(1.0));
     ex = ex - held * hx;
     ey = ey - held * hy;
     const T miss = S::positive_part(sqrt(ex * ex + ey * ey) - load(o.tolerance));
-    return S::multiply_add(miss, miss, sum);
+    // min and max may drop a NaN; a position that does not exist keeps it.
+    return S::choose(unbanded < T(1e300), S::multiply_add(miss, miss, sum), unbanded);
   }
   return S::multiply_add(ex, ex, S::multiply_add(ey, ey, sum));
 }
