@@ -218,7 +218,7 @@ TEST(PathStudyRead, APathThatEndsWhereItBeginsIsClosed) {
   EXPECT_TRUE(closed(said_nothing));
   EXPECT_EQ(count(said_nothing), 3u);
   EXPECT_THAT(messages,
-              HasSubstr("the last of 4 targets repeats the first: taken once, and the path as closed"));
+              HasSubstr("the last of 4 points repeats the first: taken once, and the path as closed"));
   const Value said_closed = read("closed = true\n" + points);
   EXPECT_TRUE(closed(said_closed));
   EXPECT_EQ(count(said_closed), 3u);
@@ -251,6 +251,57 @@ TEST(PathStudyRead, GatesAndTolerancesSayWhatIsWrong) {
   EXPECT_THAT(problems_of(target(gates + "tolerance_mm = -1\n")), HasSubstr("tolerance_mm"));
   EXPECT_THAT(problems_of(target("gates_mm = [{ from = [0, 0], to = [0, 1] }]\n")),
               HasSubstr("1 point makes no path"));
+}
+
+// Gates and tolerances as columns of the points file: the same study as with keys.
+TEST(PathStudyRead, ReadsGatesAndTolerancesFromCsv) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "linkwright_path_bands_test";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "gates.csv") << "from_x_mm,from_y_mm,to_x_mm,to_y_mm,tolerance_mm\n"
+                                         "0,0,0,10,0\n5,0,5,10,1\n9,5,9,5,2\n0,0,0,10,0\n";
+  std::ofstream(folder / "bands.csv") << "x_mm,y_mm,tolerance_mm\n0,0,1\n5,0,2\n9,5,3\n";
+  std::ofstream(folder / "half.csv") << "from_x_mm,from_y_mm,to_x_mm\n0,0,0\n5,0,5\n9,5,9\n";
+  std::ofstream(folder / "both.csv") << "x_mm,y_mm,from_x_mm,from_y_mm,to_x_mm,to_y_mm\n0,0,0,0,0,1\n";
+  std::ofstream(folder / "negative.csv") << "x_mm,y_mm,tolerance_mm\n0,0,1\n5,0,-2\n9,5,3\n";
+  std::ofstream(folder / "gap.csv") << "x_mm,y_mm,tolerance_mm\n0,0,1\n5,,2\n9,5,3\n";
+  const auto read = [&](const std::string& lines) {
+    std::string messages;
+    const auto study = prepare(target(lines), messages, folder);
+    return std::pair(study ? *study->canonical.find("target") : Value(), messages);
+  };
+  const auto [gates, gate_messages] = read("points_file = \"gates.csv\"\n");
+  ASSERT_TRUE(gates.is_object()) << gate_messages;
+  // The closing gate is left out, with its tolerance.
+  std::string ignored;
+  EXPECT_THAT(gate_messages, HasSubstr("target.points_file: the last of 4 gates repeats the first: taken once"));
+  const Value same = *prepare(target("closed = true\ngates_mm = [{ from = [0, 0], to = [0, 10] }, { from = [5, 0], "
+                                     "to = [5, 10] }, { from = [9, 5], to = [9, 5] }]\n"
+                                     "tolerances_mm = [0, 1, 2]\n"),
+                              ignored)
+                          ->canonical.find("target");
+  ASSERT_EQ(gates.find("gates_m")->as_array().size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k)
+    for (const char* post : {"from", "to"})
+      for (std::size_t i = 0; i < 2; ++i)
+        EXPECT_NEAR(gates.find("gates_m")->as_array()[k].find(post)->as_array()[i].as_number(),
+                    same.find("gates_m")->as_array()[k].find(post)->as_array()[i].as_number(), 1e-15);
+  EXPECT_EQ(*gates.find("tolerances_m"), *same.find("tolerances_m"));
+  EXPECT_EQ(gates.find("points_m"), nullptr);
+  EXPECT_EQ(read("points_file = \"bands.csv\"\n").first.find("tolerances_m")->as_array()[2].as_number(), 0.003);
+  EXPECT_THAT(read("points_file = \"bands.csv\"\ntolerance_mm = 1\n").second,
+              HasSubstr("target.tolerance_mm: the points file has tolerances, too; keep the key or the column"));
+  EXPECT_THAT(read("points_file = \"half.csv\"\n").second, HasSubstr("'half.csv' has no column to_y_m"));
+  EXPECT_THAT(read("points_file = \"both.csv\"\n").second, HasSubstr("'both.csv' has both points and gates"));
+  EXPECT_THAT(read("points_file = \"negative.csv\"\n").second, HasSubstr("the tolerance of point 2 is negative"));
+  EXPECT_THAT(read("points_file = \"gap.csv\"\n").second,
+              HasSubstr("'gap.csv': point 2 is incomplete; give it a number in column y_mm"));
+  // A slider-crank meets points exactly, and says so.
+  std::string messages;
+  std::string slider = target("points_file = \"bands.csv\"\n");
+  slider.replace(slider.find("planar.four_bar"), 15, "planar.slider_crank");
+  EXPECT_FALSE(prepare(slider, messages, folder));
+  EXPECT_THAT(messages, HasSubstr("'bands.csv' has tolerances, this study meets points exactly"));
+  std::filesystem::remove_all(folder);
 }
 
 // Five points of a four-bar's curve (crank-rocker, one arc), in mm.

@@ -60,6 +60,32 @@ TEST(SliderPathStudyRead, TimingMustFit) {
   EXPECT_THAT(timed("mode = \"increment\""), HasSubstr("increments"));
 }
 
+// As of a four-bar: a path that ends where it begins is closed, unless its timing or the study says otherwise;
+// what the timing gives for the closing point goes with it.
+TEST(SliderPathStudyRead, APathThatEndsWhereItBeginsIsClosed) {
+  const auto read = [](const std::string& lines) {
+    std::string messages;
+    const auto study =
+        prepare(target(lines + "points_m = [[0, 0], [1, 0], [1, 1], [0, 0]]\n"), messages);
+    EXPECT_TRUE(study) << messages;
+    return *study->canonical.find("target");
+  };
+  const auto closed = [](const Value& t) { return t.find("closed")->as_bool(); };
+  const auto count = [](const Value& t) { return t.find("points_m")->as_array().size(); };
+  EXPECT_TRUE(closed(read("")));
+  EXPECT_EQ(count(read("")), 3u);
+  EXPECT_FALSE(closed(read("closed = false\n")));
+  EXPECT_EQ(count(read("closed = false\n")), 4u);
+  EXPECT_TRUE(closed(read("timing = { mode = \"equal_steps\", step_deg = 120 }\n")));
+  EXPECT_FALSE(closed(read("timing = { mode = \"equal_steps\", step_deg = 100 }\n")));
+  const Value steps = read("closed = true\ntiming = { mode = \"increments\", increments_deg = [100, 130, 130] }\n");
+  EXPECT_EQ(count(steps), 3u);
+  EXPECT_EQ(steps.find("timing")->find("increments_rad")->as_array().size(), 2u);
+  const Value angles = read("timing = { mode = \"given\", angles_deg = [10, 130, 250, 370] }\n");
+  EXPECT_EQ(count(angles), 3u);
+  EXPECT_EQ(angles.find("timing")->find("angles_rad")->as_array().size(), 3u);
+}
+
 TEST(SliderPathStudyRead, ObjectivesLimitsAndMethodsMustFit) {
   const std::string path = target(std::string("closed = true\n") + square);
   EXPECT_THAT(problems_of(path + "[[objective]]\ntype = \"slider.stroke\"\n"),

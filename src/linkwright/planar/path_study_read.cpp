@@ -44,80 +44,99 @@ void read_timing(study::ObjectReader& target, PathStudy& s) {
   }
 }
 
-// The points or, in their place, the middles of gates. True when the last one repeated the first and was left
-// out.
-bool read_targets(study::ObjectReader& target, const study::Common& common, PathStudy& s) {
-  PathProblem& p = s.problem;
-  if (!s.target.gates) return read_path_points(target, common, s.target, s.target.closed, p.x, p.y);
+// The key that the targets stand at.
+const char* key_of(const PathTarget& target) {
+  return target.gates ? "gates" : target.points_file ? "points_file" : "points";
+}
+
+// The points or, in their place, the middles of gates.
+PathPoints read_targets(study::ObjectReader& target, const study::Common& common, PathStudy& s) {
+  PathPoints targets;
+  if (!s.target.gates) {
+    read_path_targets(target, common, s.target, targets);
+    return targets;
+  }
   const bool has_points = target.has(Field{.key = "points", .summary = {}, .dimension = Dimension::length});
   if (has_points || target.has("points_file")) {
     target.error("gates",
                  fmt::format("the target has both gates and {}", has_points ? "points" : "points_file"),
                  "keep one of them; a gate whose posts agree is a point");
-    return false;
+    return targets;
   }
   for (const PathGate& gate : *s.target.gates) {
-    p.x.push_back(0.5 * (gate.from[0] + gate.to[0]));
-    p.y.push_back(0.5 * (gate.from[1] + gate.to[1]));
-    p.gate_x.push_back(0.5 * (gate.to[0] - gate.from[0]));
-    p.gate_y.push_back(0.5 * (gate.to[1] - gate.from[1]));
+    targets.x.push_back(0.5 * (gate.from[0] + gate.to[0]));
+    targets.y.push_back(0.5 * (gate.from[1] + gate.to[1]));
+    targets.gate_x.push_back(0.5 * (gate.to[0] - gate.from[0]));
+    targets.gate_y.push_back(0.5 * (gate.to[1] - gate.from[1]));
   }
-  const bool left_out = check_path_points(target, "gates", s.target.closed, p.x, p.y);
-  if (left_out) p.gate_x.pop_back(), p.gate_y.pop_back();
-  return left_out;
+  check_path_targets(target, "gates", targets);
+  return targets;
 }
 
-void read_tolerances(study::ObjectReader& target, PathStudy& s) {
-  PathProblem& p = s.problem;
-  if (s.target.tolerance && s.target.tolerances) {
+void read_tolerances(study::ObjectReader& target, const PathTarget& form, PathPoints& targets) {
+  if (form.tolerance && form.tolerances) {
     target.error("tolerances", "the target has both tolerance and tolerances", "keep one of them");
     return;
   }
-  if (s.target.tolerance) p.tolerance.assign(p.x.size(), *s.target.tolerance);
-  if (!s.target.tolerances) return;
-  if (p.x.size() >= 3 && s.target.tolerances->size() != p.x.size()) {
+  if (!form.tolerance && !form.tolerances) return;
+  if (!targets.tolerance.empty()) {
+    target.error(form.tolerance ? "tolerance" : "tolerances", "the points file has tolerances, too",
+                 "keep the key or the column");
+    return;
+  }
+  if (form.tolerance) targets.tolerance.assign(targets.x.size(), *form.tolerance);
+  if (!form.tolerances) return;
+  if (targets.x.size() >= 3 && form.tolerances->size() != targets.x.size()) {
     target.error("tolerances",
-                 fmt::format("{} tolerances for {} targets", s.target.tolerances->size(), p.x.size()),
+                 fmt::format("{} tolerances for {} targets", form.tolerances->size(), targets.x.size()),
                  "give one for each, or tolerance for all");
     return;
   }
-  p.tolerance = *s.target.tolerances;
+  targets.tolerance = *form.tolerances;
 }
 
-// Whether the last crank angle that the timing gives is the first one, a turn on.
-bool timing_closes(const PathStudy& s, std::size_t points) {
-  const PathTiming& t = s.target.timing;
-  double turned = 2 * std::numbers::pi;
-  if (t.mode == Timing::equal_steps && t.step) turned = *t.step * static_cast<double>(points - 1);
+// Crank rotation that the timing gives from the first to the last of so many points.
+std::optional<double> turned(const PathTiming& t, std::size_t points) {
+  if (t.mode == Timing::equal_steps && t.step) return *t.step * static_cast<double>(points - 1);
   if (t.mode == Timing::given && t.angles && t.angles->size() == points)
-    turned = t.angles->back() - t.angles->front();
-  return std::abs(std::abs(turned) - 2 * std::numbers::pi) < 1e-6;
+    return t.angles->back() - t.angles->front();
+  return std::nullopt;
 }
 
-// A path that ends where it begins is closed unless the study says it is not: its last target is the first
-// one again, and what the study gives for it goes with it. `left_out`: that has happened to the point
-// already.
-void close_path(study::ObjectReader& target, PathStudy& s, bool left_out) {
-  PathProblem& p = s.problem;
-  const std::size_t n = p.x.size() + (left_out ? 1 : 0);
-  if (!left_out) {
-    const bool same_gate =
-        p.gate_x.empty() || (p.gate_x.front() == p.gate_x.back() && p.gate_y.front() == p.gate_y.back());
-    if (target.has("closed") || n < 4 || !repeats_first_point(p.x, p.y) || !same_gate || !timing_closes(s, n))
-      return;
-    target.warning(
-        s.target.gates         ? "gates"
-        : s.target.points_file ? "points_file"
-                               : "points",
-        fmt::format("the last of {} targets repeats the first: taken once, and the path as closed", n),
-        "write closed = true, or closed = false to keep it open");
-    s.target.closed = true;
-    p.x.pop_back(), p.y.pop_back();
-    if (!p.gate_x.empty()) p.gate_x.pop_back(), p.gate_y.pop_back();
+// Targets with their tolerances; what the study gives for a closing target goes with it.
+void set_targets(study::ObjectReader& target, const study::Common& common, PathStudy& s) {
+  PathPoints targets = read_targets(target, common, s);
+  read_tolerances(target, s.target, targets);
+  const std::size_t n = targets.x.size();
+  if (n > 0) {
+    PathTiming& t = s.target.timing;
+    const std::optional<double> rotation = turned(t, n);
+    if (leave_out_closing_target(target, key_of(s.target), s.target.closed, rotation, targets) &&
+        t.mode == Timing::given && rotation && is_one_turn(*rotation))
+      t.angles->pop_back();
   }
-  if (s.target.tolerances && s.target.tolerances->size() == n) s.target.tolerances->pop_back();
-  if (s.target.timing.angles && s.target.timing.angles->size() == n && timing_closes(s, n))
-    s.target.timing.angles->pop_back();
+  PathProblem& p = s.problem;
+  p.x = std::move(targets.x), p.y = std::move(targets.y);
+  p.gate_x = std::move(targets.gate_x), p.gate_y = std::move(targets.gate_y);
+  p.tolerance = std::move(targets.tolerance);
+}
+
+// The targets as they are met: points or gates, with one tolerance for all or one for each.
+void resolve_targets(const PathProblem& p, PathTarget& target) {
+  target.points_file.reset();
+  target.points.reset();
+  target.gates.reset();
+  const std::size_t n = std::min(p.x.size(), p.y.size());
+  if (p.gate_x.empty()) {
+    target.points.emplace();
+    for (std::size_t k = 0; k < n; ++k) target.points->push_back({p.x[k], p.y[k]});
+  } else {
+    target.gates.emplace();
+    for (std::size_t k = 0; k < n; ++k)
+      target.gates->push_back({.from = {p.x[k] - p.gate_x[k], p.y[k] - p.gate_y[k]},
+                               .to = {p.x[k] + p.gate_x[k], p.y[k] + p.gate_y[k]}});
+  }
+  if (!target.tolerance && !p.tolerance.empty()) target.tolerances = p.tolerance;
 }
 
 void set_bounds(study::ObjectReader& mechanism, PathStudy& s) {
@@ -193,8 +212,7 @@ PathStudy read_path_study(study::ObjectReader& document, const study::Common& co
   auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
   if (target) {
     target->read(s.target);
-    close_path(*target, s, read_targets(*target, common, s));
-    read_tolerances(*target, s);
+    set_targets(*target, common, s);
     read_timing(*target, s);
   }
   document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
@@ -238,8 +256,9 @@ points_mm = [
   [500, 1100], [300, 1100], [100, 900], [20, 600], [0, 400], [100, 250],
   [200, 300], [400, 500], [600, 900],
 ]
-# or: points_file = "path.csv"      # columns x_mm, y_mm
+# or: points_file = "path.csv"      # columns x_mm, y_mm; tolerance_mm, where there is one
 # or: gates_mm = [{ from = [500, 1090], to = [500, 1110] }, ...]   # to pass between two points
+#     (in a points_file: columns from_x_mm, from_y_mm, to_x_mm, to_y_mm)
 # tolerance_mm = 1.0                # points count as met this near, at no cost
 
 [[constraint]]
@@ -271,14 +290,7 @@ seeds  = { first = 1, count = 4 }
     for (std::size_t j = 0; j < four_bar_parameter_count; ++j)
       if (j != index(FourBarParameter::start_angle) || s.problem.timing == Timing::equal_steps)
         resolved.mechanism.parameters.ranges[j] = s.problem.bounds[j];
-    resolved.target.points_file.reset();
-    const std::size_t n = std::min(s.problem.x.size(), s.problem.y.size());
-    if (resolved.target.gates) {
-      resolved.target.gates->resize(std::min(n, resolved.target.gates->size()));
-    } else {
-      resolved.target.points.emplace();
-      for (std::size_t k = 0; k < n; ++k) resolved.target.points->push_back({s.problem.x[k], s.problem.y[k]});
-    }
+    resolve_targets(s.problem, resolved.target);
     if (resolved.objectives.empty()) resolved.objectives.emplace_back();
     prepared.canonical["mechanism"] = study::write_fields(resolved.mechanism);
     prepared.canonical["target"] = study::write_fields(resolved.target);

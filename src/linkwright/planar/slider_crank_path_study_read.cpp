@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "linkwright/planar/slider_crank_path_study.h"
 #include "linkwright/study/bind_write.h"
@@ -66,6 +67,35 @@ void read_timing(study::ObjectReader& target, SliderPathStudy& s) {
 bool starts_anywhere(const SliderPathStudy& s) {
   const SliderTiming mode = s.target.timing.mode;
   return mode == SliderTiming::equal_steps || mode == SliderTiming::increments;
+}
+
+// Crank rotation that the timing gives from the first to the last of so many points.
+std::optional<double> turned(const SliderPathTiming& t, std::size_t points) {
+  if (t.mode == SliderTiming::equal_steps && t.step) return *t.step * static_cast<double>(points - 1);
+  if (t.mode == SliderTiming::increments && t.increments && t.increments->size() + 1 == points)
+    return std::accumulate(t.increments->begin(), t.increments->end(), 0.0);
+  if (t.mode == SliderTiming::given && t.angles && t.angles->size() == points)
+    return t.angles->back() - t.angles->front();
+  return std::nullopt;
+}
+
+// The points; what the timing gives for a closing point goes with it.
+void set_points(study::ObjectReader& target, const study::Common& common, SliderPathStudy& s) {
+  PathPoints points;
+  read_path_points(target, common, s.target, points.x, points.y);
+  const std::size_t n = points.x.size();
+  if (n > 0) {
+    SliderPathTiming& t = s.target.timing;
+    const std::optional<double> rotation = turned(t, n);
+    if (leave_out_closing_target(target, s.target.points_file ? "points_file" : "points", s.target.closed,
+                                 rotation, points) &&
+        rotation && is_one_turn(*rotation)) {
+      if (t.mode == SliderTiming::increments) t.increments->pop_back();
+      if (t.mode == SliderTiming::given) t.angles->pop_back();
+    }
+  }
+  s.problem.x = std::move(points.x);
+  s.problem.y = std::move(points.y);
 }
 
 void set_bounds(study::ObjectReader& mechanism, SliderPathStudy& s) {
@@ -169,7 +199,7 @@ SliderPathStudy read_slider_path_study(study::ObjectReader& document, const stud
     mechanism->read(s.mechanism);
   if (auto target = document.table(Field{.key = "target", .summary = {}, .required = true})) {
     target->read(s.target);
-    read_path_points(*target, common, s.target, s.target.closed, s.problem.x, s.problem.y);
+    set_points(*target, common, s);
     read_timing(*target, s);
   }
   document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
