@@ -68,9 +68,9 @@ void eighteen_point_slider_objective(benchmark::State& state) {
   optimise::Population population(slider_parameter_count, size);
   for (std::size_t i = 0; i < size; ++i) {
     RandomStream s({.seed = 1, .individual = static_cast<std::uint32_t>(i)});
-    const double x[] = {s.uniform(0.2, 0.4),  s.uniform(0.5, 0.8), s.uniform(0.2, 0.5),
-                        s.uniform(0, 6.28),   s.uniform(0, 6.28),  s.uniform(-0.1, 0.1),
-                        s.uniform(-1, 1),     s.uniform(-1, 1),    s.uniform(0, 6.28)};
+    const double x[] = {s.uniform(0.2, 0.4), s.uniform(0.5, 0.8), s.uniform(0.2, 0.5),
+                        s.uniform(0, 6.28),  s.uniform(0, 6.28),  s.uniform(-0.1, 0.1),
+                        s.uniform(-1, 1),    s.uniform(-1, 1),    s.uniform(0, 6.28)};
     population.set(i, x);
   }
   std::vector<double> cost(size), violation(size);
@@ -102,8 +102,9 @@ void eighteen_point_slider_synthesis(benchmark::State& state) {
   for (int i = 1; i <= state.range(0); ++i) strokes.push_back(0.72 - 0.03 * i);
   for (auto _ : state) {
     RunContext context;
-    benchmark::DoNotOptimize(strokes.empty() ? synthesise_slider_path(p, {.progress = false}, context)
-                                             : synthesise_slider_front(p, strokes, {.progress = false}, context));
+    benchmark::DoNotOptimize(strokes.empty()
+                                 ? synthesise_slider_path(p, {.progress = false}, context)
+                                 : synthesise_slider_front(p, strokes, {.progress = false}, context));
   }
 }
 BENCHMARK(eighteen_point_slider_synthesis)->Arg(0)->Arg(14)->Unit(benchmark::kMillisecond);

@@ -55,9 +55,10 @@ TEST(PathPointsStudy, TheClosingPointOfAClosedPathCountsOnce) {
   // A path whose timing says a turn, or nothing, is closed by it.
   for (const auto rotation : {std::optional(-2 * std::numbers::pi), std::optional<double>()}) {
     const ReadPoints turned = read(text, false, rotation);
-    EXPECT_THAT(turned.problems, ::testing::HasSubstr("study.toml:2:12: warning: target.points_m: the last of 4 "
-                                                      "points repeats the first: taken once, and the path as "
-                                                      "closed; write closed = true, or closed = false"));
+    EXPECT_THAT(turned.problems,
+                ::testing::HasSubstr("study.toml:2:12: warning: target.points_m: the last of 4 "
+                                     "points repeats the first: taken once, and the path as "
+                                     "closed; write closed = true, or closed = false"));
     EXPECT_THAT(turned.x, ::testing::SizeIs(3));
   }
   // Two points and the first again are no path.

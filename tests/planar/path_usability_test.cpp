@@ -140,7 +140,8 @@ TEST(PathUsability, WhatTheUsableProblemAllowsIsUsable) {
     std::vector<double> angles = {r.uniform(-10, 10)}, steps;
     double sum = 0;
     for (std::size_t k = 0; k < count; ++k) sum += steps.emplace_back(std::exp(r.uniform(-1.5, 1.5)));
-    for (std::size_t k = 0; k + 1 < count; ++k) angles.push_back(angles.back() + sense * turn * steps[k] / sum);
+    for (std::size_t k = 0; k + 1 < count; ++k)
+      angles.push_back(angles.back() + sense * turn * steps[k] / sum);
     PathProblem p;
     p.closed = closed;
     p.crank_rotates_fully = closed;

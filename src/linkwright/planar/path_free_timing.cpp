@@ -292,7 +292,7 @@ PathSynthesis search_free_timing(const PathProblem& problem, const PathSynthesis
   rank(more.designs);
   for (const PathDesign& found : more.designs) {
     PathDesign design = measure(problem, found.linkage, found.sense, found.angles);
-    if (carried_on++ < static_cast<std::size_t>(options.max_solutions))
+    if (carried_on++ < carried_beyond_limits)
       answer.designs.push_back(polish_free_timing(problem, design, answer.evaluations));
     answer.designs.push_back(std::move(design));
   }

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <cstddef>
+
 #include "linkwright/core/run_context.h"
 #include "linkwright/planar/path_synthesis.h"
 
 namespace linkwright::planar {
+
+/// Of the designs that a search under limits finds, so many go on without the limits, the best first.
+inline constexpr std::size_t carried_beyond_limits = 2;
 
 /// The search of `synthesise_path` for free timing: designs without order, some of which may violate
 /// constraints, with the history of the search.

@@ -72,9 +72,10 @@ bool read_points_file(study::ObjectReader& reader, const study::Common& common, 
   const bool gates =
       std::any_of(posts.begin(), posts.end(), [&](const char* post) { return columns.has(post); });
   if (!with_bands && (gates || columns.has("tolerance"))) {
-    reader.error("points_file",
-                 fmt::format("'{}' has {}, this study meets points exactly", file, gates ? "gates" : "tolerances"),
-                 "keep the columns x and y");
+    reader.error(
+        "points_file",
+        fmt::format("'{}' has {}, this study meets points exactly", file, gates ? "gates" : "tolerances"),
+        "keep the columns x and y");
     return false;
   }
   if (gates && (columns.has("x") || columns.has("y"))) {
@@ -105,8 +106,8 @@ bool read_points_file(study::ObjectReader& reader, const study::Common& common, 
   if (!read("tolerance", targets.tolerance)) return false;
   for (std::size_t k = 0; k < rows; ++k)
     if (targets.tolerance[k] < 0) {
-      reader.error("points_file",
-                   fmt::format("'{}': the tolerance of point {} is negative", file, k + 1), "write 0 or more");
+      reader.error("points_file", fmt::format("'{}': the tolerance of point {} is negative", file, k + 1),
+                   "write 0 or more");
       return false;
     }
   return true;
@@ -213,8 +214,8 @@ bool leave_out_closing_target(study::ObjectReader& target, const char* key, bool
                               std::optional<double> turned, PathPoints& targets) {
   const std::size_t n = targets.x.size();
   if (n < 4 || !repeats_first_point(targets.x, targets.y)) return false;
-  if (!targets.gate_x.empty() && (targets.gate_x.front() != targets.gate_x.back() ||
-                                  targets.gate_y.front() != targets.gate_y.back()))
+  if (!targets.gate_x.empty() &&
+      (targets.gate_x.front() != targets.gate_x.back() || targets.gate_y.front() != targets.gate_y.back()))
     return false;
   const char* what = targets.gate_x.empty() ? "point" : "gate";
   if (closed) {
@@ -222,10 +223,9 @@ bool leave_out_closing_target(study::ObjectReader& target, const char* key, bool
                    fmt::format("closed = true joins the last {} to the first", what));
   } else {
     if (target.has("closed") || (turned && !is_one_turn(*turned))) return false;
-    target.warning(key,
-                   fmt::format("the last of {} {}s repeats the first: taken once, and the path as closed", n,
-                               what),
-                   "write closed = true, or closed = false to keep it open");
+    target.warning(
+        key, fmt::format("the last of {} {}s repeats the first: taken once, and the path as closed", n, what),
+        "write closed = true, or closed = false to keep it open");
     closed = true;
   }
   targets.pop_back();

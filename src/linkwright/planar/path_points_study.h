@@ -26,15 +26,15 @@ void fields(Visitor&& visit, PathPointsForm& t) {
         t.points_file);
 }
 
-/// Targets in their order (m): points, or the middles of gates with half of the way from one post to the other;
-/// `gate_x`, `gate_y` and `tolerance` are empty where there are none.
+/// Targets in their order (m): points, or the middles of gates with half of the way from one post to the
+/// other; `gate_x`, `gate_y` and `tolerance` are empty where there are none.
 struct PathPoints {
   std::vector<double> x, y, gate_x, gate_y, tolerance;
   void pop_back();
 };
 
-/// The points of a target that has been read into `form` (m), three at least and none twice in a row. Problems
-/// are told at the keys of the target.
+/// The points of a target that has been read into `form` (m), three at least and none twice in a row.
+/// Problems are told at the keys of the target.
 void read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
                       std::vector<double>& x, std::vector<double>& y);
 
@@ -48,8 +48,8 @@ void check_path_targets(study::ObjectReader& target, const char* key, const Path
 
 /// A path that ends where it begins is a closed one, unless the study says that it is not: its last target is
 /// the first one again, and is left out, with a warning at `key`. `turned`: crank rotation from the first
-/// target to the last one where the timing gives it (rad); a path that says nothing of being closed is so only
-/// if that is a turn. True when the last target was left out.
+/// target to the last one where the timing gives it (rad); a path that says nothing of being closed is so
+/// only if that is a turn. True when the last target was left out.
 bool leave_out_closing_target(study::ObjectReader& target, const char* key, bool& closed,
                               std::optional<double> turned, PathPoints& targets);
 

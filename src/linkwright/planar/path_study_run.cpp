@@ -51,8 +51,8 @@ PathSeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_
 }
 
 template <class Options>
-PathSeedRun run_seed(const optimise::PopulationMethod<Options, optimise::Constraints::penalty>& method, const PathStudy& s, std::uint64_t seed,
-                     bool only_seed, RunContext& context) {
+PathSeedRun run_seed(const optimise::PopulationMethod<Options, optimise::Constraints::penalty>& method,
+                     const PathStudy& s, std::uint64_t seed, bool only_seed, RunContext& context) {
   PathSeedRun out;
   std::uint32_t part = 0;
   for (double sense : {1.0, -1.0}) {
@@ -325,8 +325,7 @@ constexpr double exact_share = 1e-12;
 std::string how_near(const PathProblem& p, const PathDesign& d) {
   const PathErrors errors = path_errors(p, d);
   const double worst = *std::max_element(errors.excess.begin(), errors.excess.end());
-  const std::string what =
-      fmt::format("{} {}", p.x.size(), p.gate_x.empty() ? "points" : "gates");
+  const std::string what = fmt::format("{} {}", p.x.size(), p.gate_x.empty() ? "points" : "gates");
   const char* allowed = p.tolerance.empty() ? "" : " of their tolerance";
   if (worst <= exact_share * path_size(p))
     return p.tolerance.empty() ? fmt::format("passes the {} exactly", what)
@@ -340,8 +339,23 @@ std::string called(const PathDesign& d) {
   const FourBarClass type = classify(d.linkage);
   const std::string_view branch = name_of(d.linkage.branch);
   if (!type.grashof)
-    return fmt::format("linkage in which no link turns fully (type {}, {} branch)", name_of(type.type), branch);
+    return fmt::format("linkage in which no link turns fully (type {}, {} branch)", name_of(type.type),
+                       branch);
   return fmt::format("{} ({} branch)", name_of(type.type), branch);
+}
+
+std::string_view short_name(DrawbackKind kind) {
+  switch (kind) {
+    case DrawbackKind::transmission:
+      return "low transmission angle";
+    case DrawbackKind::crowded:
+      return "crowded points";
+    case DrawbackKind::bound:
+      return "a link at its bound";
+    case DrawbackKind::locks:
+      return "locks at both ends";
+  }
+  return {};
 }
 
 // Why the best design is of little use, and which one is better in use; empty = it is usable.
@@ -367,10 +381,19 @@ study::Fact transmission_fact(const PathProblem& p, const PathDesign& d) {
   const PathTransmission mu = path_transmission(p, d);
   std::string text = fmt::format("{:.1f}°", math::degrees(mu.used));
   if (!p.closed)
-    text += fmt::format(" over the path ({:.1f}° beyond it)", math::degrees(mu.whole));
+    text += fmt::format(" over the path ({:.1f}° over the whole motion)", math::degrees(mu.whole));
   const bool poor = math::degrees(judged_transmission(p, d)) < 20;
   return {"least transmission angle", std::move(text),
           poor ? study::Fact::Verdict::bad : study::Fact::Verdict::plain};
+}
+
+study::Fact worst_fact(const PathProblem& p, const PathErrors& errors) {
+  const auto worst = std::max_element(errors.excess.begin(), errors.excess.end());
+  const bool exact = *worst <= exact_share * path_size(p);
+  if (exact && !p.tolerance.empty()) return {"worst point", "none is beyond its tolerance"};
+  if (exact) return {"worst point", "none, to rounding"};
+  return {"worst point", fmt::format("{} at {} {}", metres(*worst), p.gate_x.empty() ? "point" : "gate",
+                                     worst - errors.excess.begin() + 1)};
 }
 
 void warn_of_transmission(study::Result& result, const PathProblem& p, const PathDesign& d) {
@@ -386,8 +409,10 @@ void warn_of_transmission(study::Result& result, const PathProblem& p, const Pat
                    p.closed                ? ""
                    : p.crank_rotates_fully ? " over the full turn"
                                            : " on the path"),
-       limit > 0 ? fmt::format("raise the limit of [[constraint]] type = \"transmission_angle\": min_deg is {:.6g}", limit)
-                 : "limit it: [[constraint]] type = \"transmission_angle\", min_deg = 30"});
+       limit > 0
+           ? fmt::format("raise the limit of [[constraint]] type = \"transmission_angle\": min_deg is {:.6g}",
+                         limit)
+           : "limit it: [[constraint]] type = \"transmission_angle\", min_deg = 30"});
 }
 
 void add_cognates(study::Result& result, const PathDesign& best) {
@@ -436,7 +461,6 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
 
   const double rms = std::sqrt(best.error / static_cast<double>(s.problem.x.size()));
   const PathErrors errors = path_errors(s.problem, best);
-  const auto worst = std::max_element(errors.excess.begin(), errors.excess.end());
   using Verdict = study::Fact::Verdict;
   const std::string but = feasible ? caution(s.problem, designs) : std::string();
   if (feasible) {
@@ -452,9 +476,8 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
        !feasible     ? Verdict::bad
        : but.empty() ? Verdict::good
                      : Verdict::plain},
-      {"root mean square distance", metres(rms)},
-      {"worst point", fmt::format("{} at {} {}", metres(*worst), s.problem.gate_x.empty() ? "point" : "gate",
-                                  worst - errors.excess.begin() + 1)},
+      {"root mean square distance", rms <= exact_share * path_size(s.problem) ? "0 mm" : metres(rms)},
+      worst_fact(s.problem, errors),
       {"type", result.solutions[0].label},
       transmission_fact(s.problem, best),
       {"method", run.method},
@@ -472,10 +495,12 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
          fmt::format("interrupted: {} of {} seeds ran", run.runs.size(), common.seeds.count),
          {}});
   if (!but.empty()) {
-    std::string texts;
-    for (const Drawback& drawback : drawbacks(s.problem, best))
-      texts += (texts.empty() ? "" : "; ") + drawback.text;
-    result.facts.push_back({"drawbacks", texts, Verdict::bad});
+    std::string names;
+    for (const Drawback& drawback : drawbacks(s.problem, best)) {
+      const std::string name(short_name(drawback.kind));
+      if (names.find(name) == std::string::npos) names += (names.empty() ? "" : ", ") + name;
+    }
+    result.facts.push_back({"drawbacks", names, Verdict::bad});
   }
   warn_of_transmission(result, s.problem, best);
   return result;

@@ -258,7 +258,7 @@ void add_usable(const PathProblem& problem, const PathSynthesisOptions& options,
   for (const PathDesign& found : more.designs) {
     if (!found.violations.empty()) break;
     PathDesign design = measure(problem, found.linkage, found.sense, found.angles);
-    if (problem.timing == Timing::free && carried_on++ < static_cast<std::size_t>(options.max_solutions)) {
+    if (problem.timing == Timing::free && carried_on++ < carried_beyond_limits) {
       // One limit after the other: so the search with the full turn alone is part of the one without it.
       PathProblem turning = problem;
       turning.crank_rotates_fully = true;

@@ -118,10 +118,11 @@ void fields(Visitor&& visit, SliderPathTarget& t) {
 /// What is minimised; both together give a front.
 enum class SliderObjectiveType { sum_squared_distance, stroke };
 constexpr std::array<EnumName<SliderObjectiveType>, 2> names(SliderObjectiveType) {
-  return {{{SliderObjectiveType::sum_squared_distance, "path.sum_squared_distance",
-            "sum over the points of the squared distance (Boskovic 2018, Eqs. (4.14), (4.18))"},
-           {SliderObjectiveType::stroke, "slider.stroke",
-            "way of the slider over a full turn, beside the path: a front (Boskovic 2018, Eqs. (4.17)-(4.19))"}}};
+  return {
+      {{SliderObjectiveType::sum_squared_distance, "path.sum_squared_distance",
+        "sum over the points of the squared distance (Boskovic 2018, Eqs. (4.14), (4.18))"},
+       {SliderObjectiveType::stroke, "slider.stroke",
+        "way of the slider over a full turn, beside the path: a front (Boskovic 2018, Eqs. (4.17)-(4.19))"}}};
 }
 struct SliderObjectiveEntry {
   SliderObjectiveType type = SliderObjectiveType::sum_squared_distance;

@@ -45,8 +45,7 @@ void read_timing(study::ObjectReader& target, SliderPathStudy& s) {
       for (const double increment : *t.increments) offsets.push_back(offsets.back() + increment);
     }
   } else if (t.increments) {
-    target.error("timing",
-                 fmt::format("increments go with mode increments, the mode is {}", name_of(t.mode)),
+    target.error("timing", fmt::format("increments go with mode increments, the mode is {}", name_of(t.mode)),
                  "remove the increments");
   }
   if (t.mode == SliderTiming::given) {
@@ -110,8 +109,8 @@ void set_bounds(study::ObjectReader& mechanism, SliderPathStudy& s) {
   }
   if (starts_anywhere(s)) return;
   if (s.mechanism.parameters.ranges[index(P::start_angle)])
-    mechanism.warning("parameters", fmt::format("start_angle has no use: the timing is {}",
-                                                name_of(s.target.timing.mode)));
+    mechanism.warning("parameters",
+                      fmt::format("start_angle has no use: the timing is {}", name_of(s.target.timing.mode)));
   s.problem.bounds[index(P::start_angle)] = {0, 0};
 }
 
@@ -154,10 +153,10 @@ void set_constraints(study::ObjectReader& document, SliderPathStudy& s) {
     }
   }
   if (p.stroke.lower > p.stroke.upper)
-    document.error("constraint",
-                   fmt::format("the stroke is to be {} m at least and {} m at most", p.stroke.lower,
-                               p.stroke.upper),
-                   "give min less than max");
+    document.error(
+        "constraint",
+        fmt::format("the stroke is to be {} m at least and {} m at most", p.stroke.lower, p.stroke.upper),
+        "give min less than max");
   // A closed path is traced by a crank that goes round.
   if (p.closed) p.crank_rotates_fully = true;
   if ((limited || s.front) && !p.crank_rotates_fully)
@@ -179,7 +178,8 @@ void set_objectives(study::ObjectReader& document, SliderPathStudy& s) {
   const auto* nsga2 = std::get_if<FrontMethod<optimise::Nsga2Options>>(&s.optimiser.method);
   const auto* moead = std::get_if<FrontMethod<optimise::MoeadOptions>>(&s.optimiser.method);
   if ((nsga2 || moead) && !s.front)
-    document.error("optimiser", fmt::format("{} gives fronts of several objectives", nsga2 ? "nsga2" : "moead"),
+    document.error("optimiser",
+                   fmt::format("{} gives fronts of several objectives", nsga2 ? "nsga2" : "moead"),
                    "add [[objective]] type = \"slider.stroke\", or take another method");
   if (nsga2 && nsga2->options.population % 4 != 0)
     document.error("optimiser", fmt::format("nsga2 has a population of {}", nsga2->options.population),
@@ -217,7 +217,8 @@ study::Kind slider_path_kind() {
   kind.kind = "synthesis";
   kind.mechanism = "planar.slider_crank";
   kind.target = "path_points";
-  kind.summary = "slider-crank with an inclined, offset guide whose rod point traces a path, also with a short stroke";
+  kind.summary =
+      "slider-crank with an inclined, offset guide whose rod point traces a path, also with a short stroke";
   kind.seeded = true;
   kind.example = R"(# linkwright study: a slider-crank whose rod point traces a closed path
 schema = 1
@@ -262,7 +263,8 @@ seeds  = { first = 1, count = 2 }
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "the slider-crank"},
                       study::schema_fields<SliderPathMechanism>());
-    document.property(Field{.key = "target", .summary = "the path"}, study::schema_fields<SliderPathTarget>());
+    document.property(Field{.key = "target", .summary = "the path"},
+                      study::schema_fields<SliderPathTarget>());
     document.property(Field{.key = "objective", .summary = "what is minimised"},
                       study::schema_array(study::schema_fields<SliderObjectiveEntry>()));
     document.property(Field{.key = "constraint", .summary = "what must hold"},
