@@ -346,6 +346,10 @@ TEST(ToleranceStudy, NamesWhatIsWrong) {
   const auto watched = blind.find("# What is looked at");
   blind.erase(watched, blind.find("[monte_carlo]") - watched);
   EXPECT_THAT(problems_of(blind), HasSubstr("nothing is looked at; add [[trace]] with a point"));
+  // A file cut off behind the ground has no inputs, and so no sweep.
+  EXPECT_THAT(problems_of("schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"clearance.linkage\"\n"
+                          "[[mechanism.body]]\nname = \"ground\"\npoints_mm = { O = [0, 0] }\n"),
+              HasSubstr("sweep: this key is missing"));
 }
 
 }  // namespace

@@ -81,6 +81,48 @@ TEST(LeastSquares, Misra1aFromBothNistStarts) {
   }
 }
 
+TEST(LeastSquares, GeodesicAccelerationFollowsACurvedValley) {
+  // Residuals 1000 (y - x^2) and x - 1: the valley y = x^2 is a thousand times as steep across as along.
+  int evaluations[2] = {};
+  const auto narrow = [](std::span<const double> x, std::span<double> r, std::span<double> j) {
+    r[0] = 1e3 * (x[1] - x[0] * x[0]);
+    r[1] = x[0] - 1;
+    if (!j.empty()) {
+      j[0] = -2e3 * x[0];
+      j[1] = 1;
+      j[2] = 1e3;
+      j[3] = 0;
+    }
+    return true;
+  };
+  for (const bool accelerated : {false, true}) {
+    std::array<double, 2> x = {-1.2, 1.44};
+    LeastSquaresWorkspace workspace;
+    LeastSquaresOptions options = tight;
+    options.damping = Damping::identity;
+    options.max_iterations = 5000;
+    options.geodesic_acceleration = accelerated;
+    const auto report = minimise_least_squares(narrow, 2, x, options, workspace);
+    EXPECT_EQ(report.status, Status::done) << to_string(report.end);
+    EXPECT_NEAR(x[0], 1, 1e-10);
+    EXPECT_NEAR(x[1], 1, 1e-10);
+    evaluations[accelerated] = report.evaluations;
+  }
+  EXPECT_LT(evaluations[true], evaluations[false] / 2);
+}
+
+TEST(LeastSquares, GeodesicAccelerationStaysInTheBox) {
+  std::array<double, 2> x = {-0.5, 0.2};
+  LeastSquaresWorkspace workspace;
+  LeastSquaresOptions options = tight;
+  options.geodesic_acceleration = true;
+  const auto report = minimise_least_squares(rosenbrock, 2, x, std::array{-2.0, -2.0}, std::array{0.5, 2.0},
+                                             options, workspace);
+  EXPECT_EQ(report.status, Status::done) << to_string(report.end);
+  EXPECT_EQ(x[0], 0.5);
+  EXPECT_NEAR(x[1], 0.25, 1e-9);  // below it the cost, 0.125, does not change any more
+}
+
 TEST(LeastSquares, FewerResidualsThanVariables) {
   // A sphere and a plane: one curve of solutions; any point of it will do.
   const auto f = [](std::span<const double> x, std::span<double> r, std::span<double> j) {

@@ -300,8 +300,9 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
                  "a linkage whose lengths err has no change points: its ways part there, and the linear "
                  "theory ends",
                  "leave it out, and sweep up to the change point");
-  std::erase_if(prepared.canonical["sweep"].as_object(),
-                [](const Value::Member& m) { return m.key == "at_change_point"; });
+  // A linkage without inputs has no sweep.
+  if (Value& sweep = prepared.canonical["sweep"]; sweep.is_object())
+    std::erase_if(sweep.as_object(), [](const Value::Member& m) { return m.key == "at_change_point"; });
   read_pins(document, s, prepared.canonical);
   read_lengths(document, s, prepared.canonical);
   if (s.tolerance_count() == 0 && !document.document().has_errors())

@@ -32,6 +32,9 @@ struct LeastSquaresOptions {
   double lambda_max = 1e8;      ///< ends the search: no step lowers the cost any more
   int max_iterations = 60;      ///< steps tried, successful or not
   double step_clip = std::numeric_limits<double>::infinity();  ///< largest change of a variable in one step
+  /// Adds the second-order correction of Transtrum & Sethna 2012 to each step: it follows curved narrow
+  /// valleys, where plain steps shorten to a crawl, for one more evaluation of the residuals a step.
+  bool geodesic_acceleration = false;
   /// Ends are judged on the cost, half the sum of squared residuals, and on J'r.
   double decrease_tolerance = 1e-13;  ///< stop when a step lowers the cost by at most this much, absolute
   double relative_decrease_tolerance = 0;  ///< the same, times the cost
@@ -76,7 +79,7 @@ class LeastSquaresWorkspace {
                                                    std::span<const double>, std::span<const double>,
                                                    const LeastSquaresOptions&, LeastSquaresWorkspace&);
   std::vector<double> residuals_, jacobian_, trial_residuals_, trial_jacobian_;
-  std::vector<double> normal_, damped_, gradient_, step_, trial_;
+  std::vector<double> normal_, damped_, gradient_, step_, acceleration_, trial_;
 };
 
 /// Minimises half the sum of squares of m residuals over lower <= x <= upper by damped Gauss-Newton steps

@@ -17,7 +17,7 @@ struct SpinFitOptions {
   SpinTechnique technique = SpinTechnique::each;
   int starts = 30;               ///< local searches at most
   int iterations = 200;          ///< steps of each
-  int final_iterations = 4000;   ///< steps of the best one of them
+  int final_iterations = 4000;   ///< steps of each that is polished, the best first, until one is good enough
   double tolerance = 1e-7;       ///< m: root mean square of the structural errors at which the search ends
   double largest_spin = 0.5;     ///< rad: bound of the unknown spins
   double distinct_links = 5e-3;  ///< m: ends with two links nearer than this are refused
@@ -29,7 +29,10 @@ void fields(Visitor&& visit, SpinFitOptions& o) {
   visit(Field{.key = "starts", .summary = "local searches at most", .minimum = 1, .maximum = 1e6}, o.starts);
   visit(Field{.key = "iterations", .summary = "steps of each search", .minimum = 1, .maximum = 1e6},
         o.iterations);
-  visit(Field{.key = "final_iterations", .summary = "steps of the best search", .minimum = 1, .maximum = 1e6},
+  visit(Field{.key = "final_iterations",
+              .summary = "steps of the best searches, one after the other until one is good enough",
+              .minimum = 1,
+              .maximum = 1e6},
         o.final_iterations);
   visit(Field{.key = "tolerance",
               .summary = "root mean square of the structural errors at which the search ends",
