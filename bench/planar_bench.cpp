@@ -68,9 +68,9 @@ void eighteen_point_slider_objective(benchmark::State& state) {
   optimise::Population population(slider_parameter_count, size);
   for (std::size_t i = 0; i < size; ++i) {
     RandomStream s({.seed = 1, .individual = static_cast<std::uint32_t>(i)});
-    const double x[] = {s.uniform(0.2, 0.4),  s.uniform(0.5, 0.8), s.uniform(0.2, 0.5),
-                        s.uniform(0, 6.28),   s.uniform(0, 6.28),  s.uniform(-0.1, 0.1),
-                        s.uniform(-1, 1),     s.uniform(-1, 1),    s.uniform(0, 6.28)};
+    const double x[] = {s.uniform(0.2, 0.4), s.uniform(0.5, 0.8), s.uniform(0.2, 0.5),
+                        s.uniform(0, 6.28),  s.uniform(0, 6.28),  s.uniform(-0.1, 0.1),
+                        s.uniform(-1, 1),    s.uniform(-1, 1),    s.uniform(0, 6.28)};
     population.set(i, x);
   }
   std::vector<double> cost(size), violation(size);
@@ -102,8 +102,9 @@ void eighteen_point_slider_synthesis(benchmark::State& state) {
   for (int i = 1; i <= state.range(0); ++i) strokes.push_back(0.72 - 0.03 * i);
   for (auto _ : state) {
     RunContext context;
-    benchmark::DoNotOptimize(strokes.empty() ? synthesise_slider_path(p, {.progress = false}, context)
-                                             : synthesise_slider_front(p, strokes, {.progress = false}, context));
+    benchmark::DoNotOptimize(strokes.empty()
+                                 ? synthesise_slider_path(p, {.progress = false}, context)
+                                 : synthesise_slider_front(p, strokes, {.progress = false}, context));
   }
 }
 BENCHMARK(eighteen_point_slider_synthesis)->Arg(0)->Arg(14)->Unit(benchmark::kMillisecond);
@@ -295,6 +296,26 @@ void recommended_free_timing(benchmark::State& state) {
   }
 }
 BENCHMARK(recommended_free_timing)->Unit(benchmark::kMillisecond);
+
+// A closed path of many points, no limit but the full turn of the crank, both senses and branches; the
+// argument is the number of points.
+void recommended_free_timing_many_points(benchmark::State& state) {
+  PathProblem problem;
+  const auto count = static_cast<std::size_t>(state.range(0));
+  for (std::size_t k = 0; k < count; ++k) {
+    const double t = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count);
+    problem.x.push_back(1.5 * std::cos(t) + 0.2 * std::cos(2 * t));
+    problem.y.push_back(0.8 * std::sin(t) + 0.1 * std::sin(3 * t));
+  }
+  problem.bounds = derive_bounds(problem.x, problem.y);
+  problem.search_negative = true;
+  std::uint64_t seed = 0;
+  for (auto _ : state) {
+    RunContext context;
+    benchmark::DoNotOptimize(synthesise_path(problem, {.seed = ++seed}, context));
+  }
+}
+BENCHMARK(recommended_free_timing_many_points)->Arg(18)->Arg(140)->Arg(300)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace linkwright::planar

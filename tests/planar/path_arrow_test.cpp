@@ -71,7 +71,8 @@ void compare(bool with_angles, bool with_steps, double lambda, std::size_t hold)
     a += rows.weight[i] * d * d.transpose();
     g += rows.weight[i] * rows.r[i] * d;
   }
-  for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(arrow.gradient()[i], g[static_cast<Eigen::Index>(i)], 1e-12);
+  for (std::size_t i = 0; i < n; ++i)
+    EXPECT_NEAR(arrow.gradient()[i], g[static_cast<Eigen::Index>(i)], 1e-12);
   a.diagonal() *= 1 + lambda;
   if (hold < n) {
     const auto h = static_cast<Eigen::Index>(hold);

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
+#include <limits>
 #include <numbers>
 
 #include "linkwright/core/check.h"
@@ -143,6 +146,72 @@ TEST(PathFitter, StaysInThePackagingBox) {
   problem.packaging = PackagingBox{0.3, 5, -0.5, 5};
   const PathFit other = PathFitter(problem, 1).fit(optimum.linkage, optimum.angles, to_the_end);
   EXPECT_EQ(other.linkage.pivot_x, 0.3);
+}
+
+// A region on one side, on both, and a fixed place.
+TEST(PathFitter, PutsTheRockerPivotWhereItMayBe) {
+  const Start optimum = stored("P18-timed-global-optimum");  // it lies at (1.28, 0.45)
+  constexpr double far = std::numeric_limits<double>::infinity();
+  PathProblem problem = eighteen_points();
+  problem.rocker_pivot = PackagingBox{-far, 1.1, -far, far};
+  PathFit fit = PathFitter(problem, 1).fit(optimum.linkage, optimum.angles, to_the_end);
+  EXPECT_NEAR(rocker_pivot(fit.linkage).real(), 1.1, 1e-9);
+  EXPECT_LT(fit.error, 2 * optimum.error);
+  EXPECT_THAT(measure(problem, fit.linkage, 1, fit.angles).violations, IsEmpty());
+  problem.rocker_pivot = PackagingBox{1.2, 1.2, 0.5, 0.5};
+  fit = PathFitter(problem, 1).fit(optimum.linkage, optimum.angles, to_the_end);
+  EXPECT_NEAR(std::abs(rocker_pivot(fit.linkage) - std::complex(1.2, 0.5)), 0, 1e-9);
+  EXPECT_GT(fit.error, optimum.error);
+  EXPECT_LT(fit.error, 2 * optimum.error);
+  const PathDesign elsewhere = measure(problem, optimum.linkage, 1, optimum.angles);
+  ASSERT_EQ(elsewhere.violations.size(), 1u);
+  EXPECT_EQ(elsewhere.violations[0].reason, "rocker_pivot");
+}
+
+// Within a tolerance an error costs nothing: the best error falls to zero as soon as the tolerance takes in
+// the largest miss that can be reached, and no sooner than half of it.
+TEST(PathFitter, MeetsTolerancesAtNoCost) {
+  PathProblem problem = eighteen_points();
+  const Start optimum = stored("P18-timed-global-optimum");
+  const PathErrors misses = path_errors(problem, measure(problem, optimum.linkage, 1, optimum.angles));
+  const double largest = *std::max_element(misses.distance.begin(), misses.distance.end());
+  for (Timing timing : {Timing::equal_steps, Timing::free}) {
+    problem.timing = timing;
+    problem.tolerance.assign(18, largest);
+    const PathFit wide =
+        PathFitter(problem, 1).fit(perturbed(optimum, 0.01, 3).linkage, optimum.angles, to_the_end);
+    EXPECT_LT(wide.error, 1e-12) << name_of(timing);
+    problem.tolerance.assign(18, 0.2 * largest);
+    const PathFit narrow = PathFitter(problem, 1).fit(optimum.linkage, optimum.angles, to_the_end);
+    EXPECT_GT(narrow.error, 0) << name_of(timing);
+    EXPECT_LT(narrow.error, optimum.error) << name_of(timing);
+    EXPECT_NEAR(measure(problem, narrow.linkage, 1, narrow.angles).error, narrow.error, 1e-12);
+  }
+}
+
+// Gates along the normals of a curve that some linkage traces are passed from a start nearby.
+TEST(PathFitter, PassesThroughGates) {
+  const Start optimum = stored("P18-timed-global-optimum");
+  PathProblem problem = eighteen_points();
+  const auto point = [&](double angle) { return position(optimum.linkage, angle).coupler_point; };
+  for (Timing timing : {Timing::equal_steps, Timing::free}) {
+    problem.timing = timing;
+    problem.gate_x.clear(), problem.gate_y.clear();
+    for (std::size_t k = 0; k < 18; ++k) {
+      const double angle = optimum.angles[k];
+      const auto along = point(angle + 1e-4) - point(angle - 1e-4);
+      const auto normal = 0.1 * std::complex(0.0, 1.0) * along / std::abs(along);
+      problem.gate_x.push_back(normal.real());
+      problem.gate_y.push_back(normal.imag());
+      // The posts lie on both sides, the target in the middle is somewhere else.
+      const auto middle = point(angle) + (k % 2 ? 0.5 : -0.3) * normal;
+      problem.x[k] = middle.real();
+      problem.y[k] = middle.imag();
+    }
+    const PathFit fit =
+        PathFitter(problem, 1).fit(perturbed(optimum, 0.005, 3).linkage, optimum.angles, to_the_end);
+    EXPECT_LT(fit.error, 1e-16) << name_of(timing);
+  }
 }
 
 TEST(PathFitter, KeepsFixedValues) {

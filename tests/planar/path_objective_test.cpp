@@ -78,6 +78,14 @@ PathProblem problem_of(const Case& c) {
   if (c.limits) {
     p.min_transmission_angle = 0.35;
     p.packaging = PackagingBox{-2, 2.5, -3, 2};
+    p.rocker_pivot = PackagingBox{-std::numeric_limits<double>::infinity(), 2, -2, 1.5};
+    if (c.points % 3 != 0) {  // some gates, some points, some with a tolerance
+      for (std::size_t k = 0; k < c.points; ++k) {
+        p.gate_x.push_back(k % 3 == 0 ? 0 : 0.3);
+        p.gate_y.push_back(k % 3 == 0 ? 0 : 0.2 * static_cast<double>(k) - 0.5);
+        p.tolerance.push_back(k % 2 == 0 ? 0 : 0.25);
+      }
+    }
   }
   return p;
 }

@@ -355,6 +355,13 @@ TEST(PathProblem, RejectsWhatCannotBeSolved) {
               says("the packaging box is 1 to 0 by 0 to 1"));
   EXPECT_THAT(broken([](PathProblem& p) { p.x.assign(12, 3), p.y.assign(12, 4); }),
               says("all 12 points coincide"));
+  EXPECT_THAT(broken([](PathProblem& p) {
+                p.rocker_pivot = PackagingBox{0, 1, 3, 2};
+              }),
+              says("the box of the rocker pivot is 0 to 1 by 3 to 2"));
+  EXPECT_THAT(broken([](PathProblem& p) { p.gate_x.assign(12, 0.1), p.gate_y.assign(11, 0.1); }),
+              says("12 x and 11 y of gates and 0 tolerances for 12 points"));
+  EXPECT_THAT(broken([](PathProblem& p) { p.tolerance.assign(12, -1); }), says("a tolerance is -1"));
   EXPECT_NO_THROW(require_valid(traced_problem()));
 }
 

@@ -98,6 +98,14 @@ TEST(SynthesisePath, SuiteTimedSemicircle) {
   ASSERT_EQ(answer.status, Status::done);
   const double best = number_at(at(entry, "computed.designs").as_array()[0], "sse_m2");
   EXPECT_LE(answer.designs[0].error, best * (1 + 1e-3));
+  // Its local searches start far beyond the bounds, and come to it from one start mostly (94 of 100 seeds).
+  int reached = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RunContext context;
+    const PathSynthesis one = synthesise_path(problem, {.seed = seed, .starts = 1}, context);
+    reached += one.designs[0].error <= best * (1 + 1e-3);
+  }
+  EXPECT_GE(reached, 15);
 }
 
 TEST(SynthesisePath, SuiteEllipse) {

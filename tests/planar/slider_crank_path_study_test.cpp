@@ -60,6 +60,32 @@ TEST(SliderPathStudyRead, TimingMustFit) {
   EXPECT_THAT(timed("mode = \"increment\""), HasSubstr("increments"));
 }
 
+// As of a four-bar: a path that ends where it begins is closed, unless its timing or the study says
+// otherwise; what the timing gives for the closing point goes with it.
+TEST(SliderPathStudyRead, APathThatEndsWhereItBeginsIsClosed) {
+  const auto read = [](const std::string& lines) {
+    std::string messages;
+    const auto study = prepare(target(lines + "points_m = [[0, 0], [1, 0], [1, 1], [0, 0]]\n"), messages);
+    EXPECT_TRUE(study) << messages;
+    return *study->canonical.find("target");
+  };
+  const auto closed = [](const Value& t) { return t.find("closed")->as_bool(); };
+  const auto count = [](const Value& t) { return t.find("points_m")->as_array().size(); };
+  EXPECT_TRUE(closed(read("")));
+  EXPECT_EQ(count(read("")), 3u);
+  EXPECT_FALSE(closed(read("closed = false\n")));
+  EXPECT_EQ(count(read("closed = false\n")), 4u);
+  EXPECT_TRUE(closed(read("timing = { mode = \"equal_steps\", step_deg = 120 }\n")));
+  EXPECT_FALSE(closed(read("timing = { mode = \"equal_steps\", step_deg = 100 }\n")));
+  const Value steps =
+      read("closed = true\ntiming = { mode = \"increments\", increments_deg = [100, 130, 130] }\n");
+  EXPECT_EQ(count(steps), 3u);
+  EXPECT_EQ(steps.find("timing")->find("increments_rad")->as_array().size(), 2u);
+  const Value angles = read("timing = { mode = \"given\", angles_deg = [10, 130, 250, 370] }\n");
+  EXPECT_EQ(count(angles), 3u);
+  EXPECT_EQ(angles.find("timing")->find("angles_rad")->as_array().size(), 3u);
+}
+
 TEST(SliderPathStudyRead, ObjectivesLimitsAndMethodsMustFit) {
   const std::string path = target(std::string("closed = true\n") + square);
   EXPECT_THAT(problems_of(path + "[[objective]]\ntype = \"slider.stroke\"\n"),
@@ -69,15 +95,19 @@ TEST(SliderPathStudyRead, ObjectivesLimitsAndMethodsMustFit) {
               HasSubstr("nsga2 gives fronts of several objectives"));
   EXPECT_THAT(problems_of(path + both + "[optimiser]\nmethod = \"nsga2\"\npopulation = 30\n"),
               HasSubstr("must be a multiple of 4"));
-  EXPECT_THAT(problems_of(path + both + "[optimiser]\nmethod = \"moead\"\npopulation = 10\nneighbours = 10\n"),
-              HasSubstr("moead has 10 neighbours in a population of 10"));
-  EXPECT_THAT(problems_of(target(square) + both), HasSubstr("the stroke is that of a full turn of the crank"));
+  EXPECT_THAT(
+      problems_of(path + both + "[optimiser]\nmethod = \"moead\"\npopulation = 10\nneighbours = 10\n"),
+      HasSubstr("moead has 10 neighbours in a population of 10"));
+  EXPECT_THAT(problems_of(target(square) + both),
+              HasSubstr("the stroke is that of a full turn of the crank"));
   EXPECT_THAT(problems_of(target(square) + "[[constraint]]\ntype = \"stroke\"\nmax_m = 1\n"),
               HasSubstr("the stroke is that of a full turn"));
-  EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"stroke\"\n"), HasSubstr("the stroke has no limit"));
+  EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"stroke\"\n"),
+              HasSubstr("the stroke has no limit"));
   EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"stroke\"\nmin_m = 2\nmax_m = 1\n"),
               HasSubstr("2 m at least and 1 m at most"));
-  EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"pressure_angle\"\nmax_deg = 100\n"), HasSubstr("90"));
+  EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"pressure_angle\"\nmax_deg = 100\n"),
+              HasSubstr("90"));
   EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"transmission_angle\"\nmin_deg = 30\n"),
               HasSubstr("pressure_angle"));
   EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"order\"\nenabled = false\n"),
@@ -91,13 +121,16 @@ TEST(SliderPathStudyRead, ObjectivesLimitsAndMethodsMustFit) {
 TEST(SliderPathStudyRead, ItsExampleReadsAndSaysWhatFollows) {
   std::string messages;
   EXPECT_TRUE(prepare(slider_path_kind().example, messages)) << messages;
-  const auto study = prepare(target(std::string(square) + "timing = { mode = \"increments\", increments_deg = [80, 90, 100] }\n"), messages);
+  const auto study = prepare(
+      target(std::string(square) + "timing = { mode = \"increments\", increments_deg = [80, 90, 100] }\n"),
+      messages);
   ASSERT_TRUE(study) << messages;
   const Value& parameters = *study->canonical.find("mechanism")->find("parameters");
   EXPECT_NEAR(parameters.find("crank_m")->find("max")->as_number(), 50 * std::sqrt(2.0), 1e-9);
   EXPECT_NE(parameters.find("start_angle_rad"), nullptr);
-  EXPECT_NEAR(study->canonical.find("target")->find("timing")->find("increments_rad")->as_array()[0].as_number(),
-              80 * std::numbers::pi / 180, 1e-12);
+  EXPECT_NEAR(
+      study->canonical.find("target")->find("timing")->find("increments_rad")->as_array()[0].as_number(),
+      80 * std::numbers::pi / 180, 1e-12);
 }
 
 TEST(SliderPathStudyRun, AnswersWithEvidence) {
@@ -114,7 +147,8 @@ TEST(SliderPathStudyRun, AnswersWithEvidence) {
   ASSERT_EQ(r.comparisons.size(), 3u);  // Table 4.2
   EXPECT_EQ(r.comparisons[1].verdict, "corrected");
   EXPECT_EQ(r.comparisons[2].verdict, "improved");
-  const auto cognates = std::find_if(r.tables.begin(), r.tables.end(), [](const Table& t) { return t.name == "cognates"; });
+  const auto cognates =
+      std::find_if(r.tables.begin(), r.tables.end(), [](const Table& t) { return t.name == "cognates"; });
   ASSERT_NE(cognates, r.tables.end());
   EXPECT_EQ(cognates->columns[0].values.size(), 2u);
 }
@@ -128,7 +162,8 @@ kind = "analysis"
 title = "the answer"
 [mechanism]
 type = "planar.slider_crank"
-branch = ")" + r.solutions[0].classification.find("branch")->as_string() + "\"\n[mechanism.parameters]\n";
+branch = ")" + r.solutions[0].classification.find("branch")->as_string() +
+                     "\"\n[mechanism.parameters]\n";
   double start = 0;
   for (const study::Parameter& p : r.solutions[0].parameters) {
     char line[64];
@@ -140,9 +175,10 @@ branch = ")" + r.solutions[0].classification.find("branch")->as_string() + "\"\n
   }
   text += "[[drive]]\nspeed_rad_per_s = 1\n";
   char sweep[200];
-  std::snprintf(sweep, sizeof sweep,
-                "[sweep]\ntype = \"grid\"\n[[sweep.input]]\nfrom_rad = %.17g\nto_rad = %.17g\nsamples = 721\n", start,
-                start + 2 * std::numbers::pi);
+  std::snprintf(
+      sweep, sizeof sweep,
+      "[sweep]\ntype = \"grid\"\n[[sweep.input]]\nfrom_rad = %.17g\nto_rad = %.17g\nsamples = 721\n", start,
+      start + 2 * std::numbers::pi);
   text += sweep;
   text += "[output]\nquantities = [\"position\"]\n";
   text += "[[trace]]\npoint = \"rod.C\"\n";
@@ -155,7 +191,8 @@ branch = ")" + r.solutions[0].classification.find("branch")->as_string() + "\"\n
   const Table& motion = analysis.tables.at(0);
   const Table& points = r.tables.at(0);
   ASSERT_EQ(points.name, "points");
-  const Column *x = motion.find("rod_C_x_m"), *y = motion.find("rod_C_y_m"), *way = motion.find("guide_way_m");
+  const Column *x = motion.find("rod_C_x_m"), *y = motion.find("rod_C_y_m"),
+               *way = motion.find("guide_way_m");
   ASSERT_TRUE(x && y && way);
   for (std::size_t k = 0; k < 18; ++k) {
     EXPECT_NEAR(x->values[40 * k], points.find("x_m")->values[k], 1e-12);
@@ -186,20 +223,22 @@ seeds = { first = 1, count = 2 }
 }
 
 TEST(SliderPathStudyRun, EveryMethodReportsWhatItReaches) {
-  for (const std::string method : {"grey_wolf", "differential_evolution", "self_adaptive_differential_evolution",
-                                   "jade", "particle_swarm", "firefly", "cuckoo_search", "hybrid_cuckoo_firefly",
-                                   "subpopulation_firefly", "cma_es"})
+  for (const std::string method :
+       {"grey_wolf", "differential_evolution", "self_adaptive_differential_evolution", "jade",
+        "particle_swarm", "firefly", "cuckoo_search", "hybrid_cuckoo_firefly", "subpopulation_firefly",
+        "cma_es"})
     for (const bool front : {false, true}) {
       const study::Result r =
-          run_text(target(std::string(quarters) + square) + (front ? both : "") + "[optimiser]\nmethod = \"" + method +
-                   "\"\npopulation = 20\ngenerations = 30\nseeds = { first = 1, count = 2 }\n");
+          run_text(target(std::string(quarters) + square) + (front ? both : "") + "[optimiser]\nmethod = \"" +
+                   method + "\"\npopulation = 20\ngenerations = 30\nseeds = { first = 1, count = 2 }\n");
       EXPECT_GE(r.statistics.find("evaluations")->as_integer(), 2 * 20 * 30) << method;
       EXPECT_EQ(r.statistics.find("method")->as_string(), method);
       EXPECT_FALSE(r.headline.empty());
     }
   for (const std::string method : {"nsga2", "moead"}) {
-    const study::Result r = run_text(target(std::string(quarters) + square) + both + "[optimiser]\nmethod = \"" + method +
-                                     "\"\npopulation = 40\ngenerations = 60\nseeds = { first = 1, count = 2 }\n");
+    const study::Result r =
+        run_text(target(std::string(quarters) + square) + both + "[optimiser]\nmethod = \"" + method +
+                 "\"\npopulation = 40\ngenerations = 60\nseeds = { first = 1, count = 2 }\n");
     EXPECT_EQ(r.status, Status::done) << method;
     EXPECT_GE(r.solutions.size(), 5u) << method;
   }
@@ -216,12 +255,14 @@ pivot_x_m = { min = -1, max = 1.5 }
 pivot_y_m = { min = -1, max = 1.5 }
 )") + both + "[[constraint]]\ntype = \"stroke\"\nmin_m = 0.4\n";
   const study::Result exact = run_text(path + "[optimiser]\nfront = 30\nseeds = { first = 1, count = 1 }\n");
-  const study::Result sorted = run_text(path + "[optimiser]\nmethod = \"nsga2\"\nseeds = { first = 1, count = 2 }\n");
+  const study::Result sorted =
+      run_text(path + "[optimiser]\nmethod = \"nsga2\"\nseeds = { first = 1, count = 2 }\n");
   ASSERT_EQ(exact.status, Status::done);
   ASSERT_EQ(sorted.status, Status::done);
   int compared = 0;
   for (const study::Solution& s : sorted.solutions) {
-    const double stroke = s.objectives.find("stroke_m")->as_number(), error = s.objectives.find("path_error_sum_sq_m2")->as_number();
+    const double stroke = s.objectives.find("stroke_m")->as_number(),
+                 error = s.objectives.find("path_error_sum_sq_m2")->as_number();
     // The exact point with the next longer stroke cannot be worse.
     double bound = 0;
     for (const study::Solution& e : exact.solutions)
@@ -235,9 +276,10 @@ pivot_y_m = { min = -1, max = 1.5 }
 
 TEST(SliderPathStudyRun, ResumedRunsEndWithTheSameBits) {
   for (const std::string method : {"recommended", "grey_wolf", "nsga2"}) {
-    const std::string text = target(eighteen) + both + "[optimiser]\nmethod = \"" + method + "\"\nfront = 4\n" +
-                             (method == "recommended" ? "starts = 4\n" : "generations = 20\npopulation = 40\n") +
-                             "seeds = { first = 1, count = 2 }\n";
+    const std::string text =
+        target(eighteen) + both + "[optimiser]\nmethod = \"" + method + "\"\nfront = 4\n" +
+        (method == "recommended" ? "starts = 4\n" : "generations = 20\npopulation = 40\n") +
+        "seeds = { first = 1, count = 2 }\n";
     std::string messages;
     const auto study = prepare(text, messages);
     ASSERT_TRUE(study) << messages;
@@ -259,7 +301,9 @@ TEST(SliderPathStudyRun, ResumedRunsEndWithTheSameBits) {
 
 TEST(SliderPathStudyRun, TheDeadlineKeepsWhatThereIs) {
   std::string messages;
-  const auto study = prepare(target(std::string("closed = true\n") + square) + "[optimiser]\nseeds = { first = 1, count = 4 }\n", messages);
+  const auto study = prepare(
+      target(std::string("closed = true\n") + square) + "[optimiser]\nseeds = { first = 1, count = 4 }\n",
+      messages);
   ASSERT_TRUE(study) << messages;
   RunContext context;
   context.set_time_limit(std::chrono::milliseconds(1));
@@ -271,7 +315,8 @@ TEST(SliderPathStudyRun, TheDeadlineKeepsWhatThereIs) {
 // A guide whose direction is told leaves two sides for the slider: both are searched, and the answer says
 // which.
 TEST(SliderPathStudyRun, BothSidesOfAFixedGuide) {
-  const std::string fixed = "[mechanism.parameters]\nguide_angle_deg = 100.0\noffset_m = { min = -50, max = 50 }\n";
+  const std::string fixed =
+      "[mechanism.parameters]\nguide_angle_deg = 100.0\noffset_m = { min = -50, max = 50 }\n";
   const study::Result any = run_text(target(eighteen, fixed));
   double least[2];
   for (const bool backward : {false, true}) {
@@ -281,8 +326,8 @@ TEST(SliderPathStudyRun, BothSidesOfAFixedGuide) {
     least[backward] = one.solutions[0].objectives.find("path_error_sum_sq_m2")->as_number();
   }
   EXPECT_GT(std::abs(least[0] - least[1]), 1e-3);
-  EXPECT_NEAR(any.solutions[0].objectives.find("path_error_sum_sq_m2")->as_number(), std::min(least[0], least[1]),
-              1e-9);
+  EXPECT_NEAR(any.solutions[0].objectives.find("path_error_sum_sq_m2")->as_number(),
+              std::min(least[0], least[1]), 1e-9);
 }
 
 // The published setting never comes near the published 0.00994.
@@ -292,7 +337,8 @@ TEST(SliderPathStudyRun, GreyWolfAsPublishedDoesNotReachThePublishedError) {
   Diagnostics diagnostics;
   Value document = study::read_file(file, diagnostics);
   document["optimiser"]["seeds"]["count"] = 60;
-  const auto study = study::prepare(document, file.string(), file.parent_path(), testing::kinds(), diagnostics);
+  const auto study =
+      study::prepare(document, file.string(), file.parent_path(), testing::kinds(), diagnostics);
   ASSERT_TRUE(study);
   RunContext context;
   const study::Result result = study::run_study(*study, context);

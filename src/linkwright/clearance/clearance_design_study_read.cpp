@@ -111,7 +111,7 @@ void read_timing(study::ObjectReader& target, const DesignTimingForm& t, const s
 
 void read_path(study::ObjectReader& mechanism, study::ObjectReader& target, const study::Common& common,
                const DesignMechanismForm& m, const DesignTargetForm& t, ClearanceDesignStudy& s) {
-  planar::read_path_points(target, common, t, false, s.path.x, s.path.y);
+  planar::read_path_points(target, common, t, s.path.x, s.path.y);
   read_timing(target, t.timing, common.units, s);
   s.path.clearance = m.clearance;
   s.path.lead = t.lead;

@@ -22,7 +22,8 @@ ArrowEquations::ArrowEquations(std::span<const double> regular, std::size_t poin
 void ArrowEquations::clear() {
   hessian_.fill(0);
   gradient_.fill(0);
-  for (auto* v : {&diagonal_, &neighbour_, &angle_gradient_, &coupling_}) std::fill(v->begin(), v->end(), 0.0);
+  for (auto* v : {&diagonal_, &neighbour_, &angle_gradient_, &coupling_})
+    std::fill(v->begin(), v->end(), 0.0);
 }
 
 void ArrowEquations::add_point(std::size_t point, double x, double y, const Shared& x_by, const Shared& y_by,
@@ -94,7 +95,7 @@ bool ArrowEquations::solve(double lambda, std::span<const bool> held) {
     }
   }
   // The shared block that is left, and its Cholesky factor in place.
-  std::array<double, most_shared * most_shared> a = hessian_;
+  std::array<double, most_shared* most_shared> a = hessian_;
   Shared b{};
   const auto at = [&](std::size_t i, std::size_t j) -> double& { return a[i * most_shared + j]; };
   for (std::size_t i = 0; i < shared_; ++i) b[i] = -gradient_[i];

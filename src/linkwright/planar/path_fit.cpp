@@ -3,12 +3,14 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 #include <utility>
 
 #include "linkwright/core/check.h"
 #include "linkwright/planar/four_bar_kernel.h"
+#include "linkwright/planar/path_targets.h"
 
 namespace linkwright::planar {
 namespace {
@@ -18,13 +20,39 @@ constexpr double pi = std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Rows of the constraints; the order rows follow, one a point.
-constexpr std::size_t crank_rows = 0, transmission_rows = 3, packaging_rows = 7, order_rows = 11;
+constexpr std::size_t crank_rows = 0, transmission_rows = 3, packaging_rows = 7, region_rows = 11,
+                      order_rows = 15;
 
-// Points are met one after the other with at least this much crank rotation between them (rad).
-constexpr double least_step = 1e-4;
+// How often a step is made anew because a variable would pass its bound.
+constexpr int most_stops_at_bounds = 4;
 
 // Longest step: crank and frame angles in rad, lengths as a share of the length.
 constexpr double longest_turn = 0.5, longest_change = 0.6;
+
+constexpr std::size_t width = four_bar_parameter_count;
+static_assert(width % 2 == 0);
+
+// matrix += a b', the lower triangle and, as numbers go in pairs, at most one entry beyond its diagonal.
+void add_product(const double* a, const double* b, double* matrix) {
+  using Pair [[gnu::vector_size(16)]] = double;
+#pragma GCC unroll 10
+  for (std::size_t i = 0; i < width; ++i) {
+#pragma GCC unroll 5
+    for (std::size_t j = 0; j <= i; j += 2) {
+      Pair right, sum;
+      std::memcpy(&right, b + j, sizeof right);
+      std::memcpy(&sum, matrix + i * width + j, sizeof sum);
+      sum += a[i] * right;
+      std::memcpy(matrix + i * width + j, &sum, sizeof sum);
+    }
+  }
+}
+
+// Copies the lower triangle to the upper one.
+void mirror(double* matrix) {
+  for (std::size_t i = 0; i < width; ++i)
+    for (std::size_t j = i + 1; j < width; ++j) matrix[i * width + j] = matrix[j * width + i];
+}
 
 }  // namespace
 
@@ -32,7 +60,8 @@ PathFitter::PathFitter(const PathProblem& problem, double sense)
     : problem_(problem),
       sense_(sense),
       size_(path_size(problem)),
-      free_timing_(problem.timing == Timing::free) {
+      free_timing_(problem.timing == Timing::free),
+      bands_(has_bands(problem)) {
   require_valid(problem);
   for (std::size_t j = 0; j < shared; ++j) {
     variable_[j] =
@@ -85,6 +114,7 @@ void PathFitter::add_constraint(std::size_t row, double value, const std::array<
     if (by_angle != 0) coupling_[point * shared + i] += penalty_ * gradient[i] * by_angle;
   }
   if (by_angle == 0) return;
+  angles_coupled_ = true;
   angle_gradient_[point] += penalty_ * c * by_angle;
   diagonal_[point] += penalty_ * by_angle * by_angle;
 }
@@ -139,34 +169,44 @@ void PathFitter::evaluate_constraints(const std::array<double, shared>& q, const
       add_constraint(row + 1, -cosine - limit, negative(d), derivatives, merit, point, -by_angle);
     }
   }
-  if (problem_.packaging) {
-    const PackagingBox& box = *problem_.packaging;
-    const double w = 1 / size_, c = std::cos(q[8]), s = std::sin(q[8]);
-    const double bx = q[6] + l1 * c, by = q[7] + l1 * s;
-    std::array<double, shared> gx{}, gy{};
-    gx[0] = w * c, gx[6] = w, gx[8] = -w * l1 * s;
-    gy[0] = w * s, gy[7] = w, gy[8] = w * l1 * c;
-    add_constraint(packaging_rows, w * (bx - box.x_max), gx, derivatives, merit);
-    add_constraint(packaging_rows + 1, w * (box.x_min - bx), negative(gx), derivatives, merit);
-    add_constraint(packaging_rows + 2, w * (by - box.y_max), gy, derivatives, merit);
-    add_constraint(packaging_rows + 3, w * (box.y_min - by), negative(gy), derivatives, merit);
-  }
+  if (problem_.packaging) evaluate_box(*problem_.packaging, packaging_rows, q, derivatives, merit);
+  if (problem_.rocker_pivot) evaluate_box(*problem_.rocker_pivot, region_rows, q, derivatives, merit);
+}
+
+// The rocker pivot inside a box; the crank pivot has bounds of its own.
+void PathFitter::evaluate_box(const PackagingBox& box, std::size_t row, const std::array<double, shared>& q,
+                              bool derivatives, double& merit) {
+  const double l1 = q[0], w = 1 / size_, c = std::cos(q[8]), s = std::sin(q[8]);
+  const double bx = q[6] + l1 * c, by = q[7] + l1 * s;
+  const auto keep = [&](std::size_t side, double value, double sign, std::size_t coordinate, double by_length,
+                        double by_angle) {
+    if (!std::isfinite(value)) return;  // no limit on this side
+    std::array<double, shared> g{};
+    g[0] = sign * w * by_length, g[coordinate] = sign * w, g[8] = sign * w * by_angle;
+    add_constraint(row + side, w * value, g, derivatives, merit);
+  };
+  keep(0, bx - box.x_max, 1, 6, c, -l1 * s);
+  keep(1, box.x_min - bx, -1, 6, c, -l1 * s);
+  keep(2, by - box.y_max, 1, 7, s, l1 * c);
+  keep(3, box.y_min - by, -1, 7, s, l1 * c);
 }
 
 void PathFitter::evaluate_order(const std::vector<double>& angles, bool derivatives, double& merit) {
   const std::size_t n = angles.size();
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t next = (k + 1) % n;
-    double value = least_step - sense_ * (angles[next] - angles[k]);
+    double value = problem_.least_step - sense_ * (angles[next] - angles[k]);
     // The last row closes the turn: a closed path leaves room for one more step, an open one stays within a
     // turn.
-    if (next == 0) value = (problem_.closed ? least_step : 0) - 2 * pi - sense_ * (angles[0] - angles[n - 1]);
+    if (next == 0)
+      value = (problem_.closed ? problem_.least_step : 0) - 2 * pi - sense_ * (angles[0] - angles[n - 1]);
     const std::size_t row = order_rows + k;
     values_[row] = value;
     const double c = value + multipliers_[row] / penalty_;
     if (c <= 0) continue;
     merit += 0.5 * penalty_ * c * c;
     if (!derivatives) continue;
+    angles_coupled_ = true;
     angle_gradient_[k] += penalty_ * c * sense_;
     angle_gradient_[next] -= penalty_ * c * sense_;
     if (next != 0) {
@@ -189,11 +229,19 @@ bool PathFitter::evaluate(const std::array<double, shared>& q, const std::vector
   const double fc = std::cos(q[8]), fs = std::sin(q[8]), w = 1 / size_;
   if (derivatives) {
     hessian_.fill(0);
+    along_.fill(0);
     gradient_.fill(0);
+    along_gradient_.fill(0);
+    angles_coupled_ = false;
     std::fill(diagonal_.begin(), diagonal_.end(), 0.0);
     std::fill(neighbour_.begin(), neighbour_.end(), 0.0);
     std::fill(angle_gradient_.begin(), angle_gradient_.end(), 0.0);
   }
+  // One residual and its row of the Jacobian.
+  const auto add_row = [](const double* row, double residual, double* hessian, double* gradient) {
+    add_product(row, row, hessian);
+    for (std::size_t i = 0; i < shared; ++i) gradient[i] += row[i] * residual;
+  };
   double sum = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double angle = crank_angle(q, angles, k);
@@ -204,8 +252,10 @@ bool PathFitter::evaluate(const std::array<double, shared>& q, const std::vector
     // Relative frame first: z = L2 u + l v.
     const double lx = cu * v.x - cv * v.y, ly = cu * v.y + cv * v.x;
     const double zx = l2 * ux + lx, zy = l2 * uy + ly;
-    const double ex = w * (q[6] + fc * zx - fs * zy - problem_.x[k]);
-    const double ey = w * (q[7] + fs * zx + fc * zy - problem_.y[k]);
+    const double px = q[6] + fc * zx - fs * zy, py = q[7] + fs * zx + fc * zy;
+    TargetMiss miss{px - problem_.x[k], py - problem_.y[k]};
+    if (bands_) miss = target_miss(problem_, k, px, py);
+    const double ex = w * miss.x, ey = w * miss.y;
     sum += ex * ex + ey * ey;
     if (!derivatives) continue;
     const double rx = l2 * ux + l3 * v.x - l1, ry = l2 * uy + l3 * v.y;  // rocker vector
@@ -226,21 +276,39 @@ bool PathFitter::evaluate(const std::array<double, shared>& q, const std::vector
       jy[j] = y;
     }
     jx[6] = jy[7] = w;
-    const double tx = jx[9], ty = jy[9];
-    if (free_timing_) {
-      jx[9] = jy[9] = 0;
-      diagonal_[k] += tx * tx + ty * ty;
-      angle_gradient_[k] += tx * ex + ty * ey;
-      for (std::size_t j = 0; j < shared; ++j) coupling_[k * shared + j] = tx * jx[j] + ty * jy[j];
+    if (bands_)
+      for (std::size_t j = 0; j < shared; ++j) {
+        const double x = jx[j], y = jy[j];
+        jx[j] = miss.xx * x + miss.xy * y;
+        jy[j] = miss.xy * x + miss.yy * y;
+      }
+    const double tx = jx[9], ty = jy[9], square = tx * tx + ty * ty;
+    if (!free_timing_ || !(square > 0)) {
+      if (free_timing_) std::fill_n(&coupling_[k * shared], shared, 0.0);
+      add_row(jx, ex, hessian_.data(), gradient_.data());
+      add_row(jy, ey, hessian_.data(), gradient_.data());
+      continue;
     }
-    for (std::size_t i = 0; i < shared; ++i) {
-      gradient_[i] += jx[i] * ex + jy[i] * ey;
-      for (std::size_t j = 0; j <= i; ++j) hessian_[i * shared + j] += jx[i] * jx[j] + jy[i] * jy[j];
+    // Along the path and across it: the crank angle of the point moves it along only.
+    const double length = std::sqrt(square), dx = tx / length, dy = ty / length;
+    jx[9] = jy[9] = 0;
+    double along[shared], across[shared];
+    for (std::size_t j = 0; j < shared; ++j) {
+      along[j] = dx * jx[j] + dy * jy[j];
+      across[j] = dx * jy[j] - dy * jx[j];
+      coupling_[k * shared + j] = length * along[j];
     }
+    diagonal_[k] = square;
+    angle_gradient_[k] = tx * ex + ty * ey;
+    add_row(along, dx * ex + dy * ey, along_.data(), along_gradient_.data());
+    add_row(across, dx * ey - dy * ex, hessian_.data(), gradient_.data());
   }
-  if (derivatives)
-    for (std::size_t i = 0; i < shared; ++i)
-      for (std::size_t j = i + 1; j < shared; ++j) hessian_[i * shared + j] = hessian_[j * shared + i];
+  if (derivatives) {
+    mirror(along_.data());
+    mirror(hessian_.data());
+    for (std::size_t i = 0; i < hessian_.size(); ++i) hessian_[i] += along_[i];
+    for (std::size_t i = 0; i < shared; ++i) gradient_[i] += along_gradient_[i];
+  }
   error_ = sum * size_ * size_;
   merit = 0.5 * sum;
   evaluate_constraints(q, angles, derivatives, merit);
@@ -248,68 +316,126 @@ bool PathFitter::evaluate(const std::array<double, shared>& q, const std::vector
   return std::isfinite(merit);
 }
 
+// Takes the crank angles out of the normal equations, which have a tridiagonal block: (T + lambda D) Z =
+// [coupling, gradient], a -= coupling' Z, b += coupling' Z_gradient. Leaves Z in `eliminated_`.
+void PathFitter::eliminate_angles(double lambda, double* a, double* b) {
+  const std::size_t n = problem_.x.size(), columns = shared + 1;
+  regular_ = true;
+  double previous = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    double* row = &eliminated_[k * columns];
+    for (std::size_t j = 0; j < shared; ++j) row[j] = coupling_[k * shared + j];
+    row[shared] = angle_gradient_[k];
+    double pivot = diagonal_[k] * (1 + lambda) + 1e-14;
+    if (k > 0) {
+      const double factor = neighbour_[k - 1] / previous;
+      pivot -= factor * neighbour_[k - 1];
+      for (std::size_t j = 0; j < columns; ++j) row[j] -= factor * eliminated_[(k - 1) * columns + j];
+    }
+    if (!(pivot > 0)) {
+      regular_ = false;
+      return;
+    }
+    elimination_[k] = previous = pivot;
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    double* row = &eliminated_[k * columns];
+    const double inverse = 1 / elimination_[k];
+    for (std::size_t j = 0; j < columns; ++j) {
+      if (k + 1 < n) row[j] -= neighbour_[k] * eliminated_[(k + 1) * columns + j];
+      row[j] *= inverse;
+    }
+    const double* coupling = &coupling_[k * shared];
+    double minus[shared];
+    for (std::size_t i = 0; i < shared; ++i) {
+      b[i] += coupling[i] * row[shared];
+      minus[i] = -coupling[i];
+    }
+    add_product(minus, row, a);
+  }
+  mirror(a);
+}
+
 bool PathFitter::solve_step(double lambda) {
   const std::size_t n = problem_.x.size(), columns = shared + 1;
-  // (T + lambda D) Z = [coupling, gradient] by elimination in the tridiagonal block.
-  if (free_timing_) {
-    double previous = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      double* row = &eliminated_[k * columns];
-      for (std::size_t j = 0; j < shared; ++j) row[j] = coupling_[k * shared + j];
-      row[shared] = angle_gradient_[k];
-      double pivot = diagonal_[k] * (1 + lambda) + 1e-14;
-      if (k > 0) {
-        const double factor = neighbour_[k - 1] / previous;
-        pivot -= factor * neighbour_[k - 1];
-        for (std::size_t j = 0; j < columns; ++j) row[j] -= factor * eliminated_[(k - 1) * columns + j];
-      }
-      if (!(pivot > 0)) return false;
-      elimination_[k] = previous = pivot;
-    }
-    for (std::size_t k = n; k-- > 0;) {
-      double* row = &eliminated_[k * columns];
-      for (std::size_t j = 0; j < columns; ++j) {
-        if (k + 1 < n) row[j] -= neighbour_[k] * eliminated_[(k + 1) * columns + j];
-        row[j] /= elimination_[k];
-      }
-    }
-  }
-  Eigen::Matrix<double, shared, shared> a;
-  Eigen::Matrix<double, shared, 1> b;
-  for (std::size_t i = 0; i < shared; ++i) {
-    b[i] = -gradient_[i];
-    for (std::size_t j = 0; j < shared; ++j) a(i, j) = hessian_[i * shared + j];
-  }
+  using Block = Eigen::Matrix<double, shared, shared, Eigen::RowMajor>;
+  Block a = Eigen::Map<const Block>(hessian_.data());
+  Eigen::Matrix<double, shared, 1> b = -Eigen::Map<const Eigen::Matrix<double, shared, 1>>(gradient_.data());
   const Eigen::Matrix<double, shared, 1> scale = a.diagonal();
-  if (free_timing_)
-    for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t i = 0; i < shared; ++i) {
-        b[i] += coupling_[k * shared + i] * eliminated_[k * columns + shared];
-        for (std::size_t j = 0; j < shared; ++j)
-          a(i, j) -= coupling_[k * shared + i] * eliminated_[k * columns + j];
-      }
-  for (std::size_t i = 0; i < shared; ++i) {
-    // What keeps the matrix regular has the units of its entry.
+  if (free_timing_ && angles_coupled_) {
+    eliminate_angles(lambda, a.data(), b.data());
+    if (!regular_) return false;
+  } else if (free_timing_) {
+    a -= Eigen::Map<const Block>(along_.data()) / (1 + lambda);
+    b += Eigen::Map<const Eigen::Matrix<double, shared, 1>>(along_gradient_.data()) / (1 + lambda);
+  }
+  // What keeps the matrix regular has the units of its entry.
+  for (std::size_t i = 0; i < shared; ++i)
     a(i, i) += lambda * scale[i] + (i < index(P::frame_angle) ? 1e-14 / (size_ * size_) : 1e-14);
-    if (!variable_[i] || held_[i]) {
-      a.row(i).setZero();
-      a.col(i).setZero();
-      a(i, i) = 1;
-      b[i] = 0;
-    }
+  for (std::size_t i = 0; i < shared; ++i)
+    if (!variable_[i] || held_[i]) b -= a.col(i) * held_step_[i];
+  for (std::size_t i = 0; i < shared; ++i) {
+    if (variable_[i] && !held_[i]) continue;
+    a.row(i).setZero();
+    a.col(i).setZero();
+    a(i, i) = 1;
+    b[i] = held_step_[i];
   }
   const Eigen::LLT<Eigen::Matrix<double, shared, shared>> cholesky(a);
   if (cholesky.info() != Eigen::Success) return false;
   const Eigen::Matrix<double, shared, 1> step = cholesky.solve(b);
   if (!step.allFinite()) return false;
   for (std::size_t i = 0; i < shared; ++i) step_q_[i] = step[i];
-  if (free_timing_)
-    for (std::size_t k = 0; k < n; ++k) {
-      double sum = -eliminated_[k * columns + shared];
-      for (std::size_t j = 0; j < shared; ++j) sum -= eliminated_[k * columns + j] * step[j];
-      step_angles_[k] = sum;
+  if (!free_timing_) return true;
+  for (std::size_t k = 0; k < n; ++k) {
+    double sum = 0;
+    if (angles_coupled_) {
+      sum = eliminated_[k * columns + shared];
+      for (std::size_t j = 0; j < shared; ++j) sum += eliminated_[k * columns + j] * step[j];
+    } else {
+      sum = angle_gradient_[k];
+      for (std::size_t j = 0; j < shared; ++j) sum += coupling_[k * shared + j] * step[j];
+      sum /= diagonal_[k] * (1 + lambda) + 1e-14;
     }
+    step_angles_[k] = -sum;
+  }
   return true;
+}
+
+// The share of the step, 1 at most, that keeps it within the longest one.
+double PathFitter::shrink_to_longest() const {
+  double shrink = 1;
+  const auto limit = [&](double step, double longest) {
+    if (std::abs(step) * shrink > longest) shrink = longest / std::abs(step);
+  };
+  for (std::size_t i = 0; i <= index(P::rocker); ++i) limit(step_q_[i], longest_change * q_[i]);
+  limit(step_q_[index(P::frame_angle)], longest_turn);
+  limit(step_q_[index(P::start_angle)], longest_turn);
+  if (free_timing_)
+    for (double step : step_angles_) limit(step, longest_turn);
+  return shrink;
+}
+
+// A step whose variables stay within their bounds: one that would pass goes to its bound, and the others are
+// solved for again. Clipped without that, a step along a narrow valley leaves the valley at every bound. With
+// prescribed timing the step is only clipped: those searches start far beyond the bounds, where the first
+// steps decide which answer is found, and a step along several bounds at once leads to worse ones.
+bool PathFitter::solve_within_bounds(double lambda) {
+  held_step_.fill(0);
+  for (std::size_t i = 0; i < shared; ++i)
+    held_[i] = (q_[i] <= lower_[i] && gradient_[i] > 0) || (q_[i] >= upper_[i] && gradient_[i] < 0);
+  for (int stops = 0;; ++stops) {
+    if (!solve_step(lambda)) return false;
+    const double shrink = shrink_to_longest();
+    bool passed = false;
+    for (std::size_t i = 0; i < shared; ++i) {
+      const double end = q_[i] + shrink * step_q_[i];
+      if (!variable_[i] || held_[i] || (end >= lower_[i] && end <= upper_[i])) continue;
+      held_[i] = passed = true;
+      held_step_[i] = (end < lower_[i] ? lower_[i] : upper_[i]) - q_[i];
+    }
+    if (!passed || !free_timing_ || stops == most_stops_at_bounds) return true;
+  }
 }
 
 double PathFitter::descend(const PathFitOptions& options) {
@@ -317,21 +443,11 @@ double PathFitter::descend(const PathFitOptions& options) {
   if (!evaluate(q_, angles_, true, merit)) return infinity;
   double lambda = 1e-2;
   for (int iteration = 0; iteration < options.iterations && lambda < 1e10; ++iteration) {
-    for (std::size_t i = 0; i < shared; ++i)
-      held_[i] = (q_[i] <= lower_[i] && gradient_[i] > 0) || (q_[i] >= upper_[i] && gradient_[i] < 0);
-    if (!solve_step(lambda)) {
+    if (!solve_within_bounds(lambda)) {
       lambda *= 10;
       continue;
     }
-    double shrink = 1;
-    const auto limit = [&](double step, double longest) {
-      if (std::abs(step) * shrink > longest) shrink = longest / std::abs(step);
-    };
-    for (std::size_t i = 0; i <= index(P::rocker); ++i) limit(step_q_[i], longest_change * q_[i]);
-    limit(step_q_[8], longest_turn);
-    limit(step_q_[9], longest_turn);
-    if (free_timing_)
-      for (double step : step_angles_) limit(step, longest_turn);
+    const double shrink = shrink_to_longest();
     for (std::size_t i = 0; i < shared; ++i)
       trial_q_[i] = variable_[i] ? std::clamp(q_[i] + shrink * step_q_[i], lower_[i], upper_[i]) : q_[i];
     if (free_timing_)

@@ -28,8 +28,9 @@ struct PathFit {
 /// Levenberg-Marquardt with the exact Jacobian (spelled out in Boskovic 2018 symbols: d theta3 / d q of the
 /// loop closure); bounds by an active set; full crank rotation (on the side of change point where the start
 /// lies), transmission angle, packaging and order by an augmented Lagrangian. The crank angles are eliminated
-/// from each step (their block is tridiagonal), so a step costs O(points). Holds its scratch memory: one per
-/// thread.
+/// from each step (their block is tridiagonal), so a step costs O(points); where no order limit couples them,
+/// a point counts across the path and, damped, along it (the Schur complement of its angle). Holds its
+/// scratch memory: one per thread.
 class PathFitter {
  public:
   PathFitter(const PathProblem& problem, double sense);
@@ -49,13 +50,18 @@ class PathFitter {
                       bool derivatives, double& merit, std::size_t point = 0, double by_angle = 0);
   void evaluate_constraints(const std::array<double, shared>& q, const std::vector<double>& angles,
                             bool derivatives, double& merit);
+  void evaluate_box(const PackagingBox& box, std::size_t row, const std::array<double, shared>& q,
+                    bool derivatives, double& merit);
   void evaluate_order(const std::vector<double>& angles, bool derivatives, double& merit);
+  void eliminate_angles(double lambda, double* a, double* b);
   bool solve_step(double lambda);
+  double shrink_to_longest() const;
+  bool solve_within_bounds(double lambda);
   double descend(const PathFitOptions& options);
 
   const PathProblem& problem_;
   double sense_, size_, branch_ = 1;
-  bool free_timing_, crank_shorter_ = true;
+  bool free_timing_, bands_, crank_shorter_ = true, angles_coupled_ = false, regular_ = true;
   std::array<bool, shared> variable_{};
   std::array<double, shared> lower_{}, upper_{};
 
@@ -63,9 +69,13 @@ class PathFitter {
   std::array<double, shared> q_{}, trial_q_{}, step_q_{};
   std::vector<double> angles_, trial_angles_, step_angles_;
   // Normal equations: shared block, one row of coupling a point, tridiagonal block of the crank angles.
-  std::array<double, shared * shared> hessian_{};
-  std::array<double, shared> gradient_{};
+  // Of free timing the part of the shared block along the path at each point stands apart (`along_`): without
+  // order limits eliminating the crank angles leaves the share lambda / (1 + lambda) of it.
+  std::array<double, shared * shared> hessian_{}, along_{};
+  std::array<double, shared> gradient_{}, along_gradient_{};
   std::array<bool, shared> held_{};
+  std::array<double, shared>
+      held_step_{};  // of variables that do not take part: 0, or the way to their bound
   std::vector<double> coupling_, diagonal_, neighbour_, angle_gradient_, elimination_, eliminated_;
   // Augmented Lagrangian.
   double penalty_ = 1, error_ = 0;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/planar/path_targets.h"
 
 namespace linkwright::planar {
 namespace {
@@ -44,6 +45,21 @@ PathObjective path_objective(const PathProblem& problem, Branch branch, double s
     o.packaged = true;
     o.box = *problem.packaging;
   }
+  o.size = path_size(problem);
+  if (problem.rocker_pivot) {
+    o.rocker_pivot_limited = true;
+    constexpr double far = 1e300;
+    const PackagingBox& box = *problem.rocker_pivot;
+    o.rocker_pivot = {std::max(box.x_min, -far), std::min(box.x_max, far), std::max(box.y_min, -far),
+                      std::min(box.y_max, far)};
+  }
+  if (has_bands(problem)) {
+    o.banded = true;
+    const std::vector<double> none(problem.x.size(), 0.0);
+    o.gate_x = problem.gate_x.empty() ? none : problem.gate_x;
+    o.gate_y = problem.gate_y.empty() ? none : problem.gate_y;
+    o.tolerance = problem.tolerance.empty() ? none : problem.tolerance;
+  }
   if (!o.free_timing) {
     o.least_offset = std::numeric_limits<double>::infinity();
     o.greatest_offset = -o.least_offset;
@@ -56,7 +72,7 @@ PathObjective path_objective(const PathProblem& problem, Branch branch, double s
     }
   }
   o.points = o.x.size();
-  for (auto* values : {&o.x, &o.y, &o.ux, &o.uy})
+  for (auto* values : {&o.x, &o.y, &o.ux, &o.uy, &o.gate_x, &o.gate_y, &o.tolerance})
     if (!values->empty()) values->resize((o.points + 3) / 4 * 4, values->back());
   return o;
 }

@@ -11,7 +11,9 @@ namespace linkwright::planar {
 /// A path problem on one branch and sense, laid out for the kernels.
 struct PathObjective {
   std::size_t points = 0;  ///< number of target points; the arrays repeat the last one up to a multiple of 4
-  std::vector<double> x, y;  ///< target points (m)
+  std::vector<double> x, y;                       ///< target points (m)
+  bool banded = false;                            ///< gates or tolerances count
+  std::vector<double> gate_x, gate_y, tolerance;  ///< when banded, as many as x (see PathProblem)
   std::vector<double> ux,
       uy;  ///< prescribed timing: direction e^(i angle) of each point before the start angle is added
   double least_offset = 0, greatest_offset = 0;  ///< prescribed timing: extremes of those angles (rad)
@@ -24,6 +26,9 @@ struct PathObjective {
   double max_transmission_cosine = 1;  ///< cos of the least transmission angle; 1 = no limit
   bool packaged = false;
   PackagingBox box;
+  bool rocker_pivot_limited = false;
+  PackagingBox rocker_pivot;  ///< sides without a limit are at +-1e300
+  double size = 1;            ///< of the path (m)
 };
 
 PathObjective path_objective(const PathProblem& problem, Branch branch, double sense);

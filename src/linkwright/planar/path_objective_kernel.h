@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <numbers>
 #include <type_traits>
 
@@ -58,15 +59,30 @@ LINKWRIGHT_KERNEL PathPoint<T> close_at(const PathObjective& o, const PathLinkag
   return {wx, wy, close_loop(l.gx, l.gy, wx, wy, l.l3, l.l4, T(o.branch))};
 }
 
-/// sum + squared distance of the tracing point from (x, y); `inverse` = 1 / R^2.
-template <class T>
-LINKWRIGHT_KERNEL T add_distance(const PathLinkage<T>& l, const PathPoint<T>& p, const T& inverse, const T& x,
-                                 const T& y, const T& sum) {
+/// sum + squared miss of target `k` by the tracing point; `inverse` = 1 / R^2; `load` reads an array of
+/// targets at `k`.
+template <class T, class Load>
+LINKWRIGHT_KERNEL T add_distance(const PathObjective& o, const PathLinkage<T>& l, const PathPoint<T>& p,
+                                 const T& inverse, const Load& load, const T& sum) {
   using S = math::Scalar<T>;
+  using std::sqrt;
+  const T x = load(o.x), y = load(o.y);
   const Closure<T>& c = p.closure;
   const T sx = S::multiply_add(l.mu, c.nx, -(l.mv * c.ny)), sy = S::multiply_add(l.mu, c.ny, l.mv * c.nx);
-  const T ex = S::multiply_add(sx, inverse, p.wx + (l.px - x));
-  const T ey = S::multiply_add(sy, inverse, p.wy + (l.py - y));
+  T ex = S::multiply_add(sx, inverse, p.wx + (l.px - x));
+  T ey = S::multiply_add(sy, inverse, p.wy + (l.py - y));
+  if (o.banded) {
+    // From the nearest place of the gate, beyond the tolerance (see target_miss).
+    const T hx = load(o.gate_x), hy = load(o.gate_y), square = hx * hx + hy * hy;
+    const T unbanded = ex * ex + ey * ey;
+    const T along = (ex * hx + ey * hy) / S::choose(square > T(0.0), square, T(1.0));
+    const T held = S::min(S::max(along, T(-1.0)), T(1.0));
+    ex = ex - held * hx;
+    ey = ey - held * hy;
+    const T miss = S::positive_part(sqrt(ex * ex + ey * ey) - load(o.tolerance));
+    // min and max may drop a NaN; a position that does not exist keeps it.
+    return S::choose(unbanded < T(1e300), S::multiply_add(miss, miss, sum), unbanded);
+  }
   return S::multiply_add(ex, ex, S::multiply_add(ey, ey, sum));
 }
 
@@ -128,6 +144,15 @@ LINKWRIGHT_KERNEL void judge(const PathObjective& o, const PathLinkage<T>& l, co
                   outside(l.py + l.gy, o.box.y_min, o.box.y_max);
     excess = excess + out / T((o.box.x_max - o.box.x_min) + (o.box.y_max - o.box.y_min));
   }
+  if (o.rocker_pivot_limited) {
+    const auto outside = [](const T& v, double low, double high) __attribute__((always_inline)) {
+      return S::positive_part(T(low) - v) + S::positive_part(v - T(high));
+    };
+    const PackagingBox& box = o.rocker_pivot;
+    excess =
+        excess +
+        (outside(l.px + l.gx, box.x_min, box.x_max) + outside(l.py + l.gy, box.y_min, box.y_max)) / T(o.size);
+  }
   if constexpr (free_timing) {
     // Order: the steps add up to exactly one turn (closed) or to less (open).
     if (o.closed) turned = turned + step_to(0, o.points - 1);
@@ -167,6 +192,9 @@ LINKWRIGHT_KERNEL void evaluate_candidates(const PathObjective& o, const Load& l
     }
     return p;
   };
+  const auto at = [](std::size_t k) __attribute__((always_inline)) {
+    return [k](const std::vector<double>& values) __attribute__((always_inline)) { return T(values[k]); };
+  };
   for (std::size_t block = 0; block < o.points; block += 8) {
 #pragma GCC unroll 4
     for (std::size_t i = 0; i < 4; ++i) {
@@ -176,10 +204,10 @@ LINKWRIGHT_KERNEL void evaluate_candidates(const PathObjective& o, const Load& l
       if (k + 4 < o.points) {
         const PathPoint<T> q = close(k + 4);
         const T inverse = T(1.0) / (p.closure.r2 * q.closure.r2);
-        sum[i] = add_distance(l, p, inverse * q.closure.r2, T(o.x[k]), T(o.y[k]), sum[i]);
-        sum[i] = add_distance(l, q, inverse * p.closure.r2, T(o.x[k + 4]), T(o.y[k + 4]), sum[i]);
+        sum[i] = add_distance(o, l, p, inverse * q.closure.r2, at(k), sum[i]);
+        sum[i] = add_distance(o, l, q, inverse * p.closure.r2, at(k + 4), sum[i]);
       } else {
-        sum[i] = add_distance(l, p, T(1.0) / p.closure.r2, T(o.x[k]), T(o.y[k]), sum[i]);
+        sum[i] = add_distance(o, l, p, T(1.0) / p.closure.r2, at(k), sum[i]);
       }
     }
   }
@@ -206,7 +234,11 @@ LINKWRIGHT_KERNEL void evaluate_candidate(const PathObjective& o, const Load& lo
   };
   const auto add = [&](std::size_t k, const PathPoint<Four>& p, const Four& inverse)
       __attribute__((always_inline)) {
-    return add_distance(l, p, inverse, Four::load_unaligned(&o.x[k]), Four::load_unaligned(&o.y[k]), sum);
+    return add_distance(
+        o, l, p, inverse,
+        [k](const std::vector<double>& values)
+            __attribute__((always_inline)) { return Four::load_unaligned(&values[k]); },
+        sum);
   };
   std::size_t k = 0;
   for (; k + 8 <= o.points; k += 8) {

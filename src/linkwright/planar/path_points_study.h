@@ -7,7 +7,7 @@
 
 #include "linkwright/study/kind.h"
 
-// The points of a path as studies give them, in the file or beside it.
+// The targets of a path as studies give them, in the file or beside it.
 namespace linkwright::planar {
 
 /// `points` or `points_file` of a `[target]`.
@@ -26,9 +26,37 @@ void fields(Visitor&& visit, PathPointsForm& t) {
         t.points_file);
 }
 
-/// The points of a target that has been read into `form` (m), three at least and none twice in a row; of a
-/// closed path the last is not the first. Problems are told at the keys of the target.
+/// Targets in their order (m): points, or the middles of gates with half of the way from one post to the
+/// other; `gate_x`, `gate_y` and `tolerance` are empty where there are none.
+struct PathPoints {
+  std::vector<double> x, y, gate_x, gate_y, tolerance;
+  void pop_back();
+};
+
+/// The points of a target that has been read into `form` (m), three at least and none twice in a row.
+/// Problems are told at the keys of the target.
 void read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
-                      bool closed, std::vector<double>& x, std::vector<double>& y);
+                      std::vector<double>& x, std::vector<double>& y);
+
+/// The same where targets may be gates, columns from_x, from_y, to_x, to_y of the file, and have tolerances,
+/// its column tolerance.
+void read_path_targets(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
+                       PathPoints& targets);
+
+/// The same checks for targets from elsewhere; problems are told at `key`.
+void check_path_targets(study::ObjectReader& target, const char* key, const PathPoints& targets);
+
+/// A path that ends where it begins is a closed one, unless the study says that it is not: its last target is
+/// the first one again, and is left out, with a warning at `key`. `turned`: crank rotation from the first
+/// target to the last one where the timing gives it (rad); a path that says nothing of being closed is so
+/// only if that is a turn. True when the last target was left out.
+bool leave_out_closing_target(study::ObjectReader& target, const char* key, bool& closed,
+                              std::optional<double> turned, PathPoints& targets);
+
+/// Whether a crank rotation is one turn, in either sense, to rounding (rad).
+bool is_one_turn(double turned);
+
+/// Whether the last point of a path is the first one again, to rounding.
+bool repeats_first_point(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace linkwright::planar

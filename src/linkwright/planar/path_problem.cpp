@@ -10,6 +10,7 @@
 #include "linkwright/core/tolerance.h"
 #include "linkwright/planar/four_bar_classify.h"
 #include "linkwright/planar/path_objective.h"
+#include "linkwright/planar/path_targets.h"
 
 namespace linkwright::planar {
 namespace {
@@ -73,6 +74,19 @@ void require_valid(const PathProblem& p) {
                            p.packaging->y_min <= p.packaging->y_max,
                        "the packaging box is {} to {} by {} to {}", p.packaging->x_min, p.packaging->x_max,
                        p.packaging->y_min, p.packaging->y_max);
+  if (p.rocker_pivot)
+    LINKWRIGHT_REQUIRE(
+        p.rocker_pivot->x_min <= p.rocker_pivot->x_max && p.rocker_pivot->y_min <= p.rocker_pivot->y_max,
+        "the box of the rocker pivot is {} to {} by {} to {}", p.rocker_pivot->x_min, p.rocker_pivot->x_max,
+        p.rocker_pivot->y_min, p.rocker_pivot->y_max);
+  LINKWRIGHT_REQUIRE(p.gate_x.size() == p.gate_y.size() &&
+                         (p.gate_x.empty() || p.gate_x.size() == p.x.size()) &&
+                         (p.tolerance.empty() || p.tolerance.size() == p.x.size()),
+                     "{} x and {} y of gates and {} tolerances for {} points", p.gate_x.size(),
+                     p.gate_y.size(), p.tolerance.size(), p.x.size());
+  for (double tolerance : p.tolerance)
+    LINKWRIGHT_REQUIRE(tolerance >= 0 && std::isfinite(tolerance), "a tolerance is {}", tolerance);
+  LINKWRIGHT_REQUIRE(p.least_step > 0 && p.least_step < 2 * pi, "the least step is {}", p.least_step);
   LINKWRIGHT_REQUIRE(path_size(p) > 0, "all {} points coincide", p.x.size());
 }
 
@@ -120,7 +134,8 @@ PathDesign measure(const PathProblem& problem, const FourBar& linkage, double se
   for (std::size_t k = 0; k < problem.x.size(); ++k) {
     const FourBarPosition pose = position(linkage, d.angles[k]);
     gap = std::max(gap, pose.gap);
-    const double square = std::norm(pose.coupler_point - std::complex<double>(problem.x[k], problem.y[k]));
+    const TargetMiss miss = target_miss(problem, k, pose.coupler_point.real(), pose.coupler_point.imag());
+    const double square = miss.x * miss.x + miss.y * miss.y;
     d.error += std::isnan(square) ? infinity : square;
   }
   // Whatever the tolerance of the other constraints: an error that does not exist is never feasible.
@@ -146,14 +161,17 @@ PathDesign measure(const PathProblem& problem, const FourBar& linkage, double se
     }
     add_violation(d, "order", back + std::max(0.0, turned - 2 * pi));
   }
-  if (problem.packaging) {
-    const PackagingBox& box = *problem.packaging;
-    double outside = 0;
-    for (const std::complex<double>& pivot : {crank_pivot(linkage), rocker_pivot(linkage)})
-      outside += std::max({0.0, box.x_min - pivot.real(), pivot.real() - box.x_max}) +
-                 std::max({0.0, box.y_min - pivot.imag(), pivot.imag() - box.y_max});
-    add_violation(d, "packaging", outside / path_size(problem));
-  }
+  const auto outside = [&](const PackagingBox& box, const std::complex<double>& pivot) {
+    return (std::max({0.0, box.x_min - pivot.real(), pivot.real() - box.x_max}) +
+            std::max({0.0, box.y_min - pivot.imag(), pivot.imag() - box.y_max})) /
+           path_size(problem);
+  };
+  if (problem.packaging)
+    add_violation(d, "packaging",
+                  outside(*problem.packaging, crank_pivot(linkage)) +
+                      outside(*problem.packaging, rocker_pivot(linkage)));
+  if (problem.rocker_pivot)
+    add_violation(d, "rocker_pivot", outside(*problem.rocker_pivot, rocker_pivot(linkage)));
 
   const auto values = parameters(linkage, problem.timing == Timing::equal_steps ? d.angles[0] : 0.0);
   double out_of_bounds = 0;
@@ -210,7 +228,10 @@ PathErrors path_errors(const PathProblem& problem, const PathDesign& design) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     out.x.push_back(there ? pose.coupler_point.real() : nan);
     out.y.push_back(there ? pose.coupler_point.imag() : nan);
-    out.distance.push_back(std::hypot(out.x[k] - problem.x[k], out.y[k] - problem.y[k]));
+    const TargetMiss miss = target_miss(problem, k, out.x[k], out.y[k]);
+    out.excess.push_back(std::hypot(miss.x, miss.y));
+    const TargetMiss offset = target_offset(problem, k, out.x[k], out.y[k]);
+    out.distance.push_back(std::hypot(offset.x, offset.y));
   }
   return out;
 }

@@ -16,6 +16,7 @@ constexpr std::size_t raw_samples = 96;    // crank angles a curve is computed a
 constexpr std::size_t curve_samples = 96;  // places along its length it is compared at
 constexpr std::size_t most_compared = 24;  // target points that take part
 constexpr int open_arcs = 24;              // random arcs tried on each curve
+constexpr double widened = 3;              // range of the logarithms of every second linkage of kind any
 
 }  // namespace
 
@@ -107,7 +108,10 @@ std::optional<PathStart> PathMatcher::best_of(int linkages, RatioKind kind, Rand
   best.mismatch = spread_;
   bool found = false;
   for (int i = 0; i < linkages; ++i) {
-    const std::vector<double> q = random_ratios(kind, 3, stream);
+    std::vector<double> q = random_ratios(kind, 3, stream);
+    // Smooth open arcs are often traced best by linkages of very unequal links.
+    if (kind == RatioKind::any && i % 2 == 1)
+      for (double& ratio : q) ratio *= widened;
     const auto [l1, l3, l4] = link_ratios(kind, q);
     const Complex point =
         l3 * (0.5 + std::polar(0.1 * std::exp(stream.uniform(0, 3.4)), stream.uniform(0, 2 * pi)));

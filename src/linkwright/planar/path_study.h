@@ -33,6 +33,7 @@ constexpr std::array<EnumName<SenseChoice>, 4> names(SenseChoice) {
 /// `[mechanism.parameters]`: what is left out gets bounds from the path.
 struct PathParameters {
   std::array<std::optional<Range>, four_bar_parameter_count> ranges;
+  std::optional<Range> rocker_pivot_x, rocker_pivot_y;  ///< of B0, which follows from the others
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathParameters& p) {
@@ -55,6 +56,14 @@ void fields(Visitor&& visit, PathParameters& p) {
     if (link) field.minimum = 0;
     visit(field, p.ranges[j]);
   }
+  visit(Field{.key = "rocker_pivot_x",
+              .summary = "where the rocker pivot B0 may be, x",
+              .dimension = Dimension::length},
+        p.rocker_pivot_x);
+  visit(Field{.key = "rocker_pivot_y",
+              .summary = "where the rocker pivot B0 may be, y",
+              .dimension = Dimension::length},
+        p.rocker_pivot_y);
 }
 
 struct PathMechanism {
@@ -94,15 +103,55 @@ constexpr std::array<EnumName<TracingPoint>, 1> names(TracingPoint) {
   return {{{TracingPoint::coupler, "coupler", "point (coupler_u, coupler_v) of the coupler"}}};
 }
 
+/// Two points that the path passes between, or a point where both are the same.
+struct PathGate {
+  std::array<double, 2> from{}, to{};
+};
+template <class Visitor>
+void fields(Visitor&& visit, PathGate& g) {
+  visit(Field{.key = "from",
+              .summary = "one post [x, y]",
+              .dimension = Dimension::length,
+              .required = true,
+              .inherits_unit = true},
+        g.from);
+  visit(Field{.key = "to",
+              .summary = "the other post [x, y]",
+              .dimension = Dimension::length,
+              .required = true,
+              .inherits_unit = true},
+        g.to);
+}
+
 struct PathTarget : PathPointsForm {
   TracingPoint point = TracingPoint::coupler;
   bool closed = false;
+  std::optional<std::vector<PathGate>> gates;
+  std::optional<double> tolerance;
+  std::optional<std::vector<double>> tolerances;
   PathTiming timing;
 };
 template <class Visitor>
 void fields(Visitor&& visit, PathTarget& t) {
   visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
-  visit(Field{.key = "closed", .summary = "the last point is followed by the first"}, t.closed);
+  visit(Field{.key = "closed",
+              .summary =
+                  "the last point is followed by the first; without this key so when the last repeats it"},
+        t.closed);
+  visit(Field{.key = "gates",
+              .summary = "instead of points: pairs of points that the path passes between, in their order",
+              .dimension = Dimension::length},
+        t.gates);
+  visit(Field{.key = "tolerance",
+              .summary = "every point or gate counts as met within this distance, at no cost",
+              .dimension = Dimension::length,
+              .minimum = 0},
+        t.tolerance);
+  visit(Field{.key = "tolerances",
+              .summary = "the same, one for each point or gate",
+              .dimension = Dimension::length,
+              .minimum = 0},
+        t.tolerances);
   visit(Field{.key = "timing", .summary = "how crank angles are tied to the points"}, t.timing);
   fields(visit, static_cast<PathPointsForm&>(t));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "linkwright/planar/path_study.h"
@@ -43,6 +44,101 @@ void read_timing(study::ObjectReader& target, PathStudy& s) {
   }
 }
 
+// The key that the targets stand at.
+const char* key_of(const PathTarget& target) {
+  return target.gates ? "gates" : target.points_file ? "points_file" : "points";
+}
+
+// The points or, in their place, the middles of gates.
+PathPoints read_targets(study::ObjectReader& target, const study::Common& common, PathStudy& s) {
+  PathPoints targets;
+  if (!s.target.gates) {
+    read_path_targets(target, common, s.target, targets);
+    return targets;
+  }
+  const bool has_points = target.has(Field{.key = "points", .summary = {}, .dimension = Dimension::length});
+  if (has_points || target.has("points_file")) {
+    target.error("gates",
+                 fmt::format("the target has both gates and {}", has_points ? "points" : "points_file"),
+                 "keep one of them; a gate whose posts agree is a point");
+    return targets;
+  }
+  for (const PathGate& gate : *s.target.gates) {
+    targets.x.push_back(0.5 * (gate.from[0] + gate.to[0]));
+    targets.y.push_back(0.5 * (gate.from[1] + gate.to[1]));
+    targets.gate_x.push_back(0.5 * (gate.to[0] - gate.from[0]));
+    targets.gate_y.push_back(0.5 * (gate.to[1] - gate.from[1]));
+  }
+  check_path_targets(target, "gates", targets);
+  return targets;
+}
+
+void read_tolerances(study::ObjectReader& target, const PathTarget& form, PathPoints& targets) {
+  if (form.tolerance && form.tolerances) {
+    target.error("tolerances", "the target has both tolerance and tolerances", "keep one of them");
+    return;
+  }
+  if (!form.tolerance && !form.tolerances) return;
+  if (!targets.tolerance.empty()) {
+    target.error(form.tolerance ? "tolerance" : "tolerances", "the points file has tolerances, too",
+                 "keep the key or the column");
+    return;
+  }
+  if (form.tolerance) targets.tolerance.assign(targets.x.size(), *form.tolerance);
+  if (!form.tolerances) return;
+  if (targets.x.size() >= 3 && form.tolerances->size() != targets.x.size()) {
+    target.error("tolerances",
+                 fmt::format("{} tolerances for {} targets", form.tolerances->size(), targets.x.size()),
+                 "give one for each, or tolerance for all");
+    return;
+  }
+  targets.tolerance = *form.tolerances;
+}
+
+// Crank rotation that the timing gives from the first to the last of so many points.
+std::optional<double> turned(const PathTiming& t, std::size_t points) {
+  if (t.mode == Timing::equal_steps && t.step) return *t.step * static_cast<double>(points - 1);
+  if (t.mode == Timing::given && t.angles && t.angles->size() == points)
+    return t.angles->back() - t.angles->front();
+  return std::nullopt;
+}
+
+// Targets with their tolerances; what the study gives for a closing target goes with it.
+void set_targets(study::ObjectReader& target, const study::Common& common, PathStudy& s) {
+  PathPoints targets = read_targets(target, common, s);
+  read_tolerances(target, s.target, targets);
+  const std::size_t n = targets.x.size();
+  if (n > 0) {
+    PathTiming& t = s.target.timing;
+    const std::optional<double> rotation = turned(t, n);
+    if (leave_out_closing_target(target, key_of(s.target), s.target.closed, rotation, targets) &&
+        t.mode == Timing::given && rotation && is_one_turn(*rotation))
+      t.angles->pop_back();
+  }
+  PathProblem& p = s.problem;
+  p.x = std::move(targets.x), p.y = std::move(targets.y);
+  p.gate_x = std::move(targets.gate_x), p.gate_y = std::move(targets.gate_y);
+  p.tolerance = std::move(targets.tolerance);
+}
+
+// The targets as they are met: points or gates, with one tolerance for all or one for each.
+void resolve_targets(const PathProblem& p, PathTarget& target) {
+  target.points_file.reset();
+  target.points.reset();
+  target.gates.reset();
+  const std::size_t n = std::min(p.x.size(), p.y.size());
+  if (p.gate_x.empty()) {
+    target.points.emplace();
+    for (std::size_t k = 0; k < n; ++k) target.points->push_back({p.x[k], p.y[k]});
+  } else {
+    target.gates.emplace();
+    for (std::size_t k = 0; k < n; ++k)
+      target.gates->push_back({.from = {p.x[k] - p.gate_x[k], p.y[k] - p.gate_y[k]},
+                               .to = {p.x[k] + p.gate_x[k], p.y[k] + p.gate_y[k]}});
+  }
+  if (!target.tolerance && !p.tolerance.empty()) target.tolerances = p.tolerance;
+}
+
 void set_bounds(study::ObjectReader& mechanism, PathStudy& s) {
   if (s.problem.x.size() < 3 || s.problem.x.size() != s.problem.y.size()) return;
   s.problem.bounds = derive_bounds(s.problem.x, s.problem.y);
@@ -58,6 +154,16 @@ void set_bounds(study::ObjectReader& mechanism, PathStudy& s) {
       s.problem.timing != Timing::equal_steps)
     mechanism.warning("parameters",
                       fmt::format("start_angle has no use: the timing is {}", name_of(s.problem.timing)));
+}
+
+// A fixed number or a range for each coordinate of B0; one that is left out is free.
+void set_rocker_pivot(PathStudy& s) {
+  const std::optional<Range>&x = s.mechanism.parameters.rocker_pivot_x,
+        &y = s.mechanism.parameters.rocker_pivot_y;
+  if (!x && !y) return;
+  constexpr double far = std::numeric_limits<double>::infinity();
+  const Range anywhere{-far, far}, across = x.value_or(anywhere), up = y.value_or(anywhere);
+  s.problem.rocker_pivot = PackagingBox{across.lower, across.upper, up.lower, up.upper};
 }
 
 void set_search(PathStudy& s) {
@@ -106,7 +212,7 @@ PathStudy read_path_study(study::ObjectReader& document, const study::Common& co
   auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
   if (target) {
     target->read(s.target);
-    read_path_points(*target, common, s.target, s.target.closed, s.problem.x, s.problem.y);
+    set_targets(*target, common, s);
     read_timing(*target, s);
   }
   document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
@@ -116,6 +222,7 @@ PathStudy read_path_study(study::ObjectReader& document, const study::Common& co
   document(Field{.key = "constraint", .summary = "what must hold"}, s.constraints);
   if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
   if (auto mechanism = document.table("mechanism")) set_bounds(*mechanism, s);
+  set_rocker_pivot(s);
   set_search(s);
   set_constraints(document, s);
   return s;
@@ -139,6 +246,7 @@ type = "planar.four_bar"
 # [mechanism.parameters]
 # ground_mm = 400.0
 # crank_mm  = { min = 50.0, max = 200.0 }
+# rocker_pivot_x_mm = { min = 0.0, max = 500.0 }   # where the other fixed pivot may be
 
 [target]
 type   = "path_points"
@@ -148,7 +256,10 @@ points_mm = [
   [500, 1100], [300, 1100], [100, 900], [20, 600], [0, 400], [100, 250],
   [200, 300], [400, 500], [600, 900],
 ]
-# or: points_file = "path.csv"      # columns x_mm, y_mm
+# or: points_file = "path.csv"      # columns x_mm, y_mm; tolerance_mm, where there is one
+# or: gates_mm = [{ from = [500, 1090], to = [500, 1110] }, ...]   # to pass between two points
+#     (in a points_file: columns from_x_mm, from_y_mm, to_x_mm, to_y_mm)
+# tolerance_mm = 1.0                # points count as met this near, at no cost
 
 [[constraint]]
 type = "crank_rotates_fully"
@@ -179,10 +290,7 @@ seeds  = { first = 1, count = 4 }
     for (std::size_t j = 0; j < four_bar_parameter_count; ++j)
       if (j != index(FourBarParameter::start_angle) || s.problem.timing == Timing::equal_steps)
         resolved.mechanism.parameters.ranges[j] = s.problem.bounds[j];
-    resolved.target.points_file.reset();
-    resolved.target.points.emplace();
-    for (std::size_t k = 0; k < std::min(s.problem.x.size(), s.problem.y.size()); ++k)
-      resolved.target.points->push_back({s.problem.x[k], s.problem.y[k]});
+    resolve_targets(s.problem, resolved.target);
     if (resolved.objectives.empty()) resolved.objectives.emplace_back();
     prepared.canonical["mechanism"] = study::write_fields(resolved.mechanism);
     prepared.canonical["target"] = study::write_fields(resolved.target);

@@ -12,6 +12,7 @@
 #include "linkwright/planar/path_checkpoint.h"
 #include "linkwright/planar/path_defects.h"
 #include "linkwright/planar/path_study.h"
+#include "linkwright/planar/path_usability.h"
 #include "linkwright/planar/samples.h"
 #include "linkwright/planar/scenes.h"
 #include "linkwright/study/run_seeds.h"
@@ -50,8 +51,8 @@ PathSeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_
 }
 
 template <class Options>
-PathSeedRun run_seed(const optimise::PopulationMethod<Options, optimise::Constraints::penalty>& method, const PathStudy& s, std::uint64_t seed,
-                     bool only_seed, RunContext& context) {
+PathSeedRun run_seed(const optimise::PopulationMethod<Options, optimise::Constraints::penalty>& method,
+                     const PathStudy& s, std::uint64_t seed, bool only_seed, RunContext& context) {
   PathSeedRun out;
   std::uint32_t part = 0;
   for (double sense : {1.0, -1.0}) {
@@ -128,13 +129,13 @@ std::vector<PathDesign> distinct_designs(const PathStudy& s, const Run& run) {
   const auto most = static_cast<std::size_t>(options.max_solutions);
   std::vector<PathDesign> out;
   for (PathDesign& d : all) {
-    if (out.size() == most) break;
     if (!out.empty() && !d.violations.empty()) break;  // one infeasible answer only when there is no other
     if (!std::any_of(out.begin(), out.end(), [&](const PathDesign& o) {
           return o.sense == d.sense && same_linkage(o.linkage, d.linkage);
         }))
       out.push_back(std::move(d));
   }
+  keep_first(s.problem, out, most);
   return out;
 }
 
@@ -177,7 +178,7 @@ study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t
   const PathErrors errors = path_errors(p, d);
   out.objectives["path_error_sum_sq_m2"] = d.error;
   out.objectives["path_error_rms_m"] = std::sqrt(d.error / static_cast<double>(p.x.size()));
-  out.objectives["path_error_max_m"] = *std::max_element(errors.distance.begin(), errors.distance.end());
+  out.objectives["path_error_max_m"] = *std::max_element(errors.excess.begin(), errors.excess.end());
   out.classification["type"] = name_of(type.type);
   out.classification["branch"] = name_of(d.linkage.branch);
   out.classification["sense"] = d.sense > 0 ? "positive" : "negative";
@@ -185,9 +186,15 @@ study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t
   out.classification["circuits"] = type.circuits;
   out.classification["crank_rotates_fully"] = type.crank_rotates_fully;
   out.classification["crank_margin_m"] = type.crank_margin;
-  out.classification["min_transmission_angle_rad"] = transmission_angles(d.linkage).minimum;
+  const PathTransmission transmission = path_transmission(p, d);
+  out.classification["min_transmission_angle_rad"] = transmission.used;  // over the path
+  out.classification["whole_motion_min_transmission_angle_rad"] = transmission.whole;
   out.classification["active_bounds"] = Value::array();
   for (const std::string& bound : d.active_bounds) out.classification["active_bounds"].push_back(bound);
+  const std::vector<Drawback> bad = drawbacks(p, d);
+  out.classification["usable"] = d.violations.empty() && bad.empty();
+  out.classification["drawbacks"] = Value::array();
+  for (const Drawback& drawback : bad) out.classification["drawbacks"].push_back(drawback.text);
   out.defects = Value::array();
   for (const auto& violation : d.violations)
     out.defects.push_back(fmt::format("violates {} by {:.3g}", violation.reason, violation.amount));
@@ -311,6 +318,103 @@ std::string metres(double value) {
   return fmt::format("{:.3g} µm", value * 1e6);
 }
 
+// Distances below this share of the size of the path are rounding.
+constexpr double exact_share = 1e-12;
+
+// "passes the 9 points within 0.2 mm (root mean square 0.1 mm)"
+std::string how_near(const PathProblem& p, const PathDesign& d) {
+  const PathErrors errors = path_errors(p, d);
+  const double worst = *std::max_element(errors.excess.begin(), errors.excess.end());
+  const std::string what = fmt::format("{} {}", p.x.size(), p.gate_x.empty() ? "points" : "gates");
+  const char* allowed = p.tolerance.empty() ? "" : " of their tolerance";
+  if (worst <= exact_share * path_size(p))
+    return p.tolerance.empty() ? fmt::format("passes the {} exactly", what)
+                               : fmt::format("passes the {} within their tolerance", what);
+  return fmt::format("passes the {} within {}{} (root mean square {})", what, metres(worst), allowed,
+                     metres(std::sqrt(d.error / static_cast<double>(p.x.size()))));
+}
+
+// "crank-rocker (open branch)"
+std::string called(const PathDesign& d) {
+  const FourBarClass type = classify(d.linkage);
+  const std::string_view branch = name_of(d.linkage.branch);
+  if (!type.grashof)
+    return fmt::format("linkage in which no link turns fully (type {}, {} branch)", name_of(type.type),
+                       branch);
+  return fmt::format("{} ({} branch)", name_of(type.type), branch);
+}
+
+std::string_view short_name(DrawbackKind kind) {
+  switch (kind) {
+    case DrawbackKind::transmission:
+      return "low transmission angle";
+    case DrawbackKind::crowded:
+      return "crowded points";
+    case DrawbackKind::bound:
+      return "a link at its bound";
+    case DrawbackKind::locks:
+      return "locks at both ends";
+  }
+  return {};
+}
+
+// Why the best design is of little use, and which one is better in use; empty = it is usable.
+std::string caution(const PathProblem& p, const std::vector<PathDesign>& designs) {
+  std::string out;
+  for (const Drawback& drawback : drawbacks(p, designs[0]))
+    out += (out.empty() ? " But " : "; ") + drawback.text;
+  if (out.empty()) return out;
+  for (std::size_t i = 1; i < designs.size(); ++i)
+    if (drawbacks(p, designs[i]).empty())
+      return fmt::format("{}. The best one without such drawbacks is solution {}, a {}: it {}.", out, i + 1,
+                         called(designs[i]), how_near(p, designs[i]));
+  return out + ". No design without such drawbacks was found.";
+}
+
+// Where the crank has to turn fully, the whole motion counts, else what the path uses.
+double judged_transmission(const PathProblem& p, const PathDesign& d) {
+  const PathTransmission mu = path_transmission(p, d);
+  return p.crank_rotates_fully ? mu.whole : mu.used;
+}
+
+study::Fact transmission_fact(const PathProblem& p, const PathDesign& d) {
+  const PathTransmission mu = path_transmission(p, d);
+  std::string text = fmt::format("{:.1f}°", math::degrees(mu.used));
+  if (!p.closed)
+    text += fmt::format(" over the path ({:.1f}° over the whole motion)", math::degrees(mu.whole));
+  const bool poor = math::degrees(judged_transmission(p, d)) < 20;
+  return {"least transmission angle", std::move(text),
+          poor ? study::Fact::Verdict::bad : study::Fact::Verdict::plain};
+}
+
+study::Fact worst_fact(const PathProblem& p, const PathErrors& errors) {
+  const auto worst = std::max_element(errors.excess.begin(), errors.excess.end());
+  const bool exact = *worst <= exact_share * path_size(p);
+  if (exact && !p.tolerance.empty()) return {"worst point", "none is beyond its tolerance"};
+  if (exact) return {"worst point", "none, to rounding"};
+  return {"worst point", fmt::format("{} at {} {}", metres(*worst), p.gate_x.empty() ? "point" : "gate",
+                                     worst - errors.excess.begin() + 1)};
+}
+
+void warn_of_transmission(study::Result& result, const PathProblem& p, const PathDesign& d) {
+  const double mu = math::degrees(judged_transmission(p, d));
+  if (mu >= 20) return;
+  const double limit = math::degrees(p.min_transmission_angle);
+  result.diagnostics.push_back(
+      {Diagnostic::Severity::warning,
+       {},
+       {},
+       {},
+       fmt::format("the transmission angle falls to {:.1f}°{}: the linkage transmits force badly there", mu,
+                   p.closed                ? ""
+                   : p.crank_rotates_fully ? " over the full turn"
+                                           : " on the path"),
+       limit > 0
+           ? fmt::format("raise the limit of [[constraint]] type = \"transmission_angle\": min_deg is {:.6g}",
+                         limit)
+           : "limit it: [[constraint]] type = \"transmission_angle\", min_deg = 30"});
+}
+
 void add_cognates(study::Result& result, const PathDesign& best) {
   Table table{.name = "cognates"};
   const std::array<std::string_view, 10> keys = {"ground_m",        "crank_m",     "coupler_m", "rocker_m",
@@ -355,16 +459,12 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
   add_cognates(result, best);
   add_published(result, s.problem, feasible ? best.error : infinity);
 
-  const FourBarClass type = classify(best.linkage);
   const double rms = std::sqrt(best.error / static_cast<double>(s.problem.x.size()));
   const PathErrors errors = path_errors(s.problem, best);
-  const auto worst = std::max_element(errors.distance.begin(), errors.distance.end());
-  const double mu = math::degrees(transmission_angles(best.linkage).minimum);
   using Verdict = study::Fact::Verdict;
+  const std::string but = feasible ? caution(s.problem, designs) : std::string();
   if (feasible) {
-    result.headline = fmt::format("A {} ({} branch) passes the {} points within {} (root mean square {}).",
-                                  name_of(type.type), name_of(best.linkage.branch), s.problem.x.size(),
-                                  metres(*worst), metres(rms));
+    result.headline = fmt::format("A {} {}.{}", called(best), how_near(s.problem, best), but);
   } else {
     std::string reasons;
     for (const auto& v : best.violations) reasons += (reasons.empty() ? "" : ", ") + v.reason;
@@ -373,11 +473,13 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
   result.facts = {
       {"path error (sum of squares)",
        best.error >= 1e-4 ? fmt::format("{:.8f} m²", best.error) : fmt::format("{:.4g} m²", best.error),
-       feasible ? Verdict::good : Verdict::bad},
-      {"root mean square distance", metres(rms)},
-      {"worst point", fmt::format("{} at point {}", metres(*worst), worst - errors.distance.begin() + 1)},
+       !feasible     ? Verdict::bad
+       : but.empty() ? Verdict::good
+                     : Verdict::plain},
+      {"root mean square distance", rms <= exact_share * path_size(s.problem) ? "0 mm" : metres(rms)},
+      worst_fact(s.problem, errors),
       {"type", result.solutions[0].label},
-      {"least transmission angle", fmt::format("{:.1f}°", mu), mu < 20 ? Verdict::bad : Verdict::plain},
+      transmission_fact(s.problem, best),
       {"method", run.method},
       {"seeds that reached the best",
        fmt::format("{:.0f} of {}", success * static_cast<double>(run.runs.size()), run.runs.size()),
@@ -392,14 +494,15 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
          {},
          fmt::format("interrupted: {} of {} seeds ran", run.runs.size(), common.seeds.count),
          {}});
-  if (mu < 20)
-    result.diagnostics.push_back(
-        {Diagnostic::Severity::warning,
-         {},
-         {},
-         {},
-         fmt::format("the transmission angle falls to {:.1f}°: the linkage transmits force badly there", mu),
-         "limit it: [[constraint]] type = \"transmission_angle\", min_deg = 30"});
+  if (!but.empty()) {
+    std::string names;
+    for (const Drawback& drawback : drawbacks(s.problem, best)) {
+      const std::string name(short_name(drawback.kind));
+      if (names.find(name) == std::string::npos) names += (names.empty() ? "" : ", ") + name;
+    }
+    result.facts.push_back({"drawbacks", names, Verdict::bad});
+  }
+  warn_of_transmission(result, s.problem, best);
   return result;
 }
 

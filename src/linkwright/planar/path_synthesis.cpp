@@ -9,17 +9,18 @@
 #include "linkwright/math/least_squares.h"
 #include "linkwright/planar/cognates.h"
 #include "linkwright/planar/path_fit.h"
+#include "linkwright/planar/path_free_timing.h"
 #include "linkwright/planar/path_projection.h"
 #include "linkwright/planar/path_starts.h"
+#include "linkwright/planar/path_targets.h"
+#include "linkwright/planar/path_usability.h"
 
 namespace linkwright::planar {
 namespace {
 
-// Local searches per kind, branch and sense when the options leave it open. Prescribed timing has few local
-// optima and cheap searches; free timing has many.
-constexpr int separable_starts = 20, joint_starts = 60;
+// Local searches per kind, branch and sense when the options leave it open; free timing has its own.
+constexpr int separable_starts = 20;
 constexpr int tries_per_separable_start = 6;  // random ratios of which the best starts a search
-constexpr int linkages_per_joint_start = 48;  // random curves of which the best match starts a search
 constexpr std::size_t finished_starts =
     24;  // of the searched ones, how many get their constraints met exactly
 
@@ -34,12 +35,33 @@ bool better_design(const PathDesign& a, const PathDesign& b) {
   return optimise::better(a.error, total_violation(a), b.error, total_violation(b));
 }
 
+// Adds a design, or takes it in the place of the same linkage where it is better.
+void keep_distinct(std::vector<PathDesign>& designs, PathDesign design) {
+  for (PathDesign& other : designs) {
+    if (other.sense != design.sense || !same_linkage(other.linkage, design.linkage)) continue;
+    if (better_design(design, other)) other = std::move(design);
+    return;
+  }
+  designs.push_back(std::move(design));
+}
+
 class Search {
  public:
   Search(const PathProblem& problem, const PathSynthesisOptions& options, RunContext& context)
-      : problem_(problem), options_(options), context_(context), relaxed_(relax(problem)) {}
+      : problem_(problem),
+        options_(options),
+        context_(context),
+        relaxed_(problem.timing == Timing::free ? problem : relax(problem)) {}
 
   PathSynthesis run() {
+    if (problem_.timing == Timing::free) {
+      PathSynthesis found = search_free_timing(problem_, options_, context_);
+      std::vector<PathDesign> designs;
+      std::swap(designs, found.designs);
+      out_ = std::move(found);
+      for (PathDesign& design : designs) keep(std::move(design));
+      return finish();
+    }
     std::vector<RatioKind> kinds = {RatioKind::crank_rocker, RatioKind::double_crank};
     if (!problem_.crank_rotates_fully) kinds = {RatioKind::any};
     std::uint32_t combination = 0;
@@ -49,16 +71,11 @@ class Search {
         if (!(branch == Branch::open ? problem_.search_open : problem_.search_crossed)) continue;
         // With prescribed timing the cognate on the other branch has the same error, so one branch tells all,
         // unless a better candidate failed on bounds or other limits that its cognate need not fail on.
-        if (branch == Branch::crossed && problem_.search_open && separable_ &&
-            lowest_feasible() <= lowest_failed_)
+        if (branch == Branch::crossed && problem_.search_open && lowest_feasible() <= lowest_failed_)
           continue;
         for (RatioKind kind : kinds) {
           if (stopped()) return finish();
-          if (problem_.timing == Timing::free) {
-            search_joint(kind, branch, sense, combination++);
-          } else {
-            search_separable(kind, branch, sense, combination++);
-          }
+          search_separable(kind, branch, sense, combination++);
         }
       }
     }
@@ -69,7 +86,7 @@ class Search {
   // The problem without the fixed values that the separable form cannot see; the constrained finish puts them
   // back.
   static PathProblem relax(PathProblem p) {
-    if (p.timing == Timing::free || PathProjection::applies(p)) return p;
+    if (PathProjection::applies(p)) return p;
     using P = FourBarParameter;
     const auto free = derive_bounds(p.x, p.y);
     for (P j : {P::ground, P::crank, P::coupler, P::rocker, P::coupler_u, P::coupler_v, P::start_angle})
@@ -111,14 +128,7 @@ class Search {
     if (feasible_error < best_so_far()) out_.history.push_back({out_.evaluations, feasible_error});
   }
 
-  void keep(PathDesign design) {
-    for (PathDesign& other : out_.designs) {
-      if (other.sense != design.sense || !same_linkage(other.linkage, design.linkage)) continue;
-      if (better_design(design, other)) other = std::move(design);
-      return;
-    }
-    out_.designs.push_back(std::move(design));
-  }
+  void keep(PathDesign design) { keep_distinct(out_.designs, std::move(design)); }
 
   void search_separable(RatioKind kind, Branch branch, double sense, std::uint32_t combination) {
     PathProjection projection(relaxed_, kind, branch, sense);
@@ -162,29 +172,6 @@ class Search {
     finish_candidates(std::move(found), sense);
   }
 
-  void search_joint(RatioKind kind, Branch branch, double sense, std::uint32_t combination) {
-    PathMatcher matcher(problem_, branch, sense);
-    PathFitter fitter(problem_, sense);
-    std::vector<Candidate> found;
-    const int count = starts(joint_starts);
-    for (int start = 0; start < count && !stopped(); ++start) {
-      RandomStream stream(
-          {.seed = options_.seed, .run = combination, .individual = static_cast<std::uint32_t>(start)});
-      const auto match = matcher.best_of(linkages_per_joint_start, kind, stream);
-      if (!match) continue;
-      const PathFit fit =
-          fitter.fit(match->linkage, match->angles, {.iterations = 80, .passes = 1, .decrease = 1e-6});
-      out_.evaluations += fit.evaluations;
-      if (!std::isfinite(fit.error)) continue;
-      const double size = path_size(problem_);
-      found.push_back(
-          {fit.linkage, sense, fit.angles, fit.error + size * size * fit.violation * fit.violation});
-      if (fit.violation <= tolerance::feasibility) note(fit.error);
-      tell(static_cast<double>(start + 1) / count);
-    }
-    finish_candidates(std::move(found), sense);
-  }
-
   // Distinct candidates, best first: those that meet everything are taken as they are, the others go through
   // the constrained search.
   void finish_candidates(std::vector<Candidate> found, double sense) {
@@ -198,19 +185,17 @@ class Search {
                       [&](const FourBar& l) { return same_linkage(l, candidate.linkage); }))
         continue;
       taken.push_back(candidate.linkage);
-      if (problem_.timing != Timing::free) {
-        PathDesign design = measure(problem_, candidate.linkage, sense, candidate.angles);
-        if (design.violations.empty()) {
-          keep(std::move(design));
-          continue;
-        }
-        lowest_failed_ = std::min(lowest_failed_, candidate.merit);
+      PathDesign design = measure(problem_, candidate.linkage, sense, candidate.angles);
+      if (design.violations.empty() && !has_bands(problem_)) {
+        keep(std::move(design));
+        continue;
       }
+      if (!design.violations.empty()) lowest_failed_ = std::min(lowest_failed_, candidate.merit);
       if (stopped() && !out_.designs.empty()) break;
       const PathFit fit = fitter.fit(candidate.linkage, candidate.angles, {.iterations = 200, .passes = 30});
       out_.evaluations += fit.evaluations;
       if (!std::isfinite(fit.error)) continue;
-      PathDesign design = measure(problem_, fit.linkage, sense, fit.angles);
+      design = measure(problem_, fit.linkage, sense, fit.angles);
       if (design.violations.empty()) note(design.error);
       keep(std::move(design));
     }
@@ -234,8 +219,6 @@ class Search {
     rank(out_.designs);
     if (any_feasible())
       std::erase_if(out_.designs, [](const PathDesign& d) { return !d.violations.empty(); });
-    if (out_.designs.size() > static_cast<std::size_t>(options_.max_solutions))
-      out_.designs.resize(static_cast<std::size_t>(options_.max_solutions));
     if (out_.status == Status::done && !any_feasible()) out_.status = Status::infeasible;
     return std::move(out_);
   }
@@ -244,10 +227,56 @@ class Search {
   const PathSynthesisOptions& options_;
   RunContext& context_;
   const PathProblem relaxed_;
-  const bool separable_ = problem_.timing != Timing::free;
   double lowest_failed_ = std::numeric_limits<double>::infinity();  // error of a candidate beyond some limit
   PathSynthesis out_;
 };
+
+// Whether the best design, or the best one whose crank turns fully, has no drawbacks: then no search under
+// limits has anything to add.
+bool best_turning_is_usable(const PathProblem& problem, const std::vector<PathDesign>& ranked) {
+  if (drawbacks(problem, ranked[0]).empty()) return true;
+  for (const PathDesign& design : ranked) {
+    const std::vector<Drawback> found = drawbacks(problem, design);
+    if (std::none_of(found.begin(), found.end(),
+                     [](const Drawback& d) { return d.kind == DrawbackKind::locks; }))
+      return found.empty();
+  }
+  return false;
+}
+
+// The best design has drawbacks: looks for the best one without them. What that search finds is allowed in
+// the first one, too, which goes on from there: so a limit of this kind never improves the answer.
+void add_usable(const PathProblem& problem, const PathSynthesisOptions& options, RunContext& context,
+                PathSynthesis& answer) {
+  const PathProblem usable = usable_problem(problem);
+  PathSynthesisOptions quiet = options;
+  quiet.progress = false;
+  PathSynthesis more = Search(usable, quiet, context).run();
+  if (more.status != Status::infeasible) answer.status = more.status;
+  answer.evaluations += more.evaluations;
+  std::size_t carried_on = 0;
+  for (const PathDesign& found : more.designs) {
+    if (!found.violations.empty()) break;
+    PathDesign design = measure(problem, found.linkage, found.sense, found.angles);
+    if (problem.timing == Timing::free && carried_on++ < carried_beyond_limits) {
+      // One limit after the other: so the search with the full turn alone is part of the one without it.
+      PathProblem turning = problem;
+      turning.crank_rotates_fully = true;
+      PathDesign on = polish_free_timing(turning, measure(turning, found.linkage, found.sense, found.angles),
+                                         answer.evaluations);
+      if (!problem.crank_rotates_fully) {
+        on = measure(problem, on.linkage, on.sense, on.angles);
+        keep_distinct(answer.designs, on);
+        on = polish_free_timing(problem, std::move(on), answer.evaluations);
+      }
+      if (on.violations.empty() && (answer.history.empty() || on.error < answer.history.back().best))
+        answer.history.push_back({answer.evaluations, on.error});
+      keep_distinct(answer.designs, std::move(on));
+    }
+    keep_distinct(answer.designs, std::move(design));
+  }
+  rank(answer.designs);
+}
 
 }  // namespace
 
@@ -256,7 +285,11 @@ PathSynthesis synthesise_path(const PathProblem& problem, const PathSynthesisOpt
   require_valid(problem);
   LINKWRIGHT_REQUIRE(options.starts >= 0 && options.max_solutions >= 1, "starts {}, max_solutions {}",
                      options.starts, options.max_solutions);
-  return Search(problem, options, context).run();
+  PathSynthesis answer = Search(problem, options, context).run();
+  if (answer.status == Status::done && !best_turning_is_usable(problem, answer.designs))
+    add_usable(problem, options, context, answer);
+  keep_first(problem, answer.designs, static_cast<std::size_t>(options.max_solutions));
+  return answer;
 }
 
 }  // namespace linkwright::planar

@@ -45,9 +45,9 @@ struct PathSynthesis {
 
 /// The recommended method. Prescribed and relative timing: the linear unknowns (scale, rotation, position,
 /// tracing point) are eliminated (variable projection), full crank rotation holds by construction, and
-/// Levenberg-Marquardt with the exact Jacobian runs from many starts. Free timing: starts by matching random
-/// curves to the path by arc length, then Levenberg-Marquardt in all unknowns. Where a bound or limit is
-/// active, an augmented Lagrangian finishes.
+/// Levenberg-Marquardt with the exact Jacobian runs from many starts. Free timing: see
+/// search_free_timing. Where a bound or limit is active, an augmented Lagrangian finishes. When the best
+/// design has drawbacks (path_usability.h), the best one without them is looked for and stands beside it.
 PathSynthesis synthesise_path(const PathProblem& problem, const PathSynthesisOptions& options,
                               RunContext& context);
 

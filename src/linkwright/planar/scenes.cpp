@@ -11,6 +11,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar_classify.h"
+#include "linkwright/planar/path_targets.h"
 
 namespace linkwright::planar {
 namespace {
@@ -210,8 +211,27 @@ study::Scene path_scene(const PathProblem& problem, const PathDesign& design, st
   study::Scene scene =
       four_bar_scene(design.linkage, shown_angles(design, samples), std::move(name), std::move(title), true);
   const PathErrors errors = path_errors(problem, design);
-  scene.targets = {
-      {"target points", problem.x, problem.y, errors.x, errors.y, design.angles, problem.closed}};
+  if (problem.gate_x.empty()) {
+    scene.targets = {
+        {"target points", problem.x, problem.y, errors.x, errors.y, design.angles, problem.closed}};
+    return scene;
+  }
+  // Whiskers run to the nearest place of each gate; its posts are marked.
+  study::Scene::Target gates{"gates", {}, {}, errors.x, errors.y, design.angles, problem.closed};
+  study::Scene::Target posts{"gate posts", {}, {}, {}, {}, {}, false};
+  for (std::size_t k = 0; k < problem.x.size(); ++k) {
+    const TargetMiss miss = target_offset(problem, k, errors.x[k], errors.y[k]);
+    gates.x.push_back(std::isfinite(miss.x) ? errors.x[k] - miss.x : problem.x[k]);
+    gates.y.push_back(std::isfinite(miss.y) ? errors.y[k] - miss.y : problem.y[k]);
+    for (double side : {-1.0, 1.0}) {
+      posts.x.push_back(problem.x[k] + side * problem.gate_x[k]);
+      posts.y.push_back(problem.y[k] + side * problem.gate_y[k]);
+      posts.achieved_input.push_back(design.angles[k]);
+    }
+  }
+  posts.achieved_x = posts.x;
+  posts.achieved_y = posts.y;
+  scene.targets = {std::move(gates), std::move(posts)};
   return scene;
 }
 
@@ -257,6 +277,10 @@ Table point_table(const PathProblem& problem, const PathDesign& design, std::str
   table.add("x_m", "reached x (m)", errors.x);
   table.add("y_m", "reached y (m)", errors.y);
   table.add("distance_m", "distance (m)", errors.distance);
+  if (!problem.tolerance.empty()) {
+    table.add("tolerance_m", "tolerance (m)", problem.tolerance);
+    table.add("excess_m", "distance beyond the tolerance (m)", errors.excess);
+  }
   return table;
 }
 

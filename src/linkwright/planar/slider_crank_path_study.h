@@ -107,7 +107,10 @@ struct SliderPathTarget : PathPointsForm {
 template <class Visitor>
 void fields(Visitor&& visit, SliderPathTarget& t) {
   visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
-  visit(Field{.key = "closed", .summary = "the last point is followed by the first"}, t.closed);
+  visit(Field{.key = "closed",
+              .summary =
+                  "the last point is followed by the first; without this key so when the last repeats it"},
+        t.closed);
   visit(Field{.key = "timing", .summary = "how crank angles are tied to the points"}, t.timing);
   fields(visit, static_cast<PathPointsForm&>(t));
 }
@@ -115,10 +118,11 @@ void fields(Visitor&& visit, SliderPathTarget& t) {
 /// What is minimised; both together give a front.
 enum class SliderObjectiveType { sum_squared_distance, stroke };
 constexpr std::array<EnumName<SliderObjectiveType>, 2> names(SliderObjectiveType) {
-  return {{{SliderObjectiveType::sum_squared_distance, "path.sum_squared_distance",
-            "sum over the points of the squared distance (Boskovic 2018, Eqs. (4.14), (4.18))"},
-           {SliderObjectiveType::stroke, "slider.stroke",
-            "way of the slider over a full turn, beside the path: a front (Boskovic 2018, Eqs. (4.17)-(4.19))"}}};
+  return {
+      {{SliderObjectiveType::sum_squared_distance, "path.sum_squared_distance",
+        "sum over the points of the squared distance (Boskovic 2018, Eqs. (4.14), (4.18))"},
+       {SliderObjectiveType::stroke, "slider.stroke",
+        "way of the slider over a full turn, beside the path: a front (Boskovic 2018, Eqs. (4.17)-(4.19))"}}};
 }
 struct SliderObjectiveEntry {
   SliderObjectiveType type = SliderObjectiveType::sum_squared_distance;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "linkwright/planar/slider_crank_path_study.h"
 #include "linkwright/study/bind_write.h"
@@ -44,8 +45,7 @@ void read_timing(study::ObjectReader& target, SliderPathStudy& s) {
       for (const double increment : *t.increments) offsets.push_back(offsets.back() + increment);
     }
   } else if (t.increments) {
-    target.error("timing",
-                 fmt::format("increments go with mode increments, the mode is {}", name_of(t.mode)),
+    target.error("timing", fmt::format("increments go with mode increments, the mode is {}", name_of(t.mode)),
                  "remove the increments");
   }
   if (t.mode == SliderTiming::given) {
@@ -68,6 +68,35 @@ bool starts_anywhere(const SliderPathStudy& s) {
   return mode == SliderTiming::equal_steps || mode == SliderTiming::increments;
 }
 
+// Crank rotation that the timing gives from the first to the last of so many points.
+std::optional<double> turned(const SliderPathTiming& t, std::size_t points) {
+  if (t.mode == SliderTiming::equal_steps && t.step) return *t.step * static_cast<double>(points - 1);
+  if (t.mode == SliderTiming::increments && t.increments && t.increments->size() + 1 == points)
+    return std::accumulate(t.increments->begin(), t.increments->end(), 0.0);
+  if (t.mode == SliderTiming::given && t.angles && t.angles->size() == points)
+    return t.angles->back() - t.angles->front();
+  return std::nullopt;
+}
+
+// The points; what the timing gives for a closing point goes with it.
+void set_points(study::ObjectReader& target, const study::Common& common, SliderPathStudy& s) {
+  PathPoints points;
+  read_path_points(target, common, s.target, points.x, points.y);
+  const std::size_t n = points.x.size();
+  if (n > 0) {
+    SliderPathTiming& t = s.target.timing;
+    const std::optional<double> rotation = turned(t, n);
+    if (leave_out_closing_target(target, s.target.points_file ? "points_file" : "points", s.target.closed,
+                                 rotation, points) &&
+        rotation && is_one_turn(*rotation)) {
+      if (t.mode == SliderTiming::increments) t.increments->pop_back();
+      if (t.mode == SliderTiming::given) t.angles->pop_back();
+    }
+  }
+  s.problem.x = std::move(points.x);
+  s.problem.y = std::move(points.y);
+}
+
 void set_bounds(study::ObjectReader& mechanism, SliderPathStudy& s) {
   if (s.problem.x.size() < 3 || s.problem.x.size() != s.problem.y.size()) return;
   s.problem.bounds = derive_slider_bounds(s.problem.x, s.problem.y);
@@ -80,8 +109,8 @@ void set_bounds(study::ObjectReader& mechanism, SliderPathStudy& s) {
   }
   if (starts_anywhere(s)) return;
   if (s.mechanism.parameters.ranges[index(P::start_angle)])
-    mechanism.warning("parameters", fmt::format("start_angle has no use: the timing is {}",
-                                                name_of(s.target.timing.mode)));
+    mechanism.warning("parameters",
+                      fmt::format("start_angle has no use: the timing is {}", name_of(s.target.timing.mode)));
   s.problem.bounds[index(P::start_angle)] = {0, 0};
 }
 
@@ -124,10 +153,10 @@ void set_constraints(study::ObjectReader& document, SliderPathStudy& s) {
     }
   }
   if (p.stroke.lower > p.stroke.upper)
-    document.error("constraint",
-                   fmt::format("the stroke is to be {} m at least and {} m at most", p.stroke.lower,
-                               p.stroke.upper),
-                   "give min less than max");
+    document.error(
+        "constraint",
+        fmt::format("the stroke is to be {} m at least and {} m at most", p.stroke.lower, p.stroke.upper),
+        "give min less than max");
   // A closed path is traced by a crank that goes round.
   if (p.closed) p.crank_rotates_fully = true;
   if ((limited || s.front) && !p.crank_rotates_fully)
@@ -149,7 +178,8 @@ void set_objectives(study::ObjectReader& document, SliderPathStudy& s) {
   const auto* nsga2 = std::get_if<FrontMethod<optimise::Nsga2Options>>(&s.optimiser.method);
   const auto* moead = std::get_if<FrontMethod<optimise::MoeadOptions>>(&s.optimiser.method);
   if ((nsga2 || moead) && !s.front)
-    document.error("optimiser", fmt::format("{} gives fronts of several objectives", nsga2 ? "nsga2" : "moead"),
+    document.error("optimiser",
+                   fmt::format("{} gives fronts of several objectives", nsga2 ? "nsga2" : "moead"),
                    "add [[objective]] type = \"slider.stroke\", or take another method");
   if (nsga2 && nsga2->options.population % 4 != 0)
     document.error("optimiser", fmt::format("nsga2 has a population of {}", nsga2->options.population),
@@ -169,7 +199,7 @@ SliderPathStudy read_slider_path_study(study::ObjectReader& document, const stud
     mechanism->read(s.mechanism);
   if (auto target = document.table(Field{.key = "target", .summary = {}, .required = true})) {
     target->read(s.target);
-    read_path_points(*target, common, s.target, s.target.closed, s.problem.x, s.problem.y);
+    set_points(*target, common, s);
     read_timing(*target, s);
   }
   document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
@@ -187,7 +217,8 @@ study::Kind slider_path_kind() {
   kind.kind = "synthesis";
   kind.mechanism = "planar.slider_crank";
   kind.target = "path_points";
-  kind.summary = "slider-crank with an inclined, offset guide whose rod point traces a path, also with a short stroke";
+  kind.summary =
+      "slider-crank with an inclined, offset guide whose rod point traces a path, also with a short stroke";
   kind.seeded = true;
   kind.example = R"(# linkwright study: a slider-crank whose rod point traces a closed path
 schema = 1
@@ -232,7 +263,8 @@ seeds  = { first = 1, count = 2 }
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "the slider-crank"},
                       study::schema_fields<SliderPathMechanism>());
-    document.property(Field{.key = "target", .summary = "the path"}, study::schema_fields<SliderPathTarget>());
+    document.property(Field{.key = "target", .summary = "the path"},
+                      study::schema_fields<SliderPathTarget>());
     document.property(Field{.key = "objective", .summary = "what is minimised"},
                       study::schema_array(study::schema_fields<SliderObjectiveEntry>()));
     document.property(Field{.key = "constraint", .summary = "what must hold"},

@@ -375,8 +375,8 @@ void ObjectReader::error(std::string_view key, std::string message, std::string 
 }
 
 void ObjectReader::warning(std::string_view key, std::string message, std::string hint) {
-  document_->report(Diagnostic::Severity::warning, object_->position, join_path(path(), key),
-                    std::move(message), std::move(hint));
+  report_at(key, std::move(message), std::move(hint));
+  document_->diagnostics_.back().severity = Diagnostic::Severity::warning;
 }
 
 std::optional<ObjectReader> ObjectReader::open(const Found& found) {
