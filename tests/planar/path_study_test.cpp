@@ -58,6 +58,9 @@ TEST(PathStudyRead, TimingMustFit) {
   EXPECT_THAT(
       problems_of(target(std::string(square) + "timing = { mode = \"equal_step\", step_deg = 10 }\n")),
       HasSubstr("equal_steps"));
+  EXPECT_THAT(
+      problems_of(target(std::string(square) + "timing = { mode = \"equal_steps\", step_deg = 400 }\n")),
+      HasSubstr("the step is 400 deg, it must not be zero nor more than a turn"));
 }
 
 TEST(PathStudyRead, TellsAllProblemsAtOnce) {

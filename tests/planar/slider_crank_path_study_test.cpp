@@ -104,8 +104,11 @@ TEST(SliderPathStudyRead, ObjectivesLimitsAndMethodsMustFit) {
               HasSubstr("the stroke is that of a full turn"));
   EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"stroke\"\n"),
               HasSubstr("the stroke has no limit"));
-  EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"stroke\"\nmin_m = 2\nmax_m = 1\n"),
-              HasSubstr("2 m at least and 1 m at most"));
+  EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"stroke\"\nmin_mm = 2\nmax_mm = 1\n"),
+              HasSubstr("2 mm at least and 1 mm at most"));
+  EXPECT_THAT(
+      problems_of(target(std::string(square) + "timing = { mode = \"equal_steps\", step_deg = 400 }\n")),
+      HasSubstr("the step is 400 deg, it must not be zero nor more than a turn"));
   EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"pressure_angle\"\nmax_deg = 100\n"),
               HasSubstr("90"));
   EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"transmission_angle\"\nmin_deg = 30\n"),

@@ -11,7 +11,7 @@
 namespace linkwright::planar {
 namespace {
 
-void read_timing(study::ObjectReader& target, PathStudy& s) {
+void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, PathStudy& s) {
   const PathTiming& t = s.target.timing;
   s.problem.timing = t.mode;
   const std::size_t n = s.problem.x.size();
@@ -20,8 +20,8 @@ void read_timing(study::ObjectReader& target, PathStudy& s) {
       target.error("timing", "equal_steps needs step_deg",
                    "for example timing = { mode = \"equal_steps\", step_deg = 20.0 }");
     } else if (*t.step == 0 || std::abs(*t.step) > 2 * std::numbers::pi) {
-      target.error("timing",
-                   fmt::format("the step is {:.6g} rad, it must not be zero nor more than a turn", *t.step));
+      target.error("timing", fmt::format("the step is {}, it must not be zero nor more than a turn",
+                                         units.text(*t.step, Dimension::angle, 6)));
     } else {
       s.problem.step = *t.step;
     }
@@ -213,7 +213,7 @@ PathStudy read_path_study(study::ObjectReader& document, const study::Common& co
   if (target) {
     target->read(s.target);
     set_targets(*target, common, s);
-    read_timing(*target, s);
+    read_timing(*target, common.units, s);
   }
   document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
   if (s.objectives.size() > 1)

@@ -15,7 +15,7 @@ namespace {
 using P = SliderParameter;
 constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
 
-void read_timing(study::ObjectReader& target, SliderPathStudy& s) {
+void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, SliderPathStudy& s) {
   const SliderPathTiming& t = s.target.timing;
   const std::size_t n = s.problem.x.size();
   s.problem.free_timing = t.mode == SliderTiming::free;
@@ -25,8 +25,8 @@ void read_timing(study::ObjectReader& target, SliderPathStudy& s) {
       target.error("timing", "equal_steps needs step_deg",
                    "for example timing = { mode = \"equal_steps\", step_deg = 20.0 }");
     } else if (*t.step == 0 || std::abs(*t.step) > 2 * pi) {
-      target.error("timing",
-                   fmt::format("the step is {:.6g} rad, it must not be zero nor more than a turn", *t.step));
+      target.error("timing", fmt::format("the step is {}, it must not be zero nor more than a turn",
+                                         units.text(*t.step, Dimension::angle, 6)));
     } else {
       for (std::size_t k = 0; k < n; ++k) offsets.push_back(*t.step * static_cast<double>(k));
     }
@@ -129,7 +129,7 @@ void set_search(SliderPathStudy& s) {
   p.search_negative = sense != SenseChoice::positive;
 }
 
-void set_constraints(study::ObjectReader& document, SliderPathStudy& s) {
+void set_constraints(study::ObjectReader& document, const study::DisplayUnits& units, SliderPathStudy& s) {
   SliderPathProblem& p = s.problem;
   p.crank_rotates_fully = false;
   bool limited = false;
@@ -153,10 +153,11 @@ void set_constraints(study::ObjectReader& document, SliderPathStudy& s) {
     }
   }
   if (p.stroke.lower > p.stroke.upper)
-    document.error(
-        "constraint",
-        fmt::format("the stroke is to be {} m at least and {} m at most", p.stroke.lower, p.stroke.upper),
-        "give min less than max");
+    document.error("constraint",
+                   fmt::format("the stroke is to be {} at least and {} at most",
+                               units.text(p.stroke.lower, Dimension::length, 6),
+                               units.text(p.stroke.upper, Dimension::length, 6)),
+                   "give min less than max");
   // A closed path is traced by a crank that goes round.
   if (p.closed) p.crank_rotates_fully = true;
   if ((limited || s.front) && !p.crank_rotates_fully)
@@ -200,7 +201,7 @@ SliderPathStudy read_slider_path_study(study::ObjectReader& document, const stud
   if (auto target = document.table(Field{.key = "target", .summary = {}, .required = true})) {
     target->read(s.target);
     set_points(*target, common, s);
-    read_timing(*target, s);
+    read_timing(*target, common.units, s);
   }
   document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
   document(Field{.key = "constraint", .summary = "what must hold"}, s.constraints);
@@ -208,7 +209,7 @@ SliderPathStudy read_slider_path_study(study::ObjectReader& document, const stud
   if (auto mechanism = document.table("mechanism")) set_bounds(*mechanism, s);
   set_objectives(document, s);
   set_search(s);
-  set_constraints(document, s);
+  set_constraints(document, common.units, s);
   return s;
 }
 
