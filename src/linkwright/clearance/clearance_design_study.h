@@ -340,7 +340,10 @@ struct DesignMeasures {
   double work_mean = 0;  ///< mean of sin(lead) weighted by the tension
   std::vector<DesignRow> rows;
 };
-DesignMeasures measure_design(const ClearanceDesignStudy& study, const ClearanceDesignValues& values);
+/// Looks at `context`, if there is one, while the motion is integrated: an interruption leaves the rows so
+/// far.
+DesignMeasures measure_design(const ClearanceDesignStudy& study, const ClearanceDesignValues& values,
+                              const RunContext* context = nullptr);
 
 /// Lead of a row, within half a turn of the wanted one.
 double lead_of(const ClearanceDesignStudy& study, const DesignRow& row);
@@ -354,6 +357,6 @@ std::vector<Table> design_linkage_tables(const ClearanceDesignStudy& study, cons
 study::Scene design_scene(const ClearanceDesignStudy& study, const DesignMeasures& design);
 
 study::Result report_clearance_design(const ClearanceDesignStudy& study, const study::Common& common,
-                                      const ClearanceDesignRuns& runs);
+                                      const ClearanceDesignRuns& runs, const RunContext& context);
 
 }  // namespace linkwright::clearance

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -54,8 +55,9 @@ double wrapped_degrees(double angle) {
 
 class Reporter {
  public:
-  Reporter(const ClearanceDesignStudy& s, const study::Common& common, const ClearanceDesignRuns& runs)
-      : s_(s), common_(common), runs_(runs) {}
+  Reporter(const ClearanceDesignStudy& s, const study::Common& common, const ClearanceDesignRuns& runs,
+           const RunContext& context)
+      : s_(s), common_(common), runs_(runs), context_(context) {}
 
   study::Result report() {
     result_.status = runs_.status;
@@ -70,8 +72,14 @@ class Reporter {
     if (result_.status == Status::done) result_.status = answer_->status;
     feasible_ = std::isfinite(answer_->cost);
     if (result_.status == Status::done && !feasible_) result_.status = Status::infeasible;
-    d_ = measure_design(s_, answer_->best);
-    if (s_.reference) before_ = measure_design(s_, *s_.reference);
+    // Of an interrupted search the figures come as far as that takes no time of its own.
+    RunContext last;
+    last.set_time_limit(std::chrono::milliseconds(200));
+    const RunContext& limit = context_.interrupted() ? last : context_;
+    d_ = measure_design(s_, answer_->best, &limit);
+    if (s_.reference) before_ = measure_design(s_, *s_.reference, &limit);
+    if (const Status why = limit.interruption(); why != Status::done && result_.status == Status::done)
+      result_.status = why;
     solution();
     statistics();
     design_table();
@@ -339,8 +347,9 @@ class Reporter {
       for (std::size_t k = 0; k < d_.reached.size(); ++k)
         if (off(k) > off(worst)) worst = k;
       fact(s_.has_masses() ? "path error on the motion" : "path error with the presumed lead",
-           fmt::format("root mean square {}, at most {} at point {}", metres(d_.rms), metres(d_.largest),
-                       worst + 1),
+           std::isfinite(d_.rms) ? fmt::format("root mean square {}, at most {} at point {}", metres(d_.rms),
+                                               metres(d_.largest), worst + 1)
+                                 : std::string("not known: the motion does not reach every point"),
            feasible_ ? Verdict::good : Verdict::bad);
       if (s_.has_masses())
         fact("path error with the presumed lead",
@@ -467,6 +476,7 @@ class Reporter {
   const ClearanceDesignStudy& s_;
   const study::Common& common_;
   const ClearanceDesignRuns& runs_;
+  const RunContext& context_;
   const ClearanceDesignAnswer* answer_ = nullptr;
   DesignMeasures d_;
   std::optional<DesignMeasures> before_;
@@ -478,8 +488,8 @@ class Reporter {
 }  // namespace
 
 study::Result report_clearance_design(const ClearanceDesignStudy& study, const study::Common& common,
-                                      const ClearanceDesignRuns& runs) {
-  return Reporter(study, common, runs).report();
+                                      const ClearanceDesignRuns& runs, const RunContext& context) {
+  return Reporter(study, common, runs, context).report();
 }
 
 }  // namespace linkwright::clearance

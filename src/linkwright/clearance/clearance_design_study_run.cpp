@@ -111,14 +111,15 @@ ClearanceDesignAnswer answer_of(const ClearanceDesignStudy& s, std::uint64_t see
     }
   }
   out.log.clear();  // of one stage, while the cost is of both
-  const DesignMeasures measured = measure_design(s, out.best);
+  const DesignMeasures measured = measure_design(s, out.best, &context);
   if (measured.repeats && std::isfinite(measured.rms)) out.cost = measured.rms;
+  if (const Status why = context.interruption(); why != Status::done) out.status = why;
   return out;
 }
 
 // The turn from `start`, its rows, and where the tracing point is at the angles of the path.
 void follow_turn(const ClearanceDesignStudy& s, const EvenCrank& crank, const LinkState& start,
-                 std::span<const double> angles, DesignMeasures& out) {
+                 std::span<const double> angles, const RunContext* context, DesignMeasures& out) {
   const double sense = std::copysign(1.0, crank.speed), period = turn / std::abs(crank.speed);
   const auto count = static_cast<std::size_t>(s.samples);
   std::vector<std::pair<double, std::size_t>> order;  // time; row, or after the rows the point of the path
@@ -135,25 +136,26 @@ void follow_turn(const ClearanceDesignStudy& s, const EvenCrank& crank, const Li
   std::size_t next = 0;
   double least = infinity, weighted = 0, tension = 0;
   out.reached.assign(angles.size(), {infinity, infinity});
-  out.run = simulate_clearance(out.model, math::ConstantSpeed{crank.angle, crank.speed}, start, times,
-                               s.mass.tolerances, [&](const ClearanceRow& now) {
-                                 const std::size_t i = order[next++].second;
-                                 if (i >= count) {
-                                   out.reached[i - count] = now.instant->position.point;
-                                   return true;
-                                 }
-                                 out.rows.push_back({now.crank.value, now.time, now.link, *now.instant});
-                                 if (now.instant->tension < least) {
-                                   least = now.instant->tension;
-                                   out.least_at = now.crank.value;
-                                 }
-                                 if (i + 1 < count) {  // the last row is the first one of the next turn
-                                   weighted +=
-                                       now.instant->tension * std::sin(now.link.angle - now.crank.value);
-                                   tension += now.instant->tension;
-                                 }
-                                 return true;
-                               });
+  out.run = simulate_clearance(
+      out.model, math::ConstantSpeed{crank.angle, crank.speed}, start, times, s.mass.tolerances,
+      [&](const ClearanceRow& now) {
+        const std::size_t i = order[next++].second;
+        if (i >= count) {
+          out.reached[i - count] = now.instant->position.point;
+          return true;
+        }
+        out.rows.push_back({now.crank.value, now.time, now.link, *now.instant});
+        if (now.instant->tension < least) {
+          least = now.instant->tension;
+          out.least_at = now.crank.value;
+        }
+        if (i + 1 < count) {  // the last row is the first one of the next turn
+          weighted += now.instant->tension * std::sin(now.link.angle - now.crank.value);
+          tension += now.instant->tension;
+        }
+        return true;
+      },
+      context);
   out.work_mean = weighted / tension;
 }
 
@@ -183,7 +185,8 @@ CostName cost_name(const ClearanceDesignStudy& s) {
              : CostName{"first_turn_error_rad", "lead objective F2 of the first turn (rad)"};
 }
 
-DesignMeasures measure_design(const ClearanceDesignStudy& s, const ClearanceDesignValues& values) {
+DesignMeasures measure_design(const ClearanceDesignStudy& s, const ClearanceDesignValues& values,
+                              const RunContext* context) {
   DesignMeasures out;
   out.model = s.mass.model;
   std::vector<double> angles;
@@ -198,12 +201,12 @@ DesignMeasures measure_design(const ClearanceDesignStudy& s, const ClearanceDesi
     ClearanceMassProblem mass = s.mass;
     mass.model = out.model;
     out.model = with_masses(out.model, values.masses);
-    out.motion = clearance_mass_design(mass, values.masses);
+    out.motion = clearance_mass_design(mass, values.masses, context);
     out.repeats = out.motion.status == Status::done;
     follow_turn(s, mass.crank,
                 out.repeats ? out.motion.orbit.start(mass.crank)
                             : LinkState{mass.crank.angle + mass.lead, mass.crank.speed},
-                angles, out);
+                angles, context, out);
   } else {
     follow_presumed(s, out);
   }
@@ -272,7 +275,7 @@ study::Result run_clearance_design(const ClearanceDesignStudy& s, const study::C
       [](const ClearanceDesignAnswer& a) { return a.cost; },
       [](const ClearanceDesignAnswer& a) { return kept(a); },
       [&](const Value& value, std::string_view what) { return restored(value, s, what); });
-  return report_clearance_design(s, common, runs);
+  return report_clearance_design(s, common, runs, context);
 }
 
 }  // namespace linkwright::clearance

@@ -301,9 +301,9 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
   // An interrupted search tells its best as far as that takes no time of its own.
   RunContext last;
   last.set_time_limit(std::chrono::milliseconds(200));
-  ClearanceMassDesign out = clearance_mass_design(p, x, interrupted == Status::done ? nullptr : &last);
+  ClearanceMassDesign out = clearance_mass_design(p, x, interrupted == Status::done ? &context : &last);
   out.evaluations = evaluations;
-  if (interrupted != Status::done) out.status = interrupted;
+  if (const Status why = context.interruption(); why != Status::done) out.status = why;
   return out;
 }
 
