@@ -227,6 +227,16 @@ inline void compare_sweep(const SweptLinkage& s, std::uint64_t number, int start
       same = same || apart(follower.motion().parts, motion.parts, p.size) < 1e-5;
       if (same) break;
     }
+    // A drawing that stands at a dead point, to rounding, cannot be left by the other way, but it can be
+    // reached.
+    if (motion.status == Status::done && !there) {
+      follower.motion().parts.assign(motion.parts.begin(), motion.parts.end());
+      if (follower.solve(value) && std::abs(follower.go(value, drawn, first_step) - drawn) <= 1e-8 * width &&
+          apart(follower.motion().parts, start, p.size) < 1e-3) {
+        ++out.singular;
+        continue;
+      }
+    }
     if (motion.status == Status::done) {
       // Closed forms keep their sign beyond a gap in the range of the input.
       if (!there && general) ++out.invented, fault("a place that the other way does not have", value);
