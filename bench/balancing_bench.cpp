@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "linkwright/planar/mass_balancing.h"
-#include "linkwright/planar/samples.h"
 #include "linkwright/planar/serial_arm_balancing.h"
+#include "linkwright/planar/serial_arm_samples.h"
 
 namespace linkwright::planar {
 namespace {

@@ -10,7 +10,7 @@
 #include "linkwright/app/sha256.h"
 #include "linkwright/optimise/methods.h"
 #include "linkwright/planar/path_checkpoint.h"
-#include "linkwright/planar/samples.h"
+#include "linkwright/planar/path_eighteen_points.h"
 #include "linkwright/study/read.h"
 
 namespace {

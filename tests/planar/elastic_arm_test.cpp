@@ -4,7 +4,7 @@
 #include <numbers>
 #include <span>
 
-#include "elastic_bodies.h"
+#include "planar/elastic_bodies.h"
 #include "support/published.h"
 
 // An arm of one elastic body against the figures of tests/published/flexible-link.json: the beam of Boskovic

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "elastic_bodies.h"
 #include "linkwright/planar/linkage_coordinates.h"
+#include "planar/elastic_bodies.h"
 #include "support/message.h"
 
 namespace linkwright::planar {

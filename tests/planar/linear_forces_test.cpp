@@ -12,7 +12,6 @@
 #include "linkwright/planar/linkage_columns.h"
 #include "linkwright/planar/linkage_reactions.h"
 #include "linkwright/planar/linkage_samples.h"
-#include "linkwright/planar/samples.h"
 #include "linkwright/planar/serial_arm_reactions.h"
 #include "planar/reactions_cases.h"
 #include "planar/serial_arm_cases.h"

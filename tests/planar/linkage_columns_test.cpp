@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "linkages.h"
+#include "planar/linkages.h"
 
 namespace linkwright::planar {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "linkwright/core/check.h"
-#include "simulations.h"
+#include "planar/simulations.h"
 #include "support/message.h"
 
 namespace linkwright::planar {

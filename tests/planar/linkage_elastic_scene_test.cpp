@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "elastic_bodies.h"
+#include "planar/elastic_bodies.h"
 
 namespace linkwright::planar {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "elastic_bodies.h"
 #include "linkwright/core/memory.h"
 #include "linkwright/study/write.h"
+#include "planar/elastic_bodies.h"
 #include "planar/studies.h"
 
 namespace linkwright::planar {

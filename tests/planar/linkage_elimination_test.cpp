@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "elastic_bodies.h"
 #include "linkwright/planar/linkage_samples.h"
+#include "planar/elastic_bodies.h"
 #include "support/message.h"
 
 namespace linkwright::planar {

@@ -7,7 +7,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/looks.h"
-#include "simulations.h"
+#include "planar/simulations.h"
 #include "support/message.h"
 
 namespace linkwright::planar {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "linkages.h"
+#include "planar/linkages.h"
 
 namespace linkwright::planar {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/run_context.h"
-#include "linkwright/planar/samples.h"
+#include "linkwright/planar/path_eighteen_points.h"
 
 namespace linkwright::planar {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "linkwright/planar/samples.h"
+#include "linkwright/planar/path_eighteen_points.h"
 
 namespace linkwright::planar {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "linkwright/optimise/minimise.h"
-#include "linkwright/planar/samples.h"
+#include "linkwright/planar/serial_arm_samples.h"
 #include "planar/reactions_cases.h"
 #include "support/message.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "linkwright/planar/measures.h"
-#include "linkwright/planar/samples.h"
+#include "linkwright/planar/serial_arm_samples.h"
 #include "planar/serial_arm_cases.h"
 #include "support/allocations.h"
 #include "support/message.h"

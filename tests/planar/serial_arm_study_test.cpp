@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "linkwright/planar/samples.h"
 #include "linkwright/planar/serial_arm_reactions.h"
 #include "linkwright/study/write.h"
 #include "planar/studies.h"

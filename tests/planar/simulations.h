@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "linkages.h"
 #include "linkwright/planar/linkage_coordinates.h"
 #include "linkwright/planar/linkage_dynamics.h"
 #include "linkwright/planar/linkage_simulation.h"
+#include "planar/linkages.h"
 
 namespace linkwright::planar::testing {
 

@@ -5,6 +5,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/planar/four_bar_kernel.h"
+#include "linkwright/planar/loop_gap.h"
 
 namespace linkwright::planar {
 

@@ -6,6 +6,7 @@
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/planar/four_bar_forces_kernel.h"
+#include "linkwright/planar/loop_gap.h"
 
 namespace linkwright::planar {
 FourBarRates rates(const FourBar& linkage, double crank_angle, double crank_speed,

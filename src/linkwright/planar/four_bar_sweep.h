@@ -8,7 +8,7 @@
 
 #include "linkwright/core/status.h"
 #include "linkwright/planar/four_bar_reactions.h"
-#include "linkwright/planar/linkage_sweep.h"
+#include "linkwright/planar/sweep_input.h"
 
 namespace linkwright::planar {
 

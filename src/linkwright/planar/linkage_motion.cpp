@@ -6,9 +6,9 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/tolerance.h"
-#include "linkwright/planar/four_bar_kernel.h"
 #include "linkwright/planar/linkage_general.h"
 #include "linkwright/planar/linkage_triangle.h"
+#include "linkwright/planar/loop_gap.h"
 
 namespace linkwright::planar {
 namespace {

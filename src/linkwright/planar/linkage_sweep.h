@@ -8,6 +8,7 @@
 
 #include "linkwright/core/status.h"
 #include "linkwright/planar/linkage_reactions.h"
+#include "linkwright/planar/sweep_input.h"
 
 namespace linkwright::planar {
 
@@ -37,17 +38,11 @@ enum class GroupRow { radicand, sine };
 /// Rows of the ground, as in LinkageForces.
 enum class ShakingRow { force_x, force_y, moment_with_drive };
 
-/// One input over the samples: values (rad or m), and rates and accelerations: as many, or one for all
-/// samples, or none for zero.
-struct SweepInput {
-  std::span<const double> value, rate, acceleration;
-};
-
 /// Positions, rates and joint forces of one linkage at many inputs: flat rows, one number a sample. Dyads and
 /// drivers are solved as many samples at a time as a SIMD register holds, by the formulas of
 /// linkage_kernel.h; plans with general groups or gears, and forces with springs, loads, friction or welds,
-/// go sample by sample, general groups on the assembly mode that their drawing shows (LinkageAssembly). Both ways
-/// agree up to rounding.
+/// go sample by sample, general groups on the assembly mode that their drawing shows (LinkageAssembly). Both
+/// ways agree up to rounding.
 ///
 /// Make one a linkage (and thread) and run it again and again: nothing is allocated while the number of
 /// samples does not grow (but for friction, welds and a sweep that follows general groups).

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linkwright/planar/four_bar_kernel.h"
+#include "linkwright/planar/loop_gap.h"
 
 namespace linkwright::planar {
 namespace {

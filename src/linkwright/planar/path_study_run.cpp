@@ -11,9 +11,9 @@
 #include "linkwright/planar/four_bar_classify.h"
 #include "linkwright/planar/path_checkpoint.h"
 #include "linkwright/planar/path_defects.h"
+#include "linkwright/planar/path_eighteen_points.h"
 #include "linkwright/planar/path_study.h"
 #include "linkwright/planar/path_usability.h"
-#include "linkwright/planar/samples.h"
 #include "linkwright/planar/scenes.h"
 #include "linkwright/study/run_seeds.h"
 

@@ -9,8 +9,8 @@
 
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/optimise/statistics.h"
+#include "linkwright/planar/path_eighteen_points.h"
 #include "linkwright/planar/path_synthesis.h"
-#include "linkwright/planar/samples.h"
 #include "linkwright/planar/slider_crank_path_samples.h"
 #include "linkwright/planar/slider_crank_path_synthesis.h"
 
@@ -33,10 +33,11 @@ void add_grey_wolf(Rows& rows, const optimise::Problem& problem, double publishe
   const optimise::SeedsReport report =
       optimise::minimise_seeds(problem, wolves, options, {1, wolf_seeds}, published * 1.01, context);
   const auto add = [&](const char* what, double ours) {
-    rows.push_back({fmt::format("grey wolf, 30 wolves, 50 generations, {} seeds: {} path error, m2", wolf_seeds, what),
-                    source, published, ours, ours <= published * 1.01 ? "reproduced" : "not reproduced",
-                    fmt::format("{} of {} seeds come within 1 % of the printed error", report.statistics.successes,
-                                wolf_seeds)});
+    rows.push_back(
+        {fmt::format("grey wolf, 30 wolves, 50 generations, {} seeds: {} path error, m2", wolf_seeds, what),
+         source, published, ours, ours <= published * 1.01 ? "reproduced" : "not reproduced",
+         fmt::format("{} of {} seeds come within 1 % of the printed error", report.statistics.successes,
+                     wolf_seeds)});
   };
   add("best", report.statistics.best);
   add("median", report.statistics.median);
@@ -78,10 +79,12 @@ Rows slider_cranks(std::span<const PublishedSliderCrank> designs, const std::str
                     fmt::format("{:+.2f} %; rounding of the printed numbers does not explain it",
                                 100 * (d.error / published.published_error - 1))});
     rows.push_back({of + "abscissa of the tracing point at the first crank angle, m", source,
-                    published.published_stroke, slider_crank_pose(published.mechanism, published.start_angle).point.real(),
-                    "corrected", "printed as stroke"});
-    rows.push_back({of + "stroke over a full turn, m", source, nan, d.stroke, "not printed",
-                    fmt::format("least distance from not turning: {:.4g} m", rotation_margin(d.mechanism.parameters))});
+                    published.published_stroke,
+                    slider_crank_pose(published.mechanism, published.start_angle).point.real(), "corrected",
+                    "printed as stroke"});
+    rows.push_back(
+        {of + "stroke over a full turn, m", source, nan, d.stroke, "not printed",
+         fmt::format("least distance from not turning: {:.4g} m", rotation_margin(d.mechanism.parameters))});
   }
   if (!with_front) {
     const SliderPathSynthesis found = synthesise_slider_path(p, {.seed = 1, .progress = false}, context);
@@ -90,8 +93,8 @@ Rows slider_cranks(std::span<const PublishedSliderCrank> designs, const std::str
                       found.designs[0].error,
                       found.designs[0].error < designs[0].published_error ? "improved" : "not reached",
                       fmt::format("stroke {:.6f} m", found.designs[0].stroke)});
-    add_grey_wolf(rows, slider_path_population_problem(p, SliderSide::forward, 1), designs[0].published_error, source,
-                  context);
+    add_grey_wolf(rows, slider_path_population_problem(p, SliderSide::forward, 1), designs[0].published_error,
+                  source, context);
     return rows;
   }
   // Of Table 4.2, whose design was made for the path alone: better in both.
@@ -100,10 +103,11 @@ Rows slider_cranks(std::span<const PublishedSliderCrank> designs, const std::str
   for (const PublishedSliderCrank& published : designs) {
     const SliderPathDesign d = measured(published);
     const bool dominated = single.error < d.error && single.stroke < d.stroke;
-    rows.push_back({published.label.substr(published.label.find(", ") + 2) +
-                        ": the design of the path alone is better in error and stroke (1 = yes)",
-                    source, 0, dominated ? 1.0 : 0.0, dominated ? "corrected" : "not reproduced",
-                    "a design of two objectives should not be worse in both than one that minimised the first"});
+    rows.push_back(
+        {published.label.substr(published.label.find(", ") + 2) +
+             ": the design of the path alone is better in error and stroke (1 = yes)",
+         source, 0, dominated ? 1.0 : 0.0, dominated ? "corrected" : "not reproduced",
+         "a design of two objectives should not be worse in both than one that minimised the first"});
     strokes.push_back(d.stroke);
     // The stroke that the printed error can have.
     strokes.push_back(0.47);
@@ -120,7 +124,8 @@ Rows slider_cranks(std::span<const PublishedSliderCrank> designs, const std::str
   };
   for (std::size_t i = 0; i < designs.size(); ++i) {
     const double ours = least(strokes[2 * i]);
-    rows.push_back({designs[i].label.substr(designs[i].label.find(", ") + 2) + ": least path error at its true stroke, m2",
+    rows.push_back({designs[i].label.substr(designs[i].label.find(", ") + 2) +
+                        ": least path error at its true stroke, m2",
                     source, designs[i].published_error, ours,
                     ours < designs[i].published_error ? "improved" : "not reached", ""});
   }
@@ -141,25 +146,32 @@ Rows several(const std::string& source, RunContext& context) {
 }
 
 const std::vector<std::string> four_bar_notes = {
-    "Branch open, sense +1, crank angle from the ground link, step 20 deg: the only convention that gives four of "
+    "Branch open, sense +1, crank angle from the ground link, step 20 deg: the only convention that gives "
+    "four of "
     "the six columns.",
-    "The column of Cabrera et al. 2007 prints 4.853543 twice and has lost a value; put right it is the row that "
+    "The column of Cabrera et al. 2007 prints 4.853543 twice and has lost a value; put right it is the row "
+    "that "
     "says so.",
-    "The published grey wolf setting does not come near the error printed for it; the design printed is good, so "
+    "The published grey wolf setting does not come near the error printed for it; the design printed is "
+    "good, so "
     "something else found it."};
 const std::vector<std::string> slider_notes = {
-    "The printed stroke is the abscissa of the tracing point at the first crank angle, in all five designs to 1e-5. "
+    "The printed stroke is the abscissa of the tracing point at the first crank angle, in all five designs "
+    "to 1e-5. "
     "The true stroke is not printed.",
-    "The offset H of the source is counted against the left normal of the guide; the other assembly mode is the "
+    "The offset H of the source is counted against the left normal of the guide; the other assembly mode is "
+    "the "
     "guide turned by half a turn with the opposite offset.",
     "Printed angles lie outside of the bounds 0 to 2 pi of Eq. (4.32) by whole turns."};
 
 }  // namespace
 
 std::vector<study::Reproduction> path_reproductions() {
-  const std::string thesis = "Boskovic 2018, Table ", paper = "Boskovic, Bulatovic, Salinic and Sredojevic, "
-                                                             "grey wolf for closed paths, Table ";
-  const auto entry = [](std::string id, std::string title, std::string source, const std::vector<std::string>& notes,
+  const std::string thesis = "Boskovic 2018, Table ", paper =
+                                                          "Boskovic, Bulatovic, Salinic and Sredojevic, "
+                                                          "grey wolf for closed paths, Table ";
+  const auto entry = [](std::string id, std::string title, std::string source,
+                        const std::vector<std::string>& notes,
                         Rows (*table)(const std::string&, RunContext&)) {
     return study::Reproduction{std::move(id), std::move(title), source, notes,
                                [table, source](RunContext& context) { return table(source, context); }};

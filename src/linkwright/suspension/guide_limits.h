@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "linkwright/suspension/design_numbers.h"
-#include "linkwright/suspension/link_fit.h"
+#include "linkwright/suspension/point_box.h"
 #include "linkwright/suspension/position.h"
 
 /// Room that the links of a guide keep: to each other, to the tyre, to the body. Links are straight lines

@@ -19,11 +19,6 @@ auto& point_of(Link& link, int place) {
 
 }  // namespace
 
-PointBox box_around(const Vec3& centre, double edge) {
-  const Vec3 half{edge / 2, edge / 2, edge / 2};
-  return {centre - half, centre + half};
-}
-
 LinkTask given_link(const GuideLink& link) {
   LinkTask task;
   task.name = link.name;

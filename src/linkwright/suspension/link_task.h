@@ -4,19 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/suspension/point_box.h"
 #include "linkwright/suspension/suspension.h"
 
 namespace linkwright::suspension {
-
-/// Where a point of a link may lie (m), in the frame of the vehicle with the carrier in its reference pose. A
-/// coordinate whose limits are equal is given.
-struct PointBox {
-  Vec3 lower;
-  Vec3 upper;
-};
-
-/// A cube of edge `edge` around a point.
-PointBox box_around(const Vec3& centre, double edge);
 
 /// A link to be found. Points needed: see GuideLink. Two points of one axis (RS, SR, RR, R) have a freedom
 /// along that axis, and the point of a strut on the carrier one along the strut: give one coordinate of each,

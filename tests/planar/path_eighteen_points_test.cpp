@@ -1,4 +1,4 @@
-#include "linkwright/planar/samples.h"
+#include "linkwright/planar/path_eighteen_points.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace linkwright::planar {
 namespace {
 
 // Points, bounds and designs are typed from the publication in two places: here against the reference file.
-TEST(Samples, EighteenPointsAreThePublishedOnes) {
+TEST(EighteenPoints, AreThePublishedOnes) {
   const PathProblem ours = eighteen_points();
   PathProblem stored;
   testing::set_points(stored, testing::at(testing::path_case("T4.1-Boskovic2018"), "inputs.target_points_m"));
@@ -20,7 +20,7 @@ TEST(Samples, EighteenPointsAreThePublishedOnes) {
                    testing::number_at(testing::path_case("T4.1-Boskovic2018"), "inputs.theta2_step_rad"));
 }
 
-TEST(Samples, PublishedDesignsReevaluateToTheStoredErrors) {
+TEST(EighteenPoints, PublishedDesignsReevaluateToTheStoredErrors) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"Kunjur and Krishnamurty 1997", "T4.1-KunjurKrishnamurty1997"},
       {"Cabrera et al. 2002", "T4.1-Cabrera2002"},

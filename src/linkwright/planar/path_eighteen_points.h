@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
 #include "linkwright/planar/path_problem.h"
-#include "linkwright/planar/serial_arm_reactions.h"
 
 namespace linkwright::planar {
 
@@ -26,12 +24,5 @@ PathProblem eighteen_points();
 /// The six designs of Boskovic 2018, Table 4.1, branch open, sense +1, and a seventh entry: the design of
 /// Cabrera 2007 with its shifted columns put right. Verdicts from re-evaluation.
 std::vector<PublishedPathDesign> eighteen_point_designs();
-
-/// The two-link arm with a payload of Boskovic 2018, Table 2.1; uniform rods.
-TwoRods two_link_arm();
-
-/// Its motion from (0, 0) to (pi, 3/2 pi) of the absolute angles, as the laws of both links. The source names
-/// neither the law nor the time: its three published objectives fix the cycloidal law and 10 s.
-std::array<math::MotionLaw, 2> two_link_motion();
 
 }  // namespace linkwright::planar

@@ -1,4 +1,4 @@
-#include "linkwright/planar/samples.h"
+#include "linkwright/planar/path_eighteen_points.h"
 
 #include <numbers>
 
@@ -58,18 +58,6 @@ std::vector<PublishedPathDesign> eighteen_point_designs() {
        0.84827, 0.00908, "reproduced",
        "to 0.2 %; no design within the rounding of the printed parameters reaches the last printed digit"},
   };
-}
-
-TwoRods two_link_arm() {
-  const auto rod = [](double length, double mass) {
-    return TwoRods::Rod{length, mass, mass * length * length / 12};
-  };
-  return {.rods = {rod(0.5, 12), rod(0.5, 6)}, .payload = 4};
-}
-
-std::array<math::MotionLaw, 2> two_link_motion() {
-  constexpr double pi = std::numbers::pi;
-  return {math::CycloidalMotion{0, pi, 0, 10}, math::CycloidalMotion{0, 3 * pi / 2, 0, 10}};
 }
 
 }  // namespace linkwright::planar
