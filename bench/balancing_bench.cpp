@@ -3,9 +3,9 @@
 #include <numbers>
 #include <vector>
 
-#include "linkwright/planar/mass_balancing.h"
-#include "linkwright/planar/serial_arm_balancing.h"
-#include "linkwright/planar/serial_arm_samples.h"
+#include "linkwright/planar/balancing/mass_redistribution.h"
+#include "linkwright/planar/balancing/serial_arm.h"
+#include "linkwright/planar/serial_arm/samples.h"
 
 namespace linkwright::planar {
 namespace {

@@ -21,8 +21,8 @@
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/optimise/parallel.h"
 #include "linkwright/optimise/statistics.h"
-#include "linkwright/planar/four_bar_balancing_samples.h"
-#include "linkwright/planar/four_bar_balancing_synthesis.h"
+#include "linkwright/planar/balancing/four_bar_samples.h"
+#include "linkwright/planar/balancing/four_bar_synthesis.h"
 
 namespace {
 

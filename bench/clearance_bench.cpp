@@ -9,9 +9,9 @@
 #include "linkwright/clearance/clearance_sensitivity.h"
 #include "linkwright/clearance/joint_orbit.h"
 #include "linkwright/clearance/published_clearance.h"
-#include "linkwright/planar/linkage_build.h"
-#include "linkwright/planar/linkage_dynamics.h"
-#include "linkwright/planar/linkage_samples.h"
+#include "linkwright/planar/linkage/build.h"
+#include "linkwright/planar/linkage/dynamics.h"
+#include "linkwright/planar/linkage/samples.h"
 
 namespace linkwright::clearance {
 namespace {

@@ -3,11 +3,11 @@
 #include <numbers>
 #include <vector>
 
-#include "linkwright/planar/linkage_general.h"
-#include "linkwright/planar/linkage_limits.h"
-#include "linkwright/planar/linkage_reactions.h"
-#include "linkwright/planar/linkage_samples.h"
-#include "linkwright/planar/linkage_sweep.h"
+#include "linkwright/planar/linkage/general.h"
+#include "linkwright/planar/linkage/limits.h"
+#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/samples.h"
+#include "linkwright/planar/linkage/sweep.h"
 
 namespace linkwright::planar {
 namespace {

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <vector>
 
-#include "linkwright/planar/elastic_body.h"
-#include "linkwright/planar/linkage_build.h"
-#include "linkwright/planar/linkage_coordinates.h"
-#include "linkwright/planar/linkage_dynamics.h"
-#include "linkwright/planar/linkage_samples.h"
+#include "linkwright/planar/linkage/build.h"
+#include "linkwright/planar/linkage/dynamics.h"
+#include "linkwright/planar/linkage/samples.h"
+#include "linkwright/planar/simulation/coordinates.h"
+#include "linkwright/planar/simulation/elastic_body.h"
 
 namespace linkwright::planar {
 namespace {

@@ -7,16 +7,16 @@
 
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/minimise.h"
-#include "linkwright/planar/four_bar_balancing_samples.h"
-#include "linkwright/planar/four_bar_reactions.h"
-#include "linkwright/planar/four_bar_sweep.h"
-#include "linkwright/planar/path_objective.h"
-#include "linkwright/planar/path_synthesis.h"
-#include "linkwright/planar/serial_arm_reactions.h"
-#include "linkwright/planar/slider_crank_path_objective.h"
-#include "linkwright/planar/slider_crank_path_projection.h"
-#include "linkwright/planar/slider_crank_path_samples.h"
-#include "linkwright/planar/slider_crank_path_synthesis.h"
+#include "linkwright/planar/balancing/four_bar_samples.h"
+#include "linkwright/planar/four_bar/reactions.h"
+#include "linkwright/planar/four_bar/sweep.h"
+#include "linkwright/planar/path/objective.h"
+#include "linkwright/planar/path/slider_crank_objective.h"
+#include "linkwright/planar/path/slider_crank_projection.h"
+#include "linkwright/planar/path/slider_crank_samples.h"
+#include "linkwright/planar/path/slider_crank_synthesis.h"
+#include "linkwright/planar/path/synthesis.h"
+#include "linkwright/planar/serial_arm/reactions.h"
 
 namespace linkwright::planar {
 namespace {

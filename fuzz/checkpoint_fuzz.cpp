@@ -9,8 +9,8 @@
 #include "linkwright/app/checkpoint_file.h"
 #include "linkwright/app/sha256.h"
 #include "linkwright/optimise/methods.h"
-#include "linkwright/planar/path_checkpoint.h"
-#include "linkwright/planar/path_eighteen_points.h"
+#include "linkwright/planar/path/checkpoint.h"
+#include "linkwright/planar/path/eighteen_points.h"
 #include "linkwright/study/read.h"
 
 namespace {

@@ -8,8 +8,8 @@
 #include <cstring>
 
 #include "linkwright/core/check.h"
-#include "linkwright/planar/cognates.h"
-#include "linkwright/planar/four_bar_classify.h"
+#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/cognates.h"
 #include "require.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

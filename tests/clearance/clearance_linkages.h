@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "linkwright/clearance/four_bar_clearance.h"
-#include "linkwright/planar/linkage_build.h"
+#include "linkwright/planar/linkage/build.h"
 
 namespace linkwright::clearance {
 

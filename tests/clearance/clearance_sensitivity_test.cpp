@@ -11,7 +11,7 @@
 #include "clearance/clearance_linkages.h"
 #include "clearance/published_four_bar.h"
 #include "linkwright/core/looks.h"
-#include "linkwright/planar/linkage_samples.h"
+#include "linkwright/planar/linkage/samples.h"
 #include "support/message.h"
 
 namespace linkwright::clearance {

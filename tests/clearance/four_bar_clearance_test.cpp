@@ -10,7 +10,7 @@
 #include "clearance/published_four_bar.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/four_bar_rates.h"
+#include "linkwright/planar/four_bar/rates.h"
 #include "support/message.h"
 
 namespace linkwright::clearance {

@@ -11,8 +11,8 @@
 #include "clearance/published_four_bar.h"
 #include "linkwright/clearance/four_bar_clearance_motion.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/linkage_coordinates.h"
-#include "linkwright/planar/linkage_samples.h"
+#include "linkwright/planar/linkage/samples.h"
+#include "linkwright/planar/simulation/coordinates.h"
 #include "support/message.h"
 
 namespace linkwright::clearance {

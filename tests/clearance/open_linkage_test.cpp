@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clearance/contact_cases.h"
-#include "linkwright/planar/linkage_samples.h"
+#include "linkwright/planar/linkage/samples.h"
 #include "support/message.h"
 
 namespace linkwright::clearance {

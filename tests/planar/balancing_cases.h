@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "linkwright/planar/four_bar_balancing.h"
+#include "linkwright/planar/balancing/four_bar.h"
 #include "planar/reactions_cases.h"
 
 namespace linkwright::planar::testing {

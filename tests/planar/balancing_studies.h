@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "linkwright/planar/balancing_study.h"
+#include "linkwright/planar/studies/balancing.h"
 #include "planar/studies.h"
 
 // Balancing studies as texts, and what is read from them.

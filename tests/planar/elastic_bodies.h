@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "linkwright/planar/elastic_body.h"
-#include "linkwright/planar/linkage_build.h"
-#include "linkwright/planar/linkage_dynamics.h"
+#include "linkwright/planar/linkage/build.h"
+#include "linkwright/planar/linkage/dynamics.h"
+#include "linkwright/planar/simulation/elastic_body.h"
 
 namespace linkwright::planar::testing {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <ostream>
 
-#include "linkwright/planar/four_bar.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "support/generators.h"
 
 namespace linkwright::planar {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "linkwright/planar/linkage_build.h"
-#include "linkwright/planar/linkage_plan.h"
-#include "linkwright/planar/linkage_samples.h"
+#include "linkwright/planar/linkage/build.h"
+#include "linkwright/planar/linkage/plan.h"
+#include "linkwright/planar/linkage/samples.h"
 
 // Linkages that tests of several units use.
 namespace linkwright::planar {

@@ -4,7 +4,7 @@
 #include <complex>
 #include <vector>
 
-#include "linkwright/planar/four_bar.h"
+#include "linkwright/planar/four_bar/four_bar.h"
 #include "planar/linkages.h"
 
 // The same linkage in another place, and other models as linkages.

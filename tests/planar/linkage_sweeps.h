@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "linkwright/core/random.h"
-#include "linkwright/planar/linkage_assembly.h"
-#include "linkwright/planar/linkage_build.h"
-#include "linkwright/planar/linkage_general.h"
-#include "linkwright/planar/linkage_modes.h"
+#include "linkwright/planar/linkage/assembly.h"
+#include "linkwright/planar/linkage/build.h"
+#include "linkwright/planar/linkage/general.h"
+#include "linkwright/planar/linkage/modes.h"
 
 // Random drawn linkages whose modes have no names, swept beyond the range of the mode that the drawing shows,
 // and what another way of following finds.

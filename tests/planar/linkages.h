@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
-#include "linkwright/planar/linkage_build.h"
-#include "linkwright/planar/linkage_reactions.h"
-#include "linkwright/planar/linkage_samples.h"
+#include "linkwright/planar/linkage/build.h"
+#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/samples.h"
 
 namespace linkwright::planar::testing {
 

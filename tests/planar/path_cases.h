@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "linkwright/planar/path_problem.h"
+#include "linkwright/planar/path/problem.h"
 #include "support/published.h"
 
 namespace linkwright::planar::testing {

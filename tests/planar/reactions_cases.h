@@ -7,7 +7,7 @@
 #include <complex>
 #include <string_view>
 
-#include "linkwright/planar/four_bar_reactions.h"
+#include "linkwright/planar/four_bar/reactions.h"
 #include "planar/four_bars.h"
 #include "support/published.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "linkwright/planar/published_four_bars.h"
+#include "linkwright/planar/four_bar/published.h"
 #include "support/reproduced.h"
 
 namespace linkwright::planar {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "linkwright/planar/serial_arm.h"
+#include "linkwright/planar/serial_arm/serial_arm.h"
 #include "planar/reactions_cases.h"
 
 namespace linkwright::planar::testing {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "linkwright/planar/linkage_coordinates.h"
-#include "linkwright/planar/linkage_dynamics.h"
-#include "linkwright/planar/linkage_simulation.h"
+#include "linkwright/planar/linkage/dynamics.h"
+#include "linkwright/planar/simulation/coordinates.h"
+#include "linkwright/planar/simulation/simulation.h"
 #include "planar/linkages.h"
 
 namespace linkwright::planar::testing {

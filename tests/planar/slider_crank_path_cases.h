@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "linkwright/planar/slider_crank_path_problem.h"
+#include "linkwright/planar/path/slider_crank_problem.h"
 #include "planar/path_cases.h"
 
 namespace linkwright::planar::testing {

@@ -29,16 +29,16 @@ class CheckLayers(ScratchCase):
         line = '#include "linkwright/optimise/problem.h"\n'
         for name in ("function_synthesis.cpp", "balancing.h", "path_objective.h", "path_synthesis.h"):
             self.assertEqual(self.findings(f"planar/{name}", line), [])
-        [finding] = self.findings("planar/four_bar.cpp", line)
+        [finding] = self.findings("planar/four_bar/four_bar.cpp", line)
         self.assertIn("four_bar.cpp:1: only *_synthesis*", finding)
 
     def test_only_studies_use_study(self):
         line = '#include "linkwright/study/result.h"\n'
         self.assertEqual(self.findings("planar/studies_path.cpp", line), [])
-        self.assertEqual(self.findings("planar/path_study_read.cpp", line), [])
+        self.assertEqual(self.findings("planar/studies/path_read.cpp", line), [])
         self.assertEqual(self.findings("planar/scene.h", line), [])
-        self.assertEqual(self.findings("planar/path_synthesis.cpp", line),
-                         ["src/linkwright/planar/path_synthesis.cpp:1: only studies*, *_study*, scene*, *_scene*, "
+        self.assertEqual(self.findings("planar/path/synthesis.cpp", line),
+                         ["src/linkwright/planar/path/synthesis.cpp:1: only studies*, *_study*, scene*, *_scene*, "
                           "reproductions* of a domain use study"])
 
     def test_room_without_floor(self):

@@ -10,8 +10,8 @@
 #include "linkwright/clearance/clearance_mass_synthesis.h"
 #include "linkwright/clearance/clearance_path_synthesis.h"
 #include "linkwright/optimise/population_methods.h"
-#include "linkwright/planar/path_points_study.h"
-#include "linkwright/planar/reactions_study.h"
+#include "linkwright/planar/studies/four_bar.h"
+#include "linkwright/planar/studies/path_points.h"
 #include "linkwright/study/run_seeds.h"
 
 // The synthesis of a four-bar whose crank pin has clearance (Varedi et al. 2014): what its file holds, how it

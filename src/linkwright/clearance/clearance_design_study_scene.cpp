@@ -4,7 +4,7 @@
 
 #include "linkwright/clearance/clearance_design_study.h"
 #include "linkwright/clearance/clearance_study.h"
-#include "linkwright/planar/linkage_build.h"
+#include "linkwright/planar/linkage/build.h"
 
 namespace linkwright::clearance {
 namespace {

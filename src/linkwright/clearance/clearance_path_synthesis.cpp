@@ -6,7 +6,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/dual.h"
-#include "linkwright/planar/four_bar_kernel.h"
+#include "linkwright/planar/four_bar/kernel.h"
 
 namespace linkwright::clearance {
 namespace {

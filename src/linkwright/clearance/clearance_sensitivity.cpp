@@ -9,8 +9,8 @@
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/differences.h"
-#include "linkwright/planar/linkage_quality.h"
-#include "linkwright/planar/linkage_reactions.h"
+#include "linkwright/planar/linkage/quality.h"
+#include "linkwright/planar/linkage/reactions.h"
 
 namespace linkwright::clearance {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "linkwright/core/run_context.h"
-#include "linkwright/planar/linkage.h"
-#include "linkwright/planar/linkage_plan.h"
+#include "linkwright/planar/linkage/linkage.h"
+#include "linkwright/planar/linkage/plan.h"
 
 // What clearances of pins and errors of lengths do to path, function and forces of any planar linkage.
 namespace linkwright::clearance {

@@ -12,8 +12,8 @@
 
 #include "linkwright/clearance/automatic_contact.h"
 #include "linkwright/clearance/joint_orbit.h"
-#include "linkwright/planar/linkage_columns.h"
-#include "linkwright/planar/linkage_scene.h"
+#include "linkwright/planar/linkage/columns.h"
+#include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/study/kind.h"
 
 // The simulation of a linkage whose pins have clearance: what its file holds, how it is read, run and

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "linkwright/clearance/clearance_study.h"
-#include "linkwright/planar/linkage_simulation_study.h"
+#include "linkwright/planar/studies/simulation.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"

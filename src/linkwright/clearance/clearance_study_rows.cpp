@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/linkage_simulation_study.h"
+#include "linkwright/planar/studies/simulation.h"
 
 namespace linkwright::clearance {
 

@@ -8,7 +8,7 @@
 
 #include "linkwright/clearance/step_pace.h"
 #include "linkwright/core/check.h"
-#include "linkwright/planar/linkage_dynamics.h"
+#include "linkwright/planar/linkage/dynamics.h"
 
 namespace linkwright::clearance {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "linkwright/clearance/contact_pins.h"
 #include "linkwright/core/run_context.h"
-#include "linkwright/planar/linkage_simulation.h"
+#include "linkwright/planar/simulation/simulation.h"
 
 // Joints with clearance in which pin and bush fly free, strike, press and slide: any pins of any planar
 // linkage of rigid bodies.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
-#include "linkwright/planar/four_bar_kernel.h"
+#include "linkwright/planar/four_bar/kernel.h"
 
 namespace linkwright::clearance {
 namespace {

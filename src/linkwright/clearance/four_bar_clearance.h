@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "linkwright/core/status.h"
-#include "linkwright/planar/four_bar.h"
-#include "linkwright/planar/linkage.h"
+#include "linkwright/planar/four_bar/four_bar.h"
+#include "linkwright/planar/linkage/linkage.h"
 
 namespace linkwright::clearance {
 

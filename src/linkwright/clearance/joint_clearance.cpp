@@ -8,9 +8,9 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/linkage_dynamics.h"
-#include "linkwright/planar/linkage_limits.h"
-#include "linkwright/planar/linkage_reactions.h"
+#include "linkwright/planar/linkage/dynamics.h"
+#include "linkwright/planar/linkage/limits.h"
+#include "linkwright/planar/linkage/reactions.h"
 
 namespace linkwright::clearance {
 namespace {

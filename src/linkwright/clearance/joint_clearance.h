@@ -8,8 +8,8 @@
 
 #include "linkwright/clearance/step_pace.h"
 #include "linkwright/core/run_context.h"
-#include "linkwright/planar/linkage_plan.h"
-#include "linkwright/planar/linkage_simulation.h"
+#include "linkwright/planar/linkage/plan.h"
+#include "linkwright/planar/simulation/simulation.h"
 
 // Continuous contact in any pins of any planar linkage: the model of four_bar_clearance.h, for all others. It
 // is the linkage of planar/ with a massless bar in the place of each pin that has clearance.

@@ -10,7 +10,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/linkage_limits.h"
+#include "linkwright/planar/linkage/limits.h"
 
 namespace linkwright::clearance {
 namespace {

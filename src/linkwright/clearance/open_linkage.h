@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "linkwright/core/status.h"
-#include "linkwright/planar/linkage_motion.h"
-#include "linkwright/planar/linkage_plan.h"
+#include "linkwright/planar/linkage/motion.h"
+#include "linkwright/planar/linkage/plan.h"
 
 namespace linkwright::clearance {
 

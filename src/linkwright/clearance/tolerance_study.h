@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "linkwright/clearance/clearance_sensitivity.h"
-#include "linkwright/planar/linkage_scene.h"
-#include "linkwright/planar/linkage_study.h"
+#include "linkwright/planar/studies/linkage.h"
+#include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/study/kind.h"
 
 // What clearances and errors of lengths do to path, function and forces of a linkage: what its file holds,

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "linkwright/clearance/tolerance_study.h"
-#include "linkwright/planar/linkage_columns.h"
+#include "linkwright/planar/linkage/columns.h"
 
 namespace linkwright::clearance {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "linkwright/clearance/tolerance_study.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/linkage_columns.h"
+#include "linkwright/planar/linkage/columns.h"
 
 namespace linkwright::clearance {
 namespace {

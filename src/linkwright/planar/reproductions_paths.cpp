@@ -9,10 +9,10 @@
 
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/optimise/statistics.h"
-#include "linkwright/planar/path_eighteen_points.h"
-#include "linkwright/planar/path_synthesis.h"
-#include "linkwright/planar/slider_crank_path_samples.h"
-#include "linkwright/planar/slider_crank_path_synthesis.h"
+#include "linkwright/planar/path/eighteen_points.h"
+#include "linkwright/planar/path/slider_crank_samples.h"
+#include "linkwright/planar/path/slider_crank_synthesis.h"
+#include "linkwright/planar/path/synthesis.h"
 
 namespace linkwright::planar {
 namespace {

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <complex>
+
+#include "linkwright/planar/four_bar/four_bar.h"
+#include "linkwright/planar/four_bar/reactions.h"
+#include "linkwright/planar/link_mass.h"
+
+namespace linkwright::planar {
+
+/// First moments (kg m) in the frames of the links: own joint in the origin, link line along x.
+struct ForceBalance {
+  std::complex<double> crank, rocker;
+};
+
+/// What the first moments of crank and rocker must be for the mass centre of the whole four-bar to stand
+/// still, given the coupler: m2 L1 - S2 L1 / L2 and S2 L3 / L2 are opposed by those of crank and rocker, with
+/// L1 the crank, L2 the coupler and L3 the rocker (Berkof and Lowen 1969). The shaking force is then the
+/// weight alone, at any speed and acceleration; the shaking moment is not balanced, and the drive torque may
+/// grow. Throws ContractError as require_lengths does.
+ForceBalance force_balance(const FourBar& linkage, const BaseParameters& coupler);
+
+/// The mass that changes the first moment of a link by `change` (kg m) when it is fixed to it at `radius` (m,
+/// more than 0) from its own joint. Its angle is in (-pi, pi], 0 when nothing is to be changed. Throws
+/// ContractError unless the radius is more than 0 and everything is finite.
+PointMass counterweight(std::complex<double> change, double radius);
+
+/// Counterweights of crank and rocker, at given radii, that balance a four-bar as it is.
+struct Counterweights {
+  PointMass crank, rocker;
+};
+Counterweights balancing_counterweights(const FourBar& linkage, const FourBarMasses& masses,
+                                        double crank_radius, double rocker_radius);
+
+/// The masses with the counterweights fixed to them.
+FourBarMasses with_counterweights(const FourBarMasses& masses, const Counterweights& weights);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,149 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/field.h"
+#include "linkwright/optimise/smooth_problem.h"
+#include "linkwright/planar/balancing/measures.h"
+#include "linkwright/planar/four_bar/sweep.h"
+
+namespace linkwright::planar {
+
+/// The numbers of a four-bar that balancing may choose, in the order of the variables (Boskovic 2018, section
+/// 2.4: L1 ... L4, alpha1 ... alpha3, m1 ... m3, J1 ... J3, d1 ... d3, with L1 the crank and L4 the ground).
+enum class FourBarNumber : std::size_t {
+  crank,  // lengths (m)
+  coupler,
+  rocker,
+  ground,
+  crank_centre_angle,  // of the mass centres from the link lines (rad)
+  coupler_centre_angle,
+  rocker_centre_angle,
+  crank_mass,  // kg
+  coupler_mass,
+  rocker_mass,
+  crank_inertia,  // about the mass centres (kg m2)
+  coupler_inertia,
+  rocker_inertia,
+  crank_centre_distance,  // of the mass centres from the links' own joints (m)
+  coupler_centre_distance,
+  rocker_centre_distance
+};
+inline constexpr std::size_t four_bar_number_count = 16;
+constexpr std::size_t index(FourBarNumber number) { return static_cast<std::size_t>(number); }
+/// Key with unit: "crank_m", "coupler_centre_angle_rad", "rocker_inertia_kg_m2".
+std::string_view name(FourBarNumber number);
+
+using FourBarNumbers = std::array<double, four_bar_number_count>;
+/// A four-bar of these numbers, and the numbers of a four-bar. Its pivot is the origin, its frame angle 0.
+FourBarMachine four_bar_machine(std::span<const double, four_bar_number_count> numbers,
+                                Branch branch = Branch::open);
+FourBarNumbers four_bar_numbers(const FourBarMachine& machine);
+
+/// What may be balanced: components of the joint forces, drive torque, shaking force and moments, as in
+/// FourBarReactions. Names are those of the columns of the analysis without their unit.
+enum class FourBarComponent {
+  O1_x,
+  O1_y,
+  O2_x,
+  O2_y,
+  O3_x,
+  O3_y,
+  O4_x,
+  O4_y,
+  drive_torque,
+  shaking_force_x,
+  shaking_force_y,
+  shaking_moment,
+  shaking_moment_with_drive
+};
+constexpr std::array<EnumName<FourBarComponent>, 13> names(FourBarComponent) {
+  using C = FourBarComponent;
+  return {{{C::O1_x, "O1_x", "of ground on crank"},
+           {C::O1_y, "O1_y"},
+           {C::O2_x, "O2_x", "of crank on coupler"},
+           {C::O2_y, "O2_y"},
+           {C::O3_x, "O3_x", "of rocker on coupler"},
+           {C::O3_y, "O3_y"},
+           {C::O4_x, "O4_x", "of ground on rocker"},
+           {C::O4_y, "O4_y"},
+           {C::drive_torque, "drive_torque"},
+           {C::shaking_force_x, "shaking_force_x", "on the ground, weight included"},
+           {C::shaking_force_y, "shaking_force_y"},
+           {C::shaking_moment, "shaking_moment", "on the ground about O1 by the joint forces alone"},
+           {C::shaking_moment_with_drive, "shaking_moment_with_drive", "what the ground feels"}}};
+}
+
+/// One quantity to be made small: a measure of a component over the motion, relative to a reference (N or
+/// N m, above 0), for example its value in the original machine.
+struct BalancingObjective {
+  FourBarComponent component = FourBarComponent::shaking_force_x;
+  Measure measure = Measure::rss_over_n;
+  double reference = 1;
+};
+
+/// Balancing of a four-bar: which numbers may change and how far, the motion, what is to become small, and
+/// what must be kept.
+struct FourBarBalancing {
+  std::array<Range, four_bar_number_count> bounds{};  ///< lower = upper: fixed
+  Branch branch = Branch::open;
+
+  double crank_from = 0, crank_to = 2 * std::numbers::pi;  ///< rad, both ends sampled
+  int samples = 201;
+  double crank_speed = 1;         ///< rad/s, at every sample
+  double crank_acceleration = 0;  ///< rad/s2, at every sample
+  double gravity = 9.81;          ///< m/s2 along -y
+
+  std::vector<BalancingObjective> objectives;
+
+  /// The crank is the shortest link and turns fully: min((L1 + L2 + L3 + L4) / 2 - L1 - max(L2, L3, L4),
+  /// min(L2, L3, L4) - L1) >= 0. If not asked for, the linkage must assemble from crank_from to crank_to.
+  bool crank_rotates_fully = true;
+  double min_transmission_angle = 0;  ///< rad, from crank_from to crank_to; 0 = no limit
+  /// Angle (rad) between the ends of the rocker's swing over a full turn; needs crank_rotates_fully.
+  std::optional<Range> rocker_swing;
+};
+
+/// Throws ContractError unless bounds are ordered and finite, lengths above 0, masses, inertias and distances
+/// not negative, there are objectives with references above 0 and at least 2 samples from crank_from <
+/// crank_to, and limits lie in their ranges.
+void require_valid(const FourBarBalancing& balancing);
+
+/// Names of the constraints in their order: "crank_rotates_fully" or "assembles", then, where asked for,
+/// "transmission_angle" at the shortest and at the longest diagonal, "rocker_swing" from below and above.
+std::vector<std::string> balancing_constraints(const FourBarBalancing& balancing);
+
+/// Objectives over their references, then constraints (met when <= 0), of each machine: as many numbers a
+/// machine as there are objectives and constraints. Objectives are NaN where the machine does not reach every
+/// sample; the constraints say how far it is from that. Lengths are relative to the sum of the upper bounds,
+/// angles are compared by their cosine (transmission) or in radians (swing).
+///
+/// `softening` > 0 rounds the kinks of mean_abs and max_abs, by that share of the reference: sqrt(x^2 + s^2)
+/// for |x|, and s log(sum of exp(|x| / s)) for the largest, which is at most s log(2 samples) too much; 0 =
+/// exactly those.
+///
+/// Each machine is swept through SIMD registers of angles (FourBarSweep), in memory of the thread: nothing is
+/// allocated once a thread has come through a call, and one machine at a time is as quick as many.
+void balancing_values(const FourBarBalancing& balancing, std::span<const FourBarMachine> machines,
+                      std::span<double> values, double softening = 0);
+
+/// The objectives of one machine times their references: N and N m.
+std::vector<double> balancing_measures(const FourBarBalancing& balancing, const FourBarMachine& machine);
+
+/// Makes the measures of `machine`, an original or published design, the references of the objectives; it
+/// need not lie within the bounds. Throws ContractError naming a component that is 0 or that the machine does
+/// not have because it does not reach every sample.
+void set_references(FourBarBalancing& balancing, const FourBarMachine& machine);
+
+/// The problem in the sixteen numbers, which is smooth up to the kinks of mean_abs and max_abs (see
+/// balancing_values). Throws ContractError as require_valid does.
+optimise::SmoothProblem balancing_problem(const FourBarBalancing& balancing, double softening = 0);
+
+}  // namespace linkwright::planar

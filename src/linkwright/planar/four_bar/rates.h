@@ -1,0 +1,35 @@
+#pragma once
+
+#include <complex>
+#include <limits>
+
+#include "linkwright/core/status.h"
+#include "linkwright/planar/four_bar/four_bar.h"
+
+namespace linkwright::planar {
+
+/// Motion of a four-bar at one instant: directions of the links in the global frame, and how fast they turn.
+/// Speeds in rad/s and accelerations in rad/s2, counter-clockwise positive. What is not determined is NaN.
+struct FourBarRates {
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Status status =
+      Status::done;  ///< done, no_assembly, or singular (dead point: the speeds are not determined)
+  std::complex<double> ground_direction;                ///< unit vector along O -> B0
+  std::complex<double> crank_direction;                 ///< along O -> A
+  std::complex<double> coupler_direction = {nan, nan};  ///< along A -> B
+  std::complex<double> rocker_direction = {nan, nan};   ///< along B0 -> B
+  double transmission_sine = nan;  ///< sin(rocker angle - coupler angle); its sign is that of the branch
+  double crank_speed = 0, crank_acceleration = 0;
+  double coupler_speed = nan, coupler_acceleration = nan;
+  double rocker_speed = nan, rocker_acceleration = nan;
+};
+
+/// Closed form from the first and second derivative of the loop; `crank_angle` (rad) is measured from the
+/// ground link, `crank_speed` in rad/s, `crank_acceleration` in rad/s2. Singular when the transmission angle
+/// is below tolerance::toggle_angle.
+///
+/// Throws ContractError on the lengths that require_lengths rejects and on arguments that are not finite.
+FourBarRates rates(const FourBar& linkage, double crank_angle, double crank_speed,
+                   double crank_acceleration = 0);
+
+}  // namespace linkwright::planar

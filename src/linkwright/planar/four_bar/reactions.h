@@ -1,0 +1,60 @@
+#pragma once
+
+#include <complex>
+#include <limits>
+
+#include "linkwright/core/field.h"
+#include "linkwright/core/status.h"
+#include "linkwright/planar/four_bar/four_bar.h"
+#include "linkwright/planar/four_bar/rates.h"
+#include "linkwright/planar/link_mass.h"
+
+namespace linkwright::planar {
+
+/// Own joints: O of the crank (line O -> A), A of the coupler (A -> B), B0 of the rocker (B0 -> B).
+struct FourBarMasses {
+  LinkMass crank, coupler, rocker;
+};
+template <class Visitor>
+void fields(Visitor&& visit, FourBarMasses& m) {
+  visit(Field{.key = "crank", .summary = "own joint O1", .required = true}, m.crank);
+  visit(Field{.key = "coupler", .summary = "own joint O2", .required = true}, m.coupler);
+  visit(Field{.key = "rocker", .summary = "own joint O4", .required = true}, m.rocker);
+}
+
+/// Forces (N) in the global frame and moments (N m), counter-clockwise positive. All NaN unless `status` is
+/// done.
+struct FourBarReactions {
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Status status = Status::done;                      ///< that of the rates
+  std::complex<double> ground_on_crank{nan, nan};    ///< at O1 = O
+  std::complex<double> crank_on_coupler{nan, nan};   ///< at O2 = A
+  std::complex<double> rocker_on_coupler{nan, nan};  ///< at O3 = B
+  std::complex<double> ground_on_rocker{nan, nan};   ///< at O4 = B0
+  double drive_torque = nan;                         ///< of the ground's motor on the crank
+  std::complex<double> shaking_force{nan, nan};      ///< of the mechanism on the ground, weight included
+  double shaking_moment = nan;                       ///< on the ground about O by the joint forces alone
+  double shaking_moment_with_drive = nan;  ///< the same with the motor's reaction: what the ground feels
+};
+
+/// Joint forces and drive torque by cutting the loop at B, closed form (Boskovic 2018, section 2.4.1, with
+/// the sine in the place of the printed cosine of Eqs. (2.112), (2.113)); shaking force and moments by Eqs.
+/// (2.76)-(2.78). `gravity` (m/s2) acts along -y of the global frame. `rates` are those of the same linkage.
+/// Forces grow like 1 / transmission_sine towards a dead point.
+///
+/// Throws ContractError on masses, inertias and distances that are negative or not finite, and on a gravity
+/// that is not finite.
+FourBarReactions reactions(const FourBar& linkage, const FourBarMasses& masses, const FourBarRates& rates,
+                           double gravity);
+
+/// The same quantities from the nine equations of Newton and Euler solved at once (Boskovic 2018, Eq. (2.69),
+/// moments of the rocker corrected): an independent and slower route to check the closed form with.
+FourBarReactions reactions_newton_euler(const FourBar& linkage, const FourBarMasses& masses,
+                                        const FourBarRates& rates, double gravity);
+
+/// Rate (W) at which kinetic and potential energy grow; equal to drive_torque * crank_speed. NaN unless the
+/// rates are done.
+double energy_rate(const FourBar& linkage, const FourBarMasses& masses, const FourBarRates& rates,
+                   double gravity);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,198 @@
+#include "linkwright/planar/four_bar/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/core/check.h"
+#include "linkwright/math/sincos.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr std::size_t line = 8;  // doubles of a cache line, and lanes of the widest register
+constexpr std::size_t at(FourBarRow row) { return static_cast<std::size_t>(row); }
+
+struct Kernel {
+  bool (*run)(const FourBarSweepTask&);
+  const char* name;
+};
+Kernel choose_kernel() {
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f")) return {four_bar_sweep_avx512, "avx512"};
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return {four_bar_sweep_avx2, "avx2"};
+  return {four_bar_sweep_baseline, "baseline"};
+}
+const Kernel& kernel() {
+  static const Kernel chosen = choose_kernel();
+  return chosen;
+}
+
+bool kept(const FourBarWanted& wanted, std::size_t row) {
+  if (row <= at(FourBarRow::transmission_sine)) return wanted.directions;
+  if (row <= at(FourBarRow::rocker_acceleration)) return wanted.rates;
+  if (row <= at(FourBarRow::ground_on_rocker_y)) return wanted.forces;
+  return wanted.shaking;
+}
+
+// In the order of FourBarRow.
+std::array<double, four_bar_row_count> all_rows(const FourBarRates& r, const FourBarReactions& f) {
+  return {r.crank_direction.real(),
+          r.crank_direction.imag(),
+          r.coupler_direction.real(),
+          r.coupler_direction.imag(),
+          r.rocker_direction.real(),
+          r.rocker_direction.imag(),
+          r.transmission_sine,
+          r.coupler_speed,
+          r.rocker_speed,
+          r.coupler_acceleration,
+          r.rocker_acceleration,
+          f.ground_on_crank.real(),
+          f.ground_on_crank.imag(),
+          f.crank_on_coupler.real(),
+          f.crank_on_coupler.imag(),
+          f.rocker_on_coupler.real(),
+          f.rocker_on_coupler.imag(),
+          f.ground_on_rocker.real(),
+          f.ground_on_rocker.imag(),
+          f.drive_torque,
+          f.shaking_force.real(),
+          f.shaking_force.imag(),
+          f.shaking_moment,
+          f.shaking_moment_with_drive};
+}
+
+// `count` numbers: those given, the last (or only) one repeated, or zeros for none.
+void spread(std::span<const double> from, std::size_t count, std::vector<double>& to) {
+  to.resize(count);
+  const auto rest = std::copy(from.begin(), from.end(), to.begin());
+  std::fill(rest, to.end(), from.empty() ? 0 : from.back());
+}
+
+}  // namespace
+
+struct FourBarSweep::Memory {
+  FourBarSweepTask task;
+  std::vector<double> constants, angle, cosine, sine, rate, acceleration, data, good;
+  std::vector<Status> status;
+  std::size_t samples = 0;  // of a row
+
+  void prepare(std::span<const FourBarMachine> machines, bool over_machines, double gravity,
+               const SweepInput& crank);
+  void run(std::span<const FourBarMachine> machines, const SweepInput& crank);
+};
+
+void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, bool over_machines,
+                                   double gravity, const SweepInput& crank) {
+  const std::size_t n = crank.value.size();
+  const auto fits = [&](std::span<const double> v) { return v.size() <= 1 || v.size() == n; };
+  LINKWRIGHT_REQUIRE(fits(crank.rate) && fits(crank.acceleration),
+                     "{} crank angles need as many rates and accelerations, one or none, got {} and {}", n,
+                     crank.rate.size(), crank.acceleration.size());
+  const auto finite = [](std::span<const double> values) {
+    double sum = 0;  // of zeros; NaN with anything that is not finite
+    for (const double v : values) sum += v * 0.0;
+    return sum == 0;
+  };
+  LINKWRIGHT_REQUIRE(finite(crank.value) && finite(crank.rate) && finite(crank.acceleration),
+                     "crank angles, rates and accelerations of {} samples must be finite", n);
+  LINKWRIGHT_REQUIRE(std::isfinite(gravity), "gravity {} must be finite", gravity);
+  const auto whole = [](std::size_t count) { return (count + line - 1) / line * line; };
+  task.over_machines = over_machines;
+  task.gravity = gravity;
+  samples = over_machines ? machines.size() : n;
+  task.lanes = whole(samples);
+  task.angles = over_machines ? n : 1;
+
+  const std::size_t width = over_machines ? task.lanes : 1;
+  constants.resize(four_bar_constants * std::max(task.lanes, line));  // read even when there is no angle
+  for (std::size_t k = 0; k < width && !machines.empty(); ++k) {
+    const auto& [l, m] = machines[std::min(k, machines.size() - 1)];
+    require_lengths(l);
+    LINKWRIGHT_REQUIRE(std::isfinite(l.frame_angle), "frame angle {} must be finite", l.frame_angle);
+    double fx, fy;
+    math::sincos_of_any(l.frame_angle, fy, fx);
+    const BaseParameters crank_base = base_parameters(m.crank), coupler = base_parameters(m.coupler),
+                         rocker = base_parameters(m.rocker);
+    std::size_t row = 0;
+    for (const double v : {fx, fy, l.ground, l.crank, l.coupler, l.rocker, planar::sign(l.branch)})
+      constants[row++ * task.lanes + k] = v;
+    for (const BaseParameters* b : {&crank_base, &coupler, &rocker})
+      for (const double v : {b->mass, b->moment.real(), b->moment.imag(), b->inertia})
+        constants[row++ * task.lanes + k] = v;
+  }
+
+  const std::size_t steps = over_machines ? n : task.lanes;
+  const std::span<const double> none;  // with no angles there is no room for the one rate of all
+  spread(n > 0 ? crank.rate : none, steps, rate);
+  spread(n > 0 ? crank.acceleration : none, steps, acceleration);
+  if (over_machines) {
+    cosine.resize(n);
+    sine.resize(n);
+    for (std::size_t i = 0; i < n; ++i) math::sincos_of_any(crank.value[i], sine[i], cosine[i]);
+  } else {
+    spread(crank.value, steps, angle);
+    for (double& a : angle) a += machines[0].linkage.frame_angle;
+  }
+  data.resize(task.rows * task.angles * task.lanes);
+  good.resize(task.angles * task.lanes);
+  status.resize(task.angles * task.lanes);
+  task.constants = constants.data();
+  task.angle = angle.data(), task.cosine = cosine.data(), task.sine = sine.data();
+  task.rate = rate.data(), task.acceleration = acceleration.data();
+  task.data = data.data(), task.good = good.data();
+}
+
+void FourBarSweep::Memory::run(std::span<const FourBarMachine> machines, const SweepInput& crank) {
+  std::fill(status.begin(), status.end(), Status::done);
+  if (kernel().run(task)) return;
+  // What the kernel could not settle, one by one: the plain functions name the reason and keep the good part.
+  for (std::size_t i = 0; i < task.angles; ++i)
+    for (std::size_t k = 0; k < samples; ++k) {
+      if (good[i * task.lanes + k] != 0) continue;
+      const auto& [linkage, masses] = machines[task.over_machines ? k : 0];
+      const std::size_t step = task.over_machines ? i : k;
+      const FourBarRates r = rates(linkage, crank.value[step], rate[step], acceleration[step]);
+      const auto values = all_rows(r, reactions(linkage, masses, r, task.gravity));
+      for (std::size_t row = 0; row < four_bar_row_count; ++row)
+        if (kept(task.wanted, row)) data[(task.first[row] + i * task.rows) * task.lanes + k] = values[row];
+      status[i * task.lanes + k] = r.status;
+    }
+}
+
+FourBarSweep::FourBarSweep(const FourBarWanted& wanted) : memory_(std::make_unique<Memory>()) {
+  FourBarSweepTask& task = memory_->task;
+  task.wanted = wanted;
+  for (std::size_t row = 0; row < four_bar_row_count; ++row)
+    if (kept(wanted, row)) task.first[row] = task.rows++;
+}
+FourBarSweep::~FourBarSweep() = default;
+FourBarSweep::FourBarSweep(FourBarSweep&&) noexcept = default;
+FourBarSweep& FourBarSweep::operator=(FourBarSweep&&) noexcept = default;
+
+void FourBarSweep::run(const FourBar& linkage, const FourBarMasses& masses, double gravity,
+                       const SweepInput& crank) {
+  const FourBarMachine machine{linkage, masses};
+  memory_->prepare({&machine, 1}, false, gravity, crank);
+  memory_->run({&machine, 1}, crank);
+}
+
+void FourBarSweep::run(std::span<const FourBarMachine> machines, double gravity, const SweepInput& crank) {
+  memory_->prepare(machines, true, gravity, crank);
+  memory_->run(machines, crank);
+}
+
+std::span<const double> FourBarSweep::row(FourBarRow row, std::size_t angle) const {
+  const FourBarSweepTask& task = memory_->task;
+  LINKWRIGHT_REQUIRE(kept(task.wanted, at(row)), "row {} is not wanted of this sweep", at(row));
+  LINKWRIGHT_REQUIRE(angle < task.angles, "angle {} of {}", angle, task.angles);
+  return {memory_->data.data() + (task.first[at(row)] + angle * task.rows) * task.lanes, memory_->samples};
+}
+std::span<const Status> FourBarSweep::status(std::size_t angle) const {
+  LINKWRIGHT_REQUIRE(angle < memory_->task.angles, "angle {} of {}", angle, memory_->task.angles);
+  return {memory_->status.data() + angle * memory_->task.lanes, memory_->samples};
+}
+
+const char* four_bar_sweep_kernel_name() { return kernel().name; }
+
+}  // namespace linkwright::planar

@@ -1,0 +1,9 @@
+#include "linkwright/planar/four_bar/sweep_kernel.h"
+
+namespace linkwright::planar {
+
+bool four_bar_sweep_baseline(const FourBarSweepTask& task) {
+  return four_bar_sweep_with<xsimd::batch<double, xsimd::sse2>>(task);
+}
+
+}  // namespace linkwright::planar

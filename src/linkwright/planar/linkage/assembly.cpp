@@ -1,0 +1,238 @@
+#include "linkwright/planar/linkage/assembly.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "linkwright/core/check.h"
+#include "linkwright/planar/linkage/joint_rows.h"
+#include "linkwright/planar/linkage/modes.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr double full_turn = 2 * std::numbers::pi;
+constexpr int places = 64;  // within the reach of the input at which poses of unknown inputs are compared
+
+std::vector<InputMotion> standing(std::span<const double> values) {
+  std::vector<InputMotion> out;
+  for (const double v : values) out.push_back({v, 0, 0});
+  return out;
+}
+
+}  // namespace
+
+InputReach reach_of(std::span<const std::vector<InputMotion>> rows) {
+  InputReach out;
+  for (const std::vector<InputMotion>& row : rows) {
+    if (out.low.empty())
+      for (const InputMotion& i : row) out.low.push_back(i.value), out.high.push_back(i.value);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      out.low[i] = std::min(out.low[i], row[i].value);
+      out.high[i] = std::max(out.high[i], row[i].value);
+    }
+  }
+  return out;
+}
+
+LinkageAssembly::LinkageAssembly(const LinkagePlan& plan, const InputReach& reach, AtChangePoint policy,
+                                 bool in_sequence, std::span<const double> modes)
+    : plan_(plan), in_sequence_(in_sequence), modes_(modes.begin(), modes.end()) {
+  LINKWRIGHT_REQUIRE(reach.low.size() == plan.inputs() && reach.high.size() == plan.inputs(),
+                     "the linkage has {} inputs, got {}", plan.inputs(), reach.low.size());
+  for (std::size_t k = 0; k < plan.groups.size(); ++k) {
+    if (plan.groups[k].type != GroupType::general) continue;
+    if (closed_) first_general_ = k;
+    last_general_ = k;
+    closed_ = false;
+  }
+  if (closed_) return;
+  if (modes_.empty()) modes_ = LinkageMotion(plan).modes;
+  before_ = plan;
+  before_.groups.resize(first_general_);
+  find(reach);
+  if (found_ && plan.inputs() == 1) follow_one(reach, policy);
+}
+
+// Whether the groups without closed form have their places.
+bool LinkageAssembly::assembled(const LinkageMotion& m) const {
+  return m.failed_group < 0 || at(m.failed_group) > last_general_;
+}
+
+bool LinkageAssembly::try_at(std::span<const double> inputs, std::span<const double> modes) {
+  LinkageMotion motion(plan_);
+  motion.modes.assign(modes.begin(), modes.end());
+  solve_position(plan_, standing(inputs), motion);
+  if (!assembled(motion)) return false;
+  anchor_.assign(inputs.begin(), inputs.end());
+  parts_ = motion.parts;
+  return found_ = true;
+}
+
+// The start poses are moved onto the joints, the input with them.
+bool LinkageAssembly::try_near(std::span<const double> inputs) {
+  LinkageMotion motion(plan_);
+  motion.modes = modes_;
+  solve_position(before_, standing(inputs), motion);
+  if (motion.status != Status::done) return false;
+  double value = inputs[0];
+  if (!nearest_place(plan_, along_input(inputs, 0), value, motion.parts)) return false;
+  anchor_ = {value};
+  parts_ = motion.parts;
+  return found_ = true;
+}
+
+// How far the start poses of the first general group are from meeting its joints.
+double LinkageAssembly::misfit(std::span<const double> inputs) {
+  LinkageMotion motion(plan_);
+  motion.modes = modes_;
+  const std::vector<InputMotion> now = standing(inputs);
+  solve_position(before_, now, motion);
+  if (motion.status != Status::done) return std::numeric_limits<double>::infinity();
+  const Group& g = plan_.groups[first_general_];
+  double sum = 0;
+  for (std::size_t i = 0; i < g.joints.size(); ++i) {
+    const InputMotion* input = g.inputs[i] >= 0 ? &now[at(g.inputs[i])] : nullptr;
+    const JointRows r = joint_rows(g.joints[i], input != nullptr, motion.parts);
+    const auto f = joint_residuals(g.joints[i], r, input, motion.parts, plan_.size);
+    for (int e = 0; e < r.count; ++e) sum += f[at(e)] * f[at(e)];
+  }
+  return sum;
+}
+
+void LinkageAssembly::find(const InputReach& reach) {
+  const bool one = plan_.inputs() == 1;
+  if (!plan_.drawn_inputs.empty() && !plan_.groups[first_general_].start.empty()) {
+    std::vector<double> drawn = plan_.drawn_inputs;
+    // The poses show angles but for whole turns: the ones nearest to where the inputs go.
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+      if (plan_.rotary[i])
+        drawn[i] += full_turn * std::round(((reach.low[i] + reach.high[i]) / 2 - drawn[i]) / full_turn);
+    if (try_at(drawn, modes_) || (one && try_near(drawn))) return;
+  }
+  struct Candidate {
+    std::vector<double> inputs;
+    double misfit;
+  };
+  std::vector<Candidate> candidates;
+  const bool poses = !plan_.groups[first_general_].start.empty();
+  for (int i = 0; i <= places; ++i) {
+    std::vector<double> inputs;
+    for (std::size_t k = 0; k < reach.low.size(); ++k)
+      inputs.push_back(i == places ? reach.high[k]
+                                   : reach.low[k] + (reach.high[k] - reach.low[k]) * i / places);
+    candidates.push_back({inputs, poses ? misfit(inputs) : 0.0});
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; });
+  for (const Candidate& c : candidates)
+    if (try_at(c.inputs, modes_)) return;
+  for (const double share : {0.0, 0.5, 1.0, 0.25, 0.75}) {
+    std::vector<double> inputs;
+    for (std::size_t k = 0; k < reach.low.size(); ++k)
+      inputs.push_back(reach.low[k] + share * (reach.high[k] - reach.low[k]));
+    const AssemblyModes modes = assembly_modes(plan_, inputs);
+    if (modes.found.empty()) continue;
+    anchor_ = inputs;
+    parts_ = modes.found.front().parts;
+    found_ = true;
+    return;
+  }
+}
+
+void LinkageAssembly::follow_one(const InputReach& reach, AtChangePoint policy) {
+  const bool turns = periodic(plan_, 0);
+  const double start = anchor_[0], around = turns ? full_turn : 0;
+  // On a line of no length a mode has no range.
+  const double width = reach.high[0] > reach.low[0] ? 0 : plan_.rotary[0] ? 1e-3 : 1e-3 * plan_.size;
+  const double low = std::min(reach.low[0], start) - std::max(around, width),
+               high = std::max(reach.high[0], start) + std::max(around, width);
+  curve_.emplace(plan_, along_input(anchor_, 0), start, parts_, turns ? low : std::min(reach.low[0], start),
+                 turns ? high : std::max(reach.high[0], start + width), around, policy);
+  InputLimits limits;
+  limits.rotary = plan_.rotary[0];
+  limits.closed = turns;
+  limits.from = turns ? -std::numbers::pi : std::min(reach.low[0], start);
+  limits.to = turns ? std::numbers::pi : std::max(reach.high[0], start);
+  InputRange range{curve_->low(), curve_->high(), curve_->period() > 0, modes_, 1};
+  if (turns && !range.full_turn) {
+    const double shift = full_turn * std::floor((range.from.value + std::numbers::pi) / full_turn);
+    range.from.value -= shift;
+    range.to.value -= shift;
+  }
+  limits.ranges.push_back(std::move(range));
+  limits.circuits = 1;
+  limits_ = std::move(limits);
+}
+
+// Along a straight line of inputs from a place; false where the mode ends before.
+bool LinkageAssembly::go(std::span<const double> from, std::span<const PartState<double>> parts,
+                         std::span<const double> to, LinkageMotion& motion) {
+  if (std::equal(from.begin(), from.end(), to.begin())) {
+    for (std::size_t p = 1; p < parts.size(); ++p)
+      motion.parts[p].origin = parts[p].origin, motion.parts[p].direction = parts[p].direction;
+    return true;
+  }
+  ModeCurve curve(plan_, line_between(from, to), 0, parts, 0, 1);
+  if (curve.high().kind == EndKind::bound) return curve.place(1, motion) == Status::done;
+  gap_ = curve.gap(1);
+  return false;
+}
+
+bool LinkageAssembly::reach_out(std::span<const double> to, LinkageMotion& motion) {
+  if (in_sequence_ && !last_.empty() && go(last_, last_parts_, to, motion)) return true;
+  if (go(anchor_, parts_, to, motion)) return true;
+  const double gap = gap_;
+  for (const bool backwards : {false, true}) {
+    std::vector<double> here = anchor_;
+    std::vector<PartState<double>> parts = parts_;
+    bool on_the_way = true;
+    for (std::size_t i = 0; i < to.size() && on_the_way; ++i) {
+      const std::size_t k = backwards ? to.size() - 1 - i : i;
+      std::vector<double> next = here;
+      next[k] = to[k];
+      on_the_way = go(here, parts, next, motion);
+      here = std::move(next);
+      parts = motion.parts;
+    }
+    if (on_the_way) return true;
+  }
+  gap_ = gap;
+  return false;
+}
+
+void LinkageAssembly::leave_open(std::span<const InputMotion> inputs, Status status, double gap,
+                                 LinkageMotion& motion) {
+  motion.modes = modes_;
+  solve_position(before_, inputs, motion);
+  if (motion.status == Status::done) {
+    motion.gap = status == Status::no_assembly && std::isfinite(gap) ? gap : 0;
+    mark_failed(plan_, motion, first_general_, status);
+  } else {
+    mark_failed(plan_, motion, at(motion.failed_group), motion.status);
+  }
+}
+
+void LinkageAssembly::place(std::span<const InputMotion> inputs, LinkageMotion& motion) {
+  if (closed_) return solve_position(plan_, inputs, motion);
+  if (!found_) return leave_open(inputs, Status::no_assembly, 0, motion);
+  motion.modes = modes_;
+  Status status = Status::done;
+  if (curve_) {
+    status = curve_->place(inputs[0].value, motion);
+    if (status != Status::done) gap_ = curve_->gap(inputs[0].value);
+  } else {
+    std::vector<double> to;
+    for (const InputMotion& i : inputs) to.push_back(i.value);
+    if (!reach_out(to, motion)) status = Status::no_assembly;
+    if (status == Status::done) last_ = std::move(to), last_parts_ = motion.parts;
+  }
+  if (status != Status::done) return leave_open(inputs, status, gap_, motion);
+  solve_position(plan_, inputs, motion);
+  // The curve has a place here: what Newton's method cannot settle is a dead point.
+  if (motion.status == Status::not_converged) motion.status = Status::singular;
+}
+
+}  // namespace linkwright::planar

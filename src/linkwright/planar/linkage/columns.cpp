@@ -1,0 +1,206 @@
+#include "linkwright/planar/linkage/columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace linkwright::planar {
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+std::string group_key(std::string name) {
+  for (std::size_t i; (i = name.find(" + ")) != std::string::npos;) name.replace(i, 3, "_");
+  return identifier(name);
+}
+
+const std::vector<Word>& linkage_quantity_words() {
+  static const std::vector<Word> words = {
+      {"position", "angles and origins of the bodies, ways of the slides, traced points"},
+      {"rates", "their speeds and accelerations"},
+      {"reactions", "forces and moments in the joints"},
+      {"drive", "torques and forces of the drives"},
+      {"shaking", "force and moments of the linkage on the ground"},
+      {"transmission_angle", "of every dyad, folded to 0..90 deg: sine of the angle of force transmission"},
+      {"power", "of drives, weight and loads, and the rate of the kinetic energy"}};
+  return words;
+}
+LinkageQuantities chosen_quantities(const std::vector<std::string>& listed) {
+  const auto has = [&](std::string_view word) {
+    return listed.empty() || std::find(listed.begin(), listed.end(), word) != listed.end();
+  };
+  return {.position = has("position"),
+          .rates = has("rates"),
+          .reactions = has("reactions"),
+          .drive = has("drive"),
+          .shaking = has("shaking"),
+          .transmission_angle = has("transmission_angle"),
+          .power = has("power")};
+}
+
+std::string identifier(std::string_view name) {
+  std::string out;
+  for (char c : name)
+    out += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? c : '_';
+  return out;
+}
+const LinkageJoint& input_joint(const Linkage& l, std::size_t input) { return l.joints[at(l.driven[input])]; }
+std::string input_key(const Linkage& l, const LinkagePlan& plan, std::size_t input) {
+  return identifier(input_joint(l, input).name) + (plan.rotary[input] ? "_angle_rad" : "_way_m");
+}
+std::string input_label(const Linkage& l, const LinkagePlan& plan, std::size_t input) {
+  return fmt::format("{} {}", input_joint(l, input).name, plan.rotary[input] ? "angle (rad)" : "way (m)");
+}
+
+std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& plan,
+                                           const LinkageQuantities& q, const std::vector<BodyPoint>& traces) {
+  std::vector<LinkageColumn> out;
+  const auto add = [&](std::string key, std::string label,
+                       std::function<double(const LinkageInstant&)> value) {
+    out.push_back({std::move(key), std::move(label), std::move(value)});
+  };
+  const auto moving = [&](auto&& each) {
+    for (int b = 1; b < static_cast<int>(l.bodies.size()); ++b)
+      if (plan.bodies[at(b)].part != 0) each(b, identifier(l.bodies[at(b)].name), l.bodies[at(b)].name);
+  };
+  const auto traced = [&](auto&& each) {
+    for (const BodyPoint& t : traces) {
+      const LinkageBody& body = l.bodies[at(t.body)];
+      const LinkagePoint& point = body.points[at(t.point)];
+      each(t.body, point.at, identifier(body.name) + "_" + identifier(point.name),
+           body.name + "." + point.name);
+    }
+  };
+  // A slide's way and its rates, second point from first along the slide.
+  const auto slides = [&](auto&& each) {
+    for (std::size_t j = 0; j < l.joints.size(); ++j)
+      if (l.joints[j].type == JointType::prismatic) each(j, identifier(l.joints[j].name), l.joints[j].name);
+  };
+  const auto way = [&plan, &l](const LinkageInstant& i, std::size_t j, int order) {
+    const LinkageJoint& joint = l.joints[j];
+    const auto place = [&](const BodyPoint& p) {
+      return point_motion(plan, *i.motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
+    };
+    const PartState<double> first = body_state(plan, *i.motion, joint.first.body);
+    const Vec<double> along = turn(first.direction, unit(joint.slide_first));
+    const PointMotion a = place(joint.first), b = place(joint.second);
+    if (order == 0) return dot(along, b.position - a.position);
+    const Vec<double> slip = b.velocity - velocity_at(first, b.position);
+    if (order == 1) return dot(along, slip);
+    return dot(along, b.acceleration - acceleration_at(first, b.position));
+  };
+  if (q.position) {
+    moving([&](int b, const std::string& key, const std::string& name) {
+      add(key + "_angle_rad", name + " angle (rad)",
+          [&plan, b](const LinkageInstant& i) { return angle_of(body_state(plan, *i.motion, b).direction); });
+      out.back().angle = true;
+      add(key + "_x_m", name + " origin x (m)",
+          [&plan, b](const LinkageInstant& i) { return body_state(plan, *i.motion, b).origin.x; });
+      add(key + "_y_m", name + " origin y (m)",
+          [&plan, b](const LinkageInstant& i) { return body_state(plan, *i.motion, b).origin.y; });
+    });
+    slides([&](std::size_t j, const std::string& key, const std::string& name) {
+      if (std::find(l.driven.begin(), l.driven.end(), static_cast<int>(j)) != l.driven.end()) return;
+      add(key + "_way_m", name + " way (m)", [way, j](const LinkageInstant& i) { return way(i, j, 0); });
+    });
+    traced([&](int b, std::complex<double> p, const std::string& key, const std::string& name) {
+      add(key + "_x_m", name + " x (m)",
+          [&plan, b, p](const LinkageInstant& i) { return point_motion(plan, *i.motion, b, p).position.x; });
+      add(key + "_y_m", name + " y (m)",
+          [&plan, b, p](const LinkageInstant& i) { return point_motion(plan, *i.motion, b, p).position.y; });
+    });
+  }
+  if (q.rates) {
+    moving([&](int b, const std::string& key, const std::string& name) {
+      add(key + "_speed_rad_per_s", name + " speed (rad/s)",
+          [&plan, b](const LinkageInstant& i) { return body_state(plan, *i.motion, b).speed; });
+      add(key + "_acceleration_rad_per_s2", name + " acceleration (rad/s2)",
+          [&plan, b](const LinkageInstant& i) {
+            return body_state(plan, *i.motion, b).angular_acceleration;
+          });
+    });
+    slides([&](std::size_t j, const std::string& key, const std::string& name) {
+      add(key + "_speed_m_per_s", name + " speed (m/s)",
+          [way, j](const LinkageInstant& i) { return way(i, j, 1); });
+      add(key + "_acceleration_m_per_s2", name + " acceleration (m/s2)",
+          [way, j](const LinkageInstant& i) { return way(i, j, 2); });
+    });
+    traced([&](int b, std::complex<double> p, const std::string& key, const std::string& name) {
+      add(key + "_speed_x_m_per_s", name + " speed x (m/s)",
+          [&plan, b, p](const LinkageInstant& i) { return point_motion(plan, *i.motion, b, p).velocity.x; });
+      add(key + "_speed_y_m_per_s", name + " speed y (m/s)",
+          [&plan, b, p](const LinkageInstant& i) { return point_motion(plan, *i.motion, b, p).velocity.y; });
+      add(key + "_acceleration_x_m_per_s2", name + " acceleration x (m/s2)",
+          [&plan, b, p](const LinkageInstant& i) {
+            return point_motion(plan, *i.motion, b, p).acceleration.x;
+          });
+      add(key + "_acceleration_y_m_per_s2", name + " acceleration y (m/s2)",
+          [&plan, b, p](const LinkageInstant& i) {
+            return point_motion(plan, *i.motion, b, p).acceleration.y;
+          });
+    });
+  }
+  if (q.reactions)
+    for (std::size_t j = 0; j < l.joints.size(); ++j) {
+      const LinkageJoint& joint = l.joints[j];
+      const std::string key = identifier(joint.name);
+      const std::string pair =
+          fmt::format("{} on {}", l.bodies[at(joint.first.body)].name, l.bodies[at(joint.second.body)].name);
+      if (joint.type != JointType::gear) {
+        add(key + "_x_N", fmt::format("{} x, {} (N)", joint.name, pair),
+            [j](const LinkageInstant& i) { return i.forces->joints[j].force.x; });
+        add(key + "_y_N", fmt::format("{} y, {} (N)", joint.name, pair),
+            [j](const LinkageInstant& i) { return i.forces->joints[j].force.y; });
+        add(key + "_N", fmt::format("{} (N)", joint.name),
+            [j](const LinkageInstant& i) { return norm(i.forces->joints[j].force); });
+      }
+      if (joint.type == JointType::prismatic || joint.type == JointType::fixed ||
+          joint.type == JointType::gear)
+        add(key + "_moment_N_m", fmt::format("{} moment, {} (N m)", joint.name, pair),
+            [j](const LinkageInstant& i) { return i.forces->joints[j].moment; });
+    }
+  if (q.drive)
+    for (std::size_t k = 0; k < plan.inputs(); ++k) {
+      const std::string& name = input_joint(l, k).name;
+      add(identifier(name) + (plan.rotary[k] ? "_drive_torque_N_m" : "_drive_force_N"),
+          fmt::format("drive {} at {}", plan.rotary[k] ? "torque (N m)" : "force (N)", name),
+          [k](const LinkageInstant& i) { return i.forces->drives[k]; });
+    }
+  if (q.shaking) {
+    add("shaking_force_x_N", "shaking force x (N)",
+        [](const LinkageInstant& i) { return i.forces->shaking_force.x; });
+    add("shaking_force_y_N", "shaking force y (N)",
+        [](const LinkageInstant& i) { return i.forces->shaking_force.y; });
+    add("shaking_force_N", "shaking force (N)",
+        [](const LinkageInstant& i) { return norm(i.forces->shaking_force); });
+    add("shaking_moment_N_m", "shaking moment about the origin, without drive torques (N m)",
+        [](const LinkageInstant& i) { return i.forces->shaking_moment; });
+    add("shaking_moment_with_drive_N_m", "shaking moment about the origin, with the drives (N m)",
+        [](const LinkageInstant& i) { return i.forces->shaking_moment_with_drive; });
+  }
+  if (q.transmission_angle)
+    for (std::size_t g = 0; g < plan.groups.size(); ++g)
+      if (plan.groups[g].parts.size() == 2 && plan.groups[g].type != GroupType::general)
+        add(group_key(plan.groups[g].name) + "_transmission_angle_rad",
+            plan.groups[g].name + " transmission angle (rad)", [g](const LinkageInstant& i) {
+              return std::asin(std::min(1.0, std::abs(i.motion->groups[g].sine)));
+            });
+  if (q.power) {
+    add("drive_power_W", "power of the drives (W)",
+        [](const LinkageInstant& i) { return i.forces->drive_power; });
+    add("weight_power_W", "power of the weight (W)",
+        [](const LinkageInstant& i) { return i.forces->weight_power; });
+    add("load_power_W", "power of springs and loads (W)",
+        [](const LinkageInstant& i) { return i.forces->load_power; });
+    add("kinetic_power_W", "rate of the kinetic energy (W)",
+        [](const LinkageInstant& i) { return i.forces->kinetic_power; });
+  }
+  add("closure_residual_m", "closure residual (m)",
+      [](const LinkageInstant& i) { return i.motion->closure_residual; });
+  return out;
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/field.h"
+#include "linkwright/planar/linkage/reactions.h"
+
+// Columns of the tables that studies of linkages write.
+namespace linkwright::planar {
+
+struct LinkageQuantities {
+  bool position = true, rates = true, reactions = true, drive = true, shaking = true,
+       transmission_angle = true, power = true;
+  bool dynamic() const { return reactions || drive || shaking || power; }
+};
+
+/// What `output.quantities` may list, and what a list chooses: all when it is empty.
+const std::vector<Word>& linkage_quantity_words();
+LinkageQuantities chosen_quantities(const std::vector<std::string>& listed);
+
+/// What one row is made from.
+struct LinkageInstant {
+  double time = 0;
+  std::vector<InputMotion> inputs;
+  const LinkageMotion* motion = nullptr;
+  const LinkageForces* forces = nullptr;  ///< may be null when no quantity needs it
+};
+struct LinkageColumn {
+  std::string key, label;
+  std::function<double(const LinkageInstant&)> value;
+  bool angle = false;  ///< to be unwrapped
+};
+
+/// A name as part of a column key: what is no letter or digit becomes '_'.
+std::string identifier(std::string_view name);
+
+/// The name of a group as part of a column key: "coupler + rocker" becomes "coupler_rocker".
+std::string group_key(std::string name);
+
+/// The joint of an input, the key of its column ("O_angle_rad") and its label.
+const LinkageJoint& input_joint(const Linkage& linkage, std::size_t input);
+std::string input_key(const Linkage& linkage, const LinkagePlan& plan, std::size_t input);
+std::string input_label(const Linkage& linkage, const LinkagePlan& plan, std::size_t input);
+
+/// The columns of the quantities, in their order; those of the inputs are not among them. Linkage and plan
+/// must outlive them.
+std::vector<LinkageColumn> linkage_columns(const Linkage& linkage, const LinkagePlan& plan,
+                                           const LinkageQuantities& quantities,
+                                           const std::vector<BodyPoint>& traces);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,263 @@
+#include "linkwright/planar/linkage/general.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/core/tolerance.h"
+#include "linkwright/planar/linkage/joint_rows.h"
+
+namespace linkwright::planar {
+
+namespace {
+using Index = Eigen::Index;
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+}  // namespace
+
+struct GeneralGroupMemory {
+  std::vector<int> column;             // first column of a part, -1 of a known one
+  Eigen::MatrixXd jacobian, factored;  // the last one assembled, and that of the factors
+  Eigen::VectorXd residual, solution;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors;
+};
+
+namespace {
+
+// Fills the rows of the Jacobian; columns of the angles are divided by `size`, those of angle rows too, so
+// that all entries are of the same order.
+void assemble(const LinkagePlan& plan, const Group& g, const LinkageMotion& motion, GeneralGroupMemory& m) {
+  m.jacobian.setZero();
+  Index row = 0;
+  for (std::size_t k = 0; k < g.joints.size(); ++k) {
+    const PlanJoint& j = g.joints[k];
+    const JointRows r = joint_rows(j, g.inputs[k] >= 0, motion.parts);
+    for (int i = 0; i < r.count; ++i, ++row) {
+      const JointEquation& e = r.rows[at(i)];
+      const double scale = e.moment != 0 ? plan.size : 1.0;
+      for (const auto& [part, side] : {std::pair{j.after.part, 1.0}, std::pair{j.before.part, -1.0}}) {
+        const int c = m.column[at(part)];
+        if (c < 0) continue;
+        const Vec<double> arm = r.point - motion.parts[at(part)].origin;
+        m.jacobian(row, c) += side * e.force.x;
+        m.jacobian(row, c + 1) += side * e.force.y;
+        m.jacobian(row, c + 2) += side * (e.moment * scale + cross(arm, e.force)) / plan.size;
+      }
+    }
+  }
+}
+
+// Solves with the transpose of the factorised Jacobian, from `residual` into `solution`. P J = L U, so that
+// J^T x = b is U^T z = b, L^T w = z, x = P^T w; Eigen's own way allocates.
+void solve_transposed(GeneralGroupMemory& m) {
+  const auto& lu = m.factors.matrixLU();
+  lu.triangularView<Eigen::Upper>().transpose().solveInPlace(m.residual);
+  lu.triangularView<Eigen::UnitLower>().transpose().solveInPlace(m.residual);
+  const auto& order = m.factors.permutationP().indices();
+  for (Index i = 0; i < m.solution.size(); ++i) m.solution[i] = m.residual[order[i]];
+}
+
+}  // namespace
+
+void GeneralGroupDelete::operator()(GeneralGroupMemory* memory) const { delete memory; }
+
+GeneralGroupPointer general_group_memory(const LinkagePlan& plan, const Group& group) {
+  GeneralGroupPointer memory(new GeneralGroupMemory);
+  memory->column.assign(plan.parts.size(), -1);
+  for (std::size_t i = 0; i < group.parts.size(); ++i)
+    memory->column[at(group.parts[i])] = static_cast<int>(3 * i);
+  const auto n = static_cast<Index>(3 * group.parts.size());
+  memory->jacobian.resize(n, n);
+  memory->factored = Eigen::MatrixXd::Constant(n, n, std::numeric_limits<double>::quiet_NaN());
+  memory->residual.resize(n);
+  memory->solution.resize(n);
+  memory->factors = Eigen::PartialPivLU<Eigen::MatrixXd>(n);
+  return memory;
+}
+
+double determinant_sign(const GeneralGroupMemory& memory) {
+  const auto& lu = memory.factors.matrixLU();
+  // Inversions of the row exchanges are counted here, as Eigen allocates for their sign.
+  const auto& order = memory.factors.permutationP().indices();
+  bool negative = false;
+  for (Index i = 0; i < lu.rows(); ++i) {
+    negative ^= lu(i, i) < 0;
+    for (Index k = 0; k < i; ++k) negative ^= order[k] > order[i];
+  }
+  return negative ? -1.0 : 1.0;
+}
+
+double conditioning(const GeneralGroupMemory& memory) {
+  const auto pivots = memory.factors.matrixLU().diagonal().cwiseAbs();
+  const double largest = pivots.maxCoeff();
+  return largest > 0 ? pivots.minCoeff() / largest : 0.0;
+}
+
+Status place_general(const LinkagePlan& plan, const Group& g, std::span<const InputMotion> inputs,
+                     LinkageMotion& motion, GeneralGroupMemory& m) {
+  // Newton's method; near the solution it doubles the digits with each step, and two steps without gain at
+  // the rounding level end it. Far off, a step turns no part by more than half a radian and moves none by
+  // more than the linkage's size, so that the search does not leap to another branch.
+  //
+  // Factors are kept where they serve: at the start, when the parts still are where the last search left
+  // them; and after a small step, as long as each further step gains a digit. They always end as those of the
+  // last place.
+  double reach = plan.size;  // far from the origin coordinates are rounded more coarsely
+  for (const PlanJoint& j : g.joints)
+    reach = std::max(reach, norm(point_on(motion.parts[at(j.before.part)], j.before.at)));
+  const double rounding = 64 * tolerance::epsilon * reach;
+  double last = std::numeric_limits<double>::infinity();
+  double largest = last;
+  bool small_step = false;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    Index row = 0;
+    for (std::size_t k = 0; k < g.joints.size(); ++k) {
+      const PlanJoint& j = g.joints[k];
+      const InputMotion* input = g.inputs[k] >= 0 ? &inputs[at(g.inputs[k])] : nullptr;
+      const JointRows r = joint_rows(j, input != nullptr, motion.parts);
+      const std::array<double, 3> f = joint_residuals(j, r, input, motion.parts, plan.size);
+      for (int i = 0; i < r.count; ++i) m.residual[row++] = f[at(i)];
+    }
+    largest = m.residual.cwiseAbs().maxCoeff();
+    if (!std::isfinite(largest)) break;
+    if (!(small_step && largest > rounding && largest < 0.1 * last)) {
+      assemble(plan, g, motion, m);
+      if (m.jacobian != m.factored) {
+        m.factors.compute(m.jacobian);
+        m.factored = m.jacobian;
+      }
+    }
+    if (largest <= rounding && (largest == 0 || largest > 0.25 * last || iteration > 0)) break;
+    last = largest;
+    m.solution = m.factors.solve(m.residual);
+    double share = 1;
+    for (Index i = 0; i < m.solution.size(); i += 3) {
+      share = std::min(share, 0.5 * plan.size / std::max(std::abs(m.solution[i + 2]), 0.5 * plan.size));
+      const double way = std::hypot(m.solution[i], m.solution[i + 1]);
+      share = std::min(share, plan.size / std::max(way, plan.size));
+    }
+    if (!(share > 0)) {
+      largest = std::numeric_limits<double>::infinity();
+      break;
+    }
+    small_step = m.solution.cwiseAbs().maxCoeff() < 1e-3 * plan.size;
+    for (int p : g.parts) {
+      PartState<double>& part = motion.parts[at(p)];
+      const int c = m.column[at(p)];
+      part.origin = part.origin - share * Vec<double>{m.solution[c], m.solution[c + 1]};
+      part.direction = tidy_unit(turn(part.direction, unit(-share * m.solution[c + 2] / plan.size)));
+    }
+  }
+  const double residual = std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
+  if (residual > 1e3 * rounding) {
+    motion.gap = residual;
+    return Status::not_converged;
+  }
+  motion.closure_residual = std::max(motion.closure_residual, residual);
+  return conditioning(m) < tolerance::toggle_angle * 1e-3 ? Status::singular : Status::done;
+}
+
+void general_velocity(const LinkagePlan& plan, const Group& g, std::span<const InputMotion> inputs,
+                      LinkageMotion& motion, GeneralGroupMemory& m) {
+  Index row = 0;
+  for (std::size_t k = 0; k < g.joints.size(); ++k) {
+    const PlanJoint& j = g.joints[k];
+    const bool driven = g.inputs[k] >= 0;
+    const JointRows r = joint_rows(j, driven, motion.parts);
+    // What the known parts move, to the right side.
+    Vec<double> slip{0, 0};
+    double spin = 0;
+    for (const auto& [part, side] : {std::pair{j.after.part, -1.0}, std::pair{j.before.part, 1.0}})
+      if (m.column[at(part)] < 0) {
+        slip = slip + side * velocity_at(motion.parts[at(part)], r.point);
+        spin += side * motion.parts[at(part)].speed;
+      }
+    for (int i = 0; i < r.count; ++i) {
+      const JointEquation& e = r.rows[at(i)];
+      double value = dot(e.force, slip) + e.moment * spin;
+      if (i == 2) value += sense(j) * inputs[at(g.inputs[k])].rate;
+      m.residual[row++] = value * (e.moment != 0 ? plan.size : 1.0);
+    }
+  }
+  m.solution = m.factors.solve(m.residual);
+  for (int p : g.parts) {
+    const int c = m.column[at(p)];
+    motion.parts[at(p)].velocity = {m.solution[c], m.solution[c + 1]};
+    motion.parts[at(p)].speed = m.solution[c + 2] / plan.size;
+  }
+}
+
+void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<const InputMotion> inputs,
+                          LinkageMotion& motion, GeneralGroupMemory& m) {
+  Index row = 0;
+  for (std::size_t k = 0; k < g.joints.size(); ++k) {
+    const PlanJoint& j = g.joints[k];
+    const PartState<double>&before = motion.parts[at(j.before.part)], &after = motion.parts[at(j.after.part)];
+    const JointRows r = joint_rows(j, g.inputs[k] >= 0, motion.parts);
+    // The accelerations of both fields at the point differ by the Coriolis term of a slide only; on the
+    // right side stand the parts of them that do not depend on unknown accelerations.
+    Vec<double> slip{0, 0};
+    double spin = 0;
+    for (const auto& [part, state, side] :
+         {std::tuple{j.after.part, &after, -1.0}, std::tuple{j.before.part, &before, 1.0}}) {
+      const Vec<double> arm = r.point - state->origin;
+      if (m.column[at(part)] < 0) {
+        slip = slip + side * acceleration_at(*state, r.point);
+        spin += side * state->angular_acceleration;
+      } else {
+        slip = slip - (side * state->speed * state->speed) * arm;
+      }
+    }
+    if (j.slide) {
+      const Vec<double> relative = velocity_at(after, r.point) - velocity_at(before, r.point);
+      slip = slip + (2 * before.speed * dot(r.along, relative)) * left(r.along);
+    }
+    for (int i = 0; i < r.count; ++i) {
+      const JointEquation& e = r.rows[at(i)];
+      double value = dot(e.force, slip) + e.moment * spin;
+      if (i == 2) value += sense(j) * inputs[at(g.inputs[k])].acceleration;
+      m.residual[row++] = value * (e.moment != 0 ? plan.size : 1.0);
+    }
+  }
+  m.solution = m.factors.solve(m.residual);
+  for (int p : g.parts) {
+    const int c = m.column[at(p)];
+    motion.parts[at(p)].acceleration = {m.solution[c], m.solution[c + 1]};
+    motion.parts[at(p)].angular_acceleration = m.solution[c + 2] / plan.size;
+  }
+}
+
+void general_forces(const LinkagePlan& plan, const Group& g, const LinkageMotion& motion,
+                    GeneralGroupMemory& m, std::span<Wrench<double>> needed, std::span<Wrench<double>> joints,
+                    std::span<double> drives) {
+  for (int p : g.parts) {
+    const int c = m.column[at(p)];
+    m.residual[c] = needed[at(p)].force.x;
+    m.residual[c + 1] = needed[at(p)].force.y;
+    m.residual[c + 2] = needed[at(p)].moment / plan.size;
+  }
+  solve_transposed(m);
+  Index row = 0;
+  for (std::size_t k = 0; k < g.joints.size(); ++k) {
+    const PlanJoint& j = g.joints[k];
+    const bool driven = g.inputs[k] >= 0;
+    const JointRows r = joint_rows(j, driven, motion.parts);
+    Wrench<double> w{{0, 0}, 0};
+    drives[k] = std::numeric_limits<double>::quiet_NaN();
+    for (int i = 0; i < r.count; ++i, ++row) {
+      const JointEquation& e = r.rows[at(i)];
+      const double multiplier = m.solution[row];
+      w.force = w.force + multiplier * e.force;
+      w.moment += multiplier * e.moment * plan.size;
+      if (i == 2) drives[k] = multiplier * (e.moment != 0 ? plan.size : 1.0);
+    }
+    joints[k] = w;
+    for (const auto& [part, side] : {std::pair{j.after.part, -1.0}, std::pair{j.before.part, 1.0}})
+      if (m.column[at(part)] < 0) {
+        const Wrench<double> there = shifted(w, r.point - motion.parts[at(part)].origin);
+        needed[at(part)] = {needed[at(part)].force + side * there.force,
+                            needed[at(part)].moment + side * there.moment};
+      }
+  }
+}
+
+}  // namespace linkwright::planar

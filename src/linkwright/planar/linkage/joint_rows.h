@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage/kernel.h"
+
+// What a joint demands of the places of its two parts, for those who solve many joints at once.
+namespace linkwright::planar {
+
+// The equations of a joint at the present places, as rows over the velocities of two parts: `force` is the
+// direction and `moment` the couple that a unit of the row's multiplier puts on the part after, about
+// `point`.
+struct JointEquation {
+  Vec<double> force{0, 0};
+  double moment = 0;
+};
+struct JointRows {
+  Vec<double> point;
+  Vec<double> along;  // of a slide
+  std::array<JointEquation, 3> rows;
+  int count = 2;
+};
+
+inline JointRows joint_rows(const PlanJoint& j, bool driven, const std::vector<PartState<double>>& parts) {
+  JointRows out;
+  out.point = point_on(parts[static_cast<std::size_t>(j.after.part)], j.after.at);
+  if (j.slide) {
+    out.along = turn(parts[static_cast<std::size_t>(j.before.part)].direction, j.before.direction);
+    out.rows[0].force = left(out.along);
+    out.rows[1].moment = 1;
+    if (driven) out.rows[2].force = out.along;
+  } else {
+    out.rows[0].force = {1, 0};
+    out.rows[1].force = {0, 1};
+    if (driven) out.rows[2].moment = 1;
+  }
+  out.count = driven ? 3 : 2;
+  return out;
+}
+
+inline double sense(const PlanJoint& j) { return j.reversed ? -1.0 : 1.0; }
+
+// How far the joint's equations are from being met.
+inline std::array<double, 3> joint_residuals(const PlanJoint& j, const JointRows& r, const InputMotion* input,
+                                             const std::vector<PartState<double>>& parts, double size) {
+  const PartState<double>&before = parts[static_cast<std::size_t>(j.before.part)],
+        &after = parts[static_cast<std::size_t>(j.after.part)];
+  const Vec<double> apart = r.point - point_on(before, j.before.at);
+  if (j.slide) {
+    const Vec<double> other = turn(after.direction, j.after.direction);
+    const double angle = std::atan2(cross(r.along, other), dot(r.along, other));
+    return {cross(r.along, apart), angle * size, input ? dot(r.along, apart) - sense(j) * input->value : 0.0};
+  }
+  double turned = 0;
+  if (input) {
+    const Vec<double> relative =
+        unturn(turn(before.direction, j.before.direction), turn(after.direction, j.after.direction));
+    turned = math::wrap_angle(angle_of(relative) - sense(j) * input->value) * size;
+  }
+  return {apart.x, apart.y, turned};
+}
+
+}  // namespace linkwright::planar

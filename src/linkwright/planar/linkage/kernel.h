@@ -1,0 +1,474 @@
+#pragma once
+
+#include <type_traits>
+
+#include "linkwright/math/scalar.h"
+#include "linkwright/math/sincos.h"
+#include "linkwright/planar/linkage/plan.h"
+#include "linkwright/planar/plane.h"
+
+// Position, velocity, acceleration and joint forces of drivers and dyads, each formula once for `double` and
+// SIMD batches.
+//
+// A dyad is a chain of three joints between known parts: before -1- first -2- second -3- after. Its joints
+// are planar screws. About a point R where one of its pins sits, that pin moves nothing, so the two others
+// obey 2 x 2 equations; the same matrix serves velocities, accelerations and, transposed, the joint forces.
+namespace linkwright::planar {
+
+/// Motion of a part: its origin and the direction of its x axis, and how they move. Global frame, SI.
+template <class T>
+struct PartState {
+  Vec<T> origin, direction;
+  Vec<T> velocity;
+  T speed;
+  Vec<T> acceleration;
+  T angular_acceleration;
+};
+
+/// What a group tells of its closure.
+template <class T>
+struct GroupState {
+  /// Of a dyad with two modes: what stands under its root, in m2 (RRP, RPR) or m4 (RRR): negative = it cannot
+  /// be assembled, zero = the modes meet.
+  T radicand;
+  /// Determinant of the 2 x 2 equations over the product of the columns' lengths: the sine of the
+  /// transmission angle of an RRR dyad. Zero = dead point.
+  T sine;
+  Vec<T> reference;             ///< R, global
+  Vec<T> column_x, column_y;    ///< what a unit of each of the two joints moves R by
+  T inverse;                    ///< 1 / cross(column_x, column_y)
+  T rate_x, rate_y, rate_zero;  ///< rates of the joints
+};
+
+/// What a dyad's type tells of its joints: which are slides, and which one, counted from 0, is the pin at R
+/// (`zero`) and which are the other two.
+struct DyadLayout {
+  bool slide1, slide2, slide3;
+  int zero, x, y;
+  constexpr bool slide(int joint) const { return joint == 0 ? slide1 : joint == 1 ? slide2 : slide3; }
+};
+constexpr DyadLayout layout(GroupType type) {
+  switch (type) {
+    case GroupType::rrp:
+      return {false, false, true, 1, 0, 2};
+    case GroupType::rpr:
+      return {false, true, false, 0, 1, 2};
+    case GroupType::prp:
+      return {true, false, true, 1, 0, 2};
+    case GroupType::rpp:
+      return {false, true, true, 0, 1, 2};
+    default:
+      return {false, false, false, 1, 0, 2};
+  }
+}
+
+/// A dyad's type as a type, so that its code has no branches: for_dyad(type, f) calls f(DyadType<type>()).
+template <GroupType type>
+using DyadType = std::integral_constant<GroupType, type>;
+template <class F>
+LINKWRIGHT_KERNEL void for_dyad(GroupType type, F&& f) {
+  switch (type) {
+    case GroupType::rrr:
+      return f(DyadType<GroupType::rrr>());
+    case GroupType::rrp:
+      return f(DyadType<GroupType::rrp>());
+    case GroupType::rpr:
+      return f(DyadType<GroupType::rpr>());
+    case GroupType::prp:
+      return f(DyadType<GroupType::prp>());
+    default:
+      return f(DyadType<GroupType::rpp>());
+  }
+}
+
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> point_on(const PartState<T>& part, const Vec<double>& at) {
+  return part.origin + turn(part.direction, spread<T>(at));
+}
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> velocity_at(const PartState<T>& part, const Vec<T>& point) {
+  return part.velocity + part.speed * left(point - part.origin);
+}
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> acceleration_at(const PartState<T>& part, const Vec<T>& point) {
+  const Vec<T> arm = point - part.origin;
+  return part.acceleration + part.angular_acceleration * left(arm) - (part.speed * part.speed) * arm;
+}
+
+// The same for a part by number: the ground, part 0, stands still in the global frame, and nothing is
+// computed for it.
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> point_on(const PartState<T>* parts, const PartPoint& p) {
+  if (p.part == 0) return spread<T>(p.at);
+  return point_on(parts[p.part], p.at);
+}
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> direction_on(const PartState<T>* parts, const PartPoint& p) {
+  if (p.part == 0) return spread<T>(p.direction);
+  return turn(parts[p.part].direction, spread<T>(p.direction));
+}
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> velocity_at(const PartState<T>* parts, int part, const Vec<T>& point) {
+  if (part == 0) return {T(0), T(0)};
+  return velocity_at(parts[part], point);
+}
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> acceleration_at(const PartState<T>* parts, int part, const Vec<T>& point) {
+  if (part == 0) return {T(0), T(0)};
+  return acceleration_at(parts[part], point);
+}
+
+// ---- position
+// -----------------------------------------------------------------------------------------------
+
+template <class T>
+LINKWRIGHT_KERNEL void place_driver(const Group& g, const T& value, PartState<T>* parts) {
+  const PlanJoint& j = g.joints[0];
+  PartState<T>& moved = parts[j.after.part];
+  const Vec<T> pivot = point_on(parts, j.before);
+  const T way = j.reversed ? -value : value;
+  if (j.slide) {
+    const Vec<T> along = direction_on(parts, j.before);
+    moved.direction = turn(along, spread<T>({j.after.direction.x, -j.after.direction.y}));
+    moved.origin = pivot + way * along - turn(moved.direction, spread<T>(j.after.at));
+  } else {
+    Vec<T> rotation;
+    math::sincos(way, rotation.y, rotation.x);
+    const Vec<T> turned = turn(direction_on(parts, j.before), rotation);
+    moved.direction = tidy_unit(turn(turned, spread<T>({j.after.direction.x, -j.after.direction.y})));
+    moved.origin = pivot - turn(moved.direction, spread<T>(j.after.at));
+  }
+}
+
+// Each places both parts and tells R and the columns of the 2 x 2 equations; `per_length` is one
+// over the product of the columns' lengths.
+template <class T>
+LINKWRIGHT_KERNEL void place_rrr(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state,
+                                 T& per_length) {
+  using std::sqrt;
+  const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  const Vec<T> a = point_on(parts, j1.before);
+  const Vec<T> b = point_on(parts, j3.after);
+  const Vec<T> d = b - a;
+  const T d2 = dot(d, d);
+  const double reach = g.first_length + g.second_length, fold = g.first_length - g.second_length;
+  state.radicand = (T(reach * reach) - d2) * (d2 - T(fold * fold));
+  const T root = mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
+  const T scale = T(0.5) / d2;
+  const T along = T(reach * fold) + d2;
+  const Vec<T> arm1 = scale * turn(Vec<T>{along, root}, d);              // a -> c
+  const Vec<T> arm2 = scale * turn(Vec<T>{along - T(2) * d2, root}, d);  // b -> c
+  first.direction = tidy_unit(turn(arm1, spread<T>(g.first_inverse)));
+  second.direction = tidy_unit(turn(arm2, spread<T>(g.second_inverse)));
+  first.origin = a - turn(first.direction, spread<T>(j1.after.at));
+  second.origin = b - turn(second.direction, spread<T>(j3.before.at));
+  state.reference = a + arm1;
+  state.column_x = left(arm1);
+  state.column_y = left(arm2);
+  per_length = T(g.per_length);
+}
+
+template <class T>
+LINKWRIGHT_KERNEL void place_rrp(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state,
+                                 T& per_length) {
+  using std::sqrt;
+  const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  const Vec<T> a = point_on(parts, j1.before);
+  const Vec<T> e = direction_on(parts, j3.after);
+  second.direction = turn(e, spread<T>({j3.before.direction.x, -j3.before.direction.y}));
+  // The inner pin runs along e through `start`.
+  const Vec<T> start = point_on(parts, j3.after) + turn(second.direction, spread<T>(g.second_link));
+  const Vec<T> m = a - start;
+  const T across = cross(e, m);
+  state.radicand = T(g.first_square) - across * across;
+  const T t = dot(m, e) + mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
+  const Vec<T> arm = t * e - m;
+  first.direction = tidy_unit(turn(arm, spread<T>(g.first_inverse)));
+  first.origin = a - turn(first.direction, spread<T>(j1.after.at));
+  second.origin = start + t * e - turn(second.direction, spread<T>(j2.after.at));
+  state.reference = a + arm;
+  state.column_x = left(arm);
+  state.column_y = e;
+  per_length = T(g.per_length);
+}
+
+template <class T>
+LINKWRIGHT_KERNEL void place_rpr(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state,
+                                 T& per_length) {
+  using std::sqrt;
+  const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  const Vec<T> a = point_on(parts, j1.before);
+  const Vec<T> b = point_on(parts, j3.after);
+  const Vec<T> d = b - a;
+  const T d2 = dot(d, d);
+  const double offset = g.first_link.y - g.second_link.y;  // links seen from the slide direction
+  state.radicand = d2 - T(offset * offset);
+  const T way = mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
+  const T scale = T(1) / d2;
+  const Vec<T> e = tidy_unit(scale * turn(Vec<T>{way, T(-offset)}, d));
+  first.direction = turn(e, spread<T>({j2.before.direction.x, -j2.before.direction.y}));
+  second.direction = turn(e, spread<T>({j2.after.direction.x, -j2.after.direction.y}));
+  first.origin = a - turn(first.direction, spread<T>(j1.after.at));
+  second.origin = b - turn(second.direction, spread<T>(j3.before.at));
+  state.reference = a;
+  state.column_x = e;
+  state.column_y = -left(d);
+  per_length = scale * sqrt(d2);
+}
+
+template <class T>
+LINKWRIGHT_KERNEL void place_prp(const Group& g, PartState<T>* parts, GroupState<T>& state) {
+  const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  const Vec<T> e1 = direction_on(parts, j1.before);
+  const Vec<T> e3 = direction_on(parts, j3.after);
+  first.direction = turn(e1, spread<T>({j1.after.direction.x, -j1.after.direction.y}));
+  second.direction = turn(e3, spread<T>({j3.before.direction.x, -j3.before.direction.y}));
+  const Vec<T> start1 = point_on(parts, j1.before) + turn(first.direction, spread<T>(g.first_link));
+  const Vec<T> start3 = point_on(parts, j3.after) + turn(second.direction, spread<T>(g.second_link));
+  const Vec<T> pin = start1 + (cross(start3 - start1, e3) / cross(e1, e3)) * e1;
+  first.origin = pin - turn(first.direction, spread<T>(j2.before.at));
+  second.origin = pin - turn(second.direction, spread<T>(j2.after.at));
+  state.reference = pin;
+  state.column_x = e1;
+  state.column_y = e3;
+}
+
+template <class T>
+LINKWRIGHT_KERNEL void place_rpp(const Group& g, PartState<T>* parts, GroupState<T>& state) {
+  const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  const Vec<T> e3 = direction_on(parts, j3.after);
+  second.direction = turn(e3, spread<T>({j3.before.direction.x, -j3.before.direction.y}));
+  const Vec<T> e2 = turn(second.direction, spread<T>(j2.after.direction));
+  first.direction = turn(e2, spread<T>({j2.before.direction.x, -j2.before.direction.y}));
+  const Vec<T> a = point_on(parts, j1.before);
+  first.origin = a - turn(first.direction, spread<T>(j1.after.at));
+  const Vec<T> start2 = point_on(first, j2.before.at);
+  // The second part's inner point runs along e2 through start2 and along e3 through start3.
+  const Vec<T> start3 = point_on(parts, j3.after) + turn(second.direction, spread<T>(g.second_link));
+  const Vec<T> meet = start2 + (cross(start3 - start2, e3) / cross(e2, e3)) * e2;
+  second.origin = meet - turn(second.direction, spread<T>(j2.after.at));
+  state.reference = a;
+  state.column_x = e2;
+  state.column_y = e3;
+}
+
+template <GroupType type, class T>
+LINKWRIGHT_KERNEL void place_dyad(DyadType<type>, const Group& g, const T& mode, PartState<T>* parts,
+                                  GroupState<T>& state) {
+  T per_length(1);
+  state.radicand = T(1);
+  if constexpr (type == GroupType::rrr)
+    place_rrr(g, mode, parts, state, per_length);
+  else if constexpr (type == GroupType::rrp)
+    place_rrp(g, mode, parts, state, per_length);
+  else if constexpr (type == GroupType::rpr)
+    place_rpr(g, mode, parts, state, per_length);
+  else if constexpr (type == GroupType::prp)
+    place_prp(g, parts, state);
+  else
+    place_rpp(g, parts, state);
+  const T determinant = cross(state.column_x, state.column_y);
+  state.inverse = T(1) / determinant;
+  state.sine = determinant * per_length;
+}
+
+// ---- rates
+// --------------------------------------------------------------------------------------------------
+
+template <class T>
+LINKWRIGHT_KERNEL void drive_velocity(const Group& g, const T& rate, PartState<T>* parts) {
+  const PlanJoint& j = g.joints[0];
+  const PartState<T>& base = parts[j.before.part];
+  PartState<T>& moved = parts[j.after.part];
+  const T way = j.reversed ? -rate : rate;
+  if (j.slide) {
+    moved.speed = base.speed;
+    moved.velocity = velocity_at(parts, j.before.part, moved.origin) + way * direction_on(parts, j.before);
+  } else {
+    const Vec<T> pivot = point_on(parts, j.before);
+    moved.speed = base.speed + way;
+    moved.velocity = velocity_at(parts, j.before.part, pivot) - moved.speed * left(pivot - moved.origin);
+  }
+}
+template <class T>
+LINKWRIGHT_KERNEL void drive_acceleration(const Group& g, const T& rate, const T& acceleration,
+                                          PartState<T>* parts) {
+  const PlanJoint& j = g.joints[0];
+  const PartState<T>& base = parts[j.before.part];
+  PartState<T>& moved = parts[j.after.part];
+  const T way = j.reversed ? -acceleration : acceleration;
+  if (j.slide) {
+    const Vec<T> along = direction_on(parts, j.before);
+    const T sliding = j.reversed ? -rate : rate;
+    moved.angular_acceleration = base.angular_acceleration;
+    moved.acceleration = acceleration_at(parts, j.before.part, moved.origin) + way * along +
+                         (T(2) * base.speed * sliding) * left(along);
+  } else {
+    const Vec<T> pivot = point_on(parts, j.before);
+    const Vec<T> arm = pivot - moved.origin;
+    moved.angular_acceleration = base.angular_acceleration + way;
+    moved.acceleration = acceleration_at(parts, j.before.part, pivot) -
+                         moved.angular_acceleration * left(arm) + (moved.speed * moved.speed) * arm;
+  }
+}
+
+/// Rates of the joints from the jump between the known parts at R, and motion of both parts.
+template <GroupType type, class T>
+LINKWRIGHT_KERNEL void dyad_velocity(DyadType<type>, const Group& g, PartState<T>* parts, GroupState<T>& s) {
+  const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
+  const PartState<T>&before = parts[j1.before.part], &after = parts[j3.after.part];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  constexpr DyadLayout at = layout(type);
+  const Vec<T> jump =
+      velocity_at(parts, j3.after.part, s.reference) - velocity_at(parts, j1.before.part, s.reference);
+  s.rate_x = cross(jump, s.column_y) * s.inverse;
+  s.rate_y = cross(s.column_x, jump) * s.inverse;
+  constexpr bool turns_x = !at.slide(at.x), turns_y = !at.slide(at.y);
+  s.rate_zero = after.speed - before.speed;
+  if (turns_x) s.rate_zero = s.rate_zero - s.rate_x;
+  if (turns_y) s.rate_zero = s.rate_zero - s.rate_y;
+  const T rate1 = at.zero == 0 ? s.rate_zero : s.rate_x;
+  first.speed = at.slide1 ? before.speed : before.speed + rate1;
+  second.speed = at.slide3 ? after.speed : after.speed - s.rate_y;
+  const Vec<T> at_first = velocity_at(parts, j1.before.part, s.reference) +
+                          (at.zero == 0 ? Vec<T>{T(0), T(0)} : s.rate_x * s.column_x);
+  const Vec<T> at_second = velocity_at(parts, j3.after.part, s.reference) - s.rate_y * s.column_y;
+  first.velocity = at_first - first.speed * left(s.reference - first.origin);
+  second.velocity = at_second - second.speed * left(s.reference - second.origin);
+}
+
+/// What a joint adds to the acceleration at R beyond the acceleration of its own rate: centripetal of a pin,
+/// Coriolis of a slide.
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> joint_bias(bool slide, const Vec<T>& column, const T& rate, const T& speed_before,
+                                    const T& speed_after) {
+  if (slide) return (T(2) * speed_before * rate) * left(column);
+  // column = left(R - P), so R - P = -left(column)
+  return (speed_after * speed_after - speed_before * speed_before) * left(column);
+}
+
+template <GroupType type, class T>
+LINKWRIGHT_KERNEL void dyad_acceleration(DyadType<type>, const Group& g, PartState<T>* parts,
+                                         const GroupState<T>& s) {
+  const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
+  const PartState<T>&before = parts[j1.before.part], &after = parts[j3.after.part];
+  PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
+  constexpr DyadLayout at = layout(type);
+  const Vec<T> from_before = acceleration_at(parts, j1.before.part, s.reference),
+               from_after = acceleration_at(parts, j3.after.part, s.reference);
+  const Vec<T> bias_x = at.zero == 0
+                            ? joint_bias(at.slide(at.x), s.column_x, s.rate_x, first.speed, second.speed)
+                            : joint_bias(at.slide(at.x), s.column_x, s.rate_x, before.speed, first.speed);
+  const Vec<T> bias_y = joint_bias(at.slide(at.y), s.column_y, s.rate_y, second.speed, after.speed);
+  const Vec<T> jump = from_after - from_before - bias_x - bias_y;
+  const T change_x = cross(jump, s.column_y) * s.inverse;
+  const T change_y = cross(s.column_x, jump) * s.inverse;
+  T change_zero = after.angular_acceleration - before.angular_acceleration;
+  if (!at.slide(at.x)) change_zero = change_zero - change_x;
+  if (!at.slide(at.y)) change_zero = change_zero - change_y;
+  const T change1 = at.zero == 0 ? change_zero : change_x;
+  first.angular_acceleration =
+      at.slide1 ? before.angular_acceleration : before.angular_acceleration + change1;
+  second.angular_acceleration =
+      at.slide3 ? after.angular_acceleration : after.angular_acceleration - change_y;
+  const Vec<T> at_first = at.zero == 0 ? from_before : from_before + change_x * s.column_x + bias_x;
+  const Vec<T> at_second = from_after - change_y * s.column_y - bias_y;
+  const auto to_origin = [&](PartState<T> & part, const Vec<T>& there) __attribute__((always_inline)) {
+    const Vec<T> arm = s.reference - part.origin;
+    part.acceleration = there - part.angular_acceleration * left(arm) + (part.speed * part.speed) * arm;
+  };
+  to_origin(first, at_first);
+  to_origin(second, at_second);
+}
+
+// ---- forces
+// -------------------------------------------------------------------------------------------------
+
+/// Force and its moment about a point that is named beside it.
+template <class T>
+struct Wrench {
+  Vec<T> force;
+  T moment;
+};
+template <class T>
+LINKWRIGHT_KERNEL Wrench<T> operator+(const Wrench<T>& a, const Wrench<T>& b) {
+  return {a.force + b.force, a.moment + b.moment};
+}
+template <class T>
+LINKWRIGHT_KERNEL Wrench<T> operator-(const Wrench<T>& a, const Wrench<T>& b) {
+  return {a.force - b.force, a.moment - b.moment};
+}
+/// The same wrench about another point; `way` leads from the new point to the old one.
+template <class T>
+LINKWRIGHT_KERNEL Wrench<T> shifted(const Wrench<T>& w, const Vec<T>& way) {
+  return {w.force, w.moment + cross(way, w.force)};
+}
+
+/// Inertia and weight of a part: the wrench about its origin that its motion needs.
+template <class T>
+LINKWRIGHT_KERNEL Wrench<T> needed_wrench(const PartMass& m, const PartState<T>& part,
+                                          const Vec<T>& gravity) {
+  const Vec<T> arm = turn(part.direction, spread<T>(m.moment));
+  const Vec<T> lifted = part.acceleration - gravity;
+  return {T(m.mass) * lifted + part.angular_acceleration * left(arm) - (part.speed * part.speed) * arm,
+          T(m.inertia) * part.angular_acceleration + cross(arm, lifted)};
+}
+
+/// Joint wrenches of a dyad about its R, of the part before on the part after each joint; `needed` holds, per
+/// part about its origin, what the part needs beyond the joints solved so far, and takes the loads that the
+/// dyad puts on its neighbours. The joints are free of torque and friction.
+template <GroupType type, class T>
+LINKWRIGHT_KERNEL void dyad_forces(DyadType<type>, const Group& g, const PartState<T>* parts,
+                                   const GroupState<T>& s, Wrench<T>* needed, Wrench<T>* joints) {
+  const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
+  const int first = j1.after.part, second = j3.before.part;
+  constexpr DyadLayout at = layout(type);
+  constexpr bool turns_x = !at.slide(at.x), turns_y = !at.slide(at.y);
+  const Wrench<T> n1 = shifted(needed[first], parts[first].origin - s.reference);
+  const Wrench<T> n2 = shifted(needed[second], parts[second].origin - s.reference);
+  // Force f of the pin at R: no joint takes power along its freedom.
+  T bx, by;
+  if (at.zero == 0) {
+    bx = dot(s.column_x, n1.force);
+    by = dot(s.column_y, n1.force + n2.force);
+    if (turns_x) bx = bx + n1.moment;
+    if (turns_y) by = by + n1.moment + n2.moment;
+  } else {
+    bx = -dot(s.column_x, n1.force);
+    by = dot(s.column_y, n2.force);
+    if (turns_x) bx = bx - n1.moment;
+    if (turns_y) by = by + n2.moment;
+  }
+  const Vec<T> f =
+      s.inverse * Vec<T>{bx * s.column_y.y - by * s.column_x.y, by * s.column_x.x - bx * s.column_y.x};
+  const Wrench<T> pin{f, T(0)};
+  if (at.zero == 0) {
+    joints[0] = pin;
+    joints[1] = pin - n1;
+  } else {
+    joints[0] = pin + n1;
+    joints[1] = pin;
+  }
+  joints[2] = joints[1] - n2;
+  const int before = j1.before.part, after = j3.after.part;
+  needed[before] = needed[before] + shifted(joints[0], s.reference - parts[before].origin);
+  needed[after] = needed[after] - shifted(joints[2], s.reference - parts[after].origin);
+}
+
+/// Wrench on the driven part about its joint point; its neighbour takes the opposite.
+template <class T>
+LINKWRIGHT_KERNEL Wrench<T> driver_force(const Group& g, const PartState<T>* parts, Wrench<T>* needed) {
+  const PlanJoint& j = g.joints[0];
+  const int moved = j.after.part, base = j.before.part;
+  const Vec<T> pivot = point_on(parts[moved], j.after.at);
+  const Wrench<T> w = shifted(needed[moved], parts[moved].origin - pivot);
+  needed[base] = needed[base] + shifted(w, pivot - parts[base].origin);
+  return w;
+}
+
+}  // namespace linkwright::planar

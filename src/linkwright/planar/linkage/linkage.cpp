@@ -1,0 +1,234 @@
+#include "linkwright/planar/linkage/linkage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace linkwright::planar {
+namespace {
+
+bool finite(std::complex<double> z) { return std::isfinite(z.real()) && std::isfinite(z.imag()); }
+
+class Checker {
+ public:
+  explicit Checker(const Linkage& linkage) : l_(linkage) {}
+
+  Diagnostics run() {
+    if (l_.bodies.empty()) {
+      error("body", "the linkage has no bodies, not even a ground", "the first body is the ground");
+      return std::move(found_);
+    }
+    names();
+    for (const LinkageBody& b : l_.bodies) body(b);
+    for (const LinkageJoint& j : l_.joints) joint(j);
+    drives();
+    loads();
+    if (!finite(l_.gravity)) error("environment.gravity", "is not finite", {});
+    if (found_.empty()) zero_lengths();
+    return std::move(found_);
+  }
+
+ private:
+  void error(std::string key, std::string message, std::string hint) {
+    found_.push_back(
+        {Diagnostic::Severity::error, {}, {}, std::move(key), std::move(message), std::move(hint)});
+  }
+  bool has(const BodyPoint& p) const {
+    return p.body >= 0 && p.body < static_cast<int>(l_.bodies.size()) && p.point >= 0 &&
+           p.point < static_cast<int>(l_.bodies[static_cast<std::size_t>(p.body)].points.size());
+  }
+  bool has_body(int body) const { return body >= 0 && body < static_cast<int>(l_.bodies.size()); }
+
+  template <class Items>
+  void twice(const Items& items, const char* kind) {
+    std::set<std::string> seen;
+    for (const auto& item : items) {
+      if (item.name.empty()) error(kind, "has no name", "give every one a name of its own");
+      if (!seen.insert(item.name).second && !item.name.empty())
+        error(fmt::format("{}.{}", kind, item.name), fmt::format("the name '{}' is given twice", item.name),
+              "give every one a name of its own");
+    }
+  }
+  void names() {
+    twice(l_.bodies, "body");
+    twice(l_.joints, "joint");
+    twice(l_.springs, "spring");
+    twice(l_.torsion_springs, "torsion_spring");
+    twice(l_.forces, "force");
+    twice(l_.torques, "torque");
+    for (const LinkageBody& b : l_.bodies) twice(b.points, ("body." + b.name + ".point").c_str());
+  }
+  void body(const LinkageBody& b) {
+    const std::string key = "body." + b.name;
+    for (const LinkagePoint& p : b.points)
+      if (!finite(p.at)) error(key + ".point." + p.name, "its coordinates are not finite", {});
+    if (b.mass && !(b.mass->mass >= 0 && b.mass->inertia >= 0 &&
+                    std::isfinite(b.mass->mass + b.mass->inertia) && finite(b.mass->centre)))
+      error(key + ".mass",
+            fmt::format("mass {} and inertia {} must be finite and not negative", b.mass->mass,
+                        b.mass->inertia),
+            {});
+    for (const AttachedMass& m : b.attached)
+      if (!(m.mass >= 0 && std::isfinite(m.mass) && finite(m.at)))
+        error(key + ".attached." + m.name, fmt::format("mass {} must be finite and not negative", m.mass),
+              {});
+  }
+  void joint(const LinkageJoint& j) {
+    const std::string key = "joint." + j.name;
+    const bool gear = j.type == JointType::gear;
+    if (gear ? !has_body(j.first.body) || !has_body(j.second.body) || !has_body(j.carrier)
+             : !has(j.first) || !has(j.second)) {
+      error(key, "refers to a body or point that does not exist", {});
+      return;
+    }
+    if (j.first.body == j.second.body)
+      error(key, fmt::format("joins body '{}' to itself", name(j.first.body)), "a joint needs two bodies");
+    if (!std::isfinite(j.slide_first + j.slide_second + j.ratio + j.phase))
+      error(key, "its angles and ratio must be finite", {});
+    if (!(j.friction >= 0 && j.pin_radius >= 0 && j.guide_length >= 0 &&
+          std::isfinite(j.friction + j.pin_radius + j.guide_length)))
+      error(key, "friction, pin radius and guide length must be finite and not negative", {});
+    else if (j.friction > 0 && (gear || j.type == JointType::fixed))
+      error(key, fmt::format("a {} joint has no friction", words_[static_cast<std::size_t>(j.type)]), {});
+    else if (j.friction > 0 && j.type == JointType::revolute && j.pin_radius == 0)
+      error(key, "has friction but no pin radius: its torque would be zero", "give the radius of the pin");
+    if (gear && j.ratio == 0)
+      error(key, "its ratio is 0", "a gear at rest is a `fixed` joint to its carrier");
+  }
+  void drives() {
+    std::set<int> seen;
+    for (int d : l_.driven) {
+      if (d < 0 || d >= static_cast<int>(l_.joints.size())) {
+        error("drive", fmt::format("joint number {} does not exist", d), {});
+        continue;
+      }
+      const LinkageJoint& j = l_.joints[static_cast<std::size_t>(d)];
+      if (!seen.insert(d).second)
+        error("drive", fmt::format("joint '{}' is driven twice", j.name), "one drive a joint is enough");
+      if (j.type != JointType::revolute && j.type != JointType::prismatic)
+        error("drive",
+              fmt::format("joint '{}' is of type {}: only revolute and prismatic joints are driven", j.name,
+                          words_[static_cast<std::size_t>(j.type)]),
+              {});
+    }
+  }
+  void factor(const std::string& key, const LoadFactor& f) {
+    if (f.against == LoadArgument::constant) return;
+    if (f.argument.size() < 2 || f.argument.size() != f.factor.size())
+      error(key, fmt::format("its table has {} arguments and {} factors", f.argument.size(), f.factor.size()),
+            "give at least two, and as many of both");
+    else if (std::adjacent_find(f.argument.begin(), f.argument.end(), std::greater_equal<>()) !=
+             f.argument.end())
+      error(key, "the arguments of its table do not rise", "sort them, each once");
+    for (std::size_t i = 0; i < std::min(f.argument.size(), f.factor.size()); ++i)
+      if (!std::isfinite(f.argument[i] + f.factor[i])) {
+        error(key, "its table holds numbers that are not finite", {});
+        break;
+      }
+  }
+  void loads() {
+    for (const LinearSpring& s : l_.springs) {
+      const std::string key = "spring." + s.name;
+      if (!has(s.first) || !has(s.second))
+        error(key, "refers to a body or point that does not exist", {});
+      else if (s.first.body == s.second.body)
+        error(key, fmt::format("both ends are on body '{}'", name(s.first.body)), "it would do nothing");
+      if (!(s.stiffness >= 0 && s.damping >= 0 && s.free_length >= 0 &&
+            std::isfinite(s.stiffness + s.damping + s.free_length)))
+        error(key, "stiffness, damping and free length must be finite and not negative", {});
+    }
+    for (const TorsionSpring& s : l_.torsion_springs) {
+      const std::string key = "torsion_spring." + s.name;
+      if (!has_body(s.first) || !has_body(s.second))
+        error(key, "refers to a body that does not exist", {});
+      else if (s.first == s.second)
+        error(key, fmt::format("both ends are on body '{}'", name(s.first)), "it would do nothing");
+      if (!(s.stiffness >= 0 && s.damping >= 0 && std::isfinite(s.stiffness + s.damping + s.free_angle)))
+        error(key, "stiffness and damping must be finite and not negative, the free angle finite", {});
+    }
+    for (const PointForce& f : l_.forces) {
+      if (!has(f.point)) error("force." + f.name, "refers to a body or point that does not exist", {});
+      if (!finite(f.force)) error("force." + f.name, "is not finite", {});
+      if (f.factor.against == LoadArgument::speed)
+        error("force." + f.name, "a force turns nothing: its table cannot go by speed", "give a torque");
+      factor("force." + f.name, f.factor);
+    }
+    for (const BodyTorque& t : l_.torques) {
+      const std::string key = "torque." + t.name;
+      if (!has_body(t.body) || !has_body(t.from))
+        error(key, "refers to a body that does not exist", {});
+      else if (t.body == t.from)
+        error(key, fmt::format("body '{}' exerts it on itself", name(t.body)), {});
+      if (!std::isfinite(t.torque)) error(key, "is not finite", {});
+      if (t.factor.against == LoadArgument::x || t.factor.against == LoadArgument::y)
+        error(key, "a torque has no point: its table cannot go by x or y", "use input or time");
+      factor(key, t.factor);
+    }
+  }
+  // Two pins of a body in one place make a link without length, unless other joints of the body lie apart.
+  void zero_lengths() {
+    const double small = 1e-9 * size_of(l_);
+    for (int b = 1; b < static_cast<int>(l_.bodies.size()); ++b) {
+      std::vector<std::pair<std::complex<double>, const LinkageJoint*>> pins;
+      bool other = false;
+      for (const LinkageJoint& j : l_.joints)
+        for (const BodyPoint& end : {j.first, j.second})
+          if (end.body == b) {
+            if (j.type == JointType::revolute)
+              pins.emplace_back(at(end), &j);
+            else
+              other = true;
+          }
+      if (other || pins.size() < 2) continue;
+      if (std::all_of(pins.begin(), pins.end(),
+                      [&](const auto& p) { return std::abs(p.first - pins[0].first) <= small; }))
+        error("body." + name(b),
+              fmt::format("has no length: its joints {} and {} lie in one point", pins[0].second->name,
+                          pins[1].second->name),
+              "move one of the points, or leave the body out");
+    }
+  }
+  std::complex<double> at(const BodyPoint& p) const {
+    return l_.bodies[static_cast<std::size_t>(p.body)].points[static_cast<std::size_t>(p.point)].at;
+  }
+  const std::string& name(int body) const { return l_.bodies[static_cast<std::size_t>(body)].name; }
+
+  static constexpr std::array<std::string_view, 5> words_{"revolute", "prismatic", "pin_in_slot", "fixed",
+                                                          "gear"};
+  const Linkage& l_;
+  Diagnostics found_;
+};
+
+template <class Items>
+int index_of(const Items& items, std::string_view name) {
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (items[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+}  // namespace
+
+int body_index(const Linkage& linkage, std::string_view name) { return index_of(linkage.bodies, name); }
+int point_index(const LinkageBody& body, std::string_view name) { return index_of(body.points, name); }
+int joint_index(const Linkage& linkage, std::string_view name) { return index_of(linkage.joints, name); }
+
+double size_of(const Linkage& linkage) {
+  std::vector<std::vector<std::complex<double>>> used(linkage.bodies.size());
+  for (const LinkageJoint& j : linkage.joints) {
+    if (j.type == JointType::gear) continue;
+    for (const BodyPoint& end : {j.first, j.second})
+      used[static_cast<std::size_t>(end.body)].push_back(
+          linkage.bodies[static_cast<std::size_t>(end.body)].points[static_cast<std::size_t>(end.point)].at);
+  }
+  double size = 0;
+  for (const auto& points : used)
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) size = std::max(size, std::abs(points[i] - points[k]));
+  return size > 0 ? size : 1;
+}
+
+Diagnostics check(const Linkage& linkage) { return Checker(linkage).run(); }
+
+}  // namespace linkwright::planar

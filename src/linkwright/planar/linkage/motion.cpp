@@ -1,0 +1,231 @@
+#include "linkwright/planar/linkage/motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linkwright/core/check.h"
+#include "linkwright/core/tolerance.h"
+#include "linkwright/planar/linkage/general.h"
+#include "linkwright/planar/linkage/triangle.h"
+#include "linkwright/planar/loop_gap.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// By how much (m) a dyad that was placed cannot close; 0 when it does.
+double gap_of(const Group& g, const LinkageMotion& m, const GroupState<double>& s) {
+  if (!has_modes(g.type) || s.radicand > 0) return 0;
+  const Vec<double> a = point_on(m.parts[at(g.joints[0].before.part)], g.joints[0].before.at);
+  const Vec<double> b = point_on(m.parts[at(g.joints[2].after.part)], g.joints[2].after.at);
+  const double length1 = g.first_length, length2 = g.second_length;
+  if (g.type == GroupType::rrr) return loop_gap(norm(b - a), length1, length2);
+  if (g.type == GroupType::rrp) {
+    const double away = std::sqrt(g.first_square - s.radicand);
+    return away <= length1 * (1 + tolerance::closure) ? 0 : away - length1;
+  }
+  const double offset = std::abs(g.first_link.y - g.second_link.y), distance = norm(b - a);
+  return distance >= offset * (1 - tolerance::closure) ? 0 : offset - distance;
+}
+
+// What rounding left open: the inner joint seen from both parts.
+double closure_of(const Group& g, const LinkageMotion& m) {
+  const PlanJoint& inner = g.joints[1];
+  const PartState<double>&before = m.parts[at(inner.before.part)], &after = m.parts[at(inner.after.part)];
+  const Vec<double> apart = point_on(after, inner.after.at) - point_on(before, inner.before.at);
+  return inner.slide ? std::abs(cross(turn(before.direction, inner.before.direction), apart)) : norm(apart);
+}
+
+void forget(PartState<double>& part) { part = {{nan, nan}, {nan, nan}, {nan, nan}, nan, {nan, nan}, nan}; }
+
+void place_gear(const Group& g, std::span<const InputMotion> inputs, LinkageMotion& motion) {
+  const PlanJoint& j = g.joints[0];
+  double angle = g.angle;
+  for (std::size_t i = 0; i < inputs.size(); ++i) angle += g.gains[i] * inputs[i].value;
+  PartState<double>& part = motion.parts[at(j.after.part)];
+  part.direction = unit(angle);
+  part.origin = point_on(motion.parts[at(j.before.part)], j.before.at) - turn(part.direction, j.after.at);
+}
+void gear_velocity(const Group& g, std::span<const InputMotion> inputs, LinkageMotion& motion) {
+  const PlanJoint& j = g.joints[0];
+  const PartState<double>& base = motion.parts[at(j.before.part)];
+  PartState<double>& part = motion.parts[at(j.after.part)];
+  part.speed = 0;
+  for (std::size_t i = 0; i < inputs.size(); ++i) part.speed += g.gains[i] * inputs[i].rate;
+  const Vec<double> pin = point_on(base, j.before.at);
+  part.velocity = velocity_at(base, pin) - part.speed * left(pin - part.origin);
+}
+void gear_acceleration(const Group& g, std::span<const InputMotion> inputs, LinkageMotion& motion) {
+  const PlanJoint& j = g.joints[0];
+  const PartState<double>& base = motion.parts[at(j.before.part)];
+  PartState<double>& part = motion.parts[at(j.after.part)];
+  part.angular_acceleration = 0;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    part.angular_acceleration += g.gains[i] * inputs[i].acceleration;
+  const Vec<double> pin = point_on(base, j.before.at), arm = pin - part.origin;
+  part.acceleration =
+      acceleration_at(base, pin) - part.angular_acceleration * left(arm) + (part.speed * part.speed) * arm;
+}
+
+void require_inputs(const LinkagePlan& plan, std::span<const InputMotion> inputs) {
+  LINKWRIGHT_REQUIRE(inputs.size() == plan.inputs(), "the linkage has {} inputs, got {}", plan.inputs(),
+                     inputs.size());
+  for (const InputMotion& i : inputs)
+    LINKWRIGHT_REQUIRE(std::isfinite(i.value + i.rate + i.acceleration),
+                       "input {} with rate {} and acceleration {} must be finite", i.value, i.rate,
+                       i.acceleration);
+}
+
+// Groups that are solved: all, or those before the one that failed.
+std::size_t solved(const LinkagePlan& plan, const LinkageMotion& motion) {
+  return motion.failed_group < 0 ? plan.groups.size() : at(motion.failed_group);
+}
+
+}  // namespace
+
+LinkageMotion::LinkageMotion(const LinkagePlan& plan) : parts(plan.parts.size()), groups(plan.groups.size()) {
+  parts[0] = {{0, 0}, {1, 0}, {0, 0}, 0, {0, 0}, 0};
+  for (const Group& g : plan.groups) {
+    modes.push_back(g.mode);
+    if (g.type == GroupType::general)
+      for (std::size_t i = 0; i < g.parts.size(); ++i) {
+        const math::Pose pose = g.start.empty() ? math::Pose{} : g.start[i];
+        parts[at(g.parts[i])].origin = {pose.x, pose.y};
+        parts[at(g.parts[i])].direction = unit(pose.angle);
+      }
+    general.push_back(has_matrix(g.type) ? general_group_memory(plan, g) : GeneralGroupPointer());
+  }
+}
+
+void mark_failed(const LinkagePlan& plan, LinkageMotion& motion, std::size_t group, Status status) {
+  motion.status = status;
+  motion.failed_group = static_cast<int>(group);
+  // General groups keep their place: the next search starts from it. A group at a dead point has its place,
+  // too, but no rates.
+  for (std::size_t g = group; g < plan.groups.size(); ++g)
+    for (int p : plan.groups[g].parts) {
+      PartState<double>& part = motion.parts[at(p)];
+      const Vec<double> origin = part.origin, direction = part.direction;
+      forget(part);
+      if (plan.groups[g].type == GroupType::general || (status == Status::singular && g == group))
+        part.origin = origin, part.direction = direction;
+    }
+}
+
+PartState<double> body_state(const LinkagePlan& plan, const LinkageMotion& motion, int body) {
+  const BodyOnPart& on = plan.bodies[at(body)];
+  PartState<double> s = motion.parts[at(on.part)];
+  if (on.same_frame) return s;
+  const Vec<double> origin = point_on(s, on.origin);
+  s.velocity = velocity_at(s, origin);
+  s.acceleration = acceleration_at(s, origin);
+  s.direction = turn(s.direction, on.turn);
+  s.origin = origin;
+  return s;
+}
+
+PointMotion point_motion(const LinkagePlan& plan, const LinkageMotion& motion, int body,
+                         std::complex<double> there) {
+  const PartState<double> s = body_state(plan, motion, body);
+  const Vec<double> p = point_on(s, vec(there));
+  return {p, velocity_at(s, p), acceleration_at(s, p)};
+}
+
+void solve_position(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion) {
+  require_inputs(plan, inputs);
+  motion.status = Status::done;
+  motion.failed_group = -1;
+  motion.gap = motion.closure_residual = 0;
+  PartState<double>* parts = motion.parts.data();
+  for (std::size_t k = 0; k < plan.groups.size(); ++k) {
+    const Group& g = plan.groups[k];
+    GroupState<double>& state = motion.groups[k];
+    switch (g.type) {
+      case GroupType::driver:
+        place_driver(g, inputs[at(g.input)].value, parts);
+        break;
+      case GroupType::gear:
+        place_gear(g, inputs, motion);
+        break;
+      case GroupType::triangle: {
+        const double value = inputs[at(g.inputs[1])].value;
+        place_triangle(g, value, motion.modes[k], motion.parts, state);
+        if (!(state.radicand > 0) && (motion.gap = triangle_gap(g, value, motion.parts)) > 0)
+          return mark_failed(plan, motion, k, Status::no_assembly);
+        if (!(std::abs(state.sine) >= tolerance::toggle_angle))
+          return mark_failed(plan, motion, k, Status::singular);
+        // One step of Newton's method makes the matrix for the rates.
+        const Status status = place_general(plan, g, inputs, motion, *motion.general[k]);
+        if (status != Status::done) return mark_failed(plan, motion, k, status);
+        break;
+      }
+      case GroupType::general: {
+        const Status status = place_general(plan, g, inputs, motion, *motion.general[k]);
+        state.sine = determinant_sign(*motion.general[k]) * conditioning(*motion.general[k]);
+        if (status != Status::done) return mark_failed(plan, motion, k, status);
+        break;
+      }
+      default:
+        for_dyad(g.type, [&](auto type) { place_dyad(type, g, motion.modes[k], parts, state); });
+        if ((motion.gap = gap_of(g, motion, state)) > 0)
+          return mark_failed(plan, motion, k, Status::no_assembly);
+        if (!(std::abs(state.sine) >= tolerance::toggle_angle))
+          return mark_failed(plan, motion, k, Status::singular);
+        motion.closure_residual = std::max(motion.closure_residual, closure_of(g, motion));
+    }
+  }
+}
+
+void solve_velocity(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion) {
+  for (std::size_t k = 0; k < solved(plan, motion); ++k) {
+    const Group& g = plan.groups[k];
+    switch (g.type) {
+      case GroupType::driver:
+        drive_velocity(g, inputs[at(g.input)].rate, motion.parts.data());
+        break;
+      case GroupType::gear:
+        gear_velocity(g, inputs, motion);
+        break;
+      case GroupType::triangle:
+      case GroupType::general:
+        general_velocity(plan, g, inputs, motion, *motion.general[k]);
+        break;
+      default:
+        for_dyad(g.type, [&](auto type) { dyad_velocity(type, g, motion.parts.data(), motion.groups[k]); });
+    }
+  }
+}
+
+void solve_acceleration(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion) {
+  for (std::size_t k = 0; k < solved(plan, motion); ++k) {
+    const Group& g = plan.groups[k];
+    switch (g.type) {
+      case GroupType::driver: {
+        const InputMotion& i = inputs[at(g.input)];
+        drive_acceleration(g, i.rate, i.acceleration, motion.parts.data());
+        break;
+      }
+      case GroupType::gear:
+        gear_acceleration(g, inputs, motion);
+        break;
+      case GroupType::triangle:
+      case GroupType::general:
+        general_acceleration(plan, g, inputs, motion, *motion.general[k]);
+        break;
+      default:
+        for_dyad(g.type,
+                 [&](auto type) { dyad_acceleration(type, g, motion.parts.data(), motion.groups[k]); });
+    }
+  }
+}
+
+void solve_motion(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion) {
+  solve_position(plan, inputs, motion);
+  solve_velocity(plan, inputs, motion);
+  solve_acceleration(plan, inputs, motion);
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,308 @@
+#include "linkwright/planar/linkage/reactions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linkwright/core/check.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage/friction.h"
+#include "linkwright/planar/linkage/general.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+double factor_at(const LoadFactor& f, double argument) {
+  const auto above = std::upper_bound(f.argument.begin(), f.argument.end(), argument);
+  if (above == f.argument.begin()) return f.factor.front();
+  if (above == f.argument.end()) return f.factor.back();
+  const auto i = static_cast<std::size_t>(above - f.argument.begin());
+  const double share = (argument - f.argument[i - 1]) / (f.argument[i] - f.argument[i - 1]);
+  return f.factor[i - 1] + share * (f.factor[i] - f.factor[i - 1]);
+}
+double strength(const LoadFactor& f, double time, double input, const Vec<double>& point, double speed) {
+  switch (f.against) {
+    case LoadArgument::constant:
+      return 1;
+    case LoadArgument::input:
+      return factor_at(f, input);
+    case LoadArgument::time:
+      return factor_at(f, time);
+    case LoadArgument::x:
+      return factor_at(f, point.x);
+    case LoadArgument::y:
+      return factor_at(f, point.y);
+    case LoadArgument::speed:
+      return factor_at(f, speed);
+  }
+  return 1;
+}
+
+PointMotion point_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion,
+                     const BodyPoint& p) {
+  return point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
+}
+
+const PartState<double>& part_of(const LinkagePlan& plan, const LinkageMotion& motion, int body) {
+  return motion.parts[at(plan.bodies[at(body)].part)];
+}
+
+// The wrench w about `about` that a plan joint puts on its part after, as the model's reaction.
+void report(const PlanJoint& j, const LinkageMotion& motion, const Wrench<double>& w,
+            const Vec<double>& about, LinkageForces& f) {
+  if (j.joint < 0) return;
+  JointReaction& r = f.joints[at(j.joint)];
+  const PartPoint& second = j.reversed ? j.before : j.after;
+  r.point = point_on(motion.parts[at(second.part)], second.at);
+  const Wrench<double> there = shifted(w, about - r.point);
+  const double side = j.reversed ? -1 : 1;
+  r.force = side * there.force;
+  r.moment = side * there.moment;
+}
+
+double along_drive(const PlanJoint& j, const LinkageMotion& motion, const Wrench<double>& w) {
+  const double side = j.reversed ? -1 : 1;
+  if (!j.slide) return side * w.moment;
+  return side * dot(turn(motion.parts[at(j.before.part)].direction, j.before.direction), w.force);
+}
+
+// One pass over the groups, last first, with the loads as they are.
+void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& motion, LinkageForces& f) {
+  const Vec<double> gravity = vec(linkage.gravity);
+  for (std::size_t p = 0; p < plan.parts.size(); ++p)
+    f.needed[p] = needed_wrench(plan.masses[p], motion.parts[p], gravity);
+  for (const AppliedLoad& load : f.loads) {
+    const int part = plan.bodies[at(load.body)].part;
+    Wrench<double>& n = f.needed[at(part)];
+    n = n - shifted(Wrench<double>{load.force, load.torque}, load.point - motion.parts[at(part)].origin);
+  }
+  for (std::size_t k = plan.groups.size(); k-- > 0;) {
+    const Group& g = plan.groups[k];
+    const PlanJoint& j = g.joints[0];
+    switch (g.type) {
+      case GroupType::driver: {
+        const Wrench<double> w = driver_force(g, motion.parts.data(), f.needed.data());
+        report(j, motion, w, point_on(motion.parts[at(j.after.part)], j.after.at), f);
+        f.drives[at(g.input)] = along_drive(j, motion, w);
+        break;
+      }
+      case GroupType::gear: {
+        const Vec<double> pin = point_on(motion.parts[at(j.after.part)], j.after.at);
+        Wrench<double> w = shifted(f.needed[at(g.parts[0])], motion.parts[at(g.parts[0])].origin - pin);
+        const double torque = w.moment;
+        w.moment = 0;
+        report(j, motion, w, pin, f);
+        f.joints[at(g.gear_joint)] = {pin, {0, 0}, g.gear_backwards ? -g.ratio * torque : torque};
+        Wrench<double>& base = f.needed[at(j.before.part)];
+        base = base + shifted(w, pin - motion.parts[at(j.before.part)].origin);
+        f.needed[at(g.turning)].moment += g.ratio * torque;
+        f.needed[at(g.carrier)].moment += (1 - g.ratio) * torque;
+        break;
+      }
+      case GroupType::triangle:
+      case GroupType::general: {
+        const std::span<Wrench<double>> joints(f.group_joints.data(), g.joints.size());
+        general_forces(plan, g, motion, *motion.general[k], f.needed, joints, f.group_drives);
+        for (std::size_t i = 0; i < g.joints.size(); ++i) {
+          const PlanJoint& here = g.joints[i];
+          report(here, motion, joints[i], point_on(motion.parts[at(here.after.part)], here.after.at), f);
+          if (g.inputs[i] >= 0) f.drives[at(g.inputs[i])] = along_drive(here, motion, joints[i]);
+        }
+        break;
+      }
+      default: {
+        const GroupState<double>& s = motion.groups[k];
+        for_dyad(g.type, [&](auto type) {
+          dyad_forces(type, g, motion.parts.data(), s, f.needed.data(), f.group_joints.data());
+        });
+        for (std::size_t i = 0; i < 3; ++i) report(g.joints[i], motion, f.group_joints[i], s.reference, f);
+      }
+    }
+  }
+}
+
+// A weld carries what the bodies on the side of its second body need beyond their other joints and loads.
+void weld_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, LinkageForces& f) {
+  const std::size_t n = l.bodies.size();
+  std::vector<Wrench<double>> needs(n, {{0, 0}, 0});  // about the global origin
+  for (std::size_t b = 1; b < n; ++b) {
+    const PartState<double> s = body_state(plan, motion, static_cast<int>(b));
+    PartMass m;
+    const auto add = [&](double mass, double inertia, const Vec<double>& c) {
+      m.mass += mass;
+      m.moment = m.moment + mass * c;
+      m.inertia += inertia + mass * dot(c, c);
+    };
+    if (l.bodies[b].mass)
+      add(l.bodies[b].mass->mass, l.bodies[b].mass->inertia, vec(l.bodies[b].mass->centre));
+    for (const AttachedMass& a : l.bodies[b].attached) add(a.mass, 0, vec(a.at));
+    needs[b] = shifted(needed_wrench(m, s, vec(l.gravity)), s.origin);
+  }
+  const auto take = [&](int body, const Wrench<double>& w, const Vec<double>& point) {
+    needs[at(body)] = needs[at(body)] - shifted(w, point);
+  };
+  for (const AppliedLoad& load : f.loads) take(load.body, {load.force, load.torque}, load.point);
+  for (std::size_t k = 0; k < l.joints.size(); ++k) {
+    const LinkageJoint& j = l.joints[k];
+    const JointReaction& r = f.joints[k];
+    if (j.type == JointType::fixed) continue;
+    if (j.type == JointType::gear) {
+      take(j.second.body, {{0, 0}, r.moment}, r.point);
+      take(j.first.body, {{0, 0}, -j.ratio * r.moment}, r.point);
+      take(j.carrier, {{0, 0}, -(1 - j.ratio) * r.moment}, r.point);
+    } else {
+      take(j.second.body, {r.force, r.moment}, r.point);
+      take(j.first.body, {-r.force, -r.moment}, r.point);
+    }
+  }
+  for (std::size_t k = 0; k < l.joints.size(); ++k) {
+    const LinkageJoint& weld = l.joints[k];
+    if (weld.type != JointType::fixed) continue;
+    // Bodies on the second side: reached over welds other than this one.
+    std::vector<int> side{weld.second.body};
+    Wrench<double> sum{{0, 0}, 0};
+    bool ground = false;
+    for (std::size_t i = 0; i < side.size(); ++i) {
+      sum = sum + needs[at(side[i])];
+      ground = ground || side[i] == 0;
+      for (std::size_t o = 0; o < l.joints.size(); ++o) {
+        const LinkageJoint& j = l.joints[o];
+        if (o == k || j.type != JointType::fixed) continue;
+        for (const auto& [here, there] :
+             {std::pair{j.first.body, j.second.body}, std::pair{j.second.body, j.first.body}})
+          if (here == side[i] && std::find(side.begin(), side.end(), there) == side.end())
+            side.push_back(there);
+      }
+    }
+    if (ground) {  // the other side is the one whose needs are known
+      sum = {{0, 0}, 0};
+      for (std::size_t b = 1; b < n; ++b)
+        if (plan.bodies[b].part == plan.bodies[at(weld.second.body)].part &&
+            std::find(side.begin(), side.end(), static_cast<int>(b)) == side.end())
+          sum = sum - needs[b];
+    }
+    JointReaction& r = f.joints[k];
+    r.point = point_of(l, plan, motion, weld.second).position;
+    const Wrench<double> w = shifted(sum, -r.point);
+    r.force = w.force;
+    r.moment = w.moment;
+  }
+}
+
+void powers(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, LinkageForces& f) {
+  const Vec<double> gravity = vec(l.gravity);
+  f.kinetic_power = f.weight_power = f.load_power = f.drive_power = 0;
+  for (std::size_t p = 1; p < plan.parts.size(); ++p) {
+    const PartState<double>& s = motion.parts[p];
+    const Wrench<double> w = needed_wrench(plan.masses[p], s, Vec<double>{0, 0});
+    f.kinetic_power += dot(w.force, s.velocity) + w.moment * s.speed;
+    const Vec<double> arm = turn(s.direction, plan.masses[p].moment);
+    f.weight_power += plan.masses[p].mass * dot(gravity, s.velocity) + cross(arm, gravity) * s.speed;
+  }
+  for (const AppliedLoad& load : f.loads) {
+    const PartState<double>& s = part_of(plan, motion, load.body);
+    f.load_power += dot(load.force, velocity_at(s, load.point)) + load.torque * s.speed;
+  }
+  for (std::size_t i = 0; i < l.driven.size(); ++i) {
+    const LinkageJoint& j = l.joints[at(l.driven[i])];
+    const PartState<double>&first = part_of(plan, motion, j.first.body),
+          &second = part_of(plan, motion, j.second.body);
+    double rate = second.speed - first.speed;
+    if (j.type == JointType::prismatic) {
+      const Vec<double> along = turn(body_state(plan, motion, j.first.body).direction, unit(j.slide_first));
+      const Vec<double> point = point_of(l, plan, motion, j.second).position;
+      rate = dot(along, velocity_at(second, point) - velocity_at(first, point));
+    }
+    f.drive_power += f.drives[i] * rate;
+  }
+}
+
+void nothing(LinkageForces& f) {
+  for (JointReaction& r : f.joints) r = {{nan, nan}, {nan, nan}, nan};
+  std::fill(f.drives.begin(), f.drives.end(), nan);
+  f.shaking_force = {nan, nan};
+  f.shaking_moment = f.shaking_moment_with_drive = nan;
+  f.drive_power = f.load_power = f.weight_power = f.kinetic_power = nan;
+}
+
+}  // namespace
+
+void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, double time,
+                   double input, std::vector<AppliedLoad>& loads) {
+  for (const LinearSpring& s : l.springs) {
+    const PointMotion a = point_of(l, plan, motion, s.first), b = point_of(l, plan, motion, s.second);
+    const Vec<double> way = b.position - a.position;
+    const double length = norm(way);
+    // Without a length there is no direction: as if at rest length.
+    const Vec<double> along = length > 0 ? (1 / length) * way : Vec<double>{0, 0};
+    const double pull =
+        s.stiffness * (length - s.free_length) + s.damping * dot(along, b.velocity - a.velocity);
+    loads.push_back({s.first.body, a.position, pull * along, 0});
+    loads.push_back({s.second.body, b.position, -pull * along, 0});
+  }
+  for (const TorsionSpring& s : l.torsion_springs) {
+    const PartState<double> a = body_state(plan, motion, s.first), b = body_state(plan, motion, s.second);
+    const double angle = math::wrap_angle(angle_of(unturn(a.direction, b.direction)) - s.free_angle);
+    const double torque = -s.stiffness * angle - s.damping * (b.speed - a.speed);
+    loads.push_back({s.second, b.origin, {0, 0}, torque});
+    loads.push_back({s.first, a.origin, {0, 0}, -torque});
+  }
+  for (const PointForce& p : l.forces) {
+    const Vec<double> there = point_of(l, plan, motion, p.point).position;
+    Vec<double> force = strength(p.factor, time, input, there, 0) * vec(p.force);
+    if (p.turns_with_body) force = turn(body_state(plan, motion, p.point.body).direction, force);
+    loads.push_back({p.point.body, there, force, 0});
+  }
+  for (const BodyTorque& t : l.torques) {
+    const double speed = part_of(plan, motion, t.body).speed - part_of(plan, motion, t.from).speed;
+    const double torque = t.torque * strength(t.factor, time, input, {0, 0}, speed);
+    loads.push_back({t.body, part_of(plan, motion, t.body).origin, {0, 0}, torque});
+    loads.push_back({t.from, part_of(plan, motion, t.from).origin, {0, 0}, -torque});
+  }
+}
+
+void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& motion, double time,
+                  double input, LinkageForces& f, const FreeAccelerations& answer) {
+  LINKWRIGHT_REQUIRE(plan.has_masses, "forces need the mass of every body: '{}' has none", plan.massless[0]);
+  f.status = motion.status;
+  f.joints.resize(l.joints.size());
+  f.drives.resize(plan.inputs());
+  f.needed.resize(plan.parts.size());
+  std::size_t most = 3;
+  for (const Group& g : plan.groups) most = std::max(most, g.joints.size());
+  f.group_joints.resize(most);
+  f.group_drives.resize(most);
+  f.loads.clear();
+  f.iterations = 0;
+  if (motion.status != Status::done) return nothing(f);
+  applied_loads(l, plan, motion, time, input, f.loads);
+  const auto balance = [&] {
+    pass(plan, l, motion, f);
+    if (!answer) return;
+    answer(f.drives);
+    pass(plan, l, motion, f);
+  };
+  balance();
+  if (std::any_of(l.joints.begin(), l.joints.end(), [](const LinkageJoint& j) { return j.friction > 0; })) {
+    f.status = settle_friction(l, plan, motion, balance, f);
+    if (f.status != Status::done) return nothing(f);
+  }
+  f.shaking_force = -f.needed[0].force;
+  f.shaking_moment_with_drive = -f.needed[0].moment;
+  f.shaking_moment = f.shaking_moment_with_drive;
+  for (std::size_t i = 0; i < l.driven.size(); ++i) {
+    const LinkageJoint& j = l.joints[at(l.driven[i])];
+    if (j.type != JointType::revolute) continue;
+    if (plan.bodies[at(j.first.body)].part == 0) f.shaking_moment += f.drives[i];
+    if (plan.bodies[at(j.second.body)].part == 0) f.shaking_moment -= f.drives[i];
+  }
+  if (std::any_of(l.joints.begin(), l.joints.end(),
+                  [](const LinkageJoint& j) { return j.type == JointType::fixed; }))
+    weld_forces(l, plan, motion, f);
+  powers(l, plan, motion, f);
+}
+
+}  // namespace linkwright::planar

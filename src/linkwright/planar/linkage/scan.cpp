@@ -1,0 +1,188 @@
+#include "linkwright/planar/linkage/scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "linkwright/core/check.h"
+#include "linkwright/math/zero.h"
+#include "linkwright/planar/linkage/triangle.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr int nodes = 240;
+constexpr double touching = 1e-11;
+
+// Two slides that may become parallel. Those of an RPP dyad keep their angle.
+bool slides_only(GroupType type) { return type == GroupType::prp; }
+
+}  // namespace
+
+GroupScan::GroupScan(const LinkagePlan& plan, std::span<const double> inputs, int input) : input_(at(input)) {
+  LINKWRIGHT_REQUIRE(plan.closed_form(), "the plan has groups without closed form");
+  LINKWRIGHT_REQUIRE(inputs.size() == plan.inputs() && input >= 0 && at(input) < inputs.size(),
+                     "the linkage has {} inputs, got {} and number {}", plan.inputs(), inputs.size(), input);
+  for (double v : inputs) inputs_.push_back({v, 0, 0});
+  inputs_[input_].rate = 1;
+  levels_.reserve(plan.groups.size());
+  for (std::size_t k = 0; k < plan.groups.size(); ++k) {
+    levels_.push_back(plan);
+    levels_.back().groups.resize(k + 1);
+    motions_.emplace_back(levels_.back());
+  }
+}
+
+GroupScan::Closure GroupScan::closure(std::size_t k, double value) {
+  const LinkagePlan& plan = levels_[k];
+  LinkageMotion& m = motions_[k];
+  inputs_[input_].value = value;
+  solve_position(plan, inputs_, m);
+  if (m.failed_group >= 0 && at(m.failed_group) < k) return {nan, nan, nan};
+  // The groups before this one move, whether this one assembles or not.
+  m.failed_group = static_cast<int>(k);
+  solve_velocity(plan, inputs_, m);
+  const Group& g = plan.groups[k];
+  const PlanJoint &j1 = g.joints.front(), &j3 = g.joints.back();
+  const PartState<double>&before = m.parts[at(j1.before.part)], &after = m.parts[at(j3.after.part)];
+  const Vec<double> a = point_on(before, j1.before.at), b = point_on(after, j3.after.at);
+  const Vec<double> d = b - a, slip = velocity_at(after, b) - velocity_at(before, a);
+  const double length = norm(d);
+  switch (g.type) {
+    case GroupType::rrr: {
+      const double l1 = std::sqrt(g.first_square), l2 = std::sqrt(g.second_square), reach = l1 + l2,
+                   fold = std::abs(l1 - l2), square = dot(d, d);
+      return {(reach - length) * (reach + length) * (length - fold) * (length + fold),
+              2 * dot(d, slip) * (reach * reach + fold * fold - 2 * square),
+              std::min(std::abs(reach - length), std::abs(length - fold)) / reach};
+    }
+    case GroupType::triangle: {
+      const InputMotion& drive = inputs_[at(g.inputs[1])];
+      const DrivenSide side = driven_side(g, drive.value);
+      const double l1 = norm(side.way), reach = l1 + g.second_length, fold = l1 - g.second_length,
+                   square = dot(d, d), longer = dot(side.way, side.rate) / l1 * drive.rate;
+      return {(reach - length) * (reach + length) * (length - fold) * (length + fold),
+              2 * dot(d, slip) * (reach * reach + fold * fold - 2 * square) +
+                  2 * longer * (reach * (square - fold * fold) - fold * (reach * reach - square)),
+              std::min(std::abs(reach - length), std::abs(length - std::abs(fold))) / reach};
+    }
+    case GroupType::rrp: {
+      const Vec<double> e = turn(after.direction, j3.after.direction);
+      // The line of the inner pin runs beside the slide's, by as much wherever the guide stands.
+      const double beside = unturn(j3.before.direction, g.second_link).y;
+      const double across = cross(e, d) + beside, l = std::sqrt(g.first_square);
+      const double slope = cross(e, slip) + after.speed * cross(left(e), d);
+      return {(l - across) * (l + across), -2 * across * slope, std::abs(std::abs(across) - l) / l};
+    }
+    case GroupType::rpr: {
+      const double offset = g.first_link.y - g.second_link.y;
+      return {(length - offset) * (length + offset), 2 * dot(d, slip),
+              std::abs(length - std::abs(offset)) / plan.size};
+    }
+    default: {  // PRP: the sine between the slides, with sign
+      const Vec<double> e1 = turn(before.direction, j1.before.direction),
+                        e3 = turn(after.direction, j3.after.direction);
+      return {cross(e1, e3), (after.speed - before.speed) * dot(e1, e3), std::abs(cross(e1, e3))};
+    }
+  }
+}
+
+// A double zero at an end where the groups before may be singular themselves, so that it can only be looked
+// at from inside: there the closure grows with the square of the distance.
+bool GroupScan::touches_at_end(std::size_t k, double end, double inward) {
+  double f[3];
+  for (int i = 0; i < 3; ++i) f[i] = closure(k, end + inward * (i + 1)).value;
+  if (!(f[0] > 0 && f[1] > 0 && f[2] > 0)) return false;
+  const double ratio = f[1] / f[0], at_end = 3 * f[0] - 3 * f[1] + f[2];
+  return ratio > 3 && ratio < 5 && std::abs(at_end) < 0.02 * f[0];
+}
+
+std::vector<Stretch> GroupScan::stretches(std::size_t k, std::span<const double> modes, double from,
+                                          double to) {
+  LINKWRIGHT_REQUIRE(k < levels_.size() && modes.size() == levels_.size(), "group {} of {}, {} modes", k,
+                     levels_.size(), modes.size());
+  LINKWRIGHT_REQUIRE(std::isfinite(from) && std::isfinite(to) && from < to, "no stretch: {} to {}", from, to);
+  const GroupType type = levels_[k].groups[k].type;
+  if (!has_modes(type) && !slides_only(type)) return {{from, to, EndKind::bound, EndKind::bound}};
+  for (std::size_t g = 0; g < k; ++g) motions_[k].modes[g] = modes[g];
+  // The input runs as a cosine over the stretch: analytic also at limits of groups before, where positions
+  // go with the square root of the distance.
+  const double middle = (from + to) / 2, half = (to - from) / 2;
+  const auto input_of = [&](double angle) { return middle - half * std::cos(angle); };
+  struct Node {
+    double at;
+    Closure closure;
+    bool touch = false;
+  };
+  std::vector<Node> found;
+  const double inward = 1e-5 * (to - from);
+  const bool touch_from = !slides_only(type) && touches_at_end(k, from, inward),
+             touch_to = !slides_only(type) && touches_at_end(k, to, -inward);
+  if (!touch_from) found.push_back({from, closure(k, from)});
+  for (int i = 0; i < nodes; ++i) {
+    const double x = input_of((i + 0.5) * std::numbers::pi / nodes);
+    const Node next{x, closure(k, x)};
+    if (!std::isfinite(next.closure.value)) continue;
+    if (i > 0 && !found.empty() && !slides_only(type) && std::isfinite(found.back().closure.slope) &&
+        (found.back().closure.slope < 0) != (next.closure.slope < 0)) {
+      const double s = math::zero_between([&](double v) { return closure(k, v).slope; }, found.back().at, x);
+      const Closure here = closure(k, s);
+      found.push_back({s, here, here.closeness < touching});
+    }
+    found.push_back(next);
+  }
+  if (!touch_to) found.push_back({to, closure(k, to)});
+  std::erase_if(found, [](const Node& n) { return !std::isfinite(n.closure.value); });
+  if (found.empty()) return {};
+
+  std::vector<Stretch> out;
+  Stretch open{from, to, touch_from ? EndKind::change_point : EndKind::bound, EndKind::bound};
+  const auto inside = [&](double value) { return slides_only(type) || value >= 0; };
+  const auto close = [&](double x, EndKind kind) {
+    open.to = x;
+    open.to_kind = kind;
+    if (open.to > open.from) out.push_back(open);
+    open.from = x;
+    open.from_kind = kind;
+  };
+  // Rounding at a bound where the group just closes.
+  if (found.size() > 1 && found.front().at == from && found.front().closure.closeness < touching)
+    found.front().closure.value = found[1].closure.value;
+  if (found.size() > 1 && found.back().at == to && found.back().closure.closeness < touching)
+    found.back().closure.value = found[found.size() - 2].closure.value;
+  bool in = inside(found.front().closure.value);
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    const Node &last = found[i - 1], &next = found[i];
+    if (next.touch) {
+      // Before and after a touch the group assembles, or on neither side.
+      if (in) close(next.at, EndKind::change_point);
+      continue;
+    }
+    if (last.touch || (last.closure.value < 0) == (next.closure.value < 0)) continue;
+    const double x = math::zero_between([&](double v) { return closure(k, v).value; }, last.at, next.at);
+    if (slides_only(type)) {
+      close(x, EndKind::singular);
+    } else if (in) {
+      close(x, EndKind::limit);
+      in = false;
+    } else {
+      open.from = x;
+      open.from_kind = EndKind::limit;
+      in = true;
+    }
+  }
+  if (in) close(to, touch_to ? EndKind::change_point : EndKind::bound);
+  return out;
+}
+
+bool periodic(const LinkagePlan& plan, int input) {
+  if (!plan.rotary[at(input)]) return false;
+  return std::all_of(plan.groups.begin(), plan.groups.end(), [&](const Group& g) {
+    return g.type != GroupType::gear || std::abs(g.gains[at(input)] - std::round(g.gains[at(input)])) < 1e-12;
+  });
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "linkwright/planar/linkage/motion.h"
+
+namespace linkwright::planar {
+
+/// What happens at the end of a stretch of an input.
+enum class EndKind {
+  bound,         ///< nothing: the stretch that was asked for ends
+  limit,         ///< a group reaches its limit: dead point of the input, both modes meet and turn back
+  change_point,  ///< both modes meet and go on: which way is a choice
+  singular,  ///< two slides become parallel: the group runs away to infinity, or its place is undetermined
+};
+constexpr std::array<EnumName<EndKind>, 4> names(EndKind) {
+  return {{{EndKind::bound, "bound", "end of the interval that was asked for"},
+           {EndKind::limit, "limit", "limit of motion"},
+           {EndKind::change_point, "change_point", "the assembly modes meet and cross"},
+           {EndKind::singular, "singular", "slides become parallel"}}};
+}
+
+/// Part of an input's range in which a group can be assembled.
+struct Stretch {
+  double from = 0, to = 0;
+  EndKind from_kind = EndKind::bound, to_kind = EndKind::bound;
+};
+
+/// Finds where one group can be assembled while one input moves and the others stay. Make one a plan in
+/// closed form and use it for many groups and stretches.
+class GroupScan {
+ public:
+  /// Throws ContractError when the plan is not in closed form, or inputs do not fit.
+  GroupScan(const LinkagePlan& plan, std::span<const double> inputs, int input);
+
+  /// Stretches of [from, to], rising, in which `group` can be assembled while the groups before it stand in
+  /// the given modes (signs, one a group; those from `group` on are not used). The groups before must
+  /// assemble on all of (from, to). Limits are simple zeros of the group's radicand, change points double
+  /// ones; both are located to rounding: double zeros as zeros of the radicand's derivative. A double zero
+  /// counts when the group's pins come within 1e-11 of their distance there. Two limits that are closer than
+  /// half a percent of the stretch may be missed, with what lies between them.
+  std::vector<Stretch> stretches(std::size_t group, std::span<const double> modes, double from, double to);
+
+ private:
+  struct Closure {
+    double value;      // >= 0: assembles; NaN where a group before fails
+    double slope;      // with the input
+    double closeness;  // to a zero, as a share of lengths
+  };
+  Closure closure(std::size_t group, double input);
+  bool touches_at_end(std::size_t group, double end, double inward);
+
+  std::vector<LinkagePlan> levels_;  // the plan up to each group
+  std::vector<LinkageMotion> motions_;
+  std::vector<InputMotion> inputs_;
+  std::size_t input_;
+};
+
+/// Whether a full turn of the input brings the same position: it turns, and gears turn by whole turns with
+/// it.
+bool periodic(const LinkagePlan& plan, int input);
+
+}  // namespace linkwright::planar

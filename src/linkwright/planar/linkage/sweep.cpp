@@ -1,0 +1,272 @@
+#include "linkwright/planar/linkage/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "linkwright/core/check.h"
+#include "linkwright/planar/linkage/assembly.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr std::size_t line = 8;  // doubles of a cache line, and lanes of the widest register
+
+struct Kernel {
+  SweepKernel run;
+  const char* name;
+};
+Kernel choose_kernel() {
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f")) return {sweep_avx512, "avx512"};
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return {sweep_avx2, "avx2"};
+  return {sweep_baseline, "baseline"};
+}
+const Kernel& kernel() {
+  static const Kernel chosen = choose_kernel();
+  return chosen;
+}
+
+bool all_in_registers(const Linkage& l, const LinkagePlan& plan, bool forces) {
+  if (plan.parts.size() > most_sweep_parts || plan.groups.size() > most_sweep_parts) return false;
+  for (const Group& g : plan.groups)
+    if (has_matrix(g.type) || g.type == GroupType::gear) return false;
+  if (!forces) return true;
+  return l.springs.empty() && l.torsion_springs.empty() && l.forces.empty() && l.torques.empty() &&
+         std::all_of(l.joints.begin(), l.joints.end(),
+                     [](const LinkageJoint& j) { return j.friction == 0 && j.type != JointType::fixed; });
+}
+
+// Value of an input's row at a sample.
+double of(std::span<const double> row, std::size_t i) {
+  return row.empty() ? 0.0 : row.size() == 1 ? row[0] : row[i];
+}
+
+}  // namespace
+
+struct LinkageSweep::Memory {
+  Memory(Linkage l, LinkagePlan p, const SweepWanted& w)
+      : linkage(std::move(l)), plan(std::move(p)), wanted(w), motion(plan) {}
+
+  Linkage linkage;
+  LinkagePlan plan;
+  SweepWanted wanted;
+  bool batched = false;
+  SweepTask task;
+  std::size_t rows = 0, samples = 0;
+  std::vector<double> data;
+  std::vector<Status> status;
+  LinkageMotion motion;
+  LinkageForces forces;
+  std::vector<InputMotion> inputs;
+  std::vector<double> modes;                // signs, one a group
+  std::optional<LinkageAssembly> assembly;  // of plans without closed form
+
+  double& number(std::size_t row, std::size_t sample) { return task.data[row * task.stride + sample]; }
+  std::span<const double> row(std::size_t r) const { return {task.data + r * task.stride, samples}; }
+
+  void make_room(std::size_t n) {
+    samples = n;
+    task.count = (n + line - 1) / line * line;
+    // An odd number of cache lines from row to row: with a power of two all rows of a sample would compete
+    // for the same few places of the cache.
+    task.stride = task.count + (task.count / line % 2 == 0 ? line : 0);
+    if (data.size() < rows * task.stride + line) data.resize(rows * task.stride + line);
+    const auto address = reinterpret_cast<std::uintptr_t>(data.data());
+    task.data =
+        data.data() + (line * sizeof(double) - address % (line * sizeof(double))) / sizeof(double) % line;
+    status.resize(n);
+  }
+
+  void read(std::size_t i) {
+    for (std::size_t k = 0; k < inputs.size(); ++k)
+      inputs[k] = {number(task.inputs + 3 * k, i), number(task.inputs + 3 * k + 1, i),
+                   number(task.inputs + 3 * k + 2, i)};
+  }
+
+  // One sample by the functions for one position.
+  void scalar(std::size_t i, double time) {
+    read(i);
+    if (assembly)
+      assembly->place(inputs, motion);
+    else
+      solve_position(plan, inputs, motion);
+    if (wanted.rates) {
+      solve_velocity(plan, inputs, motion);
+      solve_acceleration(plan, inputs, motion);
+    }
+    status[i] = motion.status;
+    if (wanted.forces) {
+      solve_forces(linkage, plan, motion, time, inputs.empty() ? 0.0 : inputs[0].value, forces);
+      status[i] = forces.status;
+    }
+    write(i);
+  }
+
+  void write(std::size_t i) {
+    const std::size_t failed = motion.failed_group < 0 ? plan.groups.size() : at(motion.failed_group);
+    for (std::size_t p = 1; p < plan.parts.size(); ++p) {
+      const bool known = plan.group_of_part[p] >= 0 && at(plan.group_of_part[p]) < failed;
+      const PartState<double>& s = motion.parts[p];
+      const double values[] = {
+          s.origin.x,   s.origin.y, s.direction.x,    s.direction.y,    s.velocity.x,
+          s.velocity.y, s.speed,    s.acceleration.x, s.acceleration.y, s.angular_acceleration};
+      for (std::size_t r = 0; r < task.part_rows; ++r)
+        number(task.parts + task.part_rows * (p - 1) + r, i) = known ? values[r] : nan;
+    }
+    for (std::size_t k = 0; k < plan.groups.size(); ++k) {
+      const GroupType type = plan.groups[k].type;
+      const bool dyad = type != GroupType::driver && type != GroupType::gear;
+      const bool known = (k < failed || (k == failed && type != GroupType::general));
+      const GroupState<double>& s = motion.groups[k];
+      number(task.groups + 2 * k, i) = !known ? nan : dyad && type != GroupType::general ? s.radicand : 1.0;
+      number(task.groups + 2 * k + 1, i) = !known ? nan : dyad ? s.sine : 1.0;
+    }
+    if (!wanted.forces) return;
+    for (std::size_t j = 0; j < linkage.joints.size(); ++j) {
+      const JointReaction& r = forces.joints[j];
+      number(task.joints + 3 * j, i) = r.force.x;
+      number(task.joints + 3 * j + 1, i) = r.force.y;
+      number(task.joints + 3 * j + 2, i) = r.moment;
+    }
+    for (std::size_t k = 0; k < inputs.size(); ++k) number(task.drives + k, i) = forces.drives[k];
+    number(task.shaking, i) = forces.shaking_force.x;
+    number(task.shaking + 1, i) = forces.shaking_force.y;
+    number(task.shaking + 2, i) = forces.shaking_moment_with_drive;
+  }
+};
+
+LinkageSweep::LinkageSweep(Linkage linkage, LinkagePlan plan, const SweepWanted& wanted)
+    : memory_(std::make_unique<Memory>(std::move(linkage), std::move(plan), wanted)) {
+  Memory& m = *memory_;
+  LINKWRIGHT_REQUIRE(!wanted.forces || wanted.rates, "forces need rates");
+  LINKWRIGHT_REQUIRE(!wanted.forces || m.plan.has_masses, "forces need the mass of every body: '{}' has none",
+                     m.plan.massless[0]);
+  m.batched = all_in_registers(m.linkage, m.plan, wanted.forces);
+  m.inputs.resize(m.plan.inputs());
+  m.modes = m.motion.modes;
+  SweepTask& t = m.task;
+  t.plan = &m.plan;
+  t.gravity = vec(m.linkage.gravity);
+  t.rates = wanted.rates;
+  t.forces = wanted.forces;
+  t.part_rows = wanted.rates ? 10 : 4;
+  const auto take = [&](std::size_t& first, std::size_t count) {
+    first = m.rows;
+    m.rows += count;
+  };
+  take(t.inputs, 3 * m.plan.inputs());
+  take(t.parts, t.part_rows * (m.plan.parts.size() - 1));
+  take(t.groups, 2 * m.plan.groups.size());
+  take(t.good, 1);
+  if (!wanted.forces) return;
+  take(t.joints, 3 * m.linkage.joints.size());
+  take(t.drives, m.plan.inputs());
+  take(t.shaking, 3);
+}
+
+LinkageSweep::~LinkageSweep() = default;
+LinkageSweep::LinkageSweep(LinkageSweep&&) noexcept = default;
+LinkageSweep& LinkageSweep::operator=(LinkageSweep&&) noexcept = default;
+
+void LinkageSweep::set_modes(std::span<const double> modes) {
+  LINKWRIGHT_REQUIRE(modes.size() == memory_->plan.groups.size(), "{} groups, got {} modes",
+                     memory_->plan.groups.size(), modes.size());
+  memory_->modes.assign(modes.begin(), modes.end());
+  memory_->motion.modes = memory_->modes;
+}
+
+void LinkageSweep::run(std::span<const SweepInput> inputs, std::span<const double> time) {
+  Memory& m = *memory_;
+  LINKWRIGHT_REQUIRE(inputs.size() == m.plan.inputs() && !inputs.empty(), "the linkage has {} inputs, got {}",
+                     m.plan.inputs(), inputs.size());
+  const std::size_t n = inputs[0].value.size();
+  LINKWRIGHT_REQUIRE(time.empty() || time.size() == n, "{} samples, got {} times", n, time.size());
+  m.make_room(n);
+  if (n == 0) return;
+  bool finite = true;
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    const std::span<const double> rows[] = {inputs[k].value, inputs[k].rate, inputs[k].acceleration};
+    for (std::size_t r = 0; r < 3; ++r) {
+      LINKWRIGHT_REQUIRE(rows[r].size() == n || (r > 0 && rows[r].size() <= 1),
+                         "{} samples, input {} has {} numbers", n, k, rows[r].size());
+      double* to = &m.number(m.task.inputs + 3 * k + r, 0);
+      if (rows[r].size() == n)
+        std::copy(rows[r].begin(), rows[r].end(), to);
+      else
+        std::fill(to, to + n, of(rows[r], 0));
+      std::fill(to + n, to + m.task.count, to[n - 1]);
+      // 0 x is 0 unless x is not finite; eight sums beside each other, so that none waits for the last.
+      double sums[line] = {};
+      for (std::size_t i = 0; i < m.task.count; i += line)
+        for (std::size_t e = 0; e < line; ++e) sums[e] += 0 * to[i + e];
+      const bool good = std::all_of(std::begin(sums), std::end(sums), [](double v) { return v == 0; });
+      finite = finite && good;
+    }
+  }
+  LINKWRIGHT_REQUIRE(finite, "inputs must be finite, {} samples", n);
+  if (!m.plan.closed_form()) {
+    InputReach reach;
+    for (const SweepInput& in : inputs) {
+      const auto [least, most] = std::minmax_element(in.value.begin(), in.value.end());
+      reach.low.push_back(*least);
+      reach.high.push_back(*most);
+    }
+    m.assembly.emplace(m.plan, reach, AtChangePoint::smooth, false, m.modes);
+  }
+  if (!m.batched) {
+    for (std::size_t i = 0; i < n; ++i) m.scalar(i, of(time, i));
+    return;
+  }
+  for (std::size_t k = 0; k < m.plan.groups.size(); ++k)
+    if (m.plan.groups[k].type == GroupType::driver)
+      for (std::size_t r = 0; r < 2; ++r)
+        std::fill_n(&m.number(m.task.groups + 2 * k + r, 0), m.task.count, 1.0);
+  m.task.modes = m.motion.modes.data();
+  const bool all_good = kernel().run(m.task);
+  std::fill(m.status.begin(), m.status.end(), Status::done);
+  if (all_good) return;
+  for (std::size_t i = 0; i < n; ++i)
+    if (m.number(m.task.good, i) == 0) m.scalar(i, of(time, i));
+}
+
+std::size_t LinkageSweep::samples() const { return memory_->samples; }
+std::span<const Status> LinkageSweep::status() const { return memory_->status; }
+
+std::span<const double> LinkageSweep::part(int part, PartRow row) const {
+  const SweepTask& t = memory_->task;
+  const auto r = static_cast<std::size_t>(row);
+  LINKWRIGHT_REQUIRE(part >= 1 && at(part) < memory_->plan.parts.size() && r < t.part_rows,
+                     "part {} of {}, row {} of {}", part, memory_->plan.parts.size(), r, t.part_rows);
+  return memory_->row(t.parts + t.part_rows * (at(part) - 1) + r);
+}
+std::span<const double> LinkageSweep::group(int group, GroupRow row) const {
+  LINKWRIGHT_REQUIRE(group >= 0 && at(group) < memory_->plan.groups.size(), "there is no group {} of {}",
+                     group, memory_->plan.groups.size());
+  return memory_->row(memory_->task.groups + 2 * at(group) + static_cast<std::size_t>(row));
+}
+std::span<const double> LinkageSweep::joint(int joint, JointRow row) const {
+  LINKWRIGHT_REQUIRE(memory_->wanted.forces, "forces were not asked for");
+  LINKWRIGHT_REQUIRE(joint >= 0 && at(joint) < memory_->linkage.joints.size(), "there is no joint {} of {}",
+                     joint, memory_->linkage.joints.size());
+  return memory_->row(memory_->task.joints + 3 * at(joint) + static_cast<std::size_t>(row));
+}
+std::span<const double> LinkageSweep::drive(int input) const {
+  LINKWRIGHT_REQUIRE(memory_->wanted.forces, "forces were not asked for");
+  LINKWRIGHT_REQUIRE(input >= 0 && at(input) < memory_->plan.inputs(), "there is no input {} of {}", input,
+                     memory_->plan.inputs());
+  return memory_->row(memory_->task.drives + at(input));
+}
+std::span<const double> LinkageSweep::shaking(ShakingRow row) const {
+  LINKWRIGHT_REQUIRE(memory_->wanted.forces, "forces were not asked for");
+  return memory_->row(memory_->task.shaking + static_cast<std::size_t>(row));
+}
+
+bool LinkageSweep::batched() const { return memory_->batched; }
+const char* sweep_kernel_name() { return kernel().name; }
+
+}  // namespace linkwright::planar

@@ -1,0 +1,9 @@
+#include "linkwright/planar/linkage/sweep_kernel.h"
+
+namespace linkwright::planar {
+
+bool sweep_avx2(const SweepTask& task) {
+  return sweep_with<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>(task);
+}
+
+}  // namespace linkwright::planar

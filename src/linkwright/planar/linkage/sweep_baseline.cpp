@@ -1,0 +1,7 @@
+#include "linkwright/planar/linkage/sweep_kernel.h"
+
+namespace linkwright::planar {
+
+bool sweep_baseline(const SweepTask& task) { return sweep_with<xsimd::batch<double, xsimd::sse2>>(task); }
+
+}  // namespace linkwright::planar

@@ -1,0 +1,74 @@
+#include "linkwright/planar/linkage/triangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/planar/loop_gap.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+Vec<double> conj(const Vec<double>& a) { return {a.x, -a.y}; }
+
+}  // namespace
+
+DrivenSide driven_side(const Group& g, double value) {
+  const PlanJoint &foot = g.joints[0], &drive = g.joints[1], &tip = g.joints[2];
+  const double sense = drive.reversed ? -1 : 1, way = sense * value;
+  const Vec<double> back = conj(drive.after.direction), arm = tip.before.at - drive.after.at;
+  DrivenSide out;
+  const Vec<double> base = drive.before.at - foot.after.at;
+  if (drive.slide) {
+    out.turn = tidy_unit(turn(drive.before.direction, back));
+    out.way = base + way * drive.before.direction + turn(out.turn, arm);
+    out.rate = sense * drive.before.direction;
+  } else {
+    out.turn = tidy_unit(turn(turn(drive.before.direction, unit(way)), back));
+    const Vec<double> turned = turn(out.turn, arm);
+    out.way = base + turned;
+    out.rate = sense * left(turned);
+  }
+  return out;
+}
+
+void place_triangle(const Group& g, double value, double mode, std::span<PartState<double>> parts,
+                    GroupState<double>& state) {
+  const PlanJoint &foot = g.joints[0], &drive = g.joints[1], &base = g.joints[3];
+  const DrivenSide side = driven_side(g, value);
+  PartState<double>&first = parts[at(g.parts[0])], &second = parts[at(g.parts[1])],
+  &arm = parts[at(g.parts[2])];
+  const Vec<double> a = point_on(parts[at(foot.before.part)], foot.before.at),
+                    b = point_on(parts[at(base.after.part)], base.after.at), d = b - a;
+  // As the dyad of three pins (place_rrr).
+  const double d2 = dot(d, d), square = dot(side.way, side.way), length = std::sqrt(square);
+  const double reach = length + g.second_length, fold = length - g.second_length;
+  state = {};
+  state.radicand = (reach * reach - d2) * (d2 - fold * fold);
+  const double root = mode * std::sqrt(std::max(state.radicand, 0.0));
+  const double scale = 0.5 / d2, along = reach * fold + d2;
+  const Vec<double> arm1 = scale * turn(Vec<double>{along, root}, d),
+                    arm2 = scale * turn(Vec<double>{along - 2 * d2, root}, d);
+  first.direction = tidy_unit(turn(arm1, (1 / square) * conj(side.way)));
+  arm.direction = tidy_unit(turn(arm2, g.second_inverse));
+  second.direction = tidy_unit(turn(first.direction, side.turn));
+  first.origin = a - turn(first.direction, foot.after.at);
+  arm.origin = b - turn(arm.direction, base.before.at);
+  const Vec<double> inner =
+      drive.before.at +
+      (drive.slide ? ((drive.reversed ? -value : value) * drive.before.direction) : Vec<double>{0, 0});
+  second.origin = point_on(first, inner) - turn(second.direction, drive.after.at);
+  state.reference = a + arm1;
+  state.column_x = left(arm1);
+  state.column_y = left(arm2);
+  state.sine = cross(arm1, arm2) / (length * g.second_length);
+}
+
+double triangle_gap(const Group& g, double value, std::span<const PartState<double>> parts) {
+  const PlanJoint &foot = g.joints[0], &base = g.joints[3];
+  const Vec<double> a = point_on(parts[at(foot.before.part)], foot.before.at),
+                    b = point_on(parts[at(base.after.part)], base.after.at);
+  return loop_gap(norm(b - a), norm(driven_side(g, value).way), g.second_length);
+}
+
+}  // namespace linkwright::planar

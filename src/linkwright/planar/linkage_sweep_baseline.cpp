@@ -1,7 +1,0 @@
-#include "linkwright/planar/linkage_sweep_kernel.h"
-
-namespace linkwright::planar {
-
-bool sweep_baseline(const SweepTask& task) { return sweep_with<xsimd::batch<double, xsimd::sse2>>(task); }
-
-}  // namespace linkwright::planar

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+
+#include "linkwright/core/run_context.h"
+#include "linkwright/planar/path/synthesis.h"
+
+namespace linkwright::planar {
+
+/// Of the designs that a search under limits finds, so many go on without the limits, the best first.
+inline constexpr std::size_t carried_beyond_limits = 2;
+
+/// The search of `synthesise_path` for free timing: designs without order, some of which may violate
+/// constraints, with the history of the search.
+///
+/// Starts are random linkages whose curve is laid on a thinned path, and a local search each; the best go on
+/// to all points. From the best of those the search hops: it changes the linkage at random, lays it on the
+/// path again and keeps what is better (Wales and Doye 1997). In the end the crank angles are assigned anew
+/// over all ways to meet the targets in order, and the search goes on from there, until neither helps.
+PathSynthesis search_free_timing(const PathProblem& problem, const PathSynthesisOptions& options,
+                                 RunContext& context);
+
+/// The last part of it alone: assigns crank angles and searches locally, in turn, until neither improves the
+/// design. Never returns a worse one.
+PathDesign polish_free_timing(const PathProblem& problem, PathDesign design, std::int64_t& evaluations);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,15 @@
+#include "linkwright/planar/path/objective_kernel.h"
+
+namespace linkwright::planar {
+
+void evaluate_path_baseline(const PathObjective& objective, const optimise::PopulationView& candidates,
+                            double* cost, double* violation) {
+  using Batch = xsimd::batch<double, xsimd::sse2>;
+  using Four = void;
+  if (objective.free_timing)
+    evaluate_path<Batch, Four, true>(objective, candidates, cost, violation);
+  else
+    evaluate_path<Batch, Four, false>(objective, candidates, cost, violation);
+}
+
+}  // namespace linkwright::planar

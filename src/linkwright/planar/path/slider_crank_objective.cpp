@@ -1,0 +1,71 @@
+#include "linkwright/planar/path/slider_crank_objective.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/core/check.h"
+
+namespace linkwright::planar {
+namespace {
+
+struct Kernel {
+  SliderPathKernel evaluate;
+  const char* name;
+};
+
+Kernel choose_kernel() {
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f")) return {evaluate_slider_path_avx512, "avx512"};
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    return {evaluate_slider_path_avx2, "avx2"};
+  return {evaluate_slider_path_baseline, "baseline"};
+}
+
+const Kernel& kernel() {
+  static const Kernel chosen = choose_kernel();
+  return chosen;
+}
+
+}  // namespace
+
+SliderPathObjective slider_path_objective(const SliderPathProblem& problem, SliderSide side, double sense) {
+  LINKWRIGHT_REQUIRE(sense == 1 || sense == -1, "sense must be +1 or -1, got {}", sense);
+  SliderPathObjective o;
+  o.points = problem.x.size();
+  o.x = problem.x;
+  o.y = problem.y;
+  o.free_timing = problem.free_timing;
+  o.closed = problem.closed;
+  o.side = sign(side);
+  o.sense = sense;
+  o.crank_rotates_fully = problem.crank_rotates_fully;
+  o.max_pressure_sine = std::sin(problem.max_pressure_angle);
+  o.least_stroke = problem.stroke.lower;
+  o.greatest_stroke = problem.stroke.upper;
+  o.size = path_size(problem);
+  if (!o.free_timing) {
+    o.least_offset = std::numeric_limits<double>::infinity();
+    o.greatest_offset = -o.least_offset;
+    for (const double forward : problem.offsets) {
+      const double offset = sense * forward;
+      o.least_offset = std::min(o.least_offset, offset);
+      o.greatest_offset = std::max(o.greatest_offset, offset);
+      o.ux.push_back(std::cos(offset));
+      o.uy.push_back(std::sin(offset));
+    }
+  }
+  return o;
+}
+
+void evaluate(const SliderPathObjective& objective, const optimise::PopulationView& candidates,
+              std::span<double> cost, std::span<double> violation) {
+  const std::size_t costs = candidates.size * (objective.with_stroke ? 2 : 1);
+  LINKWRIGHT_REQUIRE(cost.size() >= costs && violation.size() >= candidates.size,
+                     "{} candidates, but room for {} costs and {} violations", candidates.size, cost.size(),
+                     violation.size());
+  kernel().evaluate(objective, candidates, cost.data(), violation.data());
+}
+
+const char* slider_path_kernel_name() { return kernel().name; }
+
+}  // namespace linkwright::planar

@@ -1,0 +1,168 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/field.h"
+#include "linkwright/core/status.h"
+#include "linkwright/optimise/problem.h"
+#include "linkwright/planar/linkage/slider_crank.h"
+
+// Path synthesis of the slider-crank with an inclined, offset guide: Boskovic 2018, section 4.3.
+namespace linkwright::planar {
+
+/// The designed quantities, in the order of Boskovic 2018, Eqs. (4.12) and (4.31): L2, L3, L4, beta, delta,
+/// H (here counted the other way), x_A, y_A, theta2 of the first point.
+enum class SliderParameter : std::size_t {
+  crank,
+  rod,
+  point_distance,
+  point_angle,
+  guide_angle,
+  offset,
+  pivot_x,
+  pivot_y,
+  start_angle
+};
+inline constexpr std::size_t slider_parameter_count = 9;
+constexpr std::size_t index(SliderParameter parameter) { return static_cast<std::size_t>(parameter); }
+/// Key without unit: "crank", ..., "start_angle".
+std::string_view name(SliderParameter parameter);
+constexpr bool is_angle(SliderParameter p) {
+  return p == SliderParameter::point_angle || p == SliderParameter::guide_angle ||
+         p == SliderParameter::start_angle;
+}
+
+/// A slider-crank is to trace points with a point of its rod.
+struct SliderPathProblem {
+  std::vector<double> x,
+      y;  ///< target points (m), at least 3; a closed path does not repeat its first point at the end
+  bool closed = true;
+  /// Each point is met at any crank angle, in the order of the points; else at start angle + sense offset.
+  bool free_timing = false;
+  std::vector<double> offsets;  ///< rad, one a point, not used by free timing
+
+  /// Bounds (or fixed values) of the parameters. The crank angle is measured from the x axis; with given
+  /// crank angles the start angle is fixed at 0. Free timing does not use it.
+  std::array<Range, slider_parameter_count> bounds{};
+
+  bool search_forward = true,
+       search_backward = false;  ///< sides of the slider; backward of guide direction delta and offset h is
+                                 ///< forward of delta + pi and -h
+  bool search_positive = true, search_negative = false;  ///< senses of crank rotation along the points
+
+  bool crank_rotates_fully = true;
+  /// rad, greatest angle between rod and guide; pi/2 = no limit. Over the full turn where the crank turns
+  /// fully, else over the arc from the first to the last crank angle.
+  double max_pressure_angle = std::numbers::pi / 2;
+  /// m, of the slider over a full turn; needs a crank that turns fully.
+  Range stroke{0, std::numeric_limits<double>::infinity()};
+};
+
+/// Throws ContractError unless there are at least 3 finite points that do not all coincide, as many finite
+/// offsets when timing is prescribed, bounds that are ordered, finite and leave lengths positive, a pressure
+/// limit in (0, pi/2], and a stroke range that is ordered, not negative, and asked of a full turn only.
+void require_valid(const SliderPathProblem& problem);
+
+/// Diagonal of the bounding box of the target points (m).
+double path_size(const SliderPathProblem& problem);
+
+/// Bounds that follow from the path, as for the four-bar: links from 1/1000 to 50 times the size of the path,
+/// point, offset and pivot up to 50 times the size away, angles over a full turn.
+std::array<Range, slider_parameter_count> derive_slider_bounds(const std::vector<double>& x,
+                                                               const std::vector<double>& y);
+
+/// Where a slider-crank stands. Boskovic 2018, Eqs. (4.7)-(4.11).
+struct SliderCrankPose {
+  Status status = Status::done;                   ///< done, singular (rod square to the guide) or no_assembly
+  double gap = 0;                                 ///< m, by how much the rod is too short to reach the guide
+  std::complex<double> crank_pin, slider, point;  ///< A, B, C; B and C are NaN without assembly
+  double rod_angle = 0;                           ///< rad, of A->B from the x axis
+  double way = 0;             ///< m, of the slider along the guide from the foot of the crank pivot, signed
+  double pressure_angle = 0;  ///< rad, between rod and guide, [0, pi/2]
+};
+SliderCrankPose slider_crank_pose(const SliderCrankMechanism& mechanism, double crank_angle);
+
+/// m, over a full turn; NaN when the crank does not turn fully. Not the "stroke" that Boskovic 2018 prints in
+/// Tables 4.2 and 4.3, which is the abscissa of the tracing point at the first crank angle.
+double stroke(const SliderCrankForm& form);
+
+/// Rod less crank less |offset| (m): the crank turns fully if it is not negative.
+double rotation_margin(const SliderCrankForm& form);
+
+/// Greatest pressure angle over a full turn (rad); NaN when the crank does not turn fully.
+double greatest_pressure_angle(const SliderCrankForm& form);
+
+/// A design with what it achieves.
+struct SliderPathDesign {
+  SliderCrankMechanism mechanism;
+  double sense = 1;            ///< +1 or -1: sense of crank rotation along the order of the points
+  std::vector<double> angles;  ///< crank angle at each target point (rad, from the x axis), unwrapped
+  double error = 0;  ///< sum of squared distances (m2), Boskovic 2018, Eqs. (4.13), (4.18); infinite when the
+                     ///< tracing point does not exist at a target
+  double stroke = 0;                            ///< m, see stroke()
+  std::vector<optimise::Violation> violations;  ///< of the constraints of the problem; empty = feasible
+  std::vector<std::string> active_bounds;       ///< names of parameters at a bound
+};
+
+/// Measures a mechanism against the problem: error, stroke, constraints by name (crank_rotates_fully,
+/// no_assembly, pressure_angle, stroke, order, bounds), active bounds.
+SliderPathDesign measure(const SliderPathProblem& problem, const SliderCrankMechanism& mechanism,
+                         double sense, std::vector<double> angles);
+
+double total_violation(const SliderPathDesign& design);
+
+/// The same mechanism with the slider ahead of the crank pin: a guide that is turned by half a turn has the
+/// opposite offset and the other mode.
+SliderCrankMechanism forward_form(SliderCrankMechanism mechanism);
+
+/// Whether two mechanisms are the same within tolerance::same_design of their size, whichever way their
+/// guides are told.
+bool same_mechanism(const SliderCrankMechanism& a, const SliderCrankMechanism& b);
+
+/// Best first, by the feasibility rules.
+void rank(std::vector<SliderPathDesign>& designs);
+
+/// The other slider-crank that traces the same curve (Roberts; the third one has its pivot at infinity): its
+/// crank follows the arm A->C of the original and its rod follows the original's crank, so it turns with the
+/// rod angle of the original and its crank rocks where the original's turns fully. Its crank angle is the
+/// original's rod angle plus that of the point on the rod. The mode is the one at `crank_angle`. Throws
+/// ContractError when the tracing point is the crank pin, which leaves no cognate.
+SliderCrankMechanism slider_crank_cognate(const SliderCrankMechanism& mechanism, double crank_angle);
+
+/// Tracing point at each target (m), and its distance to it (m); NaN where it does not assemble.
+struct SliderPathErrors {
+  std::vector<double> x, y, distance;
+};
+SliderPathErrors path_errors(const SliderPathProblem& problem, const SliderPathDesign& design);
+
+/// What the two objectives are divided by when they stand side by side: squared size and size of the path.
+struct SliderPathScales {
+  double error = 1, stroke = 1;
+};
+
+/// The nine-unknown problem (eight and a crank angle a point when timing is free) on one side and sense, for
+/// population methods; evaluated by SIMD kernels. One objective: sum of squared distances (m2), Boskovic
+/// 2018, Eq. (4.14). Two: that and the stroke, Eqs. (4.17)-(4.19) with a stroke that is one, each over its
+/// scale.
+optimise::Problem slider_path_population_problem(const SliderPathProblem& problem, SliderSide side,
+                                                 double sense);
+optimise::Problem slider_path_front_problem(const SliderPathProblem& problem, SliderSide side, double sense,
+                                            const SliderPathScales& scales);
+/// Turns a candidate of those problems into a design.
+SliderPathDesign slider_path_design(const SliderPathProblem& problem, SliderSide side, double sense,
+                                    std::span<const double> x);
+
+/// Values of the parameters of a design, the start angle 0 when timing is free.
+std::array<double, slider_parameter_count> parameter_values(const SliderPathProblem& problem,
+                                                            const SliderPathDesign& design);
+
+constexpr double sign(SliderSide side) { return side == SliderSide::forward ? 1 : -1; }
+
+}  // namespace linkwright::planar

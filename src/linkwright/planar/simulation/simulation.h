@@ -1,0 +1,118 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/run_context.h"
+#include "linkwright/math/motion_law.h"
+#include "linkwright/math/ode.h"
+#include "linkwright/planar/linkage/branch.h"
+
+namespace linkwright::planar {
+
+/// How an input moves: as its law says, or, without a law, freely from a value and rate at the first time.
+struct InputCourse {
+  std::optional<math::MotionLaw> law;
+  double value = 0, rate = 0;  ///< rad or m, per second; of a free input
+};
+
+struct SimulationOptions {
+  math::OdeMethod method = math::OdeMethod::explicit_runge_kutta_8;
+  double relative_tolerance = 1e-9;
+  double absolute_tolerance = 1e-10;  ///< rad and rad/s; of ways (m, m/s) times the size of the linkage
+  /// Absolute tolerances of the free inputs (rad, m), in their order, where they are more than the one above:
+  /// what their rounding leaves. And of their rates. Empty: none.
+  std::span<const double> value_resolution = {}, rate_resolution = {};
+  long max_steps = 1'000'000;
+  AtChangePoint at_change_point = AtChangePoint::smooth;
+};
+
+/// One row of a simulation; valid during the call that receives it.
+struct SimulationInstant {
+  double time = 0;
+  /// done; singular within rounding of a change point, where only inputs and energies are known.
+  Status status = Status::done;
+  std::span<const InputMotion> inputs;
+  double kinetic = 0;    ///< J
+  double potential = 0;  ///< J, of weight and springs
+  /// J since the start: of prescribed drives and of loads that store no energy; less what a kink has cost.
+  double work = 0;
+  double drift = 0;  ///< J: kinetic + potential - work less its value at the start; zero but for errors
+  const LinkageMotion* motion = nullptr;  ///< velocities and accelerations included
+};
+/// false ends the simulation.
+using SimulationOutput = std::function<bool(const SimulationInstant&)>;
+
+/// Quantities whose changes of sign are found within the steps, however far apart the rows are (see
+/// math::OdeHooks). Of energies the instants have the work alone.
+struct SimulationWatch {
+  std::size_t count = 0;  ///< of the quantities
+  std::function<void(const SimulationInstant&, std::span<double> values)> values = {};
+  /// After every step, and where quantities change signs: `crossed` are their indices. false ends the
+  /// simulation.
+  std::function<bool(const SimulationInstant&, std::span<const std::size_t> crossed)> note = {};
+};
+
+/// A change point that the linkage went through.
+struct ChangePassage {
+  double time = 0;
+  double value = 0;         ///< of the input
+  std::vector<int> groups;  ///< whose modes meet there
+  double energy_lost = 0;   ///< J: in the kink of `keep_sign`
+};
+
+struct SimulationReport {
+  /// done: the last time, or the output said stop; limit_reached: a limit of the motion, or a change point
+  /// with `stop`, or a joint that friction holds while others move on; no_assembly, singular: the start has
+  /// no motion; at_rest: friction has brought the linkage to rest, or never lets it start, and holds it;
+  /// self_locking: friction jams it while it moves (see settle_friction); not_converged; cancelled, deadline.
+  /// Rows so far are kept.
+  Status status = Status::done;
+  std::string message;       ///< why it is not `done`, in plain words; else empty
+  double time = 0;           ///< reached, s
+  int group = -1;            ///< of the plan, where a limit or start failed
+  double largest_drift = 0;  ///< J, over the rows
+  double peak_energy = 0;    ///< J: largest kinetic energy, change of potential energy or work of a row
+  std::vector<ChangePassage> passages;
+  long steps = 0, evaluations = 0;
+};
+
+/// Motion of a linkage under forces: integrates the equations of LinkageDynamics over `times` (s, rising, two
+/// at least; the first is the start) and calls `output` at each of them.
+///
+/// The motion ends where a group comes to its limit (dead point): there the free input turns back while the
+/// linkage goes on in the other assembly mode, so that another coordinate is needed
+/// (simulate_all_coordinates). With one input in closed form, change points are passed as `at_change_point`
+/// says: `smooth` changes the signs of the modes that meet, as a moving linkage does by itself; `keep_sign`
+/// turns onto the other branch, by an inelastic impact that keeps the momentum along it, or stops where that
+/// branch does not meet this one; `stop` ends. Within 0.08 rad (or sizes) of a change point, where the closed
+/// forms lose digits, the acceleration is interpolated between positions on both sides, to about 1e-11. With
+/// more inputs, and in general groups, change points count as limits.
+///
+/// Throws ContractError when there is no free input, courses or times do not fit, a law is no motion, or a
+/// body has no mass.
+SimulationReport simulate(const Linkage& linkage, const LinkagePlan& plan,
+                          std::span<const InputCourse> courses, std::span<const double> times,
+                          const SimulationOptions& options, const SimulationOutput& output,
+                          const RunContext* context = nullptr);
+
+/// Times strictly between `from` and `to`, rising, at which accelerations may step or kink: where laws do
+/// (math::breaks), and corners of load tables over time.
+std::vector<double> breaks_of(const Linkage& linkage, std::span<const InputCourse> courses, double from,
+                              double to);
+/// math::integrate from break to break, so that no step lies across one: on either side `f` is asked with
+/// times of that side.
+math::OdeReport integrate_by_pieces(math::OdeFunction f, std::span<double> y, double from, double to,
+                                    std::span<const double> breaks, math::OdeOptions options,
+                                    math::OdeHooks hooks);
+
+/// The same, watched.
+SimulationReport simulate_watched(const Linkage& linkage, const LinkagePlan& plan,
+                                  std::span<const InputCourse> courses, std::span<const double> times,
+                                  const SimulationOptions& options, const SimulationOutput& output,
+                                  const SimulationWatch& watch, const RunContext* context = nullptr);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/planar/balancing/balancing.h"
+#include "linkwright/planar/balancing/measures.h"
+#include "linkwright/planar/balancing/search.h"
+#include "linkwright/study/designed.h"
+#include "linkwright/study/kind.h"
+
+// Balancing of any mechanism that has an analysis: the tables of the analysis with open numbers in them, what
+// is to become small, what must hold, and how designs are searched.
+namespace linkwright::planar {
+
+template <class Visitor>
+void fields(Visitor&& visit, BalancingGoal& o) {
+  visit(Field{.key = "quantity", .summary = "column of the analysis: \"shaking_force_N\"", .required = true},
+        o.quantity);
+  visit(Field{.key = "measure", .summary = "one number for the column"}, o.measure);
+  visit(Field{.key = "weight",
+              .summary = "how much it counts among the others",
+              .minimum = 0,
+              .maximum = 1e9,
+              .exclusive_minimum = true},
+        o.weight);
+  visit(Field{.key = "reference",
+              .summary = "value that counts as 1, in the unit of the column; default: that of the initial "
+                         "design",
+              .minimum = 0,
+              .exclusive_minimum = true},
+        o.reference);
+  visit(Field{.key = "at_most",
+              .summary = "the objective may be at most this many times its reference",
+              .minimum = 0},
+        o.at_most);
+  visit(Field{.key = "target",
+              .summary = "in order: the objective is met when it is at most this many times its reference",
+              .minimum = 0,
+              .exclusive_minimum = true},
+        o.target);
+}
+template <class Visitor>
+void fields(Visitor&& visit, BalancingLimit& c) {
+  visit(Field{.key = "quantity",
+              .summary = "column of the analysis: \"transmission_angle_rad\"",
+              .required = true},
+        c.quantity);
+  visit(Field{.key = "measure", .summary = "one number for the column", .required = true}, c.measure);
+  visit(Field{.key = "change", .summary = "measure the difference from the initial design"}, c.change);
+  visit(Field{.key = "at_least", .summary = "lower limit, in the unit of the column"}, c.at_least);
+  visit(Field{.key = "at_most", .summary = "upper limit, in the unit of the column"}, c.at_most);
+  visit(Field{.key = "enabled", .summary = "false leaves it out"}, c.enabled);
+}
+
+/// A kind of mechanism that can be balanced.
+struct BalancedMechanism {
+  std::string_view type;  ///< "planar.four_bar"
+  study::Kind (*analysis)();
+  /// The table of its analysis; problems go to the reader, and the table is then empty.
+  Table (*table)(study::ObjectReader& document, const study::Common& common,
+                 std::span<const std::string> columns);
+};
+std::span<const BalancedMechanism> balanced_mechanisms();
+
+/// A study as read.
+struct BalancingStudy {
+  const BalancedMechanism* mechanism = nullptr;
+  study::DesignedTables designed;
+  std::vector<BalancingGoal> objectives;
+  std::vector<BalancingLimit> constraints;  ///< those that are enabled
+  BalancingOptimiser optimiser;
+};
+
+/// "balancing" of every mechanism of `balanced_mechanisms`.
+std::vector<study::Kind> balancing_kinds();
+
+/// Reads the tables of the study; problems go to the reader. Throws ContractError for a mechanism that is not
+/// among the balanced ones.
+BalancingStudy read_balancing_study(study::ObjectReader& document, const study::Common& common);
+
+/// The table of one design: `x` in the units of the keys of the designed numbers. Empty when they are no
+/// mechanism.
+Table design_table(const BalancingStudy& study, std::span<const double> x,
+                   std::span<const std::string> columns);
+/// The whole analysis of one design.
+study::Result design_analysis(const BalancingStudy& study, const study::Common& common,
+                              std::span<const double> x, RunContext& context);
+
+/// Runs it over the seeds and reports.
+study::Result run_balancing_study(const BalancingStudy& study, const study::Common& common,
+                                  RunContext& context);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/planar/studies/elastic_scene.h"
+#include "linkwright/planar/studies/simulation.h"
+
+// Simulations of linkages with bodies that bend: what their tables `[[elastic]]` hold, how they are read, run
+// and reported beside the rigid linkage.
+namespace linkwright::planar {
+
+/// One entry of `[[elastic]]`, as the file holds it.
+struct ElasticBodyForm {
+  std::string body;
+  std::optional<std::string> from, to;
+  ElasticBody beam;
+};
+template <class Visitor>
+void fields(Visitor&& visit, ElasticBodyForm& f) {
+  const auto number = [&](std::string_view key, std::string_view summary, Dimension dimension, double most,
+                          double& value) {
+    visit(Field{.key = key,
+                .summary = summary,
+                .dimension = dimension,
+                .minimum = 0,
+                .maximum = most,
+                .exclusive_minimum = true,
+                .required = true},
+          value);
+  };
+  visit(Field{.key = "body", .summary = "body that bends", .required = true}, f.body);
+  visit(Field{.key = "from", .summary = "its point where the beam begins; default: at a joint"}, f.from);
+  visit(Field{.key = "to", .summary = "its point where the beam ends; default: at another joint"}, f.to);
+  visit(Field{.key = "segments",
+              .summary = "cells of the beam, with a spring in the middle of each",
+              .minimum = 1,
+              .maximum = 64},
+        f.beam.segments);
+  number("density", "of its material", Dimension::density, 1e6, f.beam.density);
+  number("area", "of its cross-section", Dimension::area, 1e4, f.beam.area);
+  number("second_moment", "of its cross-section, for bending in the plane", Dimension::second_moment_of_area,
+         1e8, f.beam.second_moment);
+  number("elastic_modulus", "of its material", Dimension::pressure, 1e15, f.beam.elastic_modulus);
+  visit(Field{.key = "fibre_distance",
+              .summary = "of the outer fibre from the neutral line, for the stress",
+              .dimension = Dimension::length,
+              .minimum = 0,
+              .maximum = 1e3},
+        f.beam.fibre_distance);
+  visit(Field{.key = "stiffness_damping",
+              .summary = "Kelvin and Voigt's: retardation time of the material",
+              .dimension = Dimension::time,
+              .minimum = 0,
+              .maximum = 1e3},
+        f.beam.damping);
+}
+
+/// How the motion of an elastic linkage is integrated when the file leaves it open.
+struct SuggestedMethod {
+  math::OdeMethod method = math::OdeMethod::explicit_runge_kutta_8;
+  std::string why;
+};
+/// bdf where the fastest vibration of the pieces has more than its critical damping: explicit steps would be
+/// bound by what has died out. Else explicit_runge_kutta_8: bdf would damp vibrations itself.
+SuggestedMethod suggested_method(const Linkage& linkage, const std::vector<ElasticPieces>& bodies);
+
+/// Reads `[[elastic]]` into bodies with indices, and into `canonical`. Problems go to the reader.
+std::vector<ElasticBody> read_elastic(study::ObjectReader& document, const Linkage& linkage,
+                                      Value::Array& canonical);
+/// Gives the bodies the mass of their beams, and returns these. What the model says against them is put where
+/// the file has its cause; nothing is returned then.
+std::vector<ElasticPieces> place_elastic(study::ObjectReader& document, Linkage& linkage,
+                                         const std::vector<ElasticBody>& bodies,
+                                         const std::vector<InputMotion>& start);
+void describe_elastic(study::SchemaWriter& document);
+
+/// Values and rates of the inputs at a time: of laws there, of free ones where they start.
+std::vector<InputMotion> inputs_at(const std::vector<InputCourse>& courses, double time);
+
+/// What a body that turns on the ground, a slide on it or a traced point does beside the rigid linkage.
+struct OutputError {
+  enum class Of { angle, way, path };
+  std::string key, label;
+  Of of = Of::angle;
+  int index = 0;               ///< of the body, joint or trace
+  std::vector<double> values;  ///< rad or m; of a path the distance. One a row, NaN where not known
+};
+/// What a bent body shows over the rows: of the worst section, and (deflections) of the beam.
+struct BeamRows {
+  std::vector<double> middle, largest, moment, normal, bending, stress, place;
+};
+/// An elastic linkage over time beside the rigid one. Rows up to where the motion ends.
+struct ElasticRecording {
+  ElasticLinkage elastic;
+  std::vector<double> times;
+  std::vector<BeamRows> beams;  ///< one an elastic body
+  std::vector<OutputError> errors;
+  std::vector<ElasticRecord> records;
+  Table motion, rigid;        ///< `rigid` has columns of `motion`, by the same keys
+  std::string rigid_message;  ///< why the rigid linkage ends early; else empty
+  double largest_rate = 0;    ///< of the inputs, rad/s or m/s
+  SimulationReport report;
+};
+/// Tables, scene, plots, facts and headline.
+study::Result report_elastic_simulation(const LinkageSimulationStudy& study,
+                                        const ElasticRecording& recording);
+
+/// Integrates with bodies that bend and the rigid linkage beside it, and reports.
+study::Result run_elastic_simulation(const LinkageSimulationStudy& study, RunContext& context);
+
+}  // namespace linkwright::planar

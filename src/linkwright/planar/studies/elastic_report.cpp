@@ -1,0 +1,305 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "linkwright/math/angles.h"
+#include "linkwright/math/spectrum.h"
+#include "linkwright/planar/studies/elastic.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+// A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
+constexpr double poor_balance = 1e-5;
+// Of the length of a beam: beyond it the straight theory of its bending is off by some per cent.
+constexpr double far_bent = 0.1;
+// Explicit steps of a fast vibration: at least so many a period.
+constexpr double steps_a_period = 2;
+
+double hertz(double frequency) { return frequency / (2 * std::numbers::pi); }
+
+class ElasticReporter {
+ public:
+  ElasticReporter(const LinkageSimulationStudy& s, const ElasticRecording& r) : s_(s), r_(r) {}
+
+  study::Result run() {
+    if (r_.elastic.status != Status::done) {
+      result_.status = r_.elastic.status;
+      const std::string why =
+          r_.rigid_message.empty() ? std::string(to_string(r_.elastic.status)) : r_.rigid_message;
+      result_.headline = fmt::format("The linkage does not start: {}.", why);
+      warn(why, {});
+      return std::move(result_);
+    }
+    result_.status = r_.report.status;
+    result_.tables = {r_.motion, r_.rigid};
+    add_spectrum();
+    result_.scenes.push_back(elastic_scene(s_.linkage, s_.plan, r_.elastic.pieces, scene_records(), s_.traces,
+                                           s_.deflection_scale));
+    plots();
+    facts();
+    headline();
+    return std::move(result_);
+  }
+
+ private:
+  void warn(std::string message, std::string hint) {
+    result_.diagnostics.push_back(
+        {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
+  }
+  const std::string& name_of_beam(const ElasticPieces& p) const {
+    return s_.linkage.bodies[at(p.beam.body)].name;
+  }
+  std::string beam_key(std::size_t e) const { return identifier(name_of_beam(r_.elastic.pieces[e])); }
+  bool is_free(std::size_t k) const { return !s_.courses[k].law; }
+
+  void add_spectrum() {
+    const double step = (s_.to - s_.from) / (s_.samples - 1);
+    Table table{.name = "spectrum"};
+    for (std::size_t e = 0; e < r_.beams.size(); ++e) {
+      math::Spectrum lines = math::spectrum(r_.beams[e].middle, step);
+      if (lines.frequency.empty()) return;
+      if (e == 0) table.add("frequency_Hz", "frequency (Hz)", std::move(lines.frequency));
+      table.add(beam_key(e) + "_middle_deflection_m", name_of_beam(r_.elastic.pieces[e]) + " amplitude (m)",
+                std::move(lines.amplitude));
+    }
+    result_.tables.push_back(std::move(table));
+  }
+
+  std::vector<ElasticRecord> scene_records() const {
+    const std::size_t most = std::max<std::size_t>(2, at(s_.scene_samples)),
+                      stride = std::max<std::size_t>(1, (r_.records.size() + most - 2) / (most - 1));
+    std::vector<ElasticRecord> out;
+    for (std::size_t i = 0; i < r_.records.size(); i += stride) out.push_back(r_.records[i]);
+    return out;
+  }
+
+  void plots() {
+    const auto plot = [&](std::string name, std::string title, std::vector<std::string> y,
+                          bool beside_rigid = false, std::string table = "motion") {
+      const Table* of = nullptr;
+      for (const Table& t : result_.tables)
+        if (t.name == table) of = &t;
+      if (!of) return;
+      std::erase_if(y, [&](const std::string& key) { return !of->find(key); });
+      if (y.empty()) return;
+      const bool motion = table == "motion";
+      result_.plots.push_back({.name = std::move(name),
+                               .title = std::move(title),
+                               .table = std::move(table),
+                               .x = motion ? "time_s" : "frequency_Hz",
+                               .y = std::move(y),
+                               .logarithmic_y = !motion,
+                               .scene = motion ? "motion" : "",
+                               .baseline = beside_rigid ? "rigid" : ""});
+    };
+    for (std::size_t e = 0; e < r_.beams.size(); ++e) {
+      const std::string key = beam_key(e), &name = name_of_beam(r_.elastic.pieces[e]);
+      plot(key + "-deflection", "Deflection of " + name + ", middle and largest",
+           {key + "_middle_deflection_m", key + "_largest_deflection_m"});
+      plot(key + "-stress", "Stress of " + name + " at its worst section",
+           {key + "_stress_Pa", key + "_bending_stress_Pa"});
+      plot(key + "-spectrum", "Spectrum of the deflection of " + name, {key + "_middle_deflection_m"}, false,
+           "spectrum");
+    }
+    for (const auto& [of, name, title] :
+         {std::tuple{OutputError::Of::angle, "angle-error", "Angle against the rigid linkage"},
+          std::tuple{OutputError::Of::way, "way-error", "Way against the rigid linkage"},
+          std::tuple{OutputError::Of::path, "path-error", "Distance from the rigid path"}}) {
+      std::vector<std::string> keys;
+      for (const OutputError& e : r_.errors)
+        if (e.of == of && keys.size() < 8) keys.push_back(e.key);
+      plot(name, title, keys);
+    }
+    const Linkage& l = s_.linkage;
+    std::vector<std::string> torques, drive_forces, sizes;
+    for (std::size_t k = 0; k < s_.plan.inputs(); ++k) {
+      const std::string key = identifier(input_joint(l, k).name);
+      if (!is_free(k))
+        (s_.plan.rotary[k] ? torques : drive_forces)
+            .push_back(key + (s_.plan.rotary[k] ? "_drive_torque_N_m" : "_drive_force_N"));
+    }
+    plot("torque", "Drive torque, pale: rigid linkage", torques, true);
+    plot("drive-force", "Drive force, pale: rigid linkage", drive_forces, true);
+    for (const LinkageJoint& j : l.joints)
+      if (j.type != JointType::gear && sizes.size() < 6) sizes.push_back(identifier(j.name) + "_N");
+    plot("reactions", "Joint forces, pale: rigid linkage", sizes, true);
+    plot("energies", "Energies", {"kinetic_energy_J", "potential_energy_J", "work_J"});
+    plot("energy-audit", "Energy audit: what does not balance", {"energy_drift_J"});
+  }
+
+  // Row with the largest size of a column; none without a finite value.
+  static std::optional<std::size_t> worst_row(const std::vector<double>& values) {
+    std::optional<std::size_t> out;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (std::isfinite(values[i]) && (!out || std::abs(values[i]) > std::abs(values[*out]))) out = i;
+    return out;
+  }
+  static double largest(const Column* c) {
+    const auto row = c ? worst_row(c->values) : std::nullopt;
+    return row ? std::abs(c->values[*row]) : nan;
+  }
+  void fact(std::string label, std::string text, study::Fact::Verdict v = study::Fact::Verdict::plain) {
+    result_.facts.push_back({std::move(label), std::move(text), v});
+  }
+  std::string place_text(const ElasticPieces& p, double place) const {
+    const auto& points = s_.linkage.bodies[at(p.beam.body)].points;
+    return fmt::format("{:.4g} mm from {}", 1e3 * place, points[at(p.beam.from)].name);
+  }
+  static std::string error_text(const OutputError& e, double value) {
+    return e.of == OutputError::Of::angle ? fmt::format("{:.3g}°", math::degrees(value))
+                                          : fmt::format("{:.3g} mm", 1e3 * value);
+  }
+
+  void facts() {
+    result_.statistics = Value::object();
+    for (std::size_t e = 0; e < r_.beams.size(); ++e) beam_facts(e);
+    for (std::size_t i = 0; i < r_.errors.size(); ++i)
+      if (const auto row = worst_row(r_.errors[i].values))
+        fact("largest " + r_.errors[i].label.substr(0, r_.errors[i].label.rfind(" (")),
+             fmt::format("{} at {:.4g} s", error_text(r_.errors[i], std::abs(r_.errors[i].values[*row])),
+                         r_.times[*row]));
+    against_rigid();
+    integration();
+  }
+  void beam_facts(std::size_t e) {
+    const ElasticPieces& p = r_.elastic.pieces[e];
+    const std::string& name = name_of_beam(p);
+    const BeamRows& v = r_.beams[e];
+    const double first = first_frequency(p.beam, p.length);
+    if (const auto row = worst_row(v.largest)) {
+      const double share = std::abs(v.largest[*row]) / p.length;
+      fact(name + ": largest deflection",
+           fmt::format("{:.4g} mm at {:.4g} s", 1e3 * std::abs(v.largest[*row]), r_.times[*row]));
+      if (share > far_bent)
+        warn(fmt::format("{} bends by {:.3g} of its length", name, share),
+             "a beam theory without stretching is off by about the square of it");
+    }
+    if (const auto row = worst_row(v.stress); row && p.beam.fibre_distance > 0)
+      fact(name + ": largest stress",
+           fmt::format("{:.4g} MPa at {:.4g} s, {}; bending alone {:.4g} MPa", 1e-6 * v.stress[*row],
+                       r_.times[*row], place_text(p, v.place[*row]),
+                       1e-6 * *std::max_element(v.bending.begin(), v.bending.end())));
+    fact(name + ": first frequency on two pins",
+         fmt::format("{:.4g} Hz{}; {} segments", hertz(first),
+                     r_.largest_rate > 0
+                         ? fmt::format(", {:.3g} times the largest input speed", first / r_.largest_rate)
+                         : std::string(),
+                     p.beam.segments));
+    result_.statistics[identifier(name) + "_first_frequency_Hz"] = hertz(first);
+    if (const int n = p.beam.segments; too_few_segments(n)) {
+      const SegmentErrors missed = segment_errors(n), better = segment_errors(enough_segments());
+      warn(fmt::format("{} segment{} of {}: bending moment and stress are up to {:.3g} % too low, as the "
+                       "springs miss the worst section, and the first frequency is {:.3g} % too low",
+                       n, n == 1 ? "" : "s", name, 100 * missed.moment, 100 * missed.frequency),
+           fmt::format("segments = {} leaves {:.2g} % and {:.2g} %", enough_segments(), 100 * better.moment,
+                       100 * better.frequency));
+    }
+    const double nyquist = (s_.samples - 1) / (2 * (s_.to - s_.from));
+    if (hertz(first) > nyquist)
+      warn(fmt::format("rows are {:.3g} s apart, too far to show the first vibration of {} of {:.4g} Hz",
+                       0.5 / nyquist, name, hertz(first)),
+           fmt::format("simulation.samples = {} shows it",
+                       static_cast<long>(std::ceil(8 * hertz(first) * (s_.to - s_.from))) + 1));
+  }
+  void against_rigid() {
+    const Table &motion = result_.tables[0], &rigid = result_.tables[1];
+    double most = 0;
+    std::string where;
+    for (const LinkageJoint& j : s_.linkage.joints) {
+      const std::string key = identifier(j.name) + "_N";
+      const double bent = largest(motion.find(key)), stiff = largest(rigid.find(key));
+      if (!(stiff > 0) || !(bent / stiff > most)) continue;
+      most = bent / stiff;
+      where = fmt::format("{:.4g} N in {}, {:.4g} times {:.4g} N", bent, j.name, most, stiff);
+    }
+    if (most > 0) fact("joint force that grew most over the rigid linkage", where);
+    for (std::size_t k = 0; k < s_.plan.inputs(); ++k) {
+      const std::string& joint = input_joint(s_.linkage, k).name;
+      const std::string key =
+          identifier(joint) + (s_.plan.rotary[k] ? "_drive_torque_N_m" : "_drive_force_N");
+      const double bent = largest(motion.find(key)), stiff = largest(rigid.find(key));
+      const char* unit = s_.plan.rotary[k] ? "N m" : "N";
+      if (std::isfinite(bent))
+        fact(fmt::format("largest drive {} at {}", s_.plan.rotary[k] ? "torque" : "force", joint),
+             fmt::format("{:.4g} {}, of the rigid linkage {:.4g} {}", bent, unit, stiff, unit));
+    }
+  }
+  double fastest() const {
+    double out = 0;
+    for (const ElasticPieces& p : r_.elastic.pieces) out = std::max(out, highest_frequency(p.beam, p.length));
+    return out;
+  }
+  void integration() {
+    using Verdict = study::Fact::Verdict;
+    const double share = r_.report.peak_energy > 0 ? r_.report.largest_drift / r_.report.peak_energy : 0;
+    const bool poor = share > poor_balance;
+    const std::string balance = fmt::format("within {:.2g} J ({:.2g} of the peak energy {:.4g} J)",
+                                            r_.report.largest_drift, share, r_.report.peak_energy);
+    result_.statistics["energy_drift_share"] = share;
+    if (!r_.times.empty()) fact("energy balance", balance, poor ? Verdict::bad : Verdict::good);
+    if (poor) warn("the energies do not balance: " + balance, "take a smaller rtol");
+    if (s_.settle > 0) fact("settled", fmt::format("{:.4g} s before the first row", s_.settle));
+    fact("integration",
+         fmt::format("{}{}; {} steps, {} evaluations", name_of(s_.options.method),
+                     s_.method_reason.empty() ? ", as the study says" : ", as " + s_.method_reason,
+                     r_.report.steps, r_.report.evaluations));
+    if (r_.report.status == Status::done) return;
+    std::string hint;
+    if (r_.report.status == Status::not_converged) {
+      const double needed = steps_a_period * hertz(fastest()) * (s_.to - s_.from + s_.settle);
+      hint = fmt::format(
+          "the fastest vibration of the pieces has {:.3g} Hz, which explicit steps must follow: about {:.2g} "
+          "steps; take fewer segments, more max_steps, or stiffness_damping with method = \"bdf\"",
+          hertz(fastest()), needed);
+    }
+    warn(r_.report.message, hint);
+  }
+
+  void headline() {
+    if (r_.times.empty()) {
+      result_.headline = "The linkage does not start: " + r_.report.message + ".";
+      return;
+    }
+    std::string text;
+    for (std::size_t e = 0; e < r_.beams.size(); ++e) {
+      const ElasticPieces& p = r_.elastic.pieces[e];
+      const auto bent = worst_row(r_.beams[e].largest), stressed = worst_row(r_.beams[e].stress);
+      if (!bent) continue;
+      text += fmt::format("{}{} bends by up to {:.3g} mm", text.empty() ? "" : "; ", name_of_beam(p),
+                          1e3 * std::abs(r_.beams[e].largest[*bent]));
+      if (p.beam.fibre_distance > 0 && stressed)
+        text += fmt::format(" and bears up to {:.3g} MPa {}", 1e-6 * r_.beams[e].stress[*stressed],
+                            place_text(p, r_.beams[e].place[*stressed]));
+    }
+    for (std::size_t i = 0; i < r_.errors.size(); ++i)
+      if (const auto row = worst_row(r_.errors[i].values)) {
+        text += fmt::format("; {} up to {}", r_.errors[i].label.substr(0, r_.errors[i].label.rfind(" (")),
+                            error_text(r_.errors[i], std::abs(r_.errors[i].values[*row])));
+        break;
+      }
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    result_.headline = text + ".";
+    if (r_.report.status != Status::done)
+      result_.headline += fmt::format(" It ends at {:.4g} s, before {:.4g} s: {}.", r_.times.back(), s_.to,
+                                      to_string(r_.report.status));
+  }
+
+  const LinkageSimulationStudy& s_;
+  const ElasticRecording& r_;
+  study::Result result_;
+};
+
+}  // namespace
+
+study::Result report_elastic_simulation(const LinkageSimulationStudy& study,
+                                        const ElasticRecording& recording) {
+  return ElasticReporter(study, recording).run();
+}
+
+}  // namespace linkwright::planar

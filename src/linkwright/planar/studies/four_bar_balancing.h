@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "linkwright/optimise/smooth_problem.h"
+#include "linkwright/planar/studies/balancing.h"
+#include "linkwright/planar/studies/four_bar.h"
+
+namespace linkwright::planar {
+
+/// The machine of one design.
+ReactionsMechanism four_bar_of(const BalancingStudy& study, std::span<const double> x);
+
+/// The problem of a study of a four-bar with designed lengths and masses, evaluated many machines at a time
+/// (balancing_values) in the place of the general way. Nothing when the study asks for more than that knows:
+/// other designed numbers, other quantities than components of forces and torques, or constraints.
+std::optional<optimise::SmoothProblem> four_bar_problem(const BalancingStudy& study,
+                                                        const BalancingProblem& problem);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/planar/studies/four_bar.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::planar {
+namespace {
+
+// In the order of the columns.
+const std::vector<Word>& quantity_words() {
+  static const std::vector<Word> words = {
+      {"position", "coupler and rocker angle, points O2 and O3"},
+      {"rates", "speeds and accelerations of coupler and rocker"},
+      {"reactions", "forces in the joints O1 to O4"},
+      {"drive_torque", "torque of the motor on the crank"},
+      {"shaking", "force and moments of the mechanism on the ground"},
+      {"transmission_angle", "between coupler and rocker, folded to 0..90 deg"}};
+  return words;
+}
+
+ReactionsQuantities chosen_quantities(const std::vector<std::string>& listed) {
+  const auto has = [&](std::string_view word) {
+    return listed.empty() || std::find(listed.begin(), listed.end(), word) != listed.end();
+  };
+  return {.position = has("position"),
+          .rates = has("rates"),
+          .reactions = has("reactions"),
+          .drive_torque = has("drive_torque"),
+          .shaking = has("shaking"),
+          .transmission_angle = has("transmission_angle")};
+}
+
+// Lengths so small or so far apart that the mechanics would leave the range of a double are no design.
+void check_lengths(study::ObjectReader& mechanism, const FourBar& l, const study::DisplayUnits& units) {
+  constexpr double least = 1e-9;
+  auto parameters = mechanism.table("parameters");
+  if (!parameters) return;
+  for (const auto& [key, length] : {std::pair{"ground", l.ground}, std::pair{"crank", l.crank},
+                                    std::pair{"coupler", l.coupler}, std::pair{"rocker", l.rocker}})
+    if (length < least)
+      parameters->error(
+          key,
+          fmt::format("is {}, a link must be at least {} long", units.text(length, Dimension::length),
+                      units.text(least, Dimension::length)),
+          "check the unit");
+}
+
+}  // namespace
+
+ReactionsStudy read_reactions_study(study::ObjectReader& document, const study::Common& common) {
+  ReactionsStudy s;
+  s.units = common.units;
+  s.quantities = chosen_quantities(common.output.quantities);
+  if (auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true})) {
+    mechanism->read(s.mechanism);
+    check_lengths(*mechanism, s.mechanism.linkage, common.units);
+    if (s.quantities.dynamic() && !mechanism->has("mass"))
+      mechanism->error("mass", "forces and torques need the masses of the links",
+                       "add [mechanism.mass.crank], [mechanism.mass.coupler] and [mechanism.mass.rocker], or "
+                       "list other quantities: output.quantities = [\"position\", \"rates\", "
+                       "\"transmission_angle\"]");
+  }
+  if (auto drive = document.table(Field{.key = "drive", .summary = {}, .required = true}))
+    drive->read(s.drive);
+  if (auto environment = document.table("environment")) environment->read(s.environment);
+  if (auto sweep = document.table(Field{.key = "sweep", .summary = {}, .required = true})) {
+    sweep->read(s.sweep);
+    const CrankSamples& angles = std::get<CrankGrid>(s.sweep.type).crank_angle;
+    if (auto axis = sweep->table("crank_angle"); axis && angles.samples >= 2 && angles.from == angles.to)
+      axis->error("to",
+                  fmt::format("the sweep ends where it begins, at {}",
+                              common.units.text(angles.to, Dimension::angle, 6)),
+                  "for a full turn write from_deg = 0, to_deg = 360");
+  }
+  return s;
+}
+
+study::Kind reactions_kind() {
+  study::Kind kind;
+  kind.kind = "analysis";
+  kind.mechanism = "planar.four_bar";
+  kind.summary = "motion, joint reactions, drive torque and shaking force of a four-bar over its crank angle";
+  kind.quantities = quantity_words();
+  kind.example = R"(# linkwright study: motion and forces of a four-bar
+schema = 1
+kind   = "analysis"
+title  = "Forces of my four-bar"
+
+[mechanism]
+type   = "planar.four_bar"
+branch = "open"                     # open | crossed
+
+[mechanism.parameters]
+ground_mm  = 600.0
+crank_mm   = 100.0
+coupler_mm = 400.0
+rocker_mm  = 320.0
+
+# Mass centre: distance from the link's own joint (O1, O2, O4), angle from the link line.
+[mechanism.mass.crank]
+mass_kg            = 0.36
+inertia_kg_m2      = 4.13e-4        # about the mass centre
+centre_distance_mm = 50.0
+
+[mechanism.mass.coupler]
+mass_kg            = 1.296
+inertia_kg_m2      = 1.87e-2
+centre_distance_mm = 200.0
+centre_angle_deg   = 0.0
+
+[mechanism.mass.rocker]
+mass_kg            = 1.046
+inertia_kg_m2      = 9.85e-3
+centre_distance_mm = 160.0
+
+[drive]
+input     = "crank"
+speed_rpm = 300.0
+
+[environment]
+gravity_m_per_s2 = 9.81
+
+[sweep.crank_angle]
+from_deg = 0.0
+to_deg   = 360.0
+samples  = 361
+
+[output]                            # without quantities: all of them
+quantities = ["position", "rates", "reactions", "drive_torque", "shaking", "transmission_angle"]
+)";
+  kind.schema = [](study::SchemaWriter& document) {
+    document.property(Field{.key = "mechanism", .summary = "the four-bar", .required = true},
+                      study::schema_fields<ReactionsMechanism>());
+    document.property(Field{.key = "drive", .summary = "what moves it", .required = true},
+                      study::schema_fields<Drive>());
+    document.property(Field{.key = "environment", .summary = "what acts from outside"},
+                      study::schema_fields<Environment>());
+    document.property(Field{.key = "sweep", .summary = "where it is evaluated", .required = true},
+                      study::schema_fields<CrankSweep>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    const ReactionsStudy s = read_reactions_study(document, common);
+    study::Prepared prepared;
+    prepared.canonical["mechanism"] = study::write_fields(s.mechanism);
+    prepared.canonical["drive"] = study::write_fields(s.drive);
+    prepared.canonical["environment"] = study::write_fields(s.environment);
+    prepared.canonical["sweep"] = study::write_fields(s.sweep);
+    prepared.run = [s](RunContext& context) { return run_reactions_study(s, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::planar

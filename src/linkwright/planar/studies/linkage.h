@@ -1,0 +1,124 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "linkwright/planar/linkage/branch.h"
+#include "linkwright/planar/linkage/columns.h"
+#include "linkwright/planar/linkage/form.h"
+#include "linkwright/planar/linkage/plan.h"
+#include "linkwright/planar/linkage/slider_crank.h"
+#include "linkwright/study/driven_law.h"
+#include "linkwright/study/kind.h"
+
+// The analysis of any planar linkage over its inputs or over time: what its file holds, how it is read, run
+// and reported. `planar.slider_crank` is a shorthand that is written out as a linkage.
+namespace linkwright::planar {
+
+/// How a driven joint moves: over a grid its rate and acceleration, over time its law.
+struct LinkageDrive {
+  std::string joint;
+  double rate = 0, acceleration = 0;
+  std::optional<math::MotionLaw> law;
+};
+/// One axis of a grid.
+struct InputSamples {
+  std::string joint;
+  double from = 0, to = 0;
+  int samples = 0;
+};
+/// The rows of a table: all combinations of inputs, the first input slowest; or times.
+struct InputGrid {
+  std::vector<InputSamples> inputs;  ///< in the order of the linkage's drives
+};
+
+/// `[quality]`: what is asked beyond the table, of linkages with one input.
+struct LinkageQuality {
+  std::string output_joint;  ///< joint whose rate and force ratio to the input, and dead centres, are told
+  std::vector<std::string>
+      centrodes;                 ///< bodies whose fixed and moving centrode against the ground are tabled
+  bool instant_centres = false;  ///< table of all instant centres at every row
+  bool assembly_modes = false;   ///< table of all ways to assemble the linkage at the first row
+};
+
+/// A study of a linkage as read.
+struct LinkageStudy {
+  Linkage linkage;
+  LinkagePlan plan;
+  std::vector<LinkageDrive> drives;  ///< one an input
+  std::variant<InputGrid, study::TimeSamples> sweep;
+  AtChangePoint at_change_point = AtChangePoint::smooth;  ///< of a grid over one input
+  std::vector<BodyPoint> traces;
+  LinkageQuality quality;
+  LinkageQuantities quantities;
+};
+
+/// "analysis" of "planar.linkage" and of "planar.slider_crank".
+study::Kind linkage_kind();
+study::Kind slider_crank_kind();
+
+enum class LinkageType { linkage, slider_crank };
+/// Reads the tables of the study and writes them into the canonical one unless that is null; nothing when
+/// there are problems, which go to the reader.
+std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, const study::Common& common,
+                                               LinkageType type, Value* canonical);
+
+/// What the rows are placed at: combinations of a grid with time 0, or times.
+struct LinkageRows {
+  std::vector<double> time;
+  std::vector<std::vector<InputMotion>> inputs;  ///< of each row, one an input
+};
+LinkageRows rows_of(const LinkageStudy& study);
+
+/// The table of the study alone, with the columns of these keys only (all when empty), for those who evaluate
+/// many designs. A branch is not followed through change points.
+Table linkage_table(const LinkageStudy& study, std::span<const std::string> columns);
+
+/// Evaluates every row and reports. Rows that do not assemble, or stand at a dead point, hold what is known
+/// of them and their status; the status of the result is then the first of these.
+study::Result run_linkage_study(const LinkageStudy& study, RunContext& context);
+
+/// The table `ranges`: where the linkage assembles in which modes, and circuits.
+void add_limits(const LinkageStudy& study, const InputLimits& limits, study::Result& result);
+/// The tables that `[quality]` asks for, of a grid over one input; `branch` through change points if there
+/// are any.
+void add_quality(const LinkageStudy& study, const std::optional<BranchPath>& branch, study::Result& result);
+
+// ---- shared with other studies of linkages
+// ------------------------------------------------------------------
+
+/// `[mechanism]`, `[environment]`, `[[trace]]` of any study of a linkage, and `[[drive]] joint`.
+struct LinkageDescription {
+  Linkage linkage;
+  LinkagePlan plan;
+  std::vector<BodyPoint> traces;
+  std::string sample;               ///< its name when the mechanism is a canned one
+  std::vector<double> sample_from;  ///< and the inputs where its motion begins
+};
+/// Reads and plans; nothing when there are problems, which go to the reader.
+std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
+                                               bool needs_masses);
+/// Whether every body has its mass; tells which do not.
+bool require_masses(study::ObjectReader& document, LinkageType type, const LinkagePlan& plan);
+/// The tables of `read_linkage` as a canonical study holds them.
+void write_linkage(const LinkageDescription& description, Value& canonical);
+void describe_linkage(study::SchemaWriter& document, LinkageType type);
+/// The same with `[[drive]]` and `[sweep]`, as `read_linkage_study` reads them; `at_change_point` only for
+/// those who follow branches.
+void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bool at_change_point);
+
+/// A key of a driven joint: an angle or a length, or its derivative of that order by time.
+Field drive_field(bool rotary, int order, std::string_view key, std::string_view summary,
+                  bool required = false);
+/// The input that a table with `joint` means: the only one when it names none. Nothing, and the problem told,
+/// when there is no such input.
+std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& linkage);
+/// `law` of a `[[drive]]` with its keys, written into the canonical table as well; nothing when it is absent
+/// or cannot be read. Problems go to the reader.
+std::optional<math::MotionLaw> read_law(study::ObjectReader& drive, bool rotary, bool required,
+                                        Value& canonical);
+
+}  // namespace linkwright::planar

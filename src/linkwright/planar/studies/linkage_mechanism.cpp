@@ -1,0 +1,294 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "linkwright/planar/linkage/build.h"
+#include "linkwright/planar/linkage/columns.h"
+#include "linkwright/planar/linkage/samples.h"
+#include "linkwright/planar/studies/linkage.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
+#include "linkwright/study/bind_write.h"
+
+// What all studies of linkages read alike: the mechanism, what acts from outside, traced points, driven
+// joints.
+namespace linkwright::planar {
+namespace {
+
+struct Environment {
+  double gravity = 9.81;
+  double direction = -std::numbers::pi / 2;
+};
+template <class Visitor>
+void fields(Visitor&& visit, Environment& e) {
+  visit(Field{.key = "gravity",
+              .summary = "acceleration of free fall",
+              .dimension = Dimension::acceleration,
+              .minimum = 0,
+              .maximum = 1e6},
+        e.gravity);
+  visit(linkage_fields::angle("gravity_direction", "where it points, from the x axis"), e.direction);
+}
+
+// Problems of the model as the plan tells them, put where the file has their cause: "joint.A" is the entry of
+// [[mechanism.joint]] with that name.
+void report(study::ObjectReader& document, study::ObjectReader& mechanism, const Diagnostics& problems) {
+  for (const Diagnostic& d : problems) {
+    const auto dot = d.key.find('.');
+    const std::string list = d.key.substr(0, dot);
+    std::string name = dot == std::string::npos ? std::string() : d.key.substr(dot + 1);
+    bool told = false;
+    if (!name.empty())
+      for (study::ObjectReader& entry : mechanism.tables(list)) {
+        const Value* own = entry.value().find("name");
+        if (told || !own || !own->is_string()) continue;
+        // "crank.point.A" belongs to "crank", "crank + arm" to the first of them.
+        const std::string& candidate = own->as_string();
+        if (name == candidate || name.starts_with(candidate + ".") || name.starts_with(candidate + " + ")) {
+          entry.error("name", d.message, d.hint);
+          told = true;
+        }
+      }
+    if (told) continue;
+    if (list == "drive" || list == "environment")
+      document.error(list, d.message, d.hint);
+    else
+      mechanism.error(list, d.message, d.hint);
+  }
+}
+
+const Field sample_field{.key = "sample", .summary = "a canned linkage in the place of bodies and joints"};
+const Field sample_count_field{.key = "sample_count",
+                               .summary = "links of the sample arm, loops of the sample four_bar_chain",
+                               .minimum = 1,
+                               .maximum = 200};
+
+std::optional<LinkageSample> sample_named(study::ObjectReader& mechanism) {
+  const std::span<const LinkageSample> all = linkage_samples();
+  std::vector<Word> words;
+  for (const LinkageSample& s : all) words.push_back({s.name, s.summary});
+  const auto index = mechanism.word(Field{.key = "sample", .summary = "a canned linkage"}, words);
+  if (!index) return std::nullopt;
+  std::optional<int> count;
+  mechanism(sample_count_field, count);
+  if (!count) return all[*index];
+  if (words[*index].name == "arm") return arm_sample(*count);
+  if (words[*index].name == "four_bar_chain") return four_bar_chain_sample(*count);
+  mechanism.error("sample_count", fmt::format("the sample '{}' comes in one size", words[*index].name),
+                  "leave the key out; it is for arm and four_bar_chain");
+  return std::nullopt;
+}
+
+/// Names become parts of column keys: two columns of one key would hide each other.
+bool require_own_columns(study::ObjectReader& mechanism, const Linkage& l, const LinkagePlan& plan,
+                         const std::vector<BodyPoint>& traces) {
+  std::vector<std::pair<std::string, std::string>> columns;  // key and label
+  for (std::size_t k = 0; k < plan.inputs(); ++k)
+    columns.emplace_back(input_key(l, plan, k), input_label(l, plan, k) + " of the drive");
+  for (LinkageColumn& c : linkage_columns(l, plan, {}, traces))
+    columns.emplace_back(std::move(c.key), std::move(c.label));
+  std::sort(columns.begin(), columns.end());
+  const auto twice = std::adjacent_find(columns.begin(), columns.end(),
+                                        [](const auto& a, const auto& b) { return a.first == b.first; });
+  if (twice == columns.end()) return true;
+  mechanism.unreadable("",
+                       fmt::format("two columns of the results would be called '{}': {} and {}", twice->first,
+                                   twice->second, std::next(twice)->second),
+                       "give bodies, joints and points names that differ in letters and digits, and trace a "
+                       "point once");
+  return false;
+}
+
+}  // namespace
+
+std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
+                                               bool needs_masses) {
+  LinkageDescription out;
+  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  Environment environment;
+  auto surroundings = document.table("environment");
+  if (surroundings) surroundings->read(environment);
+  auto drives = document.tables("drive");
+  auto traces = document.tables("trace");
+  if (!mechanism) return std::nullopt;
+  bool good = true;
+  Linkage& l = out.linkage;
+  if (type == LinkageType::slider_crank) {
+    SliderCrankMechanism m;
+    mechanism->read(m);
+    l = slider_crank(m);
+    // The point of the rod is of interest when it is given.
+    if (traces.empty() && point_index(l.bodies[2], "C") >= 0) out.traces = points_named(l, {"rod.C"});
+    if (document.document().has_errors()) return std::nullopt;
+  } else if (mechanism->has(sample_field)) {
+    auto sample = sample_named(*mechanism);
+    if (!sample) return std::nullopt;
+    l = std::move(sample->linkage);
+    out.sample = sample->name;
+    out.sample_from = sample->from;
+    if (traces.empty()) out.traces = sample->traces;
+  } else {
+    LinkageForm form;
+    mechanism->read(form);
+    if (document.document().has_errors()) return std::nullopt;
+    std::vector<FormProblem> problems;
+    l = linkage_of(form, problems);
+    for (const FormProblem& p : problems) {
+      good = false;
+      auto entries = mechanism->tables(p.list);
+      if (p.index < entries.size())
+        entries[p.index].error(p.key, p.message, p.hint);
+      else
+        mechanism->error(p.list, p.message, p.hint);
+    }
+  }
+  if (!good) return std::nullopt;
+  // Drives: those of the file; a sample or a shorthand brings its own, which the file may repeat in any
+  // order.
+  const bool own_drives = !l.driven.empty();
+  for (study::ObjectReader& drive : drives) {
+    std::string joint;
+    if (!drive(Field{.key = "joint", .summary = {}, .required = !own_drives || drives.size() > 1}, joint))
+      continue;
+    const int j = joint_index(l, joint);
+    if (j < 0) {
+      std::vector<std::string_view> known;
+      for (const LinkageJoint& k : l.joints) known.push_back(k.name);
+      const std::string_view nearest = nearest_word(joint, known);
+      drive.error("joint", fmt::format("there is no joint '{}'", joint),
+                  nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+      good = false;
+    } else if (!own_drives) {
+      l.driven.push_back(j);
+    } else if (std::find(l.driven.begin(), l.driven.end(), j) == l.driven.end()) {
+      drive.error("joint", fmt::format("joint '{}' has no drive in this mechanism", joint), {});
+      good = false;
+    }
+  }
+  for (study::ObjectReader& trace : traces) {
+    std::string point;
+    if (!trace(Field{.key = "point", .summary = {}, .required = true}, point)) continue;
+    const auto dot = point.rfind('.');
+    const int body = dot == std::string::npos ? -1 : body_index(l, std::string_view(point).substr(0, dot));
+    const int index = body < 0 ? -1
+                               : point_index(l.bodies[static_cast<std::size_t>(body)],
+                                             std::string_view(point).substr(dot + 1));
+    if (index < 0) {
+      trace.error("point", fmt::format("there is no point '{}'", point),
+                  "write body.point, as \"coupler.C\"");
+      good = false;
+    } else {
+      out.traces.push_back({body, index});
+    }
+  }
+  // A sample brings its own gravity.
+  if (surroundings || out.sample.empty()) {
+    l.gravity = std::polar(environment.gravity, environment.direction);
+    // Straight down is exactly down.
+    if (environment.direction == Environment{}.direction) l.gravity = {0, -environment.gravity};
+  }
+  if (!good || document.document().has_errors()) return std::nullopt;
+  PlanResult planned = plan(l);
+  if (!planned.problems.empty()) {
+    report(document, *mechanism, planned.problems);
+    return std::nullopt;
+  }
+  out.plan = std::move(planned.plan);
+  if (!require_own_columns(*mechanism, l, out.plan, out.traces)) return std::nullopt;
+  if (needs_masses && !require_masses(document, type, out.plan)) return std::nullopt;
+  return out;
+}
+
+bool require_masses(study::ObjectReader& document, LinkageType type, const LinkagePlan& plan) {
+  if (plan.has_masses) return true;
+  std::string bodies;
+  for (const std::string& b : plan.massless) bodies += (bodies.empty() ? "'" : ", '") + b + "'";
+  const char* key = type == LinkageType::slider_crank ? "mass" : "body";
+  auto mechanism = document.table("mechanism");
+  (mechanism ? *mechanism : document)
+      .error(key,
+             fmt::format("forces and torques need the mass of every body: {} {} none", bodies,
+                         plan.massless.size() == 1 ? "has" : "have"),
+             "give mass_kg, or list quantities that need no masses: output.quantities = [\"position\", "
+             "\"rates\", \"transmission_angle\"]");
+  return false;
+}
+
+void write_linkage(const LinkageDescription& d, Value& canonical) {
+  canonical["mechanism"] = study::write_fields(form_of(d.linkage));
+  Environment environment;
+  environment.gravity = std::abs(d.linkage.gravity);
+  if (environment.gravity > 0) environment.direction = std::arg(d.linkage.gravity);
+  canonical["environment"] = study::write_fields(environment);
+  Value::Array traces;
+  for (const BodyPoint& t : d.traces) {
+    const LinkageBody& body = d.linkage.bodies[static_cast<std::size_t>(t.body)];
+    Value trace;
+    trace["point"] = body.name + "." + body.points[static_cast<std::size_t>(t.point)].name;
+    traces.push_back(std::move(trace));
+  }
+  if (!traces.empty()) canonical["trace"] = Value(std::move(traces));
+}
+
+void describe_linkage(study::SchemaWriter& document, LinkageType type) {
+  if (type == LinkageType::slider_crank) {
+    document.property(Field{.key = "mechanism", .summary = "the slider-crank", .required = true},
+                      study::schema_fields<SliderCrankMechanism>());
+  } else {
+    study::SchemaWriter mechanism;
+    LinkageForm form;
+    fields(mechanism, form);
+    mechanism(sample_field, std::optional<std::string>());
+    mechanism(sample_count_field, std::optional<int>());
+    document.property(Field{.key = "mechanism", .summary = "the linkage", .required = true},
+                      std::move(mechanism).finish());
+  }
+  document.property(Field{.key = "environment", .summary = "what acts from outside"},
+                    study::schema_fields<Environment>());
+  study::SchemaWriter trace;
+  trace(
+      Field{.key = "point", .summary = "a point whose path is of interest, \"body.point\"", .required = true},
+      std::string());
+  document.property(Field{.key = "trace", .summary = "points to report and draw"},
+                    study::schema_array(std::move(trace).finish()));
+}
+
+Field drive_field(bool rotary, int order, std::string_view key, std::string_view summary, bool required) {
+  return study::motion_fields::value(rotary ? study::JointKind::rotary : study::JointKind::linear, key,
+                                     summary, required, order);
+}
+
+std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& l) {
+  std::string joint;
+  if (!table(Field{.key = "joint", .summary = {}, .required = l.driven.size() > 1}, joint))
+    return l.driven.size() == 1 && !table.has("joint") ? std::optional<std::size_t>(0) : std::nullopt;
+  for (std::size_t i = 0; i < l.driven.size(); ++i)
+    if (input_joint(l, i).name == joint) return i;
+  table.error("joint", fmt::format("joint '{}' is not driven", joint), "add a [[drive]] for it");
+  return std::nullopt;
+}
+
+namespace {
+
+template <study::JointKind kind>
+std::optional<math::MotionLaw> read_law(study::ObjectReader& drive, bool required, Value& canonical) {
+  study::DrivenLaw<kind> law;
+  if (!drive(Field{.key = "law", .summary = "motion law", .required = required}, law)) return std::nullopt;
+  study::ObjectWriter writer(canonical);
+  writer(Field{.key = "law", .summary = {}}, law);
+  math::MotionLaw out = motion_law(law);
+  if (const auto wrong = problem(out)) drive.error(wrong->key, wrong->message, wrong->hint);
+  return out;
+}
+
+}  // namespace
+
+std::optional<math::MotionLaw> read_law(study::ObjectReader& drive, bool rotary, bool required,
+                                        Value& canonical) {
+  return rotary ? read_law<study::JointKind::rotary>(drive, required, canonical)
+                : read_law<study::JointKind::linear>(drive, required, canonical);
+}
+
+}  // namespace linkwright::planar

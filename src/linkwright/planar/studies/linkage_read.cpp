@@ -1,0 +1,399 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/planar/linkage/build.h"
+#include "linkwright/planar/linkage/samples.h"
+#include "linkwright/planar/studies/linkage.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::planar {
+
+template <class Visitor>
+void fields(Visitor&& visit, LinkageQuality& q) {
+  visit(Field{.key = "output_joint", .summary = "joint whose ratios to the input and dead centres are told"},
+        q.output_joint);
+  visit(Field{.key = "centrodes", .summary = "bodies whose centrodes against the ground are tabled"},
+        q.centrodes);
+  visit(Field{.key = "instant_centres", .summary = "table of all instant centres at every position"},
+        q.instant_centres);
+  visit(Field{.key = "assembly_modes",
+              .summary = "table of all ways to assemble the linkage at the first position"},
+        q.assembly_modes);
+}
+
+static constexpr Field samples_field{.key = "samples",
+                                     .summary = "number of values, both ends included",
+                                     .minimum = 2,
+                                     .maximum = 100000,
+                                     .required = true};
+
+namespace {
+
+enum class SweepType { grid, time };
+constexpr std::array<EnumName<SweepType>, 2> names(SweepType) {
+  return {{{SweepType::grid, "grid", "all combinations of evenly spaced inputs"},
+           {SweepType::time, "time", "evenly spaced times; the drives follow their laws"}}};
+}
+constexpr Field change_point_field{
+    .key = "at_change_point",
+    .summary = "grid over one input: how the linkage goes on where assembly modes meet"};
+constexpr double most_rows = 1e6;
+
+// The kinds of a sweep share the reading of drives: rates over a grid, laws over time.
+void read_drives(study::ObjectReader& document, const Linkage& l, bool over_time, LinkageStudy& s,
+                 Value::Array& canonical) {
+  s.drives.resize(l.driven.size());
+  canonical.assign(l.driven.size(), Value::object());
+  for (std::size_t i = 0; i < l.driven.size(); ++i) {
+    s.drives[i].joint = input_joint(l, i).name;
+    canonical[i]["joint"] = s.drives[i].joint;
+  }
+  for (study::ObjectReader& drive : document.tables("drive")) {
+    const auto input = input_of(drive, l);
+    if (!input) continue;
+    const bool rotary = input_joint(l, *input).type == JointType::revolute;
+    LinkageDrive& d = s.drives[*input];
+    if (!over_time) {
+      drive(drive_field(rotary, 1, "speed", "rate at every position"), d.rate);
+      drive(drive_field(rotary, 2, "acceleration", "acceleration at every position"), d.acceleration);
+    } else {
+      d.law = read_law(drive, rotary, true, canonical[*input]);
+    }
+  }
+  for (std::size_t i = 0; i < s.drives.size(); ++i) {
+    if (over_time) {
+      if (!s.drives[i].law && !document.document().has_errors())
+        document.error("drive", fmt::format("joint '{}' has no motion law", s.drives[i].joint),
+                       "add a [[drive]] with joint and law");
+      continue;
+    }
+    const bool rotary = input_joint(l, i).type == JointType::revolute;
+    study::ObjectWriter writer(canonical[i]);
+    writer(drive_field(rotary, 1, "speed", {}), s.drives[i].rate);
+    writer(drive_field(rotary, 2, "acceleration", {}), s.drives[i].acceleration);
+  }
+}
+
+void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageStudy& s, Value& canonical) {
+  InputGrid grid;
+  grid.inputs.resize(l.driven.size());
+  Value::Array axes(l.driven.size(), Value::object());
+  double rows = 1;
+  for (study::ObjectReader& axis : sweep.tables(Field{.key = "input", .summary = {}, .required = true})) {
+    const auto input = input_of(axis, l);
+    if (!input) continue;
+    const bool rotary = input_joint(l, *input).type == JointType::revolute;
+    InputSamples& a = grid.inputs[*input];
+    a.joint = input_joint(l, *input).name;
+    axis(drive_field(rotary, 0, "from", "first value", true), a.from);
+    axis(drive_field(rotary, 0, "to", "last value", true), a.to);
+    axis(samples_field, a.samples);
+    rows *= std::max(a.samples, 1);
+    if (a.samples >= 2 && a.from == a.to)
+      axis.error("to", "the sweep ends where it begins",
+                 rotary ? "for a full turn write from_deg = 0, to_deg = 360" : "give another end");
+  }
+  for (std::size_t i = 0; i < grid.inputs.size(); ++i) {
+    const InputSamples& a = grid.inputs[i];
+    if (a.samples == 0 && !sweep.document().has_errors())
+      sweep.error("input",
+                  fmt::format("joint '{}' is driven, but the sweep does not say where it goes",
+                              input_joint(l, i).name),
+                  "add a [[sweep.input]] for it");
+    const bool rotary = input_joint(l, i).type == JointType::revolute;
+    study::ObjectWriter writer(axes[i]);
+    writer(Field{.key = "joint", .summary = {}}, input_joint(l, i).name);
+    writer(drive_field(rotary, 0, "from", {}), a.from);
+    writer(drive_field(rotary, 0, "to", {}), a.to);
+    writer(samples_field, a.samples);
+  }
+  if (rows > most_rows)
+    sweep.error("input", fmt::format("the grid has {:.0f} rows, at most {:.0f} are allowed", rows, most_rows),
+                "take fewer samples");
+  sweep(change_point_field, s.at_change_point);
+  canonical["type"] = "grid";
+  canonical["input"] = Value(std::move(axes));
+  study::ObjectWriter(canonical).operator()(change_point_field, s.at_change_point);
+  s.sweep = std::move(grid);
+}
+
+void read_quality(study::ObjectReader& document, const Linkage& l, LinkageQuality& quality) {
+  auto table = document.table("quality");
+  if (!table) return;
+  table->read(quality);
+  if (l.driven.size() != 1)
+    table->error("output_joint",
+                 fmt::format("the linkage has {} inputs; this is for one input", l.driven.size()),
+                 "leave [quality] out");
+  if (!quality.output_joint.empty() && joint_index(l, quality.output_joint) < 0)
+    table->error("output_joint", fmt::format("there is no joint '{}'", quality.output_joint), {});
+  for (const std::string& body : quality.centrodes)
+    if (body_index(l, body) <= 0)
+      table->error("centrodes", fmt::format("there is no moving body '{}'", body), {});
+}
+
+}  // namespace
+
+std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, const study::Common& common,
+                                               LinkageType type, Value* canonical) {
+  LinkageStudy s;
+  s.quantities = chosen_quantities(common.output.quantities);
+  auto description = read_linkage(document, type, s.quantities.dynamic());
+  auto sweep = document.table("sweep");
+  // Known keys, so that a bad mechanism does not make all others look unknown.
+  SweepType how = sweep && sweep->has("time") ? SweepType::time : SweepType::grid;
+  if (sweep) (*sweep)(Field{.key = "type", .summary = "how rows are placed"}, how);
+  if (!description) {
+    if (sweep) sweep->members();
+    if (auto quality = document.table("quality")) quality->members();
+    for (study::ObjectReader& drive : document.tables("drive")) drive.members();
+    return std::nullopt;
+  }
+  const Linkage& l = description->linkage;
+  Value::Array drives;
+  Value canonical_sweep;
+  if (!sweep && description->sample.empty()) {
+    document.table(Field{.key = "sweep", .summary = {}, .required = true});
+  } else if (!sweep) {  // a sample knows what motion to look at
+    const LinkageSample& sample = linkage_sample(description->sample);
+    InputGrid grid;
+    Value::Array axes;
+    for (std::size_t i = 0; i < l.driven.size(); ++i) {
+      const bool rotary = description->plan.rotary[i];
+      grid.inputs.push_back({input_joint(l, i).name, sample.from[i], sample.to[i], 361});
+      Value axis;
+      study::ObjectWriter writer(axis);
+      writer(Field{.key = "joint", .summary = {}}, grid.inputs[i].joint);
+      writer(drive_field(rotary, 0, "from", {}), sample.from[i]);
+      writer(drive_field(rotary, 0, "to", {}), sample.to[i]);
+      writer(samples_field, 361);
+      axes.push_back(std::move(axis));
+    }
+    canonical_sweep["type"] = "grid";
+    canonical_sweep["input"] = Value(std::move(axes));
+    if (grid.inputs.size() > 1)
+      document.error("sweep", fmt::format("the sample '{}' has {} inputs", sample.name, grid.inputs.size()),
+                     "add [sweep] with a [[sweep.input]] for each");
+    s.sweep = std::move(grid);
+    read_drives(document, l, false, s, drives);
+    if (!document.has("drive"))
+      for (std::size_t i = 0; i < l.driven.size(); ++i) {
+        s.drives[i].rate = i == 0 ? sample.speed : 0.0;
+        study::ObjectWriter writer(drives[i]);
+        writer(drive_field(description->plan.rotary[i], 1, "speed", {}), s.drives[i].rate);
+      }
+  } else if (how == SweepType::grid) {
+    read_grid(*sweep, l, s, canonical_sweep);
+    read_drives(document, l, false, s, drives);
+  } else {
+    study::TimeSamples times;
+    if (auto table = sweep->table(Field{.key = "time", .summary = {}, .required = true})) {
+      table->read(times);
+      if (times.samples >= 2 && !(times.to > times.from))
+        table->error("to", fmt::format("the sweep ends at {} s, before it begins", times.to), {});
+    }
+    canonical_sweep["type"] = "time";
+    canonical_sweep["time"] = study::write_fields(times);
+    s.sweep = times;
+    read_drives(document, l, true, s, drives);
+  }
+  read_quality(document, l, s.quality);
+  if (canonical) {
+    write_linkage(*description, *canonical);
+    if (document.has("quality")) (*canonical)["quality"] = study::write_fields(s.quality);
+    (*canonical)["drive"] = Value(std::move(drives));
+    (*canonical)["sweep"] = std::move(canonical_sweep);
+  }
+  s.linkage = std::move(description->linkage);
+  s.plan = std::move(description->plan);
+  s.traces = std::move(description->traces);
+  return s;
+}
+
+namespace {
+
+study::Prepared prepare(study::ObjectReader& document, const study::Common& common, LinkageType type) {
+  study::Prepared prepared;
+  if (auto s = read_linkage_study(document, common, type, &prepared.canonical))
+    prepared.run = [s = std::move(*s)](RunContext& context) { return run_linkage_study(s, context); };
+  return prepared;
+}
+
+}  // namespace
+
+void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bool at_change_point) {
+  describe_linkage(document, type);
+  study::SchemaWriter drive;
+  drive(Field{.key = "joint", .summary = "driven joint"}, std::string());
+  drive(Field{.key = "law", .summary = "motion law, for a sweep over time"}, std::optional<study::AnyLaw>());
+  for (bool rotary : {true, false})
+    for (const auto& [order, key] : {std::pair{1, "speed"}, std::pair{2, "acceleration"}})
+      drive.property(drive_field(rotary, order, key, "over a grid: the same at every position"),
+                     study::schema_number());
+  document.property(Field{.key = "drive", .summary = "how driven joints move"},
+                    study::schema_array(std::move(drive).finish()));
+  study::SchemaWriter axis;
+  axis(Field{.key = "joint", .summary = "driven joint"}, std::string());
+  for (bool rotary : {true, false})
+    for (const char* key : {"from", "to"})
+      axis.property(drive_field(rotary, 0, key, "end of the axis"), study::schema_number());
+  axis(samples_field, 361);
+  study::SchemaWriter sweep;
+  sweep(Field{.key = "type", .summary = "how rows are placed"}, SweepType::grid);
+  sweep.property(Field{.key = "input", .summary = "axes of a grid"},
+                 study::schema_array(std::move(axis).finish()));
+  if (at_change_point) sweep(change_point_field, AtChangePoint::smooth);
+  sweep.property(Field{.key = "time", .summary = "times of the rows"},
+                 study::schema_fields<study::TimeSamples>());
+  document.property(Field{.key = "sweep", .summary = "where it is evaluated"}, std::move(sweep).finish());
+}
+
+namespace {
+
+void describe(study::SchemaWriter& document, LinkageType type) {
+  describe_linkage_motion(document, type, true);
+  document.property(Field{.key = "quality", .summary = "what is asked beyond the table"},
+                    study::schema_fields<LinkageQuality>());
+}
+
+study::Kind kind_of(LinkageType type) {
+  study::Kind kind;
+  kind.kind = "analysis";
+  kind.quantities = linkage_quantity_words();
+  kind.schema = [type](study::SchemaWriter& document) { describe(document, type); };
+  kind.prepare = [type](study::ObjectReader& document, const study::Common& common) {
+    return prepare(document, common, type);
+  };
+  return kind;
+}
+
+}  // namespace
+
+study::Kind linkage_kind() {
+  study::Kind kind = kind_of(LinkageType::linkage);
+  kind.mechanism = "planar.linkage";
+  kind.summary = "motion, joint reactions, drive torque and shaking force of any planar linkage";
+  kind.example = R"(# linkwright study: motion and forces of a planar linkage
+schema = 1
+kind   = "analysis"
+title  = "Forces of my linkage"
+
+[mechanism]
+type = "planar.linkage"
+
+# The first body is the ground. Points are in the frame of the body.
+[[mechanism.body]]
+name      = "ground"
+points_mm = { O = [0, 0], B0 = [600, 0] }
+
+[[mechanism.body]]
+name      = "crank"
+points_mm = { O = [0, 0], A = [100, 0] }
+mass_kg   = 0.36                    # inertia and centre: those of a uniform bar unless given
+
+[[mechanism.body]]
+name      = "coupler"
+points_mm = { A = [0, 0], B = [400, 0], C = [250, 150] }
+mass_kg   = 1.3
+
+[[mechanism.body]]
+name      = "rocker"
+points_mm = { B0 = [0, 0], B = [320, 0] }
+mass_kg   = 1.05
+
+# Joints: revolute, prismatic, pin_in_slot, fixed, gear.
+[[mechanism.joint]]
+name   = "O"
+first  = "ground.O"
+second = "crank.O"
+
+[[mechanism.joint]]
+name   = "A"
+first  = "crank.A"
+second = "coupler.A"
+
+[[mechanism.joint]]
+name   = "B"
+first  = "coupler.B"
+second = "rocker.B"
+
+[[mechanism.joint]]
+name   = "B0"
+first  = "ground.B0"
+second = "rocker.B0"
+
+# A pair of bodies can be assembled two ways: plus = the inner pin lies to the left.
+[[mechanism.assembly]]
+bodies = ["coupler", "rocker"]
+mode   = "plus"
+
+[[drive]]
+joint     = "O"
+speed_rpm = 300.0
+
+[sweep]
+type = "grid"
+
+[[sweep.input]]
+joint    = "O"
+from_deg = 0.0
+to_deg   = 360.0
+samples  = 361
+
+[[trace]]
+point = "coupler.C"
+)";
+  return kind;
+}
+
+study::Kind slider_crank_kind() {
+  study::Kind kind = kind_of(LinkageType::slider_crank);
+  kind.mechanism = "planar.slider_crank";
+  kind.summary = "motion, joint reactions, drive torque and shaking force of a slider-crank";
+  kind.example = R"(# linkwright study: motion and forces of a slider-crank
+schema = 1
+kind   = "analysis"
+title  = "Forces of my engine"
+
+[mechanism]
+type   = "planar.slider_crank"
+branch = "forward"                  # forward | backward
+
+[mechanism.parameters]
+crank_mm        = 50.0
+rod_mm          = 150.0
+offset_mm       = 0.0               # of the guide from the crank pivot, to the left of its direction
+guide_angle_deg = 0.0
+
+[mechanism.mass]
+slider_kg = 0.4
+
+[mechanism.mass.crank]
+mass_kg            = 0.9
+inertia_kg_m2      = 1.2e-3         # about the mass centre
+centre_distance_mm = 10.0           # from O
+
+[mechanism.mass.rod]
+mass_kg            = 0.5
+inertia_kg_m2      = 1.5e-3
+centre_distance_mm = 50.0           # from A
+
+[[drive]]
+speed_rpm = 3000.0
+
+[sweep]
+type = "grid"
+
+[[sweep.input]]
+from_deg = 0.0
+to_deg   = 360.0
+samples  = 361
+)";
+  return kind;
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,572 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "linkwright/math/angles.h"
+#include "linkwright/planar/linkage/assembly.h"
+#include "linkwright/planar/linkage/branch.h"
+#include "linkwright/planar/linkage/columns.h"
+#include "linkwright/planar/linkage/limits.h"
+#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/planar/linkage/smooth_branch.h"
+#include "linkwright/planar/studies/linkage.h"
+#include "linkwright/planar/studies/linkage_scene.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double pi = std::numbers::pi;
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+// Below it a dyad is said to transmit force badly: reactions grow like the reciprocal of its sine.
+constexpr double poor_transmission = 5 * pi / 180;
+
+// Columns of the table: time or not, inputs, quantities.
+std::vector<LinkageColumn> columns_of(const LinkageStudy& s) {
+  std::vector<LinkageColumn> out;
+  if (std::holds_alternative<study::TimeSamples>(s.sweep))
+    out.push_back({"time_s", "time (s)", [](const LinkageInstant& i) { return i.time; }});
+  for (std::size_t k = 0; k < s.plan.inputs(); ++k)
+    out.push_back({input_key(s.linkage, s.plan, k), input_label(s.linkage, s.plan, k),
+                   [k](const LinkageInstant& i) { return i.inputs[k].value; }});
+  for (LinkageColumn& c : linkage_columns(s.linkage, s.plan, s.quantities, s.traces))
+    out.push_back(std::move(c));
+  return out;
+}
+
+double sample_at(double from, double to, int samples, int i) {
+  return from + (to - from) * i / (samples - 1);
+}
+
+}  // namespace
+
+LinkageRows rows_of(const LinkageStudy& s) {
+  LinkageRows rows;
+  if (const auto* times = std::get_if<study::TimeSamples>(&s.sweep)) {
+    std::vector<math::MotionCurve> curves;
+    for (const LinkageDrive& d : s.drives) curves.emplace_back(*d.law);
+    for (int i = 0; i < times->samples; ++i) {
+      rows.time.push_back(sample_at(times->from, times->to, times->samples, i));
+      rows.inputs.emplace_back();
+      for (const math::MotionCurve& c : curves) {
+        const math::Motion m = c(rows.time.back());
+        rows.inputs.back().push_back({m.value, m.rate, m.acceleration});
+      }
+    }
+    return rows;
+  }
+  const InputGrid& grid = std::get<InputGrid>(s.sweep);
+  std::vector<int> index(grid.inputs.size(), 0);
+  while (true) {
+    rows.time.push_back(0);
+    rows.inputs.emplace_back();
+    for (std::size_t k = 0; k < index.size(); ++k) {
+      const InputSamples& a = grid.inputs[k];
+      rows.inputs.back().push_back(
+          {sample_at(a.from, a.to, a.samples, index[k]), s.drives[k].rate, s.drives[k].acceleration});
+    }
+    std::size_t k = index.size();
+    while (k-- > 0)
+      if (++index[k] < grid.inputs[k].samples)
+        break;
+      else
+        index[k] = 0;
+    if (k == static_cast<std::size_t>(-1)) return rows;
+  }
+}
+
+namespace {
+
+std::string shown(double value, bool rotary) {
+  return rotary ? fmt::format("{:.6g}°", math::degrees(value)) : fmt::format("{:.6g} mm", value * 1e3);
+}
+
+// What the rows tell beyond the table.
+struct Worst {
+  double value = 0;
+  std::size_t row = 0;
+  bool any = false;
+  void larger(double v, std::size_t r) {
+    if (!std::isnan(v) && (!any || std::abs(v) > std::abs(value))) value = v, row = r, any = true;
+  }
+  void smaller(double v, std::size_t r) {
+    if (!std::isnan(v) && (!any || v < value)) value = v, row = r, any = true;
+  }
+};
+
+class Runner {
+ public:
+  Runner(const LinkageStudy& s, RunContext& context)
+      : s_(s),
+        context_(context),
+        columns_(columns_of(s)),
+        rows_(rows_of(s)),
+        assembly_(s.plan, reach_of(rows_.inputs), s.at_change_point, over_time()) {}
+
+  study::Result run() {
+    find_limits();
+    evaluate();
+    finish_table();
+    result_.scenes.push_back(
+        linkage_scene(s_.linkage, s_.plan, recorded_, s_.traces, scene_input_key(), scene_input_label()));
+    if (limits_) add_limits(s_, *limits_, result_);
+    if (s_.plan.inputs() == 1 && !over_time()) add_quality(s_, branch_, result_);
+    plots();
+    facts();
+    warnings();
+    headline();
+    return std::move(result_);
+  }
+
+ private:
+  bool over_time() const { return std::holds_alternative<study::TimeSamples>(s_.sweep); }
+  // The scene shows the rows along the last axis of a grid, with the other inputs at their first value.
+  std::size_t shown_rows() const {
+    if (over_time()) return rows_.inputs.size();
+    return at(std::get<InputGrid>(s_.sweep).inputs.back().samples);
+  }
+  std::size_t scene_axis() const { return s_.plan.inputs() - 1; }
+  std::string scene_input_key() const {
+    return over_time() ? "time_s" : input_key(s_.linkage, s_.plan, scene_axis());
+  }
+  std::string scene_input_label() const {
+    return over_time() ? "time"
+                       : input_joint(s_.linkage, scene_axis()).name +
+                             (s_.plan.rotary[scene_axis()] ? " angle" : " way");
+  }
+  std::string where(std::size_t row) const {
+    if (over_time()) return fmt::format("{:.4g} s", rows_.time[row]);
+    std::string out;
+    for (std::size_t k = 0; k < s_.plan.inputs(); ++k)
+      out += (k ? ", " : "") + shown(rows_.inputs[row][k].value, s_.plan.rotary[k]);
+    return out;
+  }
+
+  void evaluate() {
+    LinkageMotion motion(s_.plan);
+    LinkageForces forces;
+    const bool dynamic = s_.quantities.dynamic();
+    values_.assign(columns_.size(), {});
+    for (auto& v : values_) v.reserve(rows_.inputs.size());
+    LinkageInstant now{.motion = &motion, .forces = &forces};
+    for (std::size_t r = 0; r < rows_.inputs.size(); ++r) {
+      now.time = rows_.time[r];
+      now.inputs = rows_.inputs[r];
+      bool there = true;
+      if (branch_ && branch_->status == Status::done)
+        there = modes_at(*branch_, now.inputs[0].value, motion.modes) == Status::done;
+      if (!there) motion.status = Status::limit_reached;
+      if (there) {
+        assembly_.place(now.inputs, motion);
+        solve_velocity(s_.plan, now.inputs, motion);
+        solve_acceleration(s_.plan, now.inputs, motion);
+      }
+      if (dynamic) solve_forces(s_.linkage, s_.plan, motion, now.time, now.inputs[0].value, forces);
+      // At a change point the motion has a limit, but for the rates where it has a kink; forces may have
+      // none.
+      const bool kink = s_.at_change_point == AtChangePoint::keep_sign;
+      const bool passed = there && at_change(now.inputs[0], motion) &&
+                          limit_at_change(s_.plan, *branch_, now.inputs[0].value, now.inputs[0], motion,
+                                          dynamic && !kink ? &s_.linkage : nullptr, forces);
+      if (passed && kink) forget_rates(motion);
+      passed_.push_back(passed);
+      const Status status = motion.status != Status::done ? motion.status
+                            : passed && kink              ? Status::singular
+                            : dynamic                     ? forces.status
+                                                          : Status::done;
+      for (std::size_t c = 0; c < columns_.size(); ++c) {
+        const bool input = c < s_.plan.inputs() + (over_time() ? 1 : 0);
+        values_[c].push_back(input || motion.status == Status::done ? columns_[c].value(now) : nan);
+      }
+      statuses_.push_back(status);
+      if (r < shown_rows())
+        recorded_.push_back(record_of(s_.linkage, s_.plan, motion, dynamic ? &forces : nullptr,
+                                      over_time() ? now.time : now.inputs[scene_axis()].value));
+      collect(r, motion, forces, dynamic && status == Status::done);
+      if (r % 256 == 255 && context_.interrupted()) {
+        interruption_ = context_.interruption();
+        break;
+      }
+    }
+  }
+
+  // Whether the row stands at a change point that the branch passes or ends at.
+  bool at_change(const InputMotion& input, const LinkageMotion& motion) const {
+    if (!branch_ || branch_->status != Status::done || motion.status != Status::singular) return false;
+    const auto here = [&](const RangeEnd& e) {
+      const double apart = input.value - e.value;
+      return e.kind == EndKind::change_point &&
+             std::abs(limits_->closed ? std::remainder(apart, 2 * pi) : apart) < 1e-6;
+    };
+    return here(branch_->low) || here(branch_->high) ||
+           std::any_of(branch_->change_points.begin(), branch_->change_points.end(), here);
+  }
+  static void forget_rates(LinkageMotion& motion) {
+    for (PartState<double>& s : motion.parts)
+      s.velocity = s.acceleration = {nan, nan}, s.speed = s.angular_acceleration = nan;
+  }
+
+  void collect(std::size_t r, const LinkageMotion& motion, const LinkageForces& forces, bool dynamic) {
+    if (motion.status == Status::no_assembly) gap_.larger(motion.gap, r);
+    if (motion.status != Status::done || passed_.back()) {
+      if (!passed_.back() && failed_group_ < 0) failed_group_ = motion.failed_group;
+      return;
+    }
+    closure_.larger(motion.closure_residual, r);
+    for (std::size_t g = 0; g < s_.plan.groups.size(); ++g)
+      if (s_.plan.groups[g].type == GroupType::triangle ||
+          (s_.plan.groups[g].joints.size() == 3 && s_.plan.groups[g].type != GroupType::general)) {
+        const double before = transmission_.any ? transmission_.value : 10;
+        transmission_.smaller(std::asin(std::min(1.0, std::abs(motion.groups[g].sine))), r);
+        if (transmission_.value < before) weakest_ = g;
+      }
+    if (!dynamic) return;
+    drives_.resize(s_.plan.inputs());
+    for (std::size_t k = 0; k < drives_.size(); ++k) drives_[k].larger(forces.drives[k], r);
+    joints_.resize(forces.joints.size());
+    for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j].larger(norm(forces.joints[j].force), r);
+    shaking_.larger(norm(forces.shaking_force), r);
+    power_.larger(std::max({std::abs(forces.drive_power), std::abs(forces.kinetic_power),
+                            std::abs(forces.weight_power), std::abs(forces.load_power)}),
+                  r);
+    balance_.larger(forces.drive_power + forces.weight_power + forces.load_power - forces.kinetic_power, r);
+  }
+
+  void finish_table() {
+    Table table{.name = "sweep"};
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      if (columns_[c].angle) math::unwrap_angles(values_[c]);
+      table.add(columns_[c].key, columns_[c].label, std::move(values_[c]));
+    }
+    for (Status s : statuses_) table.status.emplace_back(to_string(s));
+    auto bad = statuses_.begin();
+    while (bad != statuses_.end() &&
+           (*bad == Status::done || passed_[static_cast<std::size_t>(bad - statuses_.begin())]))
+      ++bad;
+    result_.status = interruption_ != Status::done ? interruption_
+                     : bad != statuses_.end()      ? *bad
+                                                   : Status::done;
+    result_.tables.push_back(std::move(table));
+  }
+
+  // Ranges of the one input of a linkage in closed form, and the branch that the rows follow through change
+  // points. More than 64 combinations of modes are not listed.
+  void find_limits() {
+    modes_ = LinkageMotion(s_.plan).modes;
+    const auto pairs = std::count_if(s_.plan.groups.begin(), s_.plan.groups.end(),
+                                     [](const Group& g) { return has_modes(g.type); });
+    if (!s_.plan.closed_form()) limits_ = assembly_.limits();
+    if (s_.plan.inputs() != 1 || over_time() || !s_.plan.closed_form() || pairs > 6) return;
+    const InputSamples& axis = std::get<InputGrid>(s_.sweep).inputs[0];
+    const std::vector<double> inputs{axis.from};
+    const bool turn = s_.plan.rotary[0] && periodic(s_.plan, 0);
+    const double low = std::min(axis.from, axis.to), high = std::max(axis.from, axis.to);
+    limits_ = turn ? input_limits(s_.plan, inputs, 0, -pi, pi) : input_limits(s_.plan, inputs, 0, low, high);
+    const bool choice = std::any_of(limits_->ranges.begin(), limits_->ranges.end(), [](const InputRange& r) {
+      return r.from.kind == EndKind::change_point || r.to.kind == EndKind::change_point;
+    });
+    if (choice) branch_ = branch_path(s_.plan, inputs, 0, modes_, low, high, s_.at_change_point);
+  }
+  std::vector<std::string> columns_ending(std::string_view ending, std::size_t most) const {
+    std::vector<std::string> out;
+    for (const LinkageColumn& c : columns_)
+      if (c.key.ends_with(ending) && out.size() < most) out.push_back(c.key);
+    return out;
+  }
+  void plots() {
+    const bool linked = over_time() || s_.plan.inputs() == 1;
+    const auto plot = [&](std::string name, std::string title, std::vector<std::string> y,
+                          study::Plot::Style style = study::Plot::Style::line) {
+      if (y.empty()) return;
+      result_.plots.push_back({.name = std::move(name),
+                               .title = std::move(title),
+                               .table = "sweep",
+                               .x = scene_input_key(),
+                               .y = std::move(y),
+                               .style = linked ? style : study::Plot::Style::points,
+                               .scene = linked ? "motion" : std::string()});
+    };
+    const LinkageQuantities& q = s_.quantities;
+    if (q.drive) {
+      plot("torque", "Drive torque", columns_ending("_drive_torque_N_m", 6));
+      plot("drive-force", "Drive force", columns_ending("_drive_force_N", 6));
+    }
+    if (q.reactions) {
+      std::vector<std::string> sizes;
+      for (const LinkageJoint& j : s_.linkage.joints)
+        if (j.type != JointType::gear && sizes.size() < 8) sizes.push_back(identifier(j.name) + "_N");
+      plot("reactions", "Joint forces", sizes);
+    }
+    if (q.shaking) {
+      plot("shaking-force", "Shaking force", {"shaking_force_x_N", "shaking_force_y_N", "shaking_force_N"});
+      plot("shaking-moment", "Shaking moment about the origin",
+           {"shaking_moment_N_m", "shaking_moment_with_drive_N_m"});
+      if (linked)
+        plot("shaking-polar", "Shaking force, polar", {"shaking_force_x_N", "shaking_force_y_N"},
+             study::Plot::Style::polar);
+    }
+    if (q.reactions && linked) {
+      std::vector<std::string> pairs;
+      for (const LinkageJoint& j : s_.linkage.joints)
+        if (j.type != JointType::gear && pairs.size() < 12) {
+          pairs.push_back(identifier(j.name) + "_x_N");
+          pairs.push_back(identifier(j.name) + "_y_N");
+        }
+      plot("reactions-polar", "Joint forces, polar", pairs, study::Plot::Style::polar);
+    }
+    if (q.transmission_angle)
+      plot("transmission", "Transmission angles", columns_ending("_transmission_angle_rad", 8));
+    if (q.position) {
+      std::vector<std::string> angles, ways = columns_ending("_way_m", 8);
+      for (const LinkageColumn& c : columns_)
+        if (c.angle && angles.size() < 8) angles.push_back(c.key);
+      plot("angles", "Angles of the bodies", angles);
+      if (s_.plan.inputs() == 1 && !s_.plan.rotary[0] && !ways.empty()) ways.erase(ways.begin());
+      plot("ways", "Ways of the slides", ways);
+      std::vector<std::string> paths;
+      for (const BodyPoint& t : s_.traces) {
+        const LinkageBody& b = s_.linkage.bodies[at(t.body)];
+        const std::string key = identifier(b.name) + "_" + identifier(b.points[at(t.point)].name);
+        paths.push_back(key + "_x_m");
+        paths.push_back(key + "_y_m");
+      }
+      if (linked) plot("paths", "Paths of the traced points", paths, study::Plot::Style::polar);
+    }
+    if (q.rates) {
+      std::vector<std::string> speeds, accelerations;
+      for (const LinkageBody& b : s_.linkage.bodies)
+        if (&b != &s_.linkage.bodies[0] && speeds.size() < 8) {
+          speeds.push_back(identifier(b.name) + "_speed_rad_per_s");
+          accelerations.push_back(identifier(b.name) + "_acceleration_rad_per_s2");
+        }
+      const auto there = [&](std::vector<std::string>& keys) {
+        std::erase_if(keys, [&](const std::string& k) { return !result_.tables[0].find(k); });
+      };
+      there(speeds), there(accelerations);
+      plot("speeds", "Angular speeds", speeds);
+      plot("accelerations", "Angular accelerations", accelerations);
+    }
+    if (q.power)
+      plot("power", "Power", {"drive_power_W", "weight_power_W", "load_power_W", "kinetic_power_W"});
+  }
+
+  // The joint with the largest force; past the end when there is none.
+  std::size_t strongest() const {
+    std::size_t most = joints_.size();
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+      if (joints_[j].any && (most == joints_.size() || joints_[j].value > joints_[most].value)) most = j;
+    return most;
+  }
+
+  void facts() {
+    using Verdict = study::Fact::Verdict;
+    const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
+      result_.facts.push_back({std::move(label), std::move(text), verdict});
+    };
+    fact("degrees of freedom", fmt::format("{}, {} driven", mobility(s_.linkage), s_.plan.inputs()));
+    std::string order;
+    for (const Group& g : s_.plan.groups)
+      order += fmt::format("{}{} ({}{})", order.empty() ? "" : " → ", g.name, name_of(g.type),
+                           has_modes(g.type) ? g.mode > 0 ? ", plus" : ", minus" : "");
+    fact("solved in this order", order);
+    if (limits_) {
+      fact("range of the input", assembly_range_text(*limits_, modes_));
+      if (s_.plan.closed_form())
+        fact("circuits", fmt::format("{} over all assembly modes", limits_->circuits));
+    }
+    for (std::size_t k = 0; k < drives_.size(); ++k)
+      if (s_.quantities.drive && drives_[k].any)
+        fact(fmt::format("largest drive {} at {}", s_.plan.rotary[k] ? "torque" : "force",
+                         input_joint(s_.linkage, k).name),
+             fmt::format("{:.5g} {} at {}", drives_[k].value, s_.plan.rotary[k] ? "N m" : "N",
+                         where(drives_[k].row)));
+    if (s_.quantities.reactions && strongest() < joints_.size())
+      fact("largest joint force",
+           fmt::format("{:.5g} N at {}, {}", joints_[strongest()].value, s_.linkage.joints[strongest()].name,
+                       where(joints_[strongest()].row)));
+    if (s_.quantities.shaking && shaking_.any)
+      fact("largest shaking force", fmt::format("{:.5g} N at {}", shaking_.value, where(shaking_.row)));
+    if (transmission_.any)
+      fact("least transmission angle",
+           fmt::format("{:.1f}° of {} at {}", math::degrees(transmission_.value),
+                       s_.plan.groups[weakest_].name, where(transmission_.row)),
+           transmission_.value < poor_transmission ? Verdict::bad : Verdict::plain);
+    if (closure_.any) fact("closure residual", fmt::format("{:.2g} m", closure_.value));
+    if (s_.quantities.dynamic() && power_.any && power_.value > 0)
+      fact("power balance",
+           fmt::format("within {:.2g} of the largest power", std::abs(balance_.value / power_.value)));
+  }
+
+  void warnings() {
+    const auto warn = [&](std::string message, std::string hint) {
+      result_.diagnostics.push_back(
+          {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
+    };
+    // Change points are told of by themselves.
+    std::size_t first_row = 0;
+    const auto count = [&](Status s) {
+      long n = 0;
+      for (std::size_t r = statuses_.size(); r-- > 0;)
+        if (statuses_[r] == s && !passed_[r]) ++n, first_row = r;
+      return n;
+    };
+    const std::string group = failed_group_ >= 0 ? s_.plan.groups[at(failed_group_)].name : std::string();
+    for (Status s : {Status::singular, Status::no_assembly, Status::limit_reached, Status::self_locking,
+                     Status::not_converged}) {
+      const auto n = count(s);
+      if (n == 0) continue;
+      const std::string place =
+          fmt::format("{} of {} positions, the first at {}", n, statuses_.size(), where(first_row));
+      if (s == Status::singular)
+        warn(fmt::format("{} stand at a dead point of {}: speeds and forces are not determined there", place,
+                         group),
+             {});
+      else if (s == Status::no_assembly)
+        warn(gap_.any && gap_.value > 0
+                 ? fmt::format(
+                       "{} do not assemble: {} would have to be longer, or shorter, by up to {:.4g} mm",
+                       place, group, gap_.value * 1e3)
+                 : fmt::format("{} do not assemble", place),
+             assembled_ranges());
+      else if (s == Status::self_locking)
+        warn(
+            fmt::format("{} lock by friction: no force of the drive, however large, keeps the linkage moving",
+                        place),
+            "less friction, or a position farther from the dead point, frees it");
+      else
+        warn(fmt::format("{} have no answer ({})", place, to_string(s)),
+             s == Status::limit_reached ? "a limit of the motion lies before them" : "");
+    }
+    change_points(warn);
+    if (transmission_.any && transmission_.value < poor_transmission)
+      warn(fmt::format("the transmission angle of {} falls to {:.2f}° at {}: near a dead point forces grow "
+                       "without bound",
+                       s_.plan.groups[weakest_].name, math::degrees(transmission_.value),
+                       where(transmission_.row)),
+           {});
+  }
+  // Where the linkage assembles: exactly for one input in closed form, else nothing.
+  std::string assembled_ranges() const {
+    return limits_ ? "it " + assembly_range_text(*limits_, modes_) : std::string();
+  }
+  // Positions where the branch is a choice.
+  void change_points(const std::function<void(std::string, std::string)>& warn) const {
+    if (!branch_) return;
+    for (std::size_t r = 0; r < statuses_.size(); ++r)
+      if (passed_[r] && statuses_[r] == Status::singular) {
+        warn(s_.at_change_point == AtChangePoint::keep_sign
+                 ? fmt::format("at {} the motion has a kink: the row holds the position alone", where(r))
+                 : fmt::format("at {} the joint forces grow without bound: the row holds what stays finite",
+                               where(r)),
+             {});
+        break;
+      }
+    std::vector<double> told;
+    for (const RangeEnd& end : branch_->change_points) {
+      const double value = limits_->rotary ? math::wrap_angle(end.value) : end.value;
+      if (std::any_of(told.begin(), told.end(), [&](double t) { return std::abs(t - value) < 1e-6; }))
+        continue;
+      told.push_back(value);
+      std::string groups;
+      for (int g : end.groups) groups += (groups.empty() ? "" : ", ") + s_.plan.groups[at(g)].name;
+      warn(fmt::format(
+               "at {} the assembly modes of {} meet and cross: which way the linkage goes on there is a "
+               "choice",
+               shown(value, limits_->rotary), groups),
+           s_.at_change_point == AtChangePoint::smooth
+               ? "the rows go on smoothly; sweep.at_change_point = \"keep_sign\" takes the other branch"
+           : s_.at_change_point == AtChangePoint::keep_sign
+               ? "the rows take the branch with a kink; sweep.at_change_point = \"smooth\" is the other"
+               : "the rows end there");
+    }
+  }
+
+  void headline() {
+    const auto good = std::count(statuses_.begin(), statuses_.end(), Status::done);
+    if (good == 0) {
+      result_.headline =
+          "No position of the sweep has an answer: the linkage does not assemble or stands at "
+          "dead points.";
+      return;
+    }
+    std::string text;
+    if (s_.quantities.drive && !drives_.empty() && drives_[0].any)
+      text = fmt::format("The drive {} reaches {:.5g} {} at {}", s_.plan.rotary[0] ? "torque" : "force",
+                         drives_[0].value, s_.plan.rotary[0] ? "N m" : "N", where(drives_[0].row));
+    if (s_.quantities.reactions && strongest() < joints_.size())
+      text += fmt::format("{} {:.5g} N at joint {}",
+                          text.empty() ? "The joint forces reach" : " and the joint forces",
+                          joints_[strongest()].value, s_.linkage.joints[strongest()].name);
+    if (text.empty()) text = fmt::format("{} of {} positions computed", good, statuses_.size());
+    result_.headline = text + ".";
+    if (good != static_cast<std::ptrdiff_t>(statuses_.size()) && s_.quantities.dynamic())
+      result_.headline += fmt::format(" {} of {} positions have no answer.",
+                                      static_cast<std::ptrdiff_t>(statuses_.size()) - good, statuses_.size());
+  }
+
+  const LinkageStudy& s_;
+  RunContext& context_;
+  std::vector<LinkageColumn> columns_;
+  LinkageRows rows_;
+  LinkageAssembly assembly_;
+  std::vector<std::vector<double>> values_;
+  std::vector<Status> statuses_;
+  std::vector<bool> passed_;  // rows at change points that hold what is known there
+  std::vector<LinkageRecord> recorded_;
+  Status interruption_ = Status::done;
+  Worst gap_, closure_, transmission_, shaking_, power_, balance_;
+  std::vector<Worst> drives_, joints_;
+  std::size_t weakest_ = 0;
+  int failed_group_ = -1;
+  std::optional<InputLimits> limits_;
+  std::optional<BranchPath> branch_;
+  std::vector<double> modes_;
+  study::Result result_;
+};
+
+}  // namespace
+
+Table linkage_table(const LinkageStudy& s, std::span<const std::string> wanted) {
+  std::vector<LinkageColumn> columns = columns_of(s);
+  if (!wanted.empty())
+    std::erase_if(columns, [&](const LinkageColumn& c) {
+      return std::find(wanted.begin(), wanted.end(), c.key) == wanted.end();
+    });
+  const LinkageRows rows = rows_of(s);
+  LinkageAssembly assembly(s.plan, reach_of(rows.inputs), s.at_change_point,
+                           std::holds_alternative<study::TimeSamples>(s.sweep));
+  LinkageMotion motion(s.plan);
+  LinkageForces forces;
+  LinkageInstant now{.motion = &motion, .forces = &forces};
+  Table table{.name = "sweep"};
+  for (const LinkageColumn& c : columns)
+    table.add(c.key, c.label, std::vector<double>(rows.inputs.size(), nan));
+  for (std::size_t r = 0; r < rows.inputs.size(); ++r) {
+    now.time = rows.time[r];
+    now.inputs = rows.inputs[r];
+    assembly.place(now.inputs, motion);
+    solve_velocity(s.plan, now.inputs, motion);
+    solve_acceleration(s.plan, now.inputs, motion);
+    if (s.quantities.dynamic())
+      solve_forces(s.linkage, s.plan, motion, now.time, now.inputs[0].value, forces);
+    const Status status =
+        s.quantities.dynamic() && motion.status == Status::done ? forces.status : motion.status;
+    if (motion.status == Status::done)
+      for (std::size_t c = 0; c < columns.size(); ++c) table.columns[c].values[r] = columns[c].value(now);
+    table.status.emplace_back(to_string(status));
+  }
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (columns[c].angle) math::unwrap_angles(table.columns[c].values);
+  return table;
+}
+
+study::Result run_linkage_study(const LinkageStudy& study, RunContext& context) {
+  return Runner(study, context).run();
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,294 @@
+#include "linkwright/planar/studies/linkage_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "linkwright/planar/link_mass.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Corners of the convex hull in order; two points when all lie on a line.
+std::vector<int> hull(const std::vector<LinkagePoint>& points) {
+  std::vector<int> order(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  const auto where = [&](int i) { return vec(points[at(i)].at); };
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return std::pair(where(a).x, where(a).y) < std::pair(where(b).x, where(b).y);
+  });
+  order.erase(
+      std::unique(order.begin(), order.end(), [&](int a, int b) { return norm(where(a) - where(b)) == 0; }),
+      order.end());
+  if (order.size() < 3) return order;
+  double size = 0;
+  for (int i : order) size = std::max(size, norm(where(i) - where(order[0])));
+  const auto half = [&](auto from, auto to) {
+    std::vector<int> out;
+    for (auto i = from; i != to; ++i) {
+      while (out.size() >= 2 && cross(where(out.back()) - where(out[out.size() - 2]),
+                                      where(*i) - where(out.back())) <= 1e-9 * size * size)
+        out.pop_back();
+      out.push_back(*i);
+    }
+    return out;
+  };
+  std::vector<int> lower = half(order.begin(), order.end()), upper = half(order.rbegin(), order.rend());
+  lower.pop_back();
+  upper.pop_back();
+  lower.insert(lower.end(), upper.begin(), upper.end());
+  return lower;
+}
+
+class Artist {
+ public:
+  Artist(const Linkage& l, const LinkagePlan& plan, const std::vector<LinkageRecord>& records)
+      : l_(l), plan_(plan), records_(records) {}
+
+  study::Scene draw(const std::vector<BodyPoint>& traces, std::string key, std::string label) {
+    scene_.name = "motion";
+    scene_.title = "motion";
+    scene_.input_key = std::move(key);
+    scene_.input_label = std::move(label);
+    for (const LinkageRecord& r : records_) {
+      scene_.input.push_back(r.input);
+      scene_.status.emplace_back(to_string(r.status));
+    }
+    points();
+    bodies();
+    joints();
+    springs();
+    masses();
+    for (const BodyPoint& t : traces) trace(t);
+    forces();
+    return std::move(scene_);
+  }
+
+ private:
+  using Style = study::Scene::BodyStyle;
+  bool moves(int body) const { return plan_.bodies[at(body)].part != 0; }
+
+  // A point that is given per record, or once for a body that stands.
+  int add_point(std::string name, int body, const std::function<Vec<double>(const LinkageRecord&)>& where) {
+    study::Scene::Point p{std::move(name), {}, {}};
+    for (const LinkageRecord& r : records_) {
+      const Vec<double> v = r.bodies.empty() ? Vec<double>{nan, nan} : where(r);
+      if (!moves(body) && std::isnan(v.x)) continue;
+      p.x.push_back(v.x);
+      p.y.push_back(v.y);
+      if (!moves(body)) break;
+    }
+    scene_.points.push_back(std::move(p));
+    return static_cast<int>(scene_.points.size()) - 1;
+  }
+  int add_point(std::string name, int body, std::complex<double> there) {
+    return add_point(std::move(name), body,
+                     [=](const LinkageRecord& r) { return point_on(r.bodies[at(body)], vec(there)); });
+  }
+  int point(const BodyPoint& p) const { return first_[at(p.body)] + p.point; }
+
+  void points() {
+    for (int b = 0; b < static_cast<int>(l_.bodies.size()); ++b) {
+      first_.push_back(static_cast<int>(scene_.points.size()));
+      for (const LinkagePoint& p : l_.bodies[at(b)].points) add_point(p.name, b, p.at);
+    }
+  }
+
+  void bodies() {
+    for (int b = 0; b < static_cast<int>(l_.bodies.size()); ++b) {
+      const LinkageBody& body = l_.bodies[at(b)];
+      if (body.points.empty()) continue;
+      std::vector<int> corners;
+      if (b == 0) {
+        for (std::size_t i = 0; i < body.points.size(); ++i) corners.push_back(static_cast<int>(i));
+      } else {
+        corners = hull(body.points);
+      }
+      if (b != 0 && corners.size() < 2) {
+        block(b, body.points[0].at);
+        continue;
+      }
+      for (int& c : corners) c += first_[at(b)];
+      const Style style = b == 0 ? Style::ground : corners.size() > 2 ? Style::plate : Style::bar;
+      scene_.bodies.push_back({body.name, std::move(corners), style});
+    }
+  }
+  // A body of one point, drawn as a block along its slide.
+  void block(int b, std::complex<double> centre) {
+    double direction = 0;
+    for (const LinkageJoint& j : l_.joints)
+      if (j.type == JointType::prismatic) {
+        if (j.second.body == b) direction = j.slide_second;
+        if (j.first.body == b) direction = j.slide_first;
+      }
+    const std::complex<double> e = std::polar(1.0, direction), n = std::complex<double>(0, 1) * e;
+    const double a = 0.06 * plan_.size, h = 0.035 * plan_.size;
+    std::vector<int> corners;
+    for (const auto& [x, y] : {std::pair{-a, -h}, std::pair{a, -h}, std::pair{a, h}, std::pair{-a, h}})
+      corners.push_back(add_point("", b, centre + x * e + y * n));
+    scene_.bodies.push_back({l_.bodies[at(b)].name, std::move(corners), Style::plate});
+  }
+
+  void joints() {
+    using Joint = study::Scene::JointStyle;
+    for (const LinkageJoint& j : l_.joints) {
+      if (j.type == JointType::revolute) {
+        const bool ground = !moves(j.first.body) || !moves(j.second.body);
+        scene_.joints.push_back({j.name, point(moves(j.first.body) ? j.second : j.first),
+                                 ground ? Joint::ground_pivot : Joint::pivot});
+      } else if (j.type == JointType::pin_in_slot) {
+        scene_.joints.push_back({j.name, point(j.second), Joint::pivot});
+        guide(j);
+      } else if (j.type == JointType::prismatic && (!moves(j.first.body) || !moves(j.second.body))) {
+        guide(j);
+      }
+    }
+  }
+  // The line of a slide, as long as what runs on it needs.
+  void guide(const LinkageJoint& j) {
+    const bool on_first = !moves(j.first.body) || j.type == JointType::pin_in_slot;
+    const BodyPoint &base = on_first ? j.first : j.second, &runner = on_first ? j.second : j.first;
+    const std::complex<double> start = l_.bodies[at(base.body)].points[at(base.point)].at;
+    const Vec<double> along = unit(on_first ? j.slide_first : j.slide_second);
+    double low = 0, high = 0;
+    bool any = false;
+    for (const LinkageRecord& r : records_) {
+      if (r.bodies.empty()) continue;
+      const PartState<double>& s = r.bodies[at(base.body)];
+      const Vec<double> there =
+          point_on(r.bodies[at(runner.body)], vec(l_.bodies[at(runner.body)].points[at(runner.point)].at));
+      const double way = dot(along, unturn(s.direction, there - s.origin) - vec(start));
+      low = any ? std::min(low, way) : way;
+      high = any ? std::max(high, way) : way;
+      any = true;
+    }
+    const double margin = 0.08 * plan_.size;
+    const auto end = [&](double way) { return add_point("", base.body, start + number(way * along)); };
+    const int a = end(low - margin), b = end(high + margin);
+    scene_.bodies.push_back({j.name + " guide", {a, b}, Style::guide});
+  }
+
+  void springs() {
+    for (const LinearSpring& s : l_.springs)
+      scene_.bodies.push_back(
+          {s.name, {point(s.first), point(s.second)}, s.stiffness > 0 ? Style::spring : Style::damper});
+  }
+
+  // Counterweights and payloads.
+  void masses() {
+    for (int b = 1; b < static_cast<int>(l_.bodies.size()); ++b) {
+      const LinkageBody& body = l_.bodies[at(b)];
+      for (const AttachedMass& m : body.attached) {
+        if (!(m.mass > 0)) continue;
+        const std::string name =
+            fmt::format("{}, {:.4g} kg", m.name.empty() ? "mass on " + body.name : m.name, m.mass);
+        const int centre = add_point("", b, m.at);
+        scene_.circles.push_back({name, centre, add_point("", b, m.at + drawn_radius(m.mass))});
+        if (!body.points.empty()) scene_.bodies.push_back({name, {first_[at(b)], centre}, Style::bar});
+      }
+    }
+  }
+
+  void trace(const BodyPoint& t) {
+    const LinkageBody& body = l_.bodies[at(t.body)];
+    const std::string name = body.points[at(t.point)].name;
+    scene_.joints.push_back({name, point(t), study::Scene::JointStyle::tracer});
+    const study::Scene::Point& p = scene_.points[at(point(t))];
+    const bool closed =
+        p.x.size() > 2 && std::hypot(p.x.front() - p.x.back(), p.y.front() - p.y.back()) < 1e-9 * plan_.size;
+    scene_.traces.push_back({point(t), "path of " + body.name + "." + name, closed});
+    study::Scene::Vector v{.name = "velocity of " + body.name + "." + name,
+                           .quantity = study::Scene::Quantity::velocity,
+                           .unit = "m/s",
+                           .point = point(t)};
+    study::Scene::Vector a{.name = "acceleration of " + body.name + "." + name,
+                           .quantity = study::Scene::Quantity::acceleration,
+                           .unit = "m/s2",
+                           .point = point(t)};
+    for (const LinkageRecord& r : records_) {
+      Vec<double> speed{nan, nan}, change{nan, nan};
+      if (!r.bodies.empty()) {
+        const PartState<double>& s = r.bodies[at(t.body)];
+        const Vec<double> there = point_on(s, vec(body.points[at(t.point)].at));
+        speed = velocity_at(s, there);
+        change = acceleration_at(s, there);
+      }
+      v.x.push_back(speed.x), v.y.push_back(speed.y);
+      a.x.push_back(change.x), a.y.push_back(change.y);
+    }
+    scene_.vectors.push_back(std::move(v));
+    scene_.vectors.push_back(std::move(a));
+  }
+
+  void forces() {
+    const bool any = std::any_of(records_.begin(), records_.end(),
+                                 [](const LinkageRecord& r) { return !r.joints.empty(); });
+    if (!any) return;
+    for (std::size_t j = 0; j < l_.joints.size(); ++j) {
+      const LinkageJoint& joint = l_.joints[j];
+      if (joint.type == JointType::gear) continue;
+      study::Scene::Vector v{
+          .name = fmt::format("force at {}, {} on {}", joint.name, l_.bodies[at(joint.first.body)].name,
+                              l_.bodies[at(joint.second.body)].name),
+          .quantity = study::Scene::Quantity::force,
+          .unit = "N",
+          .point = point(joint.second),
+          .symbol = joint.name};
+      for (const LinkageRecord& r : records_) {
+        const Vec<double> f = r.joints.empty() ? Vec<double>{nan, nan} : r.joints[j].force;
+        v.x.push_back(f.x), v.y.push_back(f.y);
+      }
+      scene_.vectors.push_back(std::move(v));
+    }
+    for (std::size_t k = 0; k < l_.driven.size(); ++k) {
+      const LinkageJoint& joint = l_.joints[at(l_.driven[k])];
+      if (joint.type != JointType::revolute) continue;
+      study::Scene::Moment m{
+          .name = "drive torque at " + joint.name, .unit = "N m", .point = point(joint.second)};
+      double largest = 0, force = 0;
+      for (const LinkageRecord& r : records_) {
+        m.value.push_back(r.drives.empty() ? nan : r.drives[k]);
+        if (!r.drives.empty()) largest = std::max(largest, std::abs(r.drives[k]));
+        for (const JointReaction& joint_force : r.joints) force = std::max(force, norm(joint_force.force));
+      }
+      // A free joint has no drive: what is left of its torque is rounding.
+      if (!(largest > 1e-9 * force * plan_.size)) continue;
+      scene_.moments.push_back(std::move(m));
+    }
+  }
+
+  const Linkage& l_;
+  const LinkagePlan& plan_;
+  const std::vector<LinkageRecord>& records_;
+  study::Scene scene_;
+  std::vector<int> first_;
+};
+
+}  // namespace
+
+LinkageRecord record_of(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
+                        const LinkageForces* forces, double input) {
+  LinkageRecord r{.status = motion.status, .input = input};
+  if (motion.status != Status::done && motion.status != Status::singular) return r;
+  for (int b = 0; b < static_cast<int>(linkage.bodies.size()); ++b)
+    r.bodies.push_back(body_state(plan, motion, b));
+  if (forces && forces->status == Status::done) {
+    r.joints = forces->joints;
+    r.drives = forces->drives;
+  }
+  return r;
+}
+
+study::Scene linkage_scene(const Linkage& linkage, const LinkagePlan& plan,
+                           const std::vector<LinkageRecord>& records, const std::vector<BodyPoint>& traces,
+                           std::string input_key, std::string input_label) {
+  return Artist(linkage, plan, records).draw(traces, std::move(input_key), std::move(input_label));
+}
+
+}  // namespace linkwright::planar

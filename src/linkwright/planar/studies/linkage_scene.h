@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "linkwright/planar/linkage/reactions.h"
+#include "linkwright/study/scene.h"
+
+namespace linkwright::planar {
+
+/// What a drawing needs of one instant.
+struct LinkageRecord {
+  Status status = Status::done;
+  double input = 0;
+  std::vector<PartState<double>> bodies;  ///< one a body; empty when not assembled
+  std::vector<JointReaction> joints;      ///< empty without forces
+  std::vector<double> drives;
+};
+/// `forces` may be null.
+LinkageRecord record_of(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
+                        const LinkageForces* forces, double input);
+
+/// Drawing of a linkage in motion, named "motion": bodies as bars and plates, sliders as blocks on their
+/// guides, springs, traces, and arrows of joint forces, shaking force and velocities of the traced points.
+/// Its points begin with those of the bodies, body after body, and its joints go by the names of the
+/// linkage's.
+study::Scene linkage_scene(const Linkage& linkage, const LinkagePlan& plan,
+                           const std::vector<LinkageRecord>& records, const std::vector<BodyPoint>& traces,
+                           std::string input_key, std::string input_label);
+
+}  // namespace linkwright::planar

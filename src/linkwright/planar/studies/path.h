@@ -1,0 +1,286 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "linkwright/optimise/population_methods.h"
+#include "linkwright/planar/path/synthesis.h"
+#include "linkwright/planar/studies/path_points.h"
+#include "linkwright/study/kind.h"
+
+// The path synthesis study: what its file holds (field lists), how it is read, run and reported.
+namespace linkwright::planar {
+
+/// Which assembly branches, and which senses of crank rotation along the points, are searched.
+enum class BranchChoice { any, open, crossed };
+constexpr std::array<EnumName<BranchChoice>, 3> names(BranchChoice) {
+  return {{{BranchChoice::any, "any", "both branches"},
+           {BranchChoice::open, "open",
+            "coupler-rocker pin to the left of the line from crank pin to rocker pivot"},
+           {BranchChoice::crossed, "crossed", "... to the right"}}};
+}
+enum class SenseChoice { automatic, any, positive, negative };
+constexpr std::array<EnumName<SenseChoice>, 4> names(SenseChoice) {
+  return {{{SenseChoice::automatic, "automatic", "positive when crank angles are prescribed, else any"},
+           {SenseChoice::any, "any", "both senses"},
+           {SenseChoice::positive, "positive", "counter-clockwise, or as the prescribed angles say"},
+           {SenseChoice::negative, "negative", "clockwise, or against the prescribed angles"}}};
+}
+
+/// `[mechanism.parameters]`: what is left out gets bounds from the path.
+struct PathParameters {
+  std::array<std::optional<Range>, four_bar_parameter_count> ranges;
+  std::optional<Range> rocker_pivot_x, rocker_pivot_y;  ///< of B0, which follows from the others
+};
+template <class Visitor>
+void fields(Visitor&& visit, PathParameters& p) {
+  constexpr std::array<std::string_view, four_bar_parameter_count> summaries = {
+      "length of the ground link O-B0",
+      "length of the crank O-A",
+      "length of the coupler A-B",
+      "length of the rocker B0-B",
+      "tracing point along A->B",
+      "tracing point along the left normal of A->B",
+      "crank pivot O, x",
+      "crank pivot O, y",
+      "direction of O->B0",
+      "crank angle at the first point, from O->B0 (equal steps)"};
+  for (std::size_t j = 0; j < four_bar_parameter_count; ++j) {
+    const bool angle = j >= index(FourBarParameter::frame_angle), link = j <= index(FourBarParameter::rocker);
+    Field field{.key = name(FourBarParameter(j)),
+                .summary = summaries[j],
+                .dimension = angle ? Dimension::angle : Dimension::length};
+    if (link) field.minimum = 0;
+    visit(field, p.ranges[j]);
+  }
+  visit(Field{.key = "rocker_pivot_x",
+              .summary = "where the rocker pivot B0 may be, x",
+              .dimension = Dimension::length},
+        p.rocker_pivot_x);
+  visit(Field{.key = "rocker_pivot_y",
+              .summary = "where the rocker pivot B0 may be, y",
+              .dimension = Dimension::length},
+        p.rocker_pivot_y);
+}
+
+struct PathMechanism {
+  BranchChoice branch = BranchChoice::any;
+  SenseChoice sense = SenseChoice::automatic;
+  PathParameters parameters;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PathMechanism& m) {
+  visit(Field{.key = "branch", .summary = "assembly branch to search"}, m.branch);
+  visit(Field{.key = "sense", .summary = "sense of crank rotation to search"}, m.sense);
+  visit(Field{.key = "parameters", .summary = "fixed numbers, or { min, max } for designed ones"},
+        m.parameters);
+}
+
+struct PathTiming {
+  Timing mode = Timing::free;
+  std::optional<double> step;
+  std::optional<std::vector<double>> angles;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PathTiming& t) {
+  visit(Field{.key = "mode", .summary = "how crank angles are tied to the points"}, t.mode);
+  visit(Field{.key = "step",
+              .summary = "crank rotation from point to point (equal_steps)",
+              .dimension = Dimension::angle},
+        t.step);
+  visit(Field{.key = "angles",
+              .summary = "crank angle of each point, from O->B0 (given)",
+              .dimension = Dimension::angle},
+        t.angles);
+}
+
+/// The point that traces.
+enum class TracingPoint { coupler };
+constexpr std::array<EnumName<TracingPoint>, 1> names(TracingPoint) {
+  return {{{TracingPoint::coupler, "coupler", "point (coupler_u, coupler_v) of the coupler"}}};
+}
+
+/// Two points that the path passes between, or a point where both are the same.
+struct PathGate {
+  std::array<double, 2> from{}, to{};
+};
+template <class Visitor>
+void fields(Visitor&& visit, PathGate& g) {
+  visit(Field{.key = "from",
+              .summary = "one post [x, y]",
+              .dimension = Dimension::length,
+              .required = true,
+              .inherits_unit = true},
+        g.from);
+  visit(Field{.key = "to",
+              .summary = "the other post [x, y]",
+              .dimension = Dimension::length,
+              .required = true,
+              .inherits_unit = true},
+        g.to);
+}
+
+struct PathTarget : PathPointsForm {
+  TracingPoint point = TracingPoint::coupler;
+  bool closed = false;
+  std::optional<std::vector<PathGate>> gates;
+  std::optional<double> tolerance;
+  std::optional<std::vector<double>> tolerances;
+  PathTiming timing;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PathTarget& t) {
+  visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
+  visit(Field{.key = "closed",
+              .summary =
+                  "the last point is followed by the first; without this key so when the last repeats it"},
+        t.closed);
+  visit(Field{.key = "gates",
+              .summary = "instead of points: pairs of points that the path passes between, in their order",
+              .dimension = Dimension::length},
+        t.gates);
+  visit(Field{.key = "tolerance",
+              .summary = "every point or gate counts as met within this distance, at no cost",
+              .dimension = Dimension::length,
+              .minimum = 0},
+        t.tolerance);
+  visit(Field{.key = "tolerances",
+              .summary = "the same, one for each point or gate",
+              .dimension = Dimension::length,
+              .minimum = 0},
+        t.tolerances);
+  visit(Field{.key = "timing", .summary = "how crank angles are tied to the points"}, t.timing);
+  fields(visit, static_cast<PathPointsForm&>(t));
+}
+
+/// What is minimised.
+enum class PathObjectiveType { sum_squared_distance };
+constexpr std::array<EnumName<PathObjectiveType>, 1> names(PathObjectiveType) {
+  return {{{PathObjectiveType::sum_squared_distance, "path.sum_squared_distance",
+            "sum over the points of the squared distance (Boskovic 2018 Eq. (4.4))"}}};
+}
+struct PathObjectiveEntry {
+  PathObjectiveType type = PathObjectiveType::sum_squared_distance;
+  double weight = 1;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PathObjectiveEntry& o) {
+  visit(Field{.key = "type", .summary = "what is minimised", .required = true}, o.type);
+  visit(Field{.key = "weight", .summary = "factor", .minimum = 0, .exclusive_minimum = true}, o.weight);
+}
+
+struct CrankRotatesFully {};
+template <class Visitor>
+void fields(Visitor&&, CrankRotatesFully&) {}
+constexpr Word choice_word(const CrankRotatesFully&) {
+  return {"crank_rotates_fully", "the crank can turn all the way round"};
+}
+
+struct TransmissionLimit {
+  double min = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, TransmissionLimit& t) {
+  visit(Field{.key = "min",
+              .summary = "least angle between coupler and rocker, folded to 0..90 deg",
+              .dimension = Dimension::angle,
+              .minimum = 0,
+              .maximum = 1.5707963267948966,
+              .required = true},
+        t.min);
+}
+constexpr Word choice_word(const TransmissionLimit&) {
+  return {"transmission_angle", "least transmission angle"};
+}
+
+struct PackagingLimit {
+  Range x, y;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PackagingLimit& p) {
+  visit(Field{.key = "x",
+              .summary = "{ min, max } of both fixed pivots",
+              .dimension = Dimension::length,
+              .required = true},
+        p.x);
+  visit(Field{.key = "y",
+              .summary = "{ min, max } of both fixed pivots",
+              .dimension = Dimension::length,
+              .required = true},
+        p.y);
+}
+constexpr Word choice_word(const PackagingLimit&) { return {"packaging", "both fixed pivots inside a box"}; }
+
+/// Always holds for an answer; a study may say so.
+struct InOrder {};
+template <class Visitor>
+void fields(Visitor&&, InOrder&) {}
+constexpr Word choice_word(const InOrder&) {
+  return {"order", "the points are met one after the other within one turn (always required)"};
+}
+
+struct NoDefects {};
+template <class Visitor>
+void fields(Visitor&&, NoDefects&) {}
+constexpr Word choice_word(const NoDefects&) {
+  return {"no_defects", "leave out designs with branch, circuit or order defects"};
+}
+
+struct PathConstraint {
+  std::variant<CrankRotatesFully, InOrder, TransmissionLimit, PackagingLimit, NoDefects> limit;
+  bool enabled = true;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PathConstraint& c) {
+  visit(Field{.key = "type", .summary = "what is limited", .required = true}, c.limit);
+  visit(Field{.key = "enabled", .summary = "false leaves it out"}, c.enabled);
+}
+
+/// `[optimiser]`: the recommended method or a published one.
+struct Recommended {
+  PathSynthesisOptions options;
+};
+template <class Visitor>
+void fields(Visitor&& visit, Recommended& r) {
+  fields(visit, r.options);
+}
+constexpr Word choice_word(const Recommended&) {
+  return {"recommended", "separable form, global search, exact-gradient polish"};
+}
+
+/// The population methods work on the ten-unknown problem. Violated constraints cost a constant, as Boskovic
+/// 2018 Eq. (4.4) has it, unless the study says otherwise.
+using PathMethod = optimise::MethodChoice<optimise::Constraints::penalty, Recommended>;
+struct PathOptimiser {
+  PathMethod method;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PathOptimiser& o) {
+  visit(Field{.key = "method", .summary = "how designs are searched"}, o.method);
+}
+
+/// A path synthesis study as read.
+struct PathStudy {
+  PathMechanism mechanism;
+  PathTarget target;
+  std::vector<PathObjectiveEntry> objectives;
+  std::vector<PathConstraint> constraints;
+  PathOptimiser optimiser;
+
+  PathProblem problem;      ///< what follows from the above
+  bool no_defects = false;  ///< designs with defects are no answers
+};
+
+/// "synthesis" of "planar.four_bar" for "path_points".
+study::Kind path_kind();
+
+/// Reads the tables of the study; problems go to the reader.
+PathStudy read_path_study(study::ObjectReader& document, const study::Common& common);
+
+/// Runs it over the seeds and reports.
+study::Result run_path_study(const PathStudy& study, const study::Common& common, RunContext& context);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,235 @@
+#include "linkwright/planar/studies/path_points.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "linkwright/core/csv.h"
+#include "linkwright/core/units.h"
+#include "linkwright/study/beside.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr std::size_t most_points = 2000;
+
+// The lengths of a CSV file by the name of their column, in metres; any length unit.
+class LengthColumns {
+ public:
+  LengthColumns(study::ObjectReader& reader, const std::string& file, const Table& table)
+      : reader_(reader), file_(file), table_(table) {}
+
+  bool has(std::string_view base) const { return find(base) != nullptr; }
+
+  // Every cell of the column, which must be there.
+  std::vector<double> values(std::string_view base) {
+    const Column* column = find(base);
+    if (!column) {
+      reader_.error("points_file", fmt::format("'{}' has no column {}_m", file_, base),
+                    "name the columns x_m,y_m (or x_mm,y_mm, ...)");
+      return {};
+    }
+    std::vector<double> out;
+    for (const double v : column->values) {
+      out.push_back(split_unit(column->key)->unit->to_si(v));
+      if (std::isfinite(out.back())) continue;
+      reader_.error("points_file", fmt::format("'{}': point {} is incomplete", file_, out.size()),
+                    fmt::format("give it a number in column {}", column->key));
+      return {};
+    }
+    return out;
+  }
+
+ private:
+  const Column* find(std::string_view base) const {
+    for (const Column& c : table_.columns) {
+      const auto key = split_unit(c.key);
+      if (key && key->base == base && key->dimension == Dimension::length) return &c;
+    }
+    return nullptr;
+  }
+
+  study::ObjectReader& reader_;
+  const std::string& file_;
+  const Table& table_;
+};
+
+constexpr std::array<const char*, 4> posts = {"from_x", "from_y", "to_x", "to_y"};
+
+// False where something is missing, and has been told.
+bool read_points_file(study::ObjectReader& reader, const study::Common& common, const std::string& file,
+                      bool with_bands, PathPoints& targets) {
+  const std::optional<std::string> text = study::read_beside(reader, "points_file", common.folder, file);
+  if (!text) return false;
+  Diagnostics problems;
+  const std::optional<Table> table = read_csv(*text, (common.folder / file).string(), problems);
+  for (const Diagnostic& problem : problems) reader.unreadable("points_file", to_string(problem));
+  if (!table) return false;
+  LengthColumns columns(reader, file, *table);
+  const bool gates =
+      std::any_of(posts.begin(), posts.end(), [&](const char* post) { return columns.has(post); });
+  if (!with_bands && (gates || columns.has("tolerance"))) {
+    reader.error(
+        "points_file",
+        fmt::format("'{}' has {}, this study meets points exactly", file, gates ? "gates" : "tolerances"),
+        "keep the columns x and y");
+    return false;
+  }
+  if (gates && (columns.has("x") || columns.has("y"))) {
+    reader.error("points_file", fmt::format("'{}' has both points and gates", file),
+                 "keep the columns x, y or from_x, from_y, to_x, to_y; a gate whose posts agree is a point");
+    return false;
+  }
+  const std::size_t rows = table->columns.empty() ? 0 : table->columns[0].values.size();
+  const auto read = [&](const char* base, std::vector<double>& out) {
+    out = columns.values(base);
+    return out.size() == rows;
+  };
+  if (gates) {
+    std::array<std::vector<double>, posts.size()> post;
+    for (std::size_t i = 0; i < posts.size(); ++i)
+      if (!read(posts[i], post[i])) return false;
+    for (std::size_t k = 0; k < rows; ++k) {
+      targets.x.push_back(0.5 * (post[0][k] + post[2][k]));
+      targets.y.push_back(0.5 * (post[1][k] + post[3][k]));
+      targets.gate_x.push_back(0.5 * (post[2][k] - post[0][k]));
+      targets.gate_y.push_back(0.5 * (post[3][k] - post[1][k]));
+    }
+  } else {
+    const bool x = read("x", targets.x), y = read("y", targets.y);
+    if (!x || !y) return false;
+  }
+  if (!columns.has("tolerance")) return true;
+  if (!read("tolerance", targets.tolerance)) return false;
+  for (std::size_t k = 0; k < rows; ++k)
+    if (targets.tolerance[k] < 0) {
+      reader.error("points_file", fmt::format("'{}': the tolerance of point {} is negative", file, k + 1),
+                   "write 0 or more");
+      return false;
+    }
+  return true;
+}
+
+// Largest distance from the origin along an axis (m).
+double farthest(const std::vector<double>& x, const std::vector<double>& y) {
+  double far = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) far = std::max({far, std::abs(x[k]), std::abs(y[k])});
+  return far;
+}
+
+// Points that agree to rounding of their coordinates are the same.
+bool same_point(const std::vector<double>& x, const std::vector<double>& y, std::size_t a, std::size_t b) {
+  return std::hypot(x[a] - x[b], y[a] - y[b]) <= 1e-12 * farthest(x, y);
+}
+
+void read_targets(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
+                  bool with_bands, PathPoints& targets) {
+  const bool has_points = target.has(Field{.key = "points", .summary = {}, .dimension = Dimension::length});
+  const bool has_file = target.has("points_file");
+  if (has_points && has_file) {
+    target.error("points_file", "the target has both points and points_file", "keep one of them");
+    return;
+  }
+  if (!has_points && !has_file) {
+    target.error("points", "the target has no points",
+                 "write points_m = [[x, y], ...] or points_file = \"path.csv\"");
+    return;
+  }
+  if (has_file) {
+    if (form.points_file && !read_points_file(target, common, *form.points_file, with_bands, targets))
+      targets = {};
+    else if (form.points_file)
+      check_path_targets(target, "points_file", targets);
+    return;
+  }
+  if (!form.points) return;  // told already
+  for (const auto& point : *form.points) {
+    targets.x.push_back(point[0]);
+    targets.y.push_back(point[1]);
+  }
+  check_path_targets(target, "points", targets);
+}
+
+}  // namespace
+
+void PathPoints::pop_back() {
+  for (auto* values : {&x, &y, &gate_x, &gate_y, &tolerance})
+    if (!values->empty()) values->pop_back();
+}
+
+bool repeats_first_point(const std::vector<double>& x, const std::vector<double>& y) {
+  return x.size() > 1 && x.size() == y.size() && same_point(x, y, 0, x.size() - 1);
+}
+
+bool is_one_turn(double turned) { return std::abs(std::abs(turned) - 2 * std::numbers::pi) < 1e-6; }
+
+void read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
+                      std::vector<double>& x, std::vector<double>& y) {
+  PathPoints targets;
+  read_targets(target, common, form, false, targets);
+  x = std::move(targets.x);
+  y = std::move(targets.y);
+}
+
+void read_path_targets(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
+                       PathPoints& targets) {
+  read_targets(target, common, form, true, targets);
+}
+
+void check_path_targets(study::ObjectReader& target, const char* key, const PathPoints& targets) {
+  const std::vector<double>&x = targets.x, &y = targets.y;
+  const std::size_t n = x.size();
+  if (n == 0) {
+    target.error(key, "there are no points", "give at least 3 points [x, y]");
+    return;
+  }
+  if (n < 3) {
+    target.error(key,
+                 fmt::format("{} point{} make{} no path, at least 3 are needed", n, n == 1 ? "" : "s",
+                             n == 1 ? "s" : ""),
+                 "add points between them");
+    return;
+  }
+  if (n > most_points) {
+    target.error(key, fmt::format("{} points, at most {} are allowed", n, most_points),
+                 "keep every second or third point");
+    return;
+  }
+  const double far = farthest(x, y);
+  if (far > 1e9) {
+    target.error(key, fmt::format("a point lies {:.3g} m from the origin, at most 1e9 m are allowed", far),
+                 "check the unit");
+    return;
+  }
+  for (std::size_t k = 1; k < n; ++k)
+    if (same_point(x, y, k, k - 1))
+      target.error(key, fmt::format("point {} repeats point {}: ({}, {})", k + 1, k, x[k], y[k]),
+                   "remove one of them");
+}
+
+bool leave_out_closing_target(study::ObjectReader& target, const char* key, bool& closed,
+                              std::optional<double> turned, PathPoints& targets) {
+  const std::size_t n = targets.x.size();
+  if (n < 4 || !repeats_first_point(targets.x, targets.y)) return false;
+  if (!targets.gate_x.empty() &&
+      (targets.gate_x.front() != targets.gate_x.back() || targets.gate_y.front() != targets.gate_y.back()))
+    return false;
+  const char* what = targets.gate_x.empty() ? "point" : "gate";
+  if (closed) {
+    target.warning(key, fmt::format("the last of {} {}s repeats the first: taken once", n, what),
+                   fmt::format("closed = true joins the last {} to the first", what));
+  } else {
+    if (target.has("closed") || (turned && !is_one_turn(*turned))) return false;
+    target.warning(
+        key, fmt::format("the last of {} {}s repeats the first: taken once, and the path as closed", n, what),
+        "write closed = true, or closed = false to keep it open");
+    closed = true;
+  }
+  targets.pop_back();
+  return true;
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,306 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "linkwright/planar/studies/path.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::planar {
+namespace {
+
+void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, PathStudy& s) {
+  const PathTiming& t = s.target.timing;
+  s.problem.timing = t.mode;
+  const std::size_t n = s.problem.x.size();
+  if (t.mode == Timing::equal_steps) {
+    if (!t.step) {
+      target.error("timing", "equal_steps needs step_deg",
+                   "for example timing = { mode = \"equal_steps\", step_deg = 20.0 }");
+    } else if (*t.step == 0 || std::abs(*t.step) > 2 * std::numbers::pi) {
+      target.error("timing", fmt::format("the step is {}, it must not be zero nor more than a turn",
+                                         units.text(*t.step, Dimension::angle, 6)));
+    } else {
+      s.problem.step = *t.step;
+    }
+  } else if (t.step) {
+    target.error("timing", fmt::format("step goes with mode equal_steps, the mode is {}", name_of(t.mode)),
+                 "remove the step");
+  }
+  if (t.mode == Timing::given) {
+    if (!t.angles) {
+      target.error("timing", "given needs angles_deg, one for each point");
+    } else if (n >= 3 && t.angles->size() != n) {
+      target.error("timing", fmt::format("{} angles for {} points", t.angles->size(), n),
+                   "give one crank angle for each point");
+    } else {
+      s.problem.angles = *t.angles;
+    }
+  } else if (t.angles) {
+    target.error("timing", fmt::format("angles go with mode given, the mode is {}", name_of(t.mode)),
+                 "remove the angles");
+  }
+}
+
+// The key that the targets stand at.
+const char* key_of(const PathTarget& target) {
+  return target.gates ? "gates" : target.points_file ? "points_file" : "points";
+}
+
+// The points or, in their place, the middles of gates.
+PathPoints read_targets(study::ObjectReader& target, const study::Common& common, PathStudy& s) {
+  PathPoints targets;
+  if (!s.target.gates) {
+    read_path_targets(target, common, s.target, targets);
+    return targets;
+  }
+  const bool has_points = target.has(Field{.key = "points", .summary = {}, .dimension = Dimension::length});
+  if (has_points || target.has("points_file")) {
+    target.error("gates",
+                 fmt::format("the target has both gates and {}", has_points ? "points" : "points_file"),
+                 "keep one of them; a gate whose posts agree is a point");
+    return targets;
+  }
+  for (const PathGate& gate : *s.target.gates) {
+    targets.x.push_back(0.5 * (gate.from[0] + gate.to[0]));
+    targets.y.push_back(0.5 * (gate.from[1] + gate.to[1]));
+    targets.gate_x.push_back(0.5 * (gate.to[0] - gate.from[0]));
+    targets.gate_y.push_back(0.5 * (gate.to[1] - gate.from[1]));
+  }
+  check_path_targets(target, "gates", targets);
+  return targets;
+}
+
+void read_tolerances(study::ObjectReader& target, const PathTarget& form, PathPoints& targets) {
+  if (form.tolerance && form.tolerances) {
+    target.error("tolerances", "the target has both tolerance and tolerances", "keep one of them");
+    return;
+  }
+  if (!form.tolerance && !form.tolerances) return;
+  if (!targets.tolerance.empty()) {
+    target.error(form.tolerance ? "tolerance" : "tolerances", "the points file has tolerances, too",
+                 "keep the key or the column");
+    return;
+  }
+  if (form.tolerance) targets.tolerance.assign(targets.x.size(), *form.tolerance);
+  if (!form.tolerances) return;
+  if (targets.x.size() >= 3 && form.tolerances->size() != targets.x.size()) {
+    target.error("tolerances",
+                 fmt::format("{} tolerances for {} targets", form.tolerances->size(), targets.x.size()),
+                 "give one for each, or tolerance for all");
+    return;
+  }
+  targets.tolerance = *form.tolerances;
+}
+
+// Crank rotation that the timing gives from the first to the last of so many points.
+std::optional<double> turned(const PathTiming& t, std::size_t points) {
+  if (t.mode == Timing::equal_steps && t.step) return *t.step * static_cast<double>(points - 1);
+  if (t.mode == Timing::given && t.angles && t.angles->size() == points)
+    return t.angles->back() - t.angles->front();
+  return std::nullopt;
+}
+
+// Targets with their tolerances; what the study gives for a closing target goes with it.
+void set_targets(study::ObjectReader& target, const study::Common& common, PathStudy& s) {
+  PathPoints targets = read_targets(target, common, s);
+  read_tolerances(target, s.target, targets);
+  const std::size_t n = targets.x.size();
+  if (n > 0) {
+    PathTiming& t = s.target.timing;
+    const std::optional<double> rotation = turned(t, n);
+    if (leave_out_closing_target(target, key_of(s.target), s.target.closed, rotation, targets) &&
+        t.mode == Timing::given && rotation && is_one_turn(*rotation))
+      t.angles->pop_back();
+  }
+  PathProblem& p = s.problem;
+  p.x = std::move(targets.x), p.y = std::move(targets.y);
+  p.gate_x = std::move(targets.gate_x), p.gate_y = std::move(targets.gate_y);
+  p.tolerance = std::move(targets.tolerance);
+}
+
+// The targets as they are met: points or gates, with one tolerance for all or one for each.
+void resolve_targets(const PathProblem& p, PathTarget& target) {
+  target.points_file.reset();
+  target.points.reset();
+  target.gates.reset();
+  const std::size_t n = std::min(p.x.size(), p.y.size());
+  if (p.gate_x.empty()) {
+    target.points.emplace();
+    for (std::size_t k = 0; k < n; ++k) target.points->push_back({p.x[k], p.y[k]});
+  } else {
+    target.gates.emplace();
+    for (std::size_t k = 0; k < n; ++k)
+      target.gates->push_back({.from = {p.x[k] - p.gate_x[k], p.y[k] - p.gate_y[k]},
+                               .to = {p.x[k] + p.gate_x[k], p.y[k] + p.gate_y[k]}});
+  }
+  if (!target.tolerance && !p.tolerance.empty()) target.tolerances = p.tolerance;
+}
+
+void set_bounds(study::ObjectReader& mechanism, PathStudy& s) {
+  if (s.problem.x.size() < 3 || s.problem.x.size() != s.problem.y.size()) return;
+  s.problem.bounds = derive_bounds(s.problem.x, s.problem.y);
+  for (std::size_t j = 0; j < four_bar_parameter_count; ++j) {
+    const auto& range = s.mechanism.parameters.ranges[j];
+    if (!range) continue;
+    s.problem.bounds[j] = *range;
+    if (j <= index(FourBarParameter::rocker) && range->upper <= 0)
+      mechanism.error("parameters",
+                      fmt::format("{} must be able to be longer than 0", name(FourBarParameter(j))));
+  }
+  if (s.mechanism.parameters.ranges[index(FourBarParameter::start_angle)] &&
+      s.problem.timing != Timing::equal_steps)
+    mechanism.warning("parameters",
+                      fmt::format("start_angle has no use: the timing is {}", name_of(s.problem.timing)));
+}
+
+// A fixed number or a range for each coordinate of B0; one that is left out is free.
+void set_rocker_pivot(PathStudy& s) {
+  const std::optional<Range>&x = s.mechanism.parameters.rocker_pivot_x,
+        &y = s.mechanism.parameters.rocker_pivot_y;
+  if (!x && !y) return;
+  constexpr double far = std::numeric_limits<double>::infinity();
+  const Range anywhere{-far, far}, across = x.value_or(anywhere), up = y.value_or(anywhere);
+  s.problem.rocker_pivot = PackagingBox{across.lower, across.upper, up.lower, up.upper};
+}
+
+void set_search(PathStudy& s) {
+  PathProblem& p = s.problem;
+  p.closed = s.target.closed;
+  p.search_open = s.mechanism.branch != BranchChoice::crossed;
+  p.search_crossed = s.mechanism.branch != BranchChoice::open;
+  SenseChoice sense = s.mechanism.sense;
+  if (sense == SenseChoice::automatic)
+    sense = p.timing == Timing::free ? SenseChoice::any : SenseChoice::positive;
+  p.search_positive = sense != SenseChoice::negative;
+  p.search_negative = sense != SenseChoice::positive;
+}
+
+void set_constraints(study::ObjectReader& document, PathStudy& s) {
+  PathProblem& p = s.problem;
+  p.crank_rotates_fully = false;
+  for (const PathConstraint& constraint : s.constraints) {
+    if (!constraint.enabled) {
+      if (std::holds_alternative<InOrder>(constraint.limit))
+        document.error("constraint", "the order of the points cannot be given up",
+                       "remove the constraint, or enabled = false");
+      continue;
+    }
+    if (std::holds_alternative<CrankRotatesFully>(constraint.limit)) p.crank_rotates_fully = true;
+    if (std::holds_alternative<NoDefects>(constraint.limit)) s.no_defects = true;
+    if (const auto* limit = std::get_if<TransmissionLimit>(&constraint.limit))
+      p.min_transmission_angle = std::max(p.min_transmission_angle, limit->min);
+    if (const auto* limit = std::get_if<PackagingLimit>(&constraint.limit)) {
+      if (limit->x.fixed() || limit->y.fixed())
+        document.error("constraint", "the packaging box has no width",
+                       "write x_m = { min = ..., max = ... }");
+      p.packaging = PackagingBox{limit->x.lower, limit->x.upper, limit->y.lower, limit->y.upper};
+    }
+  }
+  // A closed path is traced by a crank that goes round.
+  if (p.closed) p.crank_rotates_fully = true;
+}
+
+}  // namespace
+
+PathStudy read_path_study(study::ObjectReader& document, const study::Common& common) {
+  PathStudy s;
+  if (auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true}))
+    mechanism->read(s.mechanism);
+  auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
+  if (target) {
+    target->read(s.target);
+    set_targets(*target, common, s);
+    read_timing(*target, common.units, s);
+  }
+  document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
+  if (s.objectives.size() > 1)
+    document.error("objective", fmt::format("{} objectives, path synthesis has one", s.objectives.size()),
+                   "keep one [[objective]]");
+  document(Field{.key = "constraint", .summary = "what must hold"}, s.constraints);
+  if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
+  if (auto mechanism = document.table("mechanism")) set_bounds(*mechanism, s);
+  set_rocker_pivot(s);
+  set_search(s);
+  set_constraints(document, s);
+  return s;
+}
+
+study::Kind path_kind() {
+  study::Kind kind;
+  kind.kind = "synthesis";
+  kind.mechanism = "planar.four_bar";
+  kind.target = "path_points";
+  kind.summary = "four-bar linkage whose coupler point traces a path";
+  kind.seeded = true;
+  kind.example = R"(# linkwright study: a four-bar whose coupler point traces a closed path
+schema = 1
+kind   = "synthesis"
+title  = "Four-bar for my path"
+
+[mechanism]
+type = "planar.four_bar"
+# Bounds follow from the path. To fix or limit a quantity:
+# [mechanism.parameters]
+# ground_mm = 400.0
+# crank_mm  = { min = 50.0, max = 200.0 }
+# rocker_pivot_x_mm = { min = 0.0, max = 500.0 }   # where the other fixed pivot may be
+
+[target]
+type   = "path_points"
+closed = true
+timing = { mode = "free" }          # free | equal_steps | given
+points_mm = [
+  [500, 1100], [300, 1100], [100, 900], [20, 600], [0, 400], [100, 250],
+  [200, 300], [400, 500], [600, 900],
+]
+# or: points_file = "path.csv"      # columns x_mm, y_mm; tolerance_mm, where there is one
+# or: gates_mm = [{ from = [500, 1090], to = [500, 1110] }, ...]   # to pass between two points
+#     (in a points_file: columns from_x_mm, from_y_mm, to_x_mm, to_y_mm)
+# tolerance_mm = 1.0                # points count as met this near, at no cost
+
+[[constraint]]
+type = "crank_rotates_fully"
+
+[[constraint]]
+type    = "transmission_angle"
+min_deg = 30.0
+
+[optimiser]
+method = "recommended"
+seeds  = { first = 1, count = 4 }
+)";
+  kind.schema = [](study::SchemaWriter& document) {
+    document.property(Field{.key = "mechanism", .summary = "the four-bar"},
+                      study::schema_fields<PathMechanism>());
+    document.property(Field{.key = "target", .summary = "the path"}, study::schema_fields<PathTarget>());
+    document.property(Field{.key = "objective", .summary = "what is minimised"},
+                      study::schema_array(study::schema_fields<PathObjectiveEntry>()));
+    document.property(Field{.key = "constraint", .summary = "what must hold"},
+                      study::schema_array(study::schema_fields<PathConstraint>()));
+    document.property(Field{.key = "optimiser", .summary = "how designs are searched"},
+                      study::schema_fields<PathOptimiser>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    const PathStudy s = read_path_study(document, common);
+    study::Prepared prepared;
+    PathStudy resolved = s;
+    for (std::size_t j = 0; j < four_bar_parameter_count; ++j)
+      if (j != index(FourBarParameter::start_angle) || s.problem.timing == Timing::equal_steps)
+        resolved.mechanism.parameters.ranges[j] = s.problem.bounds[j];
+    resolve_targets(s.problem, resolved.target);
+    if (resolved.objectives.empty()) resolved.objectives.emplace_back();
+    prepared.canonical["mechanism"] = study::write_fields(resolved.mechanism);
+    prepared.canonical["target"] = study::write_fields(resolved.target);
+    prepared.canonical["objective"] = study::ObjectWriter::to_value(resolved.objectives);
+    prepared.canonical["constraint"] = study::ObjectWriter::to_value(resolved.constraints);
+    prepared.canonical["optimiser"] = study::write_fields(resolved.optimiser);
+    prepared.run = [s, common](RunContext& context) { return run_path_study(s, common, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,509 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linkwright/core/tolerance.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/optimise/statistics.h"
+#include "linkwright/planar/four_bar/classify.h"
+#include "linkwright/planar/four_bar/cognates.h"
+#include "linkwright/planar/path/checkpoint.h"
+#include "linkwright/planar/path/defects.h"
+#include "linkwright/planar/path/eighteen_points.h"
+#include "linkwright/planar/path/usability.h"
+#include "linkwright/planar/studies/four_bar_scene.h"
+#include "linkwright/planar/studies/path.h"
+#include "linkwright/study/run_seeds.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// A seed succeeds when it comes this close to the best of all seeds: a share of the best, or, where zero is
+// within reach, a share of the squared size of the path.
+constexpr double success_share = 1e-4, success_of_size = 1e-12;
+
+struct Run {
+  Status status = Status::done;
+  std::string method;
+  std::vector<std::uint64_t> seeds;
+  std::vector<PathSeedRun> runs;
+};
+
+bool interrupted(Status status) { return status == Status::deadline || status == Status::cancelled; }
+
+// Infinite when the seed found no feasible design.
+double best_error(const PathSeedRun& run) {
+  return run.designs.empty() || !run.designs[0].violations.empty() ? infinity : run.designs[0].error;
+}
+
+PathSeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_t seed, bool only_seed,
+                     RunContext& context) {
+  PathSynthesisOptions options = method.options;
+  options.seed = seed;
+  options.progress = only_seed;  // several at once are told by the loop over them
+  PathSynthesis answer = synthesise_path(s.problem, options, context);
+  return {answer.status, std::move(answer.designs), std::move(answer.history), answer.evaluations};
+}
+
+template <class Options>
+PathSeedRun run_seed(const optimise::PopulationMethod<Options, optimise::Constraints::penalty>& method,
+                     const PathStudy& s, std::uint64_t seed, bool only_seed, RunContext& context) {
+  PathSeedRun out;
+  std::uint32_t part = 0;
+  for (double sense : {1.0, -1.0}) {
+    if (!(sense > 0 ? s.problem.search_positive : s.problem.search_negative)) continue;
+    // One branch tells all: the cognate on the other one has the same crank angles and the same error.
+    const Branch branch = s.problem.search_open ? Branch::open : Branch::crossed;
+    const optimise::Problem problem = path_population_problem(s.problem, branch, sense);
+    optimise::MinimiseOptions minimise = method.minimise;
+    minimise.progress = only_seed;
+    minimise.checkpoint = optimise::seed_name(seed) + (sense > 0 ? "/positive" : "/negative");
+    const auto optimiser =
+        optimise::make_optimiser(problem.variables, method.options, {.seed = seed, .run = part++});
+    const optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
+                                                       choice_word(method).name, minimise, context);
+    if (interrupted(report.status)) out.status = report.status;
+    PathDesign design = path_design(s.problem, branch, sense, report.x);
+    if (out.designs.empty() || optimise::better(design.error, total_violation(design), out.designs[0].error,
+                                                total_violation(out.designs[0]))) {
+      out.history.clear();
+      for (const auto& generation : report.log)
+        if (generation.best_violation == 0 &&
+            (out.history.empty() || generation.best_cost < out.history.back().best))
+          out.history.push_back({generation.evaluations, generation.best_cost});
+    }
+    out.designs.push_back(std::move(design));
+    out.evaluations += report.evaluations;
+  }
+  rank(out.designs);
+  if (out.status == Status::done && !out.designs[0].violations.empty()) out.status = Status::infeasible;
+  return out;
+}
+
+Run run_seeds(const PathStudy& s, const study::Common& common, RunContext& context) {
+  Run out;
+  out.method = std::string(std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method));
+  const auto count = static_cast<std::size_t>(common.seeds.count);
+  std::vector<PathSeedRun> all(count);
+  const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
+  const optimise::SeedLoop loop = optimise::for_each_seed(
+      seeds, context, out.method,
+      [&](std::size_t i, std::uint64_t seed) {
+        all[i] =
+            std::visit([&](const auto& method) { return run_seed(method, s, seed, count == 1, context); },
+                       s.optimiser.method);
+        return best_error(all[i]);
+      },
+      [&](std::size_t i) { return interrupted(all[i].status) ? Value() : kept(all[i]); },
+      [&](std::size_t i, const Value& value) {
+        all[i] = restored(value, s.problem, optimise::seed_name(seeds.first + i));
+        return best_error(all[i]);
+      });
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!loop.ran[i]) continue;
+    if (out.status == Status::done && interrupted(all[i].status)) out.status = all[i].status;
+    out.seeds.push_back(seeds.first + i);
+    out.runs.push_back(std::move(all[i]));
+  }
+  // An interruption after the last seed was done took nothing away.
+  if (out.runs.size() < count) out.status = loop.status;
+  return out;
+}
+
+// Distinct designs of all seeds, best first.
+std::vector<PathDesign> distinct_designs(const PathStudy& s, const Run& run) {
+  std::vector<PathDesign> all;
+  for (const PathSeedRun& seed : run.runs) all.insert(all.end(), seed.designs.begin(), seed.designs.end());
+  if (s.no_defects)
+    for (PathDesign& d : all)
+      for (const Defect& defect : defects(s.problem, d))
+        d.violations.push_back({std::string(name_of(defect.kind)), 1});
+  rank(all);
+  const auto* recommended = std::get_if<Recommended>(&s.optimiser.method);
+  const PathSynthesisOptions options = recommended ? recommended->options : PathSynthesisOptions();
+  const auto most = static_cast<std::size_t>(options.max_solutions);
+  std::vector<PathDesign> out;
+  for (PathDesign& d : all) {
+    if (!out.empty() && !d.violations.empty()) break;  // one infeasible answer only when there is no other
+    if (!std::any_of(out.begin(), out.end(), [&](const PathDesign& o) {
+          return o.sense == d.sense && same_linkage(o.linkage, d.linkage);
+        }))
+      out.push_back(std::move(d));
+  }
+  keep_first(s.problem, out, most);
+  return out;
+}
+
+std::array<double, four_bar_parameter_count> values_of(const PathDesign& d, bool with_start) {
+  const FourBar& l = d.linkage;
+  return {l.ground,    l.crank,   l.coupler, l.rocker,      l.coupler_u,
+          l.coupler_v, l.pivot_x, l.pivot_y, l.frame_angle, with_start ? d.angles[0] : 0.0};
+}
+
+study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t number) {
+  constexpr std::array<std::string_view, four_bar_parameter_count> labels = {"ground length",
+                                                                             "crank length",
+                                                                             "coupler length",
+                                                                             "rocker length",
+                                                                             "tracing point along coupler",
+                                                                             "tracing point across",
+                                                                             "crank pivot x",
+                                                                             "crank pivot y",
+                                                                             "frame angle",
+                                                                             "start angle"};
+  const PathProblem& p = s.problem;
+  const FourBarClass type = classify(d.linkage);
+  study::Solution out;
+  out.label = fmt::format("{}, {}", name_of(type.type), name_of(d.linkage.branch));
+  const bool with_start = p.timing == Timing::equal_steps;
+  const auto values = values_of(d, with_start);
+  for (std::size_t j = 0; j < four_bar_parameter_count; ++j) {
+    const bool angle = j >= index(FourBarParameter::frame_angle);
+    if (j == index(FourBarParameter::start_angle) && !with_start) continue;
+    double value = values[j];
+    const Range& range = p.bounds[j];
+    if (angle) {
+      const double turned =
+          value - 2 * std::numbers::pi * std::floor((value - range.lower) / (2 * std::numbers::pi));
+      if (turned <= range.upper) value = turned;
+    }
+    out.parameters.push_back({std::string(name(FourBarParameter(j))) + (angle ? "_rad" : "_m"),
+                              std::string(labels[j]), value, range.lower, range.upper});
+  }
+  const PathErrors errors = path_errors(p, d);
+  out.objectives["path_error_sum_sq_m2"] = d.error;
+  out.objectives["path_error_rms_m"] = std::sqrt(d.error / static_cast<double>(p.x.size()));
+  out.objectives["path_error_max_m"] = *std::max_element(errors.excess.begin(), errors.excess.end());
+  out.classification["type"] = name_of(type.type);
+  out.classification["branch"] = name_of(d.linkage.branch);
+  out.classification["sense"] = d.sense > 0 ? "positive" : "negative";
+  out.classification["grashof"] = type.grashof;
+  out.classification["circuits"] = type.circuits;
+  out.classification["crank_rotates_fully"] = type.crank_rotates_fully;
+  out.classification["crank_margin_m"] = type.crank_margin;
+  const PathTransmission transmission = path_transmission(p, d);
+  out.classification["min_transmission_angle_rad"] = transmission.used;  // over the path
+  out.classification["whole_motion_min_transmission_angle_rad"] = transmission.whole;
+  out.classification["active_bounds"] = Value::array();
+  for (const std::string& bound : d.active_bounds) out.classification["active_bounds"].push_back(bound);
+  const std::vector<Drawback> bad = drawbacks(p, d);
+  out.classification["usable"] = d.violations.empty() && bad.empty();
+  out.classification["drawbacks"] = Value::array();
+  for (const Drawback& drawback : bad) out.classification["drawbacks"].push_back(drawback.text);
+  out.defects = Value::array();
+  for (const auto& violation : d.violations)
+    out.defects.push_back(fmt::format("violates {} by {:.3g}", violation.reason, violation.amount));
+  for (const Defect& defect : defects(p, d))
+    out.defects.push_back(fmt::format("{}: {}", name_of(defect.kind), defect.text));
+  out.scene = fmt::format("solution-{}", number);
+  return out;
+}
+
+void add_tables(study::Result& result, const PathStudy& s, const study::Common& common,
+                const std::vector<PathDesign>& designs, const Run& run) {
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    // The best design's tables have plain names, those of the others carry the number of the solution.
+    const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result.solutions[i].scene;
+    result.tables.push_back(point_table(s.problem, designs[i], "points" + suffix));
+    result.tables.push_back(motion_table(designs[i], "motion" + suffix, common.output.samples));
+    result.plots.push_back({.name = "errors" + suffix,
+                            .title = "Distance from the target points",
+                            .table = "points" + suffix,
+                            .x = "crank_angle_rad",
+                            .y = {"distance_m"},
+                            .style = study::Plot::Style::points,
+                            .scene = scene});
+    result.plots.push_back({.name = "transmission" + suffix,
+                            .title = "Transmission angle",
+                            .table = "motion" + suffix,
+                            .x = "crank_angle_rad",
+                            .y = {"transmission_angle_rad"},
+                            .scene = scene});
+    result.plots.push_back({.name = "angles" + suffix,
+                            .title = "Coupler and rocker angle",
+                            .table = "motion" + suffix,
+                            .x = "crank_angle_rad",
+                            .y = {"coupler_angle_rad", "rocker_angle_rad"},
+                            .scene = scene});
+  }
+
+  Table seeds{.name = "seeds"};
+  std::vector<double> number, error, evaluations;
+  for (std::size_t i = 0; i < run.runs.size(); ++i) {
+    const PathSeedRun& seed = run.runs[i];
+    number.push_back(static_cast<double>(run.seeds[i]));
+    error.push_back(seed.designs.empty() || !seed.designs[0].violations.empty() ? nan
+                                                                                : seed.designs[0].error);
+    evaluations.push_back(static_cast<double>(seed.evaluations));
+    seeds.status.emplace_back(to_string(seed.status));
+  }
+  seeds.add("seed", "seed", number);
+  seeds.add("path_error_sum_sq_m2", "path error, sum of squares (m2)", error);
+  seeds.add("evaluations", "evaluations", evaluations);
+  result.tables.push_back(std::move(seeds));
+}
+
+double add_statistics(study::Result& result, const Run& run, double best, double size) {
+  std::vector<optimise::SeedOutcome> outcomes;
+  result.log = Value::array();
+  for (std::size_t i = 0; i < run.runs.size(); ++i) {
+    const PathSeedRun& seed = run.runs[i];
+    const double error = seed.designs.empty() ? infinity : seed.designs[0].error;
+    const double violation = seed.designs.empty() ? infinity : total_violation(seed.designs[0]);
+    outcomes.push_back({error, violation, seed.evaluations});
+    Value entry;
+    entry["seed"] = static_cast<std::int64_t>(run.seeds[i]);
+    entry["status"] = to_string(seed.status);
+    entry["best"] = violation > 0 ? nan : error;  // sum of squared distances (m2)
+    entry["violation"] = violation;
+    entry["evaluations"] = seed.evaluations;
+    if (!seed.designs.empty()) {
+      entry["violations"] = Value::array();
+      for (const auto& v : seed.designs[0].violations) entry["violations"].push_back(v.reason);
+    }
+    entry["history"] = Value::array();
+    std::vector<SearchPoint> history = seed.history;
+    if (!history.empty())
+      history.push_back({seed.evaluations, history.back().best});  // to the end of the run
+    for (const SearchPoint& point : history) {
+      Value step;
+      step["evaluations"] = point.evaluations;
+      step["best"] = point.best;
+      entry["history"].push_back(std::move(step));
+    }
+    result.log.push_back(std::move(entry));
+  }
+  const double threshold = best + std::max(success_share * best, success_of_size * size * size);
+  const optimise::SeedStatistics st = optimise::statistics(outcomes, threshold);
+  Value& out = result.statistics;
+  out["method"] = run.method;
+  study::write_statistics(out, st);
+  return st.success_rate;
+}
+
+bool is_eighteen_points(const PathProblem& p) {
+  const PathProblem known = eighteen_points();
+  return p.x == known.x && p.y == known.y && p.timing == Timing::equal_steps &&
+         std::abs(p.step - known.step) < 1e-12;
+}
+
+void add_published(study::Result& result, const PathProblem& p, double best) {
+  if (!is_eighteen_points(p)) return;
+  const std::string source = "Boskovic 2018, Table 4.1";
+  for (const PublishedPathDesign& published : eighteen_point_designs()) {
+    std::vector<double> angles;
+    for (std::size_t k = 0; k < p.x.size(); ++k) angles.push_back(published.start_angle + point_angle(p, k));
+    const double ours = measure(p, published.linkage, 1, angles).error;
+    result.comparisons.push_back({published.label + ", design re-evaluated", source,
+                                  published.published_error, ours, published.verdict, published.note});
+  }
+  constexpr double published_best = 0.00908, best_known = 0.009028884631;
+  if (std::isfinite(best)) {
+    const bool better = best < published_best, equal = std::abs(best - best_known) <= 1e-7;
+    result.comparisons.push_back({"best of this study", source, published_best, best,
+                                  better ? "improved" : "not reached",
+                                  equal ? "the best design known: both branches, joined by a timed cognate"
+                                        : fmt::format("the best design known has {:.9f}", best_known)});
+  }
+}
+
+std::string metres(double value) {
+  if (value >= 0.1) return fmt::format("{:.4g} m", value);
+  if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
+  return fmt::format("{:.3g} µm", value * 1e6);
+}
+
+// Distances below this share of the size of the path are rounding.
+constexpr double exact_share = 1e-12;
+
+// "passes the 9 points within 0.2 mm (root mean square 0.1 mm)"
+std::string how_near(const PathProblem& p, const PathDesign& d) {
+  const PathErrors errors = path_errors(p, d);
+  const double worst = *std::max_element(errors.excess.begin(), errors.excess.end());
+  const std::string what = fmt::format("{} {}", p.x.size(), p.gate_x.empty() ? "points" : "gates");
+  const char* allowed = p.tolerance.empty() ? "" : " of their tolerance";
+  if (worst <= exact_share * path_size(p))
+    return p.tolerance.empty() ? fmt::format("passes the {} exactly", what)
+                               : fmt::format("passes the {} within their tolerance", what);
+  return fmt::format("passes the {} within {}{} (root mean square {})", what, metres(worst), allowed,
+                     metres(std::sqrt(d.error / static_cast<double>(p.x.size()))));
+}
+
+// "crank-rocker (open branch)"
+std::string called(const PathDesign& d) {
+  const FourBarClass type = classify(d.linkage);
+  const std::string_view branch = name_of(d.linkage.branch);
+  if (!type.grashof)
+    return fmt::format("linkage in which no link turns fully (type {}, {} branch)", name_of(type.type),
+                       branch);
+  return fmt::format("{} ({} branch)", name_of(type.type), branch);
+}
+
+std::string_view short_name(DrawbackKind kind) {
+  switch (kind) {
+    case DrawbackKind::transmission:
+      return "low transmission angle";
+    case DrawbackKind::crowded:
+      return "crowded points";
+    case DrawbackKind::bound:
+      return "a link at its bound";
+    case DrawbackKind::locks:
+      return "locks at both ends";
+  }
+  return {};
+}
+
+// Why the best design is of little use, and which one is better in use; empty = it is usable.
+std::string caution(const PathProblem& p, const std::vector<PathDesign>& designs) {
+  std::string out;
+  for (const Drawback& drawback : drawbacks(p, designs[0]))
+    out += (out.empty() ? " But " : "; ") + drawback.text;
+  if (out.empty()) return out;
+  for (std::size_t i = 1; i < designs.size(); ++i)
+    if (drawbacks(p, designs[i]).empty())
+      return fmt::format("{}. The best one without such drawbacks is solution {}, a {}: it {}.", out, i + 1,
+                         called(designs[i]), how_near(p, designs[i]));
+  return out + ". No design without such drawbacks was found.";
+}
+
+// Where the crank has to turn fully, the whole motion counts, else what the path uses.
+double judged_transmission(const PathProblem& p, const PathDesign& d) {
+  const PathTransmission mu = path_transmission(p, d);
+  return p.crank_rotates_fully ? mu.whole : mu.used;
+}
+
+study::Fact transmission_fact(const PathProblem& p, const PathDesign& d) {
+  const PathTransmission mu = path_transmission(p, d);
+  std::string text = fmt::format("{:.1f}°", math::degrees(mu.used));
+  if (!p.closed)
+    text += fmt::format(" over the path ({:.1f}° over the whole motion)", math::degrees(mu.whole));
+  const bool poor = math::degrees(judged_transmission(p, d)) < 20;
+  return {"least transmission angle", std::move(text),
+          poor ? study::Fact::Verdict::bad : study::Fact::Verdict::plain};
+}
+
+study::Fact worst_fact(const PathProblem& p, const PathErrors& errors) {
+  const auto worst = std::max_element(errors.excess.begin(), errors.excess.end());
+  const bool exact = *worst <= exact_share * path_size(p);
+  if (exact && !p.tolerance.empty()) return {"worst point", "none is beyond its tolerance"};
+  if (exact) return {"worst point", "none, to rounding"};
+  return {"worst point", fmt::format("{} at {} {}", metres(*worst), p.gate_x.empty() ? "point" : "gate",
+                                     worst - errors.excess.begin() + 1)};
+}
+
+void warn_of_transmission(study::Result& result, const PathProblem& p, const PathDesign& d) {
+  const double mu = math::degrees(judged_transmission(p, d));
+  if (mu >= 20) return;
+  const double limit = math::degrees(p.min_transmission_angle);
+  result.diagnostics.push_back(
+      {Diagnostic::Severity::warning,
+       {},
+       {},
+       {},
+       fmt::format("the transmission angle falls to {:.1f}°{}: the linkage transmits force badly there", mu,
+                   p.closed                ? ""
+                   : p.crank_rotates_fully ? " over the full turn"
+                                           : " on the path"),
+       limit > 0
+           ? fmt::format("raise the limit of [[constraint]] type = \"transmission_angle\": min_deg is {:.6g}",
+                         limit)
+           : "limit it: [[constraint]] type = \"transmission_angle\", min_deg = 30"});
+}
+
+void add_cognates(study::Result& result, const PathDesign& best) {
+  Table table{.name = "cognates"};
+  const std::array<std::string_view, 10> keys = {"ground_m",        "crank_m",     "coupler_m", "rocker_m",
+                                                 "coupler_u_m",     "coupler_v_m", "pivot_x_m", "pivot_y_m",
+                                                 "frame_angle_rad", "same_timing"};
+  for (std::string_view key : keys) table.add(std::string(key), std::string(key));
+  const auto row = [&](const FourBar& l, bool same_timing) {
+    const std::array<double, 10> v = {
+        l.ground,    l.crank,   l.coupler, l.rocker,      l.coupler_u,
+        l.coupler_v, l.pivot_x, l.pivot_y, l.frame_angle, same_timing ? 1.0 : 0.0};
+    for (std::size_t i = 0; i < v.size(); ++i) table.columns[i].values.push_back(v[i]);
+  };
+  row(best.linkage, true);
+  for (const Cognate& cognate : cognates(best.linkage, best.angles[0]))
+    row(cognate.linkage, cognate.same_timing);
+  result.tables.push_back(std::move(table));
+}
+
+}  // namespace
+
+study::Result run_path_study(const PathStudy& s, const study::Common& common, RunContext& context) {
+  study::Result result;
+  const Run run = run_seeds(s, common, context);
+  const std::vector<PathDesign> designs = distinct_designs(s, run);
+  if (designs.empty()) {
+    result.status = run.status == Status::done ? Status::infeasible : run.status;
+    result.headline = "No four-bar found: no start of the search assembles at every point.";
+    return result;
+  }
+  const PathDesign& best = designs[0];
+  const bool feasible = best.violations.empty();
+  result.status = run.status != Status::done ? run.status : feasible ? Status::done : Status::infeasible;
+
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    result.solutions.push_back(solution_of(s, designs[i], i + 1));
+    result.scenes.push_back(path_scene(s.problem, designs[i], result.solutions[i].scene,
+                                       fmt::format("{}: {}", i + 1, result.solutions[i].label),
+                                       common.output.samples));
+  }
+  const double success = add_statistics(result, run, feasible ? best.error : infinity, path_size(s.problem));
+  add_tables(result, s, common, designs, run);
+  add_cognates(result, best);
+  add_published(result, s.problem, feasible ? best.error : infinity);
+
+  const double rms = std::sqrt(best.error / static_cast<double>(s.problem.x.size()));
+  const PathErrors errors = path_errors(s.problem, best);
+  using Verdict = study::Fact::Verdict;
+  const std::string but = feasible ? caution(s.problem, designs) : std::string();
+  if (feasible) {
+    result.headline = fmt::format("A {} {}.{}", called(best), how_near(s.problem, best), but);
+  } else {
+    std::string reasons;
+    for (const auto& v : best.violations) reasons += (reasons.empty() ? "" : ", ") + v.reason;
+    result.headline = fmt::format("No design meets every constraint; the nearest one violates {}.", reasons);
+  }
+  result.facts = {
+      {"path error (sum of squares)",
+       best.error >= 1e-4 ? fmt::format("{:.8f} m²", best.error) : fmt::format("{:.4g} m²", best.error),
+       !feasible     ? Verdict::bad
+       : but.empty() ? Verdict::good
+                     : Verdict::plain},
+      {"root mean square distance", rms <= exact_share * path_size(s.problem) ? "0 mm" : metres(rms)},
+      worst_fact(s.problem, errors),
+      {"type", result.solutions[0].label},
+      transmission_fact(s.problem, best),
+      {"method", run.method},
+      {"seeds that reached the best",
+       fmt::format("{:.0f} of {}", success * static_cast<double>(run.runs.size()), run.runs.size()),
+       success > 0.9 ? Verdict::good : Verdict::plain},
+      {"evaluations", fmt::format("{}", result.statistics.find("evaluations")->as_integer())},
+  };
+  if (run.runs.size() < static_cast<std::size_t>(common.seeds.count))
+    result.diagnostics.push_back(
+        {Diagnostic::Severity::warning,
+         {},
+         {},
+         {},
+         fmt::format("interrupted: {} of {} seeds ran", run.runs.size(), common.seeds.count),
+         {}});
+  if (!but.empty()) {
+    std::string names;
+    for (const Drawback& drawback : drawbacks(s.problem, best)) {
+      const std::string name(short_name(drawback.kind));
+      if (names.find(name) == std::string::npos) names += (names.empty() ? "" : ", ") + name;
+    }
+    result.facts.push_back({"drawbacks", names, Verdict::bad});
+  }
+  warn_of_transmission(result, s.problem, best);
+  return result;
+}
+
+}  // namespace linkwright::planar

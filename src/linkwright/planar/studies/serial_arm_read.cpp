@@ -1,0 +1,229 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "linkwright/planar/studies/serial_arm.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::planar {
+namespace {
+
+// More is no arm, and its tables would fill the memory.
+constexpr std::size_t most_links = 20;
+
+// In the order of the columns.
+const std::vector<Word>& quantity_words() {
+  static const std::vector<Word> words = {
+      {"position", "absolute angles of the links, joints and tip"},
+      {"rates", "speeds and accelerations of the links, speed of the tip"},
+      {"reactions", "forces in the joints O1, O2, ..."},
+      {"torques", "of motors on the ground (absolute) and of motors in the joints (joint)"},
+      {"power", "of the motors, both ways, and altogether"},
+      {"energy", "kinetic, and potential above y = 0"}};
+  return words;
+}
+
+ArmQuantities chosen_quantities(const std::vector<std::string>& listed) {
+  const auto has = [&](std::string_view word) {
+    return listed.empty() || std::find(listed.begin(), listed.end(), word) != listed.end();
+  };
+  return {.position = has("position"),
+          .rates = has("rates"),
+          .reactions = has("reactions"),
+          .torques = has("torques"),
+          .power = has("power"),
+          .energy = has("energy")};
+}
+
+bool is_column_name(std::string_view name) {
+  return std::isalpha(static_cast<unsigned char>(name.front())) &&
+         std::all_of(name.begin(), name.end(),
+                     [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)); });
+}
+
+void complete_links(study::ObjectReader& mechanism, std::vector<ArmLinkEntry>& links) {
+  const std::vector<study::ObjectReader> tables = mechanism.tables("link");
+  if (mechanism.has("link") && links.empty() && tables.empty())
+    mechanism.error("link", "an arm has at least one link", "add [[mechanism.link]]");
+  if (links.size() > most_links)
+    mechanism.error("link", fmt::format("has {} links, at most {} are allowed", links.size(), most_links));
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    ArmLinkEntry& link = links[k];
+    study::ObjectReader table = tables[k];
+    if (link.name.empty()) {
+      if (table.has("name")) table.error("name", "is empty", "leave it out, or give one");
+      link.name = fmt::format("link{}", k + 1);
+    } else if (!is_column_name(link.name)) {
+      table.error(
+          "name",
+          fmt::format("is '{}', must begin with a letter and hold letters, digits and _ only", link.name),
+          "it becomes the beginning of column names");
+    }
+    const auto same = std::find_if(links.begin(), links.begin() + static_cast<std::ptrdiff_t>(k),
+                                   [&](const ArmLinkEntry& other) { return other.name == link.name; });
+    if (same != links.begin() + static_cast<std::ptrdiff_t>(k))
+      table.error("name", fmt::format("'{}' is the name of another link, too", link.name));
+    if (!link.inertia) link.inertia = link.mass * link.length * link.length / 12;
+    if (!link.centre_distance) link.centre_distance = link.length / 2;
+  }
+}
+
+// The drives in the order of the links.
+std::vector<ArmDrive> sorted_drives(study::ObjectReader& document, const std::vector<ArmLinkEntry>& links,
+                                    const std::vector<ArmDrive>& drives) {
+  std::vector<study::ObjectReader> tables = document.tables("drive");
+  std::vector<ArmDrive> sorted(links.size());
+  std::vector<bool> driven(links.size());
+  std::vector<std::string_view> known;
+  for (const ArmLinkEntry& link : links) known.emplace_back(link.name);
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const ArmDrive& drive = drives[i];
+    const auto at = std::find(known.begin(), known.end(), drive.link);
+    if (at == known.end()) {
+      if (drive.link.empty() && !tables[i].has("link")) continue;  // reported as missing
+      const std::string_view nearest = nearest_word(drive.link, known);
+      tables[i].error(
+          "link", fmt::format("no link is called '{}'; there are: {}", drive.link, fmt::join(known, ", ")),
+          nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+      continue;
+    }
+    const auto k = static_cast<std::size_t>(at - known.begin());
+    if (driven[k])
+      tables[i].error("link", fmt::format("'{}' has a drive already", drive.link),
+                      "every link has one drive");
+    driven[k] = true;
+    sorted[k] = drive;
+    const math::MotionLaw law = motion_law(drive.law);
+    const auto* table = std::get_if<math::MotionTable>(&law);
+    // A table without rows lacks its keys, which is reported as such.
+    if (const auto bad = problem(law); bad && !(table && (table->times.empty() || table->values.empty())))
+      tables[i].error(bad->key, bad->message, bad->hint);
+  }
+  for (std::size_t k = 0; k < links.size(); ++k)
+    if (!driven[k] && document.has("drive"))
+      document.error("drive", fmt::format("link '{}' has no drive", links[k].name),
+                     fmt::format("add [[drive]] with link = \"{}\"", links[k].name));
+  return sorted;
+}
+
+}  // namespace
+
+SerialArm serial_arm(const ArmMechanism& mechanism) {
+  SerialArm arm{.base = {mechanism.base_x, mechanism.base_y}, .links{}};
+  for (const ArmLinkEntry& l : mechanism.links)
+    arm.links.push_back({.length = l.length,
+                         .body = {.mass = l.mass,
+                                  .inertia = l.inertia.value_or(l.mass * l.length * l.length / 12),
+                                  .centre_distance = l.centre_distance.value_or(l.length / 2),
+                                  .centre_angle = l.centre_angle},
+                         .attached = l.attached});
+  return arm;
+}
+
+SerialArmStudy read_serial_arm_study(study::ObjectReader& document, const study::Common& common) {
+  SerialArmStudy s;
+  s.quantities = chosen_quantities(common.output.quantities);
+  bool links = false;
+  if (auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true})) {
+    mechanism->read(s.mechanism);
+    links = !s.mechanism.links.empty();
+    if (links || mechanism->has("link")) complete_links(*mechanism, s.mechanism.links);
+  }
+  std::vector<ArmDrive> drives;
+  const bool read = document(Field{.key = "drive", .summary = {}, .required = true}, drives);
+  if (read && links) s.drives = sorted_drives(document, s.mechanism.links, drives);
+  if (auto environment = document.table("environment")) environment->read(s.environment);
+  if (auto sweep = document.table(Field{.key = "sweep", .summary = {}, .required = true})) {
+    sweep->read(s.sweep);
+    const study::TimeSamples& time = s.sweep.time;
+    if (auto axis = sweep->table("time"); axis && time.samples >= 2 && time.to <= time.from)
+      axis->error("to",
+                  fmt::format("is {} s, must be after {} s, where the sweep begins", time.to, time.from));
+  }
+  return s;
+}
+
+study::Kind serial_arm_kind() {
+  study::Kind kind;
+  kind.kind = "analysis";
+  kind.mechanism = "planar.serial_arm";
+  kind.summary = "motion, joint forces, torques, power and energy of an arm of revolute links over time";
+  kind.quantities = quantity_words();
+  kind.example = R"(# linkwright study: motion and forces of an arm
+schema = 1
+kind   = "analysis"
+title  = "Torques of my arm"
+
+[mechanism]
+type = "planar.serial_arm"
+
+# Links from the base outwards. Left out: inertia and mass centre of a uniform rod.
+[[mechanism.link]]
+name      = "upper"
+length_mm = 400.0
+mass_kg   = 5.0
+
+[[mechanism.link]]
+name               = "fore"
+length_mm          = 300.0
+mass_kg            = 3.0
+inertia_kg_m2      = 0.02           # about the mass centre
+centre_distance_mm = 140.0          # from the link's own joint
+centre_angle_deg   = 0.0            # from the link line
+
+[[mechanism.link.attached]]         # payload in the hand; a counterweight has a negative distance
+mass_kg     = 1.5
+distance_mm = 300.0
+
+# One drive for each link. Angles are absolute (from the x axis) unless angle = "joint" (from the link before).
+[[drive]]
+link       = "upper"
+law        = "cycloidal"            # or constant_speed, polynomial_345, polynomial, table, harmonic
+from_deg   = 0.0
+to_deg     = 90.0
+duration_s = 0.8
+
+[[drive]]
+link       = "fore"
+angle      = "joint"
+law        = "polynomial_345"
+from_deg   = 30.0
+to_deg     = -60.0
+duration_s = 0.8
+
+[environment]
+gravity_m_per_s2 = 9.81
+
+[sweep.time]
+to_s    = 0.8
+samples = 201
+
+[output]                            # without quantities: all of them
+quantities = ["position", "rates", "reactions", "torques", "power", "energy"]
+)";
+  kind.schema = [](study::SchemaWriter& document) {
+    document.property(Field{.key = "mechanism", .summary = "the arm", .required = true},
+                      study::schema_fields<ArmMechanism>());
+    document.property(Field{.key = "drive", .summary = "how each link moves", .required = true},
+                      study::schema_array(study::schema_fields<ArmDrive>()));
+    document.property(Field{.key = "environment", .summary = "what acts from outside"},
+                      study::schema_fields<Environment>());
+    document.property(Field{.key = "sweep", .summary = "when it is evaluated", .required = true},
+                      study::schema_fields<TimeSweep>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    const SerialArmStudy s = read_serial_arm_study(document, common);
+    study::Prepared prepared;
+    prepared.canonical["mechanism"] = study::write_fields(s.mechanism);
+    prepared.canonical["drive"] = study::ObjectWriter::to_value(s.drives);
+    prepared.canonical["environment"] = study::write_fields(s.environment);
+    prepared.canonical["sweep"] = study::write_fields(s.sweep);
+    prepared.run = [s](RunContext& context) { return run_serial_arm_study(s, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::planar

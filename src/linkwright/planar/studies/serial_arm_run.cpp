@@ -1,0 +1,355 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "linkwright/planar/serial_arm/reactions.h"
+#include "linkwright/planar/studies/serial_arm.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* scene_name = "motion";
+
+struct Row {
+  double time = 0;
+  std::vector<double> angles;
+  std::vector<ArmLinkRates> rates;
+  std::vector<ArmJointLoads> loads;
+  ArmPointMotion tip;
+  ArmEnergy energy;
+  double energy_rate = 0;
+
+  double joint_speed(std::size_t k) const { return rates[k].speed - (k == 0 ? 0 : rates[k - 1].speed); }
+  double power() const {
+    double sum = 0;
+    for (std::size_t k = 0; k < rates.size(); ++k) sum += loads[k].absolute_torque * rates[k].speed;
+    return sum;
+  }
+};
+
+double time_of(const study::TimeSamples& s, int i) { return s.from + (s.to - s.from) * i / (s.samples - 1); }
+
+class Evaluation {
+ public:
+  explicit Evaluation(const SerialArmStudy& s)
+      : study_(s), arm_(serial_arm(s.mechanism)), elements_(elements(arm_)), motion_(elements_.size()) {
+    for (const ArmDrive& drive : s.drives) curves_.emplace_back(motion_law(drive.law));
+  }
+
+  // Absolute motion of the links.
+  const std::vector<math::Motion>& move(double time) {
+    for (std::size_t k = 0; k < elements_.size(); ++k) {
+      math::Motion& m = motion_[k] = curves_[k](time);
+      if (k == 0 || study_.drives[k].angle != ArmAngle::joint) continue;
+      m.value += motion_[k - 1].value;
+      m.rate += motion_[k - 1].rate;
+      m.acceleration += motion_[k - 1].acceleration;
+    }
+    return motion_;
+  }
+
+  Row operator()(double time) {
+    const std::size_t n = elements_.size();
+    Row row{.time = time,
+            .angles{},
+            .rates = std::vector<ArmLinkRates>(n),
+            .loads = std::vector<ArmJointLoads>(n)};
+    move(time);
+    for (const math::Motion& m : motion_) row.angles.push_back(m.value);
+    const double gravity = study_.environment.gravity;
+    rates(elements_, arm_.base, motion_, row.rates);
+    reactions(elements_, row.rates, gravity, row.loads);
+    row.tip = point(row.rates.back(), elements_.back().length);
+    row.energy = energy(elements_, row.rates, gravity);
+    row.energy_rate = energy_rate(elements_, row.rates, gravity);
+    return row;
+  }
+
+ private:
+  const SerialArmStudy& study_;
+  SerialArm arm_;
+  std::vector<ArmElement> elements_;
+  std::vector<math::MotionCurve> curves_;
+  std::vector<math::Motion> motion_;
+};
+
+template <class Value>
+std::vector<double> column(const std::vector<Row>& rows, Value&& value) {
+  std::vector<double> out;
+  out.reserve(rows.size());
+  for (const Row& row : rows) out.push_back(value(row));
+  return out;
+}
+
+std::string joint_name(std::size_t k) { return fmt::format("O{}", k + 1); }
+
+// A name as people read it.
+std::string words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+Table sweep_table(const SerialArmStudy& s, const std::vector<Row>& rows) {
+  const ArmQuantities& q = s.quantities;
+  const std::vector<ArmLinkEntry>& links = s.mechanism.links;
+  Table table{.name = "sweep"};
+  const auto add = [&](std::string key, std::string label, auto&& value) {
+    table.add(std::move(key), std::move(label), column(rows, value));
+  };
+  const auto each = [&](std::string_view key, std::string_view label, auto&& value) {
+    for (std::size_t k = 0; k < links.size(); ++k)
+      add(fmt::format("{}_{}", links[k].name, key), fmt::format("{} {}", words(links[k].name), label),
+          [&](const Row& r) { return value(r, k); });
+  };
+  add("time_s", "time (s)", [](const Row& r) { return r.time; });
+  if (q.position) each("angle_rad", "angle (rad)", [](const Row& r, std::size_t k) { return r.angles[k]; });
+  if (q.rates) {
+    each("speed_rad_per_s", "speed (rad/s)", [](const Row& r, std::size_t k) { return r.rates[k].speed; });
+    each("acceleration_rad_per_s2", "acceleration (rad/s2)",
+         [](const Row& r, std::size_t k) { return r.rates[k].acceleration; });
+  }
+  if (q.reactions)
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      const std::string on =
+          fmt::format("{} on {}", k == 0 ? "ground" : words(links[k - 1].name), words(links[k].name));
+      add(joint_name(k) + "_x_N", fmt::format("{} x, {} (N)", joint_name(k), on),
+          [k](const Row& r) { return r.loads[k].force.real(); });
+      add(joint_name(k) + "_y_N", fmt::format("{} y, {} (N)", joint_name(k), on),
+          [k](const Row& r) { return r.loads[k].force.imag(); });
+    }
+  if (q.torques) {
+    each("torque_absolute_N_m", "torque, motor on the ground (N m)",
+         [](const Row& r, std::size_t k) { return r.loads[k].absolute_torque; });
+    each("torque_joint_N_m", "torque, motor in the joint (N m)",
+         [](const Row& r, std::size_t k) { return r.loads[k].joint_torque; });
+  }
+  if (q.power) {
+    each("power_absolute_W", "power, motor on the ground (W)",
+         [](const Row& r, std::size_t k) { return r.loads[k].absolute_torque * r.rates[k].speed; });
+    each("power_joint_W", "power, motor in the joint (W)",
+         [](const Row& r, std::size_t k) { return r.loads[k].joint_torque * r.joint_speed(k); });
+    add("power_W", "power of all motors (W)", [](const Row& r) { return r.power(); });
+  }
+  if (q.energy) {
+    add("kinetic_energy_J", "kinetic energy (J)", [](const Row& r) { return r.energy.kinetic; });
+    add("potential_energy_J", "potential energy (J)", [](const Row& r) { return r.energy.potential; });
+  }
+  if (q.position) {
+    for (std::size_t k = 1; k < links.size(); ++k) {
+      add(joint_name(k) + "_x_m", joint_name(k) + " x (m)",
+          [k](const Row& r) { return r.rates[k].joint.position.real(); });
+      add(joint_name(k) + "_y_m", joint_name(k) + " y (m)",
+          [k](const Row& r) { return r.rates[k].joint.position.imag(); });
+    }
+    add("tip_x_m", "tip x (m)", [](const Row& r) { return r.tip.position.real(); });
+    add("tip_y_m", "tip y (m)", [](const Row& r) { return r.tip.position.imag(); });
+  }
+  if (q.rates)
+    add("tip_speed_m_per_s", "speed of the tip (m/s)", [](const Row& r) { return std::abs(r.tip.velocity); });
+  if (q.reactions)
+    for (std::size_t k = 0; k < links.size(); ++k)
+      add(joint_name(k) + "_N", joint_name(k) + " (N)",
+          [k](const Row& r) { return std::abs(r.loads[k].force); });
+  return table;
+}
+
+// Attached masses at the end of their link, or without mass, need no drawing of their own.
+bool drawn(const PointMass& mass, double length) {
+  const std::complex<double> place = std::polar(1.0, mass.angle) * mass.distance;
+  return mass.mass > 0 && std::abs(place - length) > 1e-3 * length && std::abs(place) > 1e-3 * length;
+}
+
+study::Scene arm_scene(const SerialArmStudy& s, const std::vector<Row>& rows) {
+  using Body = study::Scene::BodyStyle;
+  using Joint = study::Scene::JointStyle;
+  const std::vector<ArmLinkEntry>& links = s.mechanism.links;
+  study::Scene scene;
+  scene.name = scene_name;
+  scene.title = "motion over time";
+  scene.input_key = "time_s";
+  scene.input_label = "time";
+  scene.input = column(rows, [](const Row& r) { return r.time; });
+  const auto add = [&](std::string name, auto&& place) {
+    scene.points.push_back({std::move(name), column(rows, [&](const Row& r) { return place(r).real(); }),
+                            column(rows, [&](const Row& r) { return place(r).imag(); })});
+    return static_cast<int>(scene.points.size()) - 1;
+  };
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const int joint = add(joint_name(k), [k](const Row& r) { return r.rates[k].joint.position; });
+    scene.joints.push_back({joint_name(k), joint, k == 0 ? Joint::ground_pivot : Joint::pivot});
+    scene.bodies.push_back({words(links[k].name), {joint, joint + 1}, Body::bar});
+  }
+  const int tip = add("tip", [](const Row& r) { return r.tip.position; });
+  scene.joints.push_back({"tip", tip, Joint::tracer});
+  scene.traces.push_back({tip, "path of the tip", false});
+  for (std::size_t k = 0; k < links.size(); ++k)
+    for (const PointMass& mass : links[k].attached) {
+      if (!drawn(mass, links[k].length)) continue;
+      const std::complex<double> place = std::polar(1.0, mass.angle) * mass.distance;
+      const std::string name = fmt::format("{:.4g} kg", mass.mass);
+      const int at = add(name, [&](const Row& r) { return point(r.rates[k], place).position; });
+      scene.bodies.push_back({name, {static_cast<int>(k), at}, Body::bar});
+      const int rim =
+          add("", [&](const Row& r) { return point(r.rates[k], place + drawn_radius(mass.mass)).position; });
+      scene.circles.push_back({name, at, rim});
+    }
+  return scene;
+}
+
+void add_plots(study::Result& result, const SerialArmStudy& s) {
+  const ArmQuantities& q = s.quantities;
+  const auto over_time = [&](std::string name, std::string title, std::vector<std::string> y) {
+    result.plots.push_back({.name = std::move(name),
+                            .title = std::move(title),
+                            .table = "sweep",
+                            .x = "time_s",
+                            .y = std::move(y),
+                            .scene = scene_name});
+  };
+  const auto of_links = [&](std::string_view key) {
+    std::vector<std::string> keys;
+    for (const ArmLinkEntry& link : s.mechanism.links) keys.push_back(fmt::format("{}_{}", link.name, key));
+    return keys;
+  };
+  if (q.torques) {
+    over_time("torques-joint", "Torques, motors in the joints", of_links("torque_joint_N_m"));
+    over_time("torques-absolute", "Torques, motors on the ground", of_links("torque_absolute_N_m"));
+  }
+  if (q.reactions) {
+    std::vector<std::string> sizes;
+    for (std::size_t k = 0; k < s.mechanism.links.size(); ++k) sizes.push_back(joint_name(k) + "_N");
+    over_time("reactions", "Joint forces", sizes);
+  }
+  if (q.power) {
+    std::vector<std::string> keys = of_links("power_joint_W");
+    keys.emplace_back("power_W");
+    over_time("power", "Power of motors in the joints, and of all", std::move(keys));
+  }
+  if (q.energy) over_time("energy", "Energy", {"kinetic_energy_J", "potential_energy_J"});
+  if (q.position) over_time("angles", "Absolute angles of the links", of_links("angle_rad"));
+  if (q.rates) {
+    over_time("speeds", "Speeds of the links", of_links("speed_rad_per_s"));
+    over_time("accelerations", "Accelerations of the links", of_links("acceleration_rad_per_s2"));
+    over_time("tip-speed", "Speed of the tip", {"tip_speed_m_per_s"});
+  }
+  if (q.reactions)
+    for (std::size_t k = 0; k < s.mechanism.links.size(); ++k)
+      result.plots.push_back({.name = joint_name(k) + "-hodograph",
+                              .title = fmt::format("Force at {}, y over x", joint_name(k)),
+                              .table = "sweep",
+                              .x = joint_name(k) + "_x_N",
+                              .y = {joint_name(k) + "_y_N"},
+                              .style = study::Plot::Style::points});
+}
+
+struct Peak {
+  double value = nan, time = nan;
+};
+// The value of greatest size.
+template <class Value>
+Peak peak(const std::vector<Row>& rows, Value&& value) {
+  Peak out;
+  for (const Row& row : rows) {
+    const double v = value(row);
+    if (!(std::abs(v) <= std::abs(out.value))) out = {v, row.time};
+  }
+  return out;
+}
+std::string text(const Peak& p, std::string_view unit) {
+  return fmt::format("{:.5g} {} at {:.4g} s", p.value, unit, p.time);
+}
+Peak peak_force(const std::vector<Row>& rows, std::size_t k) {
+  return peak(rows, [k](const Row& r) { return std::abs(r.loads[k].force); });
+}
+Peak peak_torque(const std::vector<Row>& rows, std::size_t k, double ArmJointLoads::*torque) {
+  return peak(rows, [=](const Row& r) { return r.loads[k].*torque; });
+}
+
+void add_facts(study::Result& result, const SerialArmStudy& s, const std::vector<Row>& rows) {
+  const ArmQuantities& q = s.quantities;
+  const std::vector<ArmLinkEntry>& links = s.mechanism.links;
+  const auto fact = [&](std::string label, std::string value) {
+    result.facts.push_back({std::move(label), std::move(value)});
+  };
+  fact("links", fmt::format("{}", links.size()));
+  if (q.reactions)
+    for (std::size_t k = 0; k < links.size(); ++k)
+      fact(fmt::format("largest force at {}", joint_name(k)), text(peak_force(rows, k), "N"));
+  // Both, since counterweights that unload the joints load the motors.
+  if (q.torques)
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      const std::string link = words(links[k].name);
+      fact(fmt::format("largest torque of {}, motor in the joint", link),
+           text(peak_torque(rows, k, &ArmJointLoads::joint_torque), "N m"));
+      fact(fmt::format("largest torque of {}, motor on the ground", link),
+           text(peak_torque(rows, k, &ArmJointLoads::absolute_torque), "N m"));
+    }
+  const Peak power = peak(rows, [](const Row& r) { return r.power(); });
+  if (q.power) fact("largest power of all motors", text(power, "W"));
+  if (q.energy)
+    fact("largest kinetic energy", text(peak(rows, [](const Row& r) { return r.energy.kinetic; }), "J"));
+  if (q.rates)
+    fact("largest speed of the tip",
+         text(peak(rows, [](const Row& r) { return std::abs(r.tip.velocity); }), "m/s"));
+  // Two routes to the power, relative to the largest power of the sweep.
+  const Peak residual = peak(rows, [](const Row& r) { return r.power() - r.energy_rate; });
+  if (q.power && power.value != 0)
+    fact("power balance",
+         fmt::format("within {:.2g} of the largest power", std::abs(residual.value / power.value)));
+}
+
+}  // namespace
+
+std::vector<math::Motion> arm_motion(const SerialArmStudy& s) {
+  Evaluation evaluate(s);
+  std::vector<math::Motion> out;
+  for (int i = 0; i < s.sweep.time.samples; ++i) {
+    const std::vector<math::Motion>& now = evaluate.move(time_of(s.sweep.time, i));
+    out.insert(out.end(), now.begin(), now.end());
+  }
+  return out;
+}
+
+Table serial_arm_table(const SerialArmStudy& s) {
+  Evaluation evaluate(s);
+  std::vector<Row> rows;
+  for (int i = 0; i < s.sweep.time.samples; ++i) rows.push_back(evaluate(time_of(s.sweep.time, i)));
+  return sweep_table(s, rows);
+}
+
+study::Result run_serial_arm_study(const SerialArmStudy& s, RunContext& context) {
+  study::Result result;
+  Evaluation evaluate(s);
+  const study::TimeSamples& time = s.sweep.time;
+  std::vector<Row> rows;
+  rows.reserve(static_cast<std::size_t>(time.samples));
+  for (int i = 0; i < time.samples && result.status == Status::done; ++i) {
+    rows.push_back(evaluate(time_of(time, i)));
+    if (i % 1024 == 1023) result.status = context.interruption();
+  }
+  result.tables.push_back(sweep_table(s, rows));
+  result.scenes.push_back(arm_scene(s, rows));
+  add_plots(result, s);
+  add_facts(result, s, rows);
+
+  Peak force, torque;
+  std::size_t joint = 0, motor = 0;
+  for (std::size_t k = 0; k < s.mechanism.links.size(); ++k) {
+    const Peak f = peak_force(rows, k), t = peak_torque(rows, k, &ArmJointLoads::joint_torque);
+    if (!(f.value <= force.value)) force = f, joint = k;
+    if (!(std::abs(t.value) <= std::abs(torque.value))) torque = t, motor = k;
+  }
+  result.headline = fmt::format(
+      "The joint forces reach {} in {}, the torques of motors in the joints {} at {}.", text(force, "N"),
+      joint_name(joint), text(torque, "N m"), words(s.mechanism.links[motor].name));
+  return result;
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "linkwright/planar/simulation/elastic_body.h"
+#include "linkwright/planar/studies/linkage.h"
+
+// The simulation of a linkage under forces: what its file holds, how it is read, run and reported.
+namespace linkwright::planar {
+
+/// In which coordinates the equations of motion are written.
+enum class SimulationRoute { free_joints, all_coordinates };
+constexpr std::array<EnumName<SimulationRoute>, 2> names(SimulationRoute) {
+  return {{{SimulationRoute::free_joints, "free_joints",
+            "those of the free joints: closes exactly, ends at dead points of the joint"},
+           {SimulationRoute::all_coordinates, "all_coordinates",
+            "places of all bodies with joint forces, projected onto the joints after every step: passes dead "
+            "points"}}};
+}
+
+/// A simulation as read.
+struct LinkageSimulationStudy {
+  Linkage linkage;
+  LinkagePlan plan;
+  std::vector<InputCourse> courses;  ///< one an input
+  double from = 0, to = 1;           ///< s
+  int samples = 401;
+  SimulationRoute route = SimulationRoute::free_joints;
+  SimulationOptions options;
+  std::vector<BodyPoint> traces;
+  LinkageQuantities quantities;
+  std::vector<ElasticBody> elastic;        ///< bodies that bend; empty = none
+  std::string method_reason;               ///< why the method was taken; empty: the file names it
+  double settle = 0;                       ///< s: elastic bodies move so long before `from`, without rows
+  std::optional<double> deflection_scale;  ///< of drawings; absent: chosen
+  int scene_samples = 361;                 ///< of drawings of elastic bodies, at most about
+};
+
+/// "simulation" of "planar.linkage" and of "planar.slider_crank".
+study::Kind linkage_simulation_kind();
+study::Kind slider_crank_simulation_kind();
+
+/// Integrates and reports. Rows up to where the motion ends are kept, whatever ends it.
+study::Result run_linkage_simulation(const LinkageSimulationStudy& study, RunContext& context);
+
+// ---- shared with other simulations of linkages
+// ------------------------------------------------------------------
+
+/// `[[drive]]` of a simulation, one course an input: a law, or free with what it starts from. Inputs of
+/// samples and shorthands that the file does not name are free. The tables are written into `canonical`;
+/// problems go to the reader.
+std::vector<InputCourse> read_courses(study::ObjectReader& document, const LinkageDescription& description,
+                                      Value::Array& canonical);
+void describe_courses(study::SchemaWriter& document);
+
+/// Columns of a linkage without those of drives where a joint is free: there is no drive to be of interest.
+std::vector<LinkageColumn> driven_columns(const Linkage& linkage, const LinkagePlan& plan,
+                                          const LinkageQuantities& quantities,
+                                          const std::vector<BodyPoint>& traces,
+                                          std::span<const InputCourse> courses);
+/// Adds coordinate, speed and acceleration of every input: values[3 k], [3 k + 1], [3 k + 2] of input k.
+void add_input_columns(Table& table, const Linkage& linkage, const LinkagePlan& plan,
+                       const std::vector<std::vector<double>>& values);
+
+}  // namespace linkwright::planar

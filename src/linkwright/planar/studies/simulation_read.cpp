@@ -1,0 +1,351 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "linkwright/planar/studies/elastic.h"
+#include "linkwright/study/bind.h"
+#include "linkwright/study/bind_schema.h"
+#include "linkwright/study/bind_write.h"
+#include "linkwright/study/memory.h"
+
+namespace linkwright::planar {
+
+template <class Visitor>
+void fields(Visitor&& visit, LinkageSimulationStudy& s) {
+  const auto time = [&](std::string_view key, std::string_view summary, bool required, double& value) {
+    visit(Field{.key = key,
+                .summary = summary,
+                .dimension = Dimension::time,
+                .minimum = -1e9,
+                .maximum = 1e9,
+                .required = required},
+          value);
+  };
+  time("from", "when the motion starts", false, s.from);
+  time("to", "when it ends", true, s.to);
+  visit(
+      Field{
+          .key = "samples", .summary = "rows of the table, both ends included", .minimum = 2, .maximum = 1e6},
+      s.samples);
+  visit(Field{.key = "route", .summary = "coordinates of the equations of motion"}, s.route);
+  visit(Field{.key = "method",
+              .summary = "how they are integrated; with elastic bodies chosen by their damping"},
+        s.options.method);
+  visit(Field{.key = "rtol",
+              .summary = "relative tolerance of a step; default with elastic bodies: 1e-7",
+              .minimum = 1e-14,
+              .maximum = 1e-2},
+        s.options.relative_tolerance);
+  visit(Field{.key = "atol",
+              .summary = "absolute tolerance of a step: rad, rad/s; of ways times the size of the linkage; "
+                         "default with elastic bodies: 1e-7",
+              .minimum = 1e-16,
+              .maximum = 1e-2},
+        s.options.absolute_tolerance);
+  visit(
+      Field{.key = "max_steps", .summary = "steps after which it is given up", .minimum = 1, .maximum = 1e9},
+      s.options.max_steps);
+  visit(
+      Field{.key = "at_change_point", .summary = "where assembly modes meet, as of a parallelogram in line"},
+      s.options.at_change_point);
+  visit(Field{.key = "settle",
+              .summary = "elastic bodies start so long before `from`, unbent, and their rows until then are "
+                         "left out: what the start excites dies out if they are damped",
+              .dimension = Dimension::time,
+              .minimum = 0,
+              .maximum = 1e9},
+        s.settle);
+  visit(Field{.key = "deflection_scale",
+              .summary = "how many times too large deflections of elastic bodies are drawn; default: chosen "
+                         "from 1, 2, 5, 10, ...",
+              .minimum = 1,
+              .maximum = 1e12},
+        s.deflection_scale);
+}
+
+namespace {
+
+// Of steps with bodies that bend, rtol and atol: pieces turn against each other by differences of large
+// angles, whose rounding their stiffness makes accelerations of; below 1e-8 steps get shorter without being
+// better.
+constexpr double elastic_tolerance = 1e-7;
+constexpr Field free_field{.key = "free", .summary = "no drive: forces move the joint"};
+
+}  // namespace
+
+std::vector<InputCourse> read_courses(study::ObjectReader& document, const LinkageDescription& d,
+                                      Value::Array& canonical) {
+  const Linkage& l = d.linkage;
+  std::vector<InputCourse> courses(l.driven.size());
+  canonical.assign(l.driven.size(), Value::object());
+  std::vector<bool> told(l.driven.size(), false);
+  const auto write_start = [&](std::size_t i) {
+    const bool rotary = d.plan.rotary[i];
+    study::ObjectWriter writer(canonical[i]);
+    writer(free_field, true);
+    writer(drive_field(rotary, 0, "start", {}), courses[i].value);
+    writer(drive_field(rotary, 1, "start_speed", {}), courses[i].rate);
+  };
+  for (std::size_t i = 0; i < l.driven.size(); ++i) {
+    canonical[i]["joint"] = input_joint(l, i).name;
+    if (i < d.sample_from.size()) courses[i].value = d.sample_from[i];
+  }
+  for (study::ObjectReader& drive : document.tables("drive")) {
+    std::string joint = l.driven.size() == 1 ? input_joint(l, 0).name : std::string();
+    drive(Field{.key = "joint", .summary = {}}, joint);
+    std::size_t i = 0;
+    while (i < l.driven.size() && input_joint(l, i).name != joint) ++i;
+    if (i == l.driven.size()) continue;
+    told[i] = true;
+    const bool rotary = d.plan.rotary[i];
+    bool free = false;
+    if (!drive(free_field, free) && drive.has("free")) continue;
+    if (free) {
+      drive(drive_field(rotary, 0, "start", "position at the start"), courses[i].value);
+      drive(drive_field(rotary, 1, "start_speed", "rate at the start"), courses[i].rate);
+      if (drive.has("law"))
+        drive.error("law", fmt::format("joint '{}' is free and has a motion law", joint),
+                    "remove one of them");
+      write_start(i);
+      continue;
+    }
+    if (!drive.has("law") && !drive.has(drive_field(rotary, 1, "speed", {}))) {
+      drive.error("law", fmt::format("joint '{}' has neither a motion law nor free = true", joint),
+                  "free = true lets forces move it; law = \"constant_speed\" drives it");
+      continue;
+    }
+    courses[i].law = read_law(drive, rotary, false, canonical[i]);
+  }
+  for (std::size_t i = 0; i < told.size(); ++i)
+    if (!told[i]) write_start(i);  // of samples and shorthands: free
+  return courses;
+}
+
+void describe_courses(study::SchemaWriter& document) {
+  study::SchemaWriter drive;
+  drive(Field{.key = "joint", .summary = "joint whose coordinate it is"}, std::string());
+  drive(free_field, false);
+  for (bool rotary : {true, false})
+    for (const auto& [order, key] : {std::pair{0, "start"}, std::pair{1, "start_speed"}})
+      drive.property(drive_field(rotary, order, key, "of a free joint"), study::schema_number());
+  drive(Field{.key = "law", .summary = "motion law of a joint that is not free"},
+        std::optional<study::AnyLaw>());
+  document.property(Field{.key = "drive", .summary = "joints that are free, or move as a law says"},
+                    study::schema_array(std::move(drive).finish()));
+}
+
+namespace {
+
+// The bodies that bend, with their masses, and how the motion is to be integrated.
+bool add_elastic(study::ObjectReader& document, LinkageType type, LinkageDescription& d,
+                 LinkageSimulationStudy& s) {
+  const std::vector<ElasticPieces> pieces =
+      place_elastic(document, d.linkage, s.elastic, inputs_at(s.courses, s.from - s.settle));
+  if (pieces.empty()) return false;
+  d.plan = plan(d.linkage).plan;
+  if (!require_masses(document, type, d.plan)) return false;
+  auto table = document.table("simulation");
+  if (!table->has("rtol")) s.options.relative_tolerance = elastic_tolerance;
+  if (!table->has("atol")) s.options.absolute_tolerance = elastic_tolerance;
+  if (table->has("method")) return true;
+  SuggestedMethod suggested = suggested_method(d.linkage, pieces);
+  s.options.method = suggested.method;
+  s.method_reason = std::move(suggested.why);
+  return true;
+}
+
+study::Prepared prepare(study::ObjectReader& document, const study::Common& common, LinkageType type) {
+  study::Prepared prepared;
+  LinkageSimulationStudy s;
+  s.quantities = chosen_quantities(common.output.quantities);
+  s.scene_samples = common.output.samples;
+  const bool elastic = !document.tables("elastic").empty();
+  // A beam brings its own mass.
+  auto description = read_linkage(document, type, !elastic);
+  if (auto table = document.table(Field{.key = "simulation", .summary = {}, .required = true})) {
+    table->read(s);
+    if (!(s.to > s.from) && !document.document().has_errors())
+      table->error("to", fmt::format("the simulation ends at {} s, but starts at {} s", s.to, s.from), {});
+    if (s.deflection_scale && !elastic)
+      table->error("deflection_scale", "no body bends", "add an [[elastic]] table, or leave the key out");
+    if (s.settle > 0 && !elastic)
+      table->error("settle", "no body bends", "add an [[elastic]] table, or start earlier by from");
+  }
+  if (s.route == SimulationRoute::all_coordinates && s.options.method == math::OdeMethod::adams)
+    document.error("simulation", "all_coordinates are projected after every step, which adams does not allow",
+                   "take another method");
+  if (!description) {
+    for (study::ObjectReader& drive : document.tables("drive")) drive.members();
+    for (study::ObjectReader& entry : document.tables("elastic")) entry.members();
+    return prepared;
+  }
+  if (s.route == SimulationRoute::all_coordinates)
+    for (const LinkageJoint& j : description->linkage.joints)
+      if (j.friction > 0)
+        document.error("simulation",
+                       fmt::format("joint '{}' has friction, which all_coordinates do not take", j.name),
+                       "route = \"free_joints\" does");
+  Value::Array drives, beams;
+  s.courses = read_courses(document, *description, drives);
+  s.elastic = read_elastic(document, description->linkage, beams);
+  const bool any_free =
+      std::any_of(s.courses.begin(), s.courses.end(), [](const InputCourse& c) { return !c.law; });
+  if (!any_free && !elastic && !document.document().has_errors())
+    document.error("drive", "every drive has a motion law: nothing is left for forces to move",
+                   "write free = true in a [[drive]], let a body bend by [[elastic]], or take kind = "
+                   "\"analysis\" with a sweep over time");
+  if (s.settle > 0 && any_free)
+    document.error("simulation.settle", "a joint is free: it would not be where its drive says at `from`",
+                   "leave it out");
+  if (elastic && !document.document().has_errors() && !add_elastic(document, type, *description, s))
+    return prepared;
+  if (auto table = document.table("simulation"); table && !document.document().has_errors()) {
+    // Of a linkage that bends there are the rows of the rigid one, too, some of each beam, and the places of
+    // its nodes, which are drawn.
+    constexpr double of_motion = 10, of_beam = 10;
+    const auto columns = static_cast<double>(
+        linkage_columns(description->linkage, description->plan, s.quantities, description->traces).size());
+    double nodes = 0;
+    for (const ElasticBody& body : s.elastic) nodes += body.segments + 1;
+    const double all =
+        elastic ? 2 * columns + of_beam * static_cast<double>(s.elastic.size()) + 2 * nodes : columns;
+    study::require_memory(*table, "samples", study::table_bytes(s.samples, all + of_motion),
+                          elastic ? fmt::format("{} rows with {:.0f} nodes of beams", s.samples, nodes)
+                                  : fmt::format("{} rows", s.samples),
+                          elastic ? "take fewer samples or segments" : "take fewer samples");
+  }
+  write_linkage(*description, prepared.canonical);
+  prepared.canonical["drive"] = Value(std::move(drives));
+  if (elastic) prepared.canonical["elastic"] = Value(std::move(beams));
+  prepared.canonical["simulation"] = study::write_fields(s);
+  s.linkage = std::move(description->linkage);
+  s.plan = std::move(description->plan);
+  s.traces = std::move(description->traces);
+  prepared.run = [s = std::move(s)](RunContext& context) {
+    return s.elastic.empty() ? run_linkage_simulation(s, context) : run_elastic_simulation(s, context);
+  };
+  return prepared;
+}
+
+study::Kind kind_of(LinkageType type) {
+  study::Kind kind;
+  kind.kind = "simulation";
+  kind.quantities = linkage_quantity_words();
+  kind.schema = [type](study::SchemaWriter& document) {
+    describe_linkage(document, type);
+    describe_courses(document);
+    describe_elastic(document);
+    document.property(Field{.key = "simulation", .summary = "time and tolerances", .required = true},
+                      study::schema_fields<LinkageSimulationStudy>());
+  };
+  kind.prepare = [type](study::ObjectReader& document, const study::Common& common) {
+    return prepare(document, common, type);
+  };
+  return kind;
+}
+
+}  // namespace
+
+study::Kind linkage_simulation_kind() {
+  study::Kind kind = kind_of(LinkageType::linkage);
+  kind.mechanism = "planar.linkage";
+  kind.summary =
+      "motion of any planar linkage under weight, springs, forces and motors, with an energy audit";
+  kind.example = R"(# linkwright study: motion of a planar linkage under forces
+schema = 1
+kind   = "simulation"
+title  = "My linkage swings"
+
+[mechanism]
+type = "planar.linkage"
+
+# The first body is the ground. Points are in the frame of the body.
+[[mechanism.body]]
+name      = "ground"
+points_mm = { O = [0, 0] }
+
+[[mechanism.body]]
+name      = "upper"
+points_mm = { O = [0, 0], A = [300, 0] }
+mass_kg   = 0.5                     # inertia and centre: those of a uniform bar unless given
+
+[[mechanism.body]]
+name      = "lower"
+points_mm = { A = [0, 0], B = [200, 0] }
+mass_kg   = 0.3
+
+[[mechanism.joint]]
+name   = "O"
+first  = "ground.O"
+second = "upper.O"
+
+[[mechanism.joint]]
+name   = "A"
+first  = "upper.A"
+second = "lower.A"
+
+# One [[drive]] for each degree of freedom: free = true, or a motion law.
+[[drive]]
+joint           = "O"
+free            = true
+start_deg       = 0.0
+start_speed_rpm = 0.0
+
+[[drive]]
+joint     = "A"
+free      = true
+start_deg = 90.0
+
+[simulation]
+to_s    = 5.0
+samples = 501
+
+[[trace]]
+point = "lower.B"
+)";
+  return kind;
+}
+
+study::Kind slider_crank_simulation_kind() {
+  study::Kind kind = kind_of(LinkageType::slider_crank);
+  kind.mechanism = "planar.slider_crank";
+  kind.summary = "motion of a slider-crank under its weight, with an energy audit";
+  kind.example = R"(# linkwright study: a slider-crank let go
+schema = 1
+kind   = "simulation"
+title  = "My engine coasts"
+
+[mechanism]
+type   = "planar.slider_crank"
+branch = "forward"                  # forward | backward
+
+[mechanism.parameters]
+crank_mm        = 50.0
+rod_mm          = 150.0
+guide_angle_deg = 0.0
+
+[mechanism.mass]
+slider_kg = 0.4
+
+[mechanism.mass.crank]
+mass_kg            = 0.9
+inertia_kg_m2      = 1.2e-3         # about the mass centre
+centre_distance_mm = 10.0           # from O
+
+[mechanism.mass.rod]
+mass_kg            = 0.5
+inertia_kg_m2      = 1.5e-3
+centre_distance_mm = 50.0           # from A
+
+[[drive]]
+free            = true
+start_deg       = 90.0
+start_speed_rpm = 600.0
+
+[simulation]
+to_s = 0.5
+)";
+  return kind;
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,266 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "linkwright/math/angles.h"
+#include "linkwright/planar/simulation/coordinates.h"
+#include "linkwright/planar/studies/linkage_scene.h"
+#include "linkwright/planar/studies/simulation.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+// A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
+constexpr double poor_balance = 1e-5;
+
+class SimulationRunner {
+ public:
+  SimulationRunner(const LinkageSimulationStudy& s, RunContext& context) : s_(s), context_(context) {
+    columns_ = driven_columns(s.linkage, s.plan, s.quantities, s.traces, s.courses);
+  }
+
+  study::Result run() {
+    integrate();
+    finish_table();
+    result_.scenes.push_back(linkage_scene(s_.linkage, s_.plan, recorded_, s_.traces, "time_s", "time"));
+    plots();
+    facts();
+    headline();
+    return std::move(result_);
+  }
+
+ private:
+  bool is_free(std::size_t k) const { return !s_.courses[k].law; }
+
+  void integrate() {
+    std::vector<double> times;
+    for (int i = 0; i < s_.samples; ++i)
+      times.push_back(i + 1 == s_.samples ? s_.to : s_.from + (s_.to - s_.from) * i / (s_.samples - 1));
+    inputs_.resize(3 * s_.plan.inputs());
+    values_.resize(columns_.size());
+    const SimulationOutput row = [&](const SimulationInstant& now) { return add(now); };
+    const auto route = s_.route == SimulationRoute::free_joints ? simulate : simulate_all_coordinates;
+    report_ = route(s_.linkage, s_.plan, s_.courses, times, s_.options, row, &context_);
+    result_.status = report_.status;
+  }
+
+  bool add(const SimulationInstant& now) {
+    const bool dynamic = s_.quantities.dynamic() && now.status == Status::done;
+    if (dynamic) solve_forces(s_.linkage, s_.plan, *now.motion, now.time, now.inputs[0].value, forces_);
+    const Status status = dynamic ? forces_.status : now.status;
+    times_.push_back(now.time);
+    statuses_.push_back(status);
+    for (std::size_t k = 0; k < now.inputs.size(); ++k) {
+      inputs_[3 * k].push_back(now.inputs[k].value);
+      inputs_[3 * k + 1].push_back(now.inputs[k].rate);
+      inputs_[3 * k + 2].push_back(now.inputs[k].acceleration);
+    }
+    kinetic_.push_back(now.kinetic);
+    potential_.push_back(now.potential);
+    work_.push_back(now.work);
+    drift_.push_back(now.drift);
+    const LinkageInstant instant{now.time, {now.inputs.begin(), now.inputs.end()}, now.motion, &forces_};
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+      values_[c].push_back(now.status == Status::done ? columns_[c].value(instant) : nan);
+    recorded_.push_back(record_of(s_.linkage, s_.plan, *now.motion, dynamic ? &forces_ : nullptr, now.time));
+    if (now.status == Status::done) closure_ = std::max(closure_, now.motion->closure_residual);
+    return true;
+  }
+
+  void finish_table() {
+    Table table{.name = "motion"};
+    table.add("time_s", "time (s)", times_);
+    add_input_columns(table, s_.linkage, s_.plan, inputs_);
+    table.add("kinetic_energy_J", "kinetic energy (J)", kinetic_);
+    table.add("potential_energy_J", "potential energy of weight and springs (J)", potential_);
+    table.add("work_J", "work of drives and loads (J)", work_);
+    table.add("energy_drift_J", "energy drift (J)", drift_);
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      if (columns_[c].angle) math::unwrap_angles(values_[c]);
+      table.add(columns_[c].key, columns_[c].label, std::move(values_[c]));
+    }
+    for (const Status s : statuses_) table.status.emplace_back(to_string(s));
+    result_.tables.push_back(std::move(table));
+  }
+
+  void plots() {
+    const auto plot = [&](std::string name, std::string title, std::vector<std::string> y,
+                          study::Plot::Style style = study::Plot::Style::line) {
+      std::erase_if(y, [&](const std::string& key) { return !result_.tables[0].find(key); });
+      if (y.empty()) return;
+      result_.plots.push_back({.name = std::move(name),
+                               .title = std::move(title),
+                               .table = "motion",
+                               .x = "time_s",
+                               .y = std::move(y),
+                               .style = style,
+                               .scene = "motion"});
+    };
+    const Linkage& l = s_.linkage;
+    for (const bool rotary : {true, false}) {
+      std::vector<std::string> values, rates;
+      for (std::size_t k = 0; k < s_.plan.inputs() && values.size() < 8; ++k)
+        if (s_.plan.rotary[k] == rotary) {
+          values.push_back(input_key(l, s_.plan, k));
+          rates.push_back(identifier(input_joint(l, k).name) +
+                          (rotary ? "_joint_speed_rad_per_s" : "_joint_speed_m_per_s"));
+        }
+      plot(rotary ? "joint-angles" : "joint-ways", rotary ? "Joint angles" : "Joint ways", values);
+      plot(rotary ? "joint-speeds" : "joint-way-speeds", rotary ? "Joint speeds" : "Speeds of the ways",
+           rates);
+    }
+    plot("energies", "Energies", {"kinetic_energy_J", "potential_energy_J", "work_J"});
+    plot("energy-audit", "Energy audit: what does not balance", {"energy_drift_J"});
+    std::vector<std::string> drives, forces, sizes, paths, angles;
+    for (std::size_t k = 0; k < s_.plan.inputs() && drives.size() < 6; ++k)
+      if (s_.plan.rotary[k]) drives.push_back(identifier(input_joint(l, k).name) + "_drive_torque_N_m");
+    for (std::size_t k = 0; k < s_.plan.inputs() && forces.size() < 6; ++k)
+      if (!s_.plan.rotary[k]) forces.push_back(identifier(input_joint(l, k).name) + "_drive_force_N");
+    for (const LinkageJoint& j : l.joints)
+      if (j.type != JointType::gear && sizes.size() < 8) sizes.push_back(identifier(j.name) + "_N");
+    for (const LinkageColumn& c : columns_)
+      if (c.angle && angles.size() < 8) angles.push_back(c.key);
+    for (const BodyPoint& t : s_.traces) {
+      const LinkageBody& b = l.bodies[at(t.body)];
+      const std::string key = identifier(b.name) + "_" + identifier(b.points[at(t.point)].name);
+      if (!result_.tables[0].find(key + "_x_m")) continue;
+      paths.push_back(key + "_x_m");
+      paths.push_back(key + "_y_m");
+    }
+    plot("torque", "Drive torque", drives);
+    plot("drive-force", "Drive force", forces);
+    plot("angles", "Angles of the bodies", angles);
+    plot("reactions", "Joint forces", sizes);
+    plot("paths", "Paths of the traced points", paths, study::Plot::Style::polar);
+  }
+
+  std::string shown(std::size_t k, double value) const {
+    return s_.plan.rotary[k] ? fmt::format("{:.6g}°", math::degrees(value))
+                             : fmt::format("{:.6g} mm", value * 1e3);
+  }
+  std::string balance() const {
+    const double share = report_.peak_energy > 0 ? report_.largest_drift / report_.peak_energy : 0;
+    return fmt::format("within {:.2g} J ({:.2g} of the peak energy {:.4g} J)", report_.largest_drift, share,
+                       report_.peak_energy);
+  }
+
+  void facts() {
+    using Verdict = study::Fact::Verdict;
+    const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
+      result_.facts.push_back({std::move(label), std::move(text), verdict});
+    };
+    const auto warn = [&](std::string message, std::string hint) {
+      result_.diagnostics.push_back(
+          {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
+    };
+    std::size_t free = 0;
+    for (std::size_t k = 0; k < s_.courses.size(); ++k) free += is_free(k);
+    fact("degrees of freedom",
+         fmt::format("{}, {} free and {} driven", mobility(s_.linkage), free, s_.courses.size() - free));
+    if (!times_.empty()) {
+      const bool poor = report_.largest_drift > poor_balance * report_.peak_energy;
+      fact("energy balance", balance(), poor ? Verdict::bad : Verdict::good);
+      if (poor)
+        warn("the energies do not balance: " + balance(), "take a smaller rtol; loads that jump need it");
+      fact("closure residual", fmt::format("{:.2g} m", closure_));
+    }
+    fact("integration", fmt::format("{} steps, {} evaluations of the equations of motion", report_.steps,
+                                    report_.evaluations));
+    if (!report_.passages.empty()) {
+      const ChangePassage& first = report_.passages.front();
+      const std::string choice(name_of(s_.options.at_change_point));
+      fact("change points", fmt::format("{}, the first at {:.4g} s with {} at {} ({} groups); taken: {}",
+                                        report_.passages.size(), first.time, input_joint(s_.linkage, 0).name,
+                                        shown(0, first.value), first.groups.size(), choice));
+      if (s_.options.at_change_point == AtChangePoint::smooth)
+        result_.diagnostics.push_back(
+            {Diagnostic::Severity::warning,
+             {},
+             {},
+             {},
+             fmt::format("the linkage went through {} change points, where it can go on in two ways: it went "
+                         "on smoothly",
+                         report_.passages.size()),
+             "simulation.at_change_point = \"stop\" or \"keep_sign\" chooses otherwise"});
+    }
+    if (report_.status == Status::at_rest) {
+      fact("at rest", report_.message, Verdict::plain);
+    } else if (!report_.message.empty()) {
+      const bool dead = report_.status == Status::limit_reached && s_.route == SimulationRoute::free_joints &&
+                        s_.options.at_change_point != AtChangePoint::stop;
+      warn(report_.message,
+           dead ? "simulation.route = \"all_coordinates\" passes it, and so does another free joint" : "");
+    }
+  }
+
+  void headline() {
+    if (times_.empty()) {
+      result_.headline = "The linkage does not start: " + report_.message + ".";
+      return;
+    }
+    std::string text;
+    for (std::size_t k = 0; k < s_.plan.inputs(); ++k)
+      if (is_free(k))
+        text +=
+            fmt::format("{}{} goes from {} to {}", text.empty() ? "" : ", ", input_joint(s_.linkage, k).name,
+                        shown(k, inputs_[3 * k].front()), shown(k, inputs_[3 * k].back()));
+    result_.headline =
+        fmt::format("In {:.4g} s {}; energies balance {}.", report_.time - s_.from, text, balance());
+    if (report_.status == Status::at_rest)
+      result_.headline += fmt::format(" Then {}.", report_.message);
+    else if (report_.status != Status::done)
+      result_.headline += fmt::format(" It ends before {:.6g} s: {}.", s_.to, to_string(report_.status));
+  }
+
+  const LinkageSimulationStudy& s_;
+  RunContext& context_;
+  std::vector<LinkageColumn> columns_;
+  std::vector<double> times_, kinetic_, potential_, work_, drift_;
+  std::vector<std::vector<double>> inputs_, values_;
+  std::vector<Status> statuses_;
+  std::vector<LinkageRecord> recorded_;
+  LinkageForces forces_;
+  double closure_ = 0;
+  SimulationReport report_;
+  study::Result result_;
+};
+
+}  // namespace
+
+std::vector<LinkageColumn> driven_columns(const Linkage& l, const LinkagePlan& plan,
+                                          const LinkageQuantities& quantities,
+                                          const std::vector<BodyPoint>& traces,
+                                          std::span<const InputCourse> courses) {
+  std::vector<LinkageColumn> columns = linkage_columns(l, plan, quantities, traces);
+  std::erase_if(columns, [&](const LinkageColumn& c) {
+    for (std::size_t k = 0; k < courses.size(); ++k)
+      if (!courses[k].law && c.key.starts_with(identifier(input_joint(l, k).name) + "_drive_")) return true;
+    return false;
+  });
+  return columns;
+}
+
+void add_input_columns(Table& table, const Linkage& l, const LinkagePlan& plan,
+                       const std::vector<std::vector<double>>& values) {
+  for (std::size_t k = 0; k < plan.inputs(); ++k) {
+    const bool rotary = plan.rotary[k];
+    const std::string& name = input_joint(l, k).name;
+    const char *rate = rotary ? "rad_per_s" : "m_per_s", *unit = rotary ? "rad/s" : "m/s";
+    table.add(input_key(l, plan, k), input_label(l, plan, k), values[3 * k]);
+    table.add(fmt::format("{}_joint_speed_{}", identifier(name), rate),
+              fmt::format("{} joint speed ({})", name, unit), values[3 * k + 1]);
+    table.add(fmt::format("{}_joint_acceleration_{}2", identifier(name), rate),
+              fmt::format("{} joint acceleration ({}2)", name, unit), values[3 * k + 2]);
+  }
+}
+
+study::Result run_linkage_simulation(const LinkageSimulationStudy& study, RunContext& context) {
+  return SimulationRunner(study, context).run();
+}
+
+}  // namespace linkwright::planar

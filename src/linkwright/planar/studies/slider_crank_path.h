@@ -1,0 +1,263 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "linkwright/optimise/pagmo_bridge.h"
+#include "linkwright/planar/path/slider_crank_synthesis.h"
+#include "linkwright/planar/studies/path.h"
+#include "linkwright/study/kind.h"
+
+// Path synthesis of the slider-crank: what its file holds (field lists), how it is read, run and reported.
+// What is the same as for the four-bar is taken from there.
+namespace linkwright::planar {
+
+/// Where the slider is searched.
+enum class SliderSideChoice { any, forward, backward };
+constexpr std::array<EnumName<SliderSideChoice>, 3> names(SliderSideChoice) {
+  return {{{SliderSideChoice::any, "any", "on both sides"},
+           {SliderSideChoice::forward, "forward", "ahead of the crank pin along the guide direction"},
+           {SliderSideChoice::backward, "backward", "behind the crank pin"}}};
+}
+
+/// `[mechanism.parameters]`: what is left out gets bounds from the path.
+struct SliderPathParameters {
+  std::array<std::optional<Range>, slider_parameter_count> ranges;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SliderPathParameters& p) {
+  constexpr std::array<std::string_view, slider_parameter_count> summaries = {
+      "length of the crank O-A",
+      "length of the rod A-B",
+      "distance of the tracing point C from the crank pin A",
+      "direction of A->C from the rod A->B",
+      "direction of the guide",
+      "of the guide line from O, along the left normal of its direction",
+      "crank pivot O, x",
+      "crank pivot O, y",
+      "crank angle at the first point, from the x axis (equal_steps, increments)"};
+  for (std::size_t j = 0; j < slider_parameter_count; ++j) {
+    const auto parameter = SliderParameter(j);
+    Field field{.key = name(parameter),
+                .summary = summaries[j],
+                .dimension = is_angle(parameter) ? Dimension::angle : Dimension::length};
+    if (j <= index(SliderParameter::point_distance)) field.minimum = 0;
+    visit(field, p.ranges[j]);
+  }
+}
+
+struct SliderPathMechanism {
+  SliderSideChoice branch = SliderSideChoice::any;
+  SenseChoice sense = SenseChoice::automatic;
+  SliderPathParameters parameters;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SliderPathMechanism& m) {
+  visit(Field{.key = "branch", .summary = "where the slider is searched"}, m.branch);
+  visit(Field{.key = "sense", .summary = "sense of crank rotation to search"}, m.sense);
+  visit(Field{.key = "parameters", .summary = "fixed numbers, or { min, max } for designed ones"},
+        m.parameters);
+}
+
+/// How crank angles are tied to the points.
+enum class SliderTiming { free, equal_steps, increments, given };
+constexpr std::array<EnumName<SliderTiming>, 4> names(SliderTiming) {
+  return {{{SliderTiming::free, "free", "each point is met at any crank angle, in order"},
+           {SliderTiming::equal_steps, "equal_steps", "crank angle of point i = start angle + i step"},
+           {SliderTiming::increments, "increments",
+            "crank angle of a point = that of the one before + its increment, from the start angle"},
+           {SliderTiming::given, "given", "the crank angle of each point is given"}}};
+}
+struct SliderPathTiming {
+  SliderTiming mode = SliderTiming::free;
+  std::optional<double> step;
+  std::optional<std::vector<double>> increments, angles;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SliderPathTiming& t) {
+  visit(Field{.key = "mode", .summary = "how crank angles are tied to the points"}, t.mode);
+  visit(Field{.key = "step",
+              .summary = "crank rotation from point to point (equal_steps)",
+              .dimension = Dimension::angle},
+        t.step);
+  visit(Field{.key = "increments",
+              .summary = "crank rotation from each point to the next, one less than points (increments)",
+              .dimension = Dimension::angle},
+        t.increments);
+  visit(Field{.key = "angles",
+              .summary = "crank angle of each point, from the x axis (given)",
+              .dimension = Dimension::angle},
+        t.angles);
+}
+
+/// The point that traces.
+enum class SliderTracingPoint { rod };
+constexpr std::array<EnumName<SliderTracingPoint>, 1> names(SliderTracingPoint) {
+  return {{{SliderTracingPoint::rod, "rod", "point C of the rod, at point_distance and point_angle from A"}}};
+}
+
+struct SliderPathTarget : PathPointsForm {
+  SliderTracingPoint point = SliderTracingPoint::rod;
+  bool closed = false;
+  SliderPathTiming timing;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SliderPathTarget& t) {
+  visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
+  visit(Field{.key = "closed",
+              .summary =
+                  "the last point is followed by the first; without this key so when the last repeats it"},
+        t.closed);
+  visit(Field{.key = "timing", .summary = "how crank angles are tied to the points"}, t.timing);
+  fields(visit, static_cast<PathPointsForm&>(t));
+}
+
+/// What is minimised; both together give a front.
+enum class SliderObjectiveType { sum_squared_distance, stroke };
+constexpr std::array<EnumName<SliderObjectiveType>, 2> names(SliderObjectiveType) {
+  return {
+      {{SliderObjectiveType::sum_squared_distance, "path.sum_squared_distance",
+        "sum over the points of the squared distance (Boskovic 2018, Eqs. (4.14), (4.18))"},
+       {SliderObjectiveType::stroke, "slider.stroke",
+        "way of the slider over a full turn, beside the path: a front (Boskovic 2018, Eqs. (4.17)-(4.19))"}}};
+}
+struct SliderObjectiveEntry {
+  SliderObjectiveType type = SliderObjectiveType::sum_squared_distance;
+  double weight = 1;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SliderObjectiveEntry& o) {
+  visit(Field{.key = "type", .summary = "what is minimised", .required = true}, o.type);
+  visit(Field{.key = "weight",
+              .summary = "factor, where a method of one objective minimises the sum of both",
+              .minimum = 0,
+              .exclusive_minimum = true},
+        o.weight);
+}
+
+struct PressureLimit {
+  double max = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PressureLimit& l) {
+  visit(Field{.key = "max",
+              .summary = "greatest angle between rod and guide, over the turn or the arc",
+              .dimension = Dimension::angle,
+              .minimum = 0,
+              .maximum = 1.5707963267948966,
+              .exclusive_minimum = true,
+              .required = true},
+        l.max);
+}
+constexpr Word choice_word(const PressureLimit&) {
+  return {"pressure_angle", "greatest angle between rod and guide"};
+}
+
+struct StrokeLimit {
+  std::optional<double> min, max;
+};
+template <class Visitor>
+void fields(Visitor&& visit, StrokeLimit& l) {
+  visit(Field{.key = "min", .summary = "least stroke", .dimension = Dimension::length, .minimum = 0}, l.min);
+  visit(Field{.key = "max",
+              .summary = "greatest stroke",
+              .dimension = Dimension::length,
+              .minimum = 0,
+              .exclusive_minimum = true},
+        l.max);
+}
+constexpr Word choice_word(const StrokeLimit&) {
+  return {"stroke", "way of the slider over a full turn; with both objectives the range of the front"};
+}
+
+struct SliderPathConstraint {
+  std::variant<CrankRotatesFully, InOrder, PressureLimit, StrokeLimit, NoDefects> limit;
+  bool enabled = true;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SliderPathConstraint& c) {
+  visit(Field{.key = "type", .summary = "what is limited", .required = true}, c.limit);
+  visit(Field{.key = "enabled", .summary = "false leaves it out"}, c.enabled);
+}
+
+/// `method = "nsga2"` and `"moead"`: fronts by methods of pagmo.
+template <class Options>
+struct FrontMethod {
+  Options options;
+  optimise::FrontOptions front;
+};
+template <class Visitor, class Options>
+void fields(Visitor&& visit, FrontMethod<Options>& m) {
+  fields(visit, m.options);
+  fields(visit, m.front);
+}
+constexpr Word choice_word(const FrontMethod<optimise::Nsga2Options>&) {
+  return {"nsga2", "a front by sorting and crowding, by pagmo (Deb et al. 2002)"};
+}
+constexpr Word choice_word(const FrontMethod<optimise::MoeadOptions>&) {
+  return {"moead", "a front by decomposition, by pagmo (Li and Zhang 2009)"};
+}
+
+/// Population methods work on the nine-unknown problem. Violated constraints cost a constant, as Boskovic
+/// 2018, Eqs. (4.14), (4.18) have it, unless the study says otherwise.
+using SliderPathMethod =
+    optimise::MethodChoice<optimise::Constraints::penalty, Recommended, FrontMethod<optimise::Nsga2Options>,
+                           FrontMethod<optimise::MoeadOptions>>;
+struct SliderPathOptimiser {
+  int front = 15;  ///< points of a front
+  SliderPathMethod method;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SliderPathOptimiser& o) {
+  visit(Field{.key = "front",
+              .summary = "points of the front, when there are two objectives",
+              .minimum = 2,
+              .maximum = 1000},
+        o.front);
+  visit(Field{.key = "method", .summary = "how designs are searched"}, o.method);
+}
+
+/// A study as read.
+struct SliderPathStudy {
+  SliderPathMechanism mechanism;
+  SliderPathTarget target;
+  std::vector<SliderObjectiveEntry> objectives;
+  std::vector<SliderPathConstraint> constraints;
+  SliderPathOptimiser optimiser;
+
+  SliderPathProblem problem;  ///< what follows from the above
+  bool front = false;         ///< path and stroke
+  bool no_defects = false;    ///< designs with defects are no answers
+};
+
+/// "synthesis" of "planar.slider_crank" for "path_points".
+study::Kind slider_path_kind();
+
+/// Reads the tables of the study; problems go to the reader.
+SliderPathStudy read_slider_path_study(study::ObjectReader& document, const study::Common& common);
+
+/// What the seeds of a study came to.
+struct SliderPathRuns {
+  Status status = Status::done;
+  std::string method;
+  std::vector<std::uint64_t> seeds;
+  std::vector<SliderPathSynthesis> runs;
+};
+SliderPathRuns run_slider_path_seeds(const SliderPathStudy& study, const study::Common& common,
+                                     RunContext& context);
+
+/// The answers of all seeds: distinct designs, best first, or the front of all by falling stroke. One
+/// infeasible design when there is no other.
+std::vector<SliderPathDesign> slider_path_answers(const SliderPathStudy& study, const SliderPathRuns& runs);
+
+study::Result report_slider_path(const SliderPathStudy& study, const study::Common& common,
+                                 const SliderPathRuns& runs);
+
+/// Runs it over the seeds and reports.
+study::Result run_slider_path_study(const SliderPathStudy& study, const study::Common& common,
+                                    RunContext& context);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,299 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "linkwright/planar/studies/slider_crank_path.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::planar {
+namespace {
+
+using P = SliderParameter;
+constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
+
+void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, SliderPathStudy& s) {
+  const SliderPathTiming& t = s.target.timing;
+  const std::size_t n = s.problem.x.size();
+  s.problem.free_timing = t.mode == SliderTiming::free;
+  std::vector<double>& offsets = s.problem.offsets;
+  if (t.mode == SliderTiming::equal_steps) {
+    if (!t.step) {
+      target.error("timing", "equal_steps needs step_deg",
+                   "for example timing = { mode = \"equal_steps\", step_deg = 20.0 }");
+    } else if (*t.step == 0 || std::abs(*t.step) > 2 * pi) {
+      target.error("timing", fmt::format("the step is {}, it must not be zero nor more than a turn",
+                                         units.text(*t.step, Dimension::angle, 6)));
+    } else {
+      for (std::size_t k = 0; k < n; ++k) offsets.push_back(*t.step * static_cast<double>(k));
+    }
+  } else if (t.step) {
+    target.error("timing", fmt::format("step goes with mode equal_steps, the mode is {}", name_of(t.mode)),
+                 "remove the step");
+  }
+  if (t.mode == SliderTiming::increments) {
+    if (!t.increments) {
+      target.error("timing", "increments needs increments_deg, one from each point to the next");
+    } else if (n >= 3 && t.increments->size() + 1 != n) {
+      target.error("timing", fmt::format("{} increments for {} points", t.increments->size(), n),
+                   fmt::format("give {}: the crank rotation from each point to the next", n - 1));
+    } else {
+      offsets.push_back(0);
+      for (const double increment : *t.increments) offsets.push_back(offsets.back() + increment);
+    }
+  } else if (t.increments) {
+    target.error("timing", fmt::format("increments go with mode increments, the mode is {}", name_of(t.mode)),
+                 "remove the increments");
+  }
+  if (t.mode == SliderTiming::given) {
+    if (!t.angles) {
+      target.error("timing", "given needs angles_deg, one for each point");
+    } else if (n >= 3 && t.angles->size() != n) {
+      target.error("timing", fmt::format("{} angles for {} points", t.angles->size(), n),
+                   "give one crank angle for each point");
+    } else {
+      offsets = *t.angles;
+    }
+  } else if (t.angles) {
+    target.error("timing", fmt::format("angles go with mode given, the mode is {}", name_of(t.mode)),
+                 "remove the angles");
+  }
+}
+
+bool starts_anywhere(const SliderPathStudy& s) {
+  const SliderTiming mode = s.target.timing.mode;
+  return mode == SliderTiming::equal_steps || mode == SliderTiming::increments;
+}
+
+// Crank rotation that the timing gives from the first to the last of so many points.
+std::optional<double> turned(const SliderPathTiming& t, std::size_t points) {
+  if (t.mode == SliderTiming::equal_steps && t.step) return *t.step * static_cast<double>(points - 1);
+  if (t.mode == SliderTiming::increments && t.increments && t.increments->size() + 1 == points)
+    return std::accumulate(t.increments->begin(), t.increments->end(), 0.0);
+  if (t.mode == SliderTiming::given && t.angles && t.angles->size() == points)
+    return t.angles->back() - t.angles->front();
+  return std::nullopt;
+}
+
+// The points; what the timing gives for a closing point goes with it.
+void set_points(study::ObjectReader& target, const study::Common& common, SliderPathStudy& s) {
+  PathPoints points;
+  read_path_points(target, common, s.target, points.x, points.y);
+  const std::size_t n = points.x.size();
+  if (n > 0) {
+    SliderPathTiming& t = s.target.timing;
+    const std::optional<double> rotation = turned(t, n);
+    if (leave_out_closing_target(target, s.target.points_file ? "points_file" : "points", s.target.closed,
+                                 rotation, points) &&
+        rotation && is_one_turn(*rotation)) {
+      if (t.mode == SliderTiming::increments) t.increments->pop_back();
+      if (t.mode == SliderTiming::given) t.angles->pop_back();
+    }
+  }
+  s.problem.x = std::move(points.x);
+  s.problem.y = std::move(points.y);
+}
+
+void set_bounds(study::ObjectReader& mechanism, SliderPathStudy& s) {
+  if (s.problem.x.size() < 3 || s.problem.x.size() != s.problem.y.size()) return;
+  s.problem.bounds = derive_slider_bounds(s.problem.x, s.problem.y);
+  for (std::size_t j = 0; j < slider_parameter_count; ++j) {
+    const auto& range = s.mechanism.parameters.ranges[j];
+    if (!range) continue;
+    s.problem.bounds[j] = *range;
+    if ((P(j) == P::crank || P(j) == P::rod) && range->upper <= 0)
+      mechanism.error("parameters", fmt::format("{} must be able to be longer than 0", name(P(j))));
+  }
+  if (starts_anywhere(s)) return;
+  if (s.mechanism.parameters.ranges[index(P::start_angle)])
+    mechanism.warning("parameters",
+                      fmt::format("start_angle has no use: the timing is {}", name_of(s.target.timing.mode)));
+  s.problem.bounds[index(P::start_angle)] = {0, 0};
+}
+
+void set_search(SliderPathStudy& s) {
+  SliderPathProblem& p = s.problem;
+  p.closed = s.target.closed;
+  // A guide turned by half a turn with the opposite offset shows the same mechanism from the other side.
+  const Range &guide = p.bounds[index(P::guide_angle)], &offset = p.bounds[index(P::offset)];
+  const bool complete = guide.upper - guide.lower >= 2 * pi * (1 - 1e-9) && offset.lower == -offset.upper;
+  p.search_forward = s.mechanism.branch != SliderSideChoice::backward;
+  p.search_backward = s.mechanism.branch == SliderSideChoice::backward ||
+                      (s.mechanism.branch == SliderSideChoice::any && !complete);
+  SenseChoice sense = s.mechanism.sense;
+  if (sense == SenseChoice::automatic) sense = p.free_timing ? SenseChoice::any : SenseChoice::positive;
+  p.search_positive = sense != SenseChoice::negative;
+  p.search_negative = sense != SenseChoice::positive;
+}
+
+void set_constraints(study::ObjectReader& document, const study::DisplayUnits& units, SliderPathStudy& s) {
+  SliderPathProblem& p = s.problem;
+  p.crank_rotates_fully = false;
+  bool limited = false;
+  for (const SliderPathConstraint& constraint : s.constraints) {
+    if (!constraint.enabled) {
+      if (std::holds_alternative<InOrder>(constraint.limit))
+        document.error("constraint", "the order of the points cannot be given up",
+                       "remove the constraint, or enabled = false");
+      continue;
+    }
+    if (std::holds_alternative<CrankRotatesFully>(constraint.limit)) p.crank_rotates_fully = true;
+    if (std::holds_alternative<NoDefects>(constraint.limit)) s.no_defects = true;
+    if (const auto* limit = std::get_if<PressureLimit>(&constraint.limit))
+      p.max_pressure_angle = std::min(p.max_pressure_angle, limit->max);
+    if (const auto* limit = std::get_if<StrokeLimit>(&constraint.limit)) {
+      limited = true;
+      if (!limit->min && !limit->max)
+        document.error("constraint", "the stroke has no limit", "write max_m = ..., min_m = ... or both");
+      p.stroke.lower = std::max(p.stroke.lower, limit->min.value_or(0));
+      p.stroke.upper = std::min(p.stroke.upper, limit->max.value_or(infinity));
+    }
+  }
+  if (p.stroke.lower > p.stroke.upper)
+    document.error("constraint",
+                   fmt::format("the stroke is to be {} at least and {} at most",
+                               units.text(p.stroke.lower, Dimension::length, 6),
+                               units.text(p.stroke.upper, Dimension::length, 6)),
+                   "give min less than max");
+  // A closed path is traced by a crank that goes round.
+  if (p.closed) p.crank_rotates_fully = true;
+  if ((limited || s.front) && !p.crank_rotates_fully)
+    document.error(limited ? "constraint" : "objective", "the stroke is that of a full turn of the crank",
+                   "add [[constraint]] type = \"crank_rotates_fully\"");
+}
+
+void set_objectives(study::ObjectReader& document, SliderPathStudy& s) {
+  int paths = 0, strokes = 0;
+  for (const SliderObjectiveEntry& o : s.objectives)
+    ++(o.type == SliderObjectiveType::stroke ? strokes : paths);
+  if (paths > 1 || strokes > 1)
+    document.error("objective", "an objective stands twice", "keep each of them once");
+  else if (strokes == 1 && paths == 0)
+    document.error("objective", "the stroke alone tells nothing of the path",
+                   "add [[objective]] type = \"path.sum_squared_distance\", or limit the stroke by a "
+                   "constraint instead");
+  s.front = strokes == 1;
+  const auto* nsga2 = std::get_if<FrontMethod<optimise::Nsga2Options>>(&s.optimiser.method);
+  const auto* moead = std::get_if<FrontMethod<optimise::MoeadOptions>>(&s.optimiser.method);
+  if ((nsga2 || moead) && !s.front)
+    document.error("optimiser",
+                   fmt::format("{} gives fronts of several objectives", nsga2 ? "nsga2" : "moead"),
+                   "add [[objective]] type = \"slider.stroke\", or take another method");
+  if (nsga2 && nsga2->options.population % 4 != 0)
+    document.error("optimiser", fmt::format("nsga2 has a population of {}", nsga2->options.population),
+                   "its population must be a multiple of 4");
+  if (moead && moead->options.neighbours >= moead->options.population)
+    document.error("optimiser",
+                   fmt::format("moead has {} neighbours in a population of {}", moead->options.neighbours,
+                               moead->options.population),
+                   "take fewer neighbours or a larger population");
+}
+
+}  // namespace
+
+SliderPathStudy read_slider_path_study(study::ObjectReader& document, const study::Common& common) {
+  SliderPathStudy s;
+  if (auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true}))
+    mechanism->read(s.mechanism);
+  if (auto target = document.table(Field{.key = "target", .summary = {}, .required = true})) {
+    target->read(s.target);
+    set_points(*target, common, s);
+    read_timing(*target, common.units, s);
+  }
+  document(Field{.key = "objective", .summary = "what is minimised"}, s.objectives);
+  document(Field{.key = "constraint", .summary = "what must hold"}, s.constraints);
+  if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
+  if (auto mechanism = document.table("mechanism")) set_bounds(*mechanism, s);
+  set_objectives(document, s);
+  set_search(s);
+  set_constraints(document, common.units, s);
+  return s;
+}
+
+study::Kind slider_path_kind() {
+  study::Kind kind;
+  kind.kind = "synthesis";
+  kind.mechanism = "planar.slider_crank";
+  kind.target = "path_points";
+  kind.summary =
+      "slider-crank with an inclined, offset guide whose rod point traces a path, also with a short stroke";
+  kind.seeded = true;
+  kind.example = R"(# linkwright study: a slider-crank whose rod point traces a closed path
+schema = 1
+kind   = "synthesis"
+title  = "Slider-crank for my path"
+
+[mechanism]
+type = "planar.slider_crank"
+# Bounds follow from the path. To fix or limit a quantity:
+# [mechanism.parameters]
+# guide_angle_deg = 0.0
+# crank_mm        = { min = 50.0, max = 400.0 }
+
+[target]
+type   = "path_points"
+closed = true
+timing = { mode = "equal_steps", step_deg = 40.0 }   # free | equal_steps | increments | given
+points_mm = [
+  [500, 1100], [300, 1100], [100, 900], [20, 600], [0, 400], [100, 250],
+  [200, 300], [400, 500], [600, 900],
+]
+# or: points_file = "path.csv"      # columns x_mm, y_mm
+
+[[objective]]
+type = "path.sum_squared_distance"
+
+[[objective]]                       # both objectives: a front to pick from
+type = "slider.stroke"
+
+[[constraint]]
+type = "crank_rotates_fully"
+
+[[constraint]]
+type    = "pressure_angle"          # between rod and guide
+max_deg = 75.0
+
+[optimiser]
+method = "recommended"
+front  = 15
+seeds  = { first = 1, count = 2 }
+)";
+  kind.schema = [](study::SchemaWriter& document) {
+    document.property(Field{.key = "mechanism", .summary = "the slider-crank"},
+                      study::schema_fields<SliderPathMechanism>());
+    document.property(Field{.key = "target", .summary = "the path"},
+                      study::schema_fields<SliderPathTarget>());
+    document.property(Field{.key = "objective", .summary = "what is minimised"},
+                      study::schema_array(study::schema_fields<SliderObjectiveEntry>()));
+    document.property(Field{.key = "constraint", .summary = "what must hold"},
+                      study::schema_array(study::schema_fields<SliderPathConstraint>()));
+    document.property(Field{.key = "optimiser", .summary = "how designs are searched"},
+                      study::schema_fields<SliderPathOptimiser>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    const SliderPathStudy s = read_slider_path_study(document, common);
+    study::Prepared prepared;
+    SliderPathStudy resolved = s;
+    for (std::size_t j = 0; j < slider_parameter_count; ++j)
+      if (P(j) != P::start_angle || starts_anywhere(s))
+        resolved.mechanism.parameters.ranges[j] = s.problem.bounds[j];
+    resolved.target.points_file.reset();
+    resolved.target.points.emplace();
+    for (std::size_t k = 0; k < std::min(s.problem.x.size(), s.problem.y.size()); ++k)
+      resolved.target.points->push_back({s.problem.x[k], s.problem.y[k]});
+    if (resolved.objectives.empty()) resolved.objectives.emplace_back();
+    prepared.canonical["mechanism"] = study::write_fields(resolved.mechanism);
+    prepared.canonical["target"] = study::write_fields(resolved.target);
+    prepared.canonical["objective"] = study::ObjectWriter::to_value(resolved.objectives);
+    prepared.canonical["constraint"] = study::ObjectWriter::to_value(resolved.constraints);
+    prepared.canonical["optimiser"] = study::write_fields(resolved.optimiser);
+    prepared.run = [s, common](RunContext& context) { return run_slider_path_study(s, common, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,376 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "linkwright/core/tolerance.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/optimise/statistics.h"
+#include "linkwright/planar/path/slider_crank_defects.h"
+#include "linkwright/planar/path/slider_crank_samples.h"
+#include "linkwright/planar/studies/slider_crank_path.h"
+#include "linkwright/planar/studies/slider_crank_path_scene.h"
+#include "linkwright/study/run_seeds.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+// A seed succeeds when it comes this close to the best of all seeds: a share of the best, or, where zero is
+// within reach, a share of the squared size of the path; of a front, when so little of what the front of all
+// seeds dominates is missing.
+constexpr double success_share = 1e-4, success_of_size = 1e-12, success_of_front = 1e-3;
+// Solutions with a drawing and tables of their own.
+constexpr std::size_t most_drawn = 15;
+// A pressure angle beyond this moves the slider badly.
+constexpr double steep = 75;
+
+std::string metres(double value) {
+  if (value >= 0.1) return fmt::format("{:.4g} m", value);
+  if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
+  return fmt::format("{:.3g} µm", value * 1e6);
+}
+
+class Report {
+ public:
+  Report(const SliderPathStudy& s, const study::Common& common, const SliderPathRuns& runs)
+      : s_(s), p_(s.problem), common_(common), runs_(runs), designs_(slider_path_answers(s, runs)) {}
+
+  study::Result make() {
+    const bool stopped = runs_.status != Status::done;
+    if (designs_.empty()) {
+      result_.status = stopped ? runs_.status : Status::infeasible;
+      result_.headline = "No slider-crank found: no start of the search assembles at every point.";
+      return std::move(result_);
+    }
+    feasible_ = designs_[0].violations.empty();
+    result_.status = stopped ? runs_.status : feasible_ ? Status::done : Status::infeasible;
+    for (std::size_t i = 0; i < designs_.size(); ++i) solution(designs_[i], i + 1);
+    statistics();
+    tables();
+    if (feasible_) comparisons();
+    facts();
+    return std::move(result_);
+  }
+
+ private:
+  using Verdict = study::Fact::Verdict;
+  double rms(const SliderPathDesign& d) const {
+    return std::sqrt(d.error / static_cast<double>(p_.x.size()));
+  }
+  bool with_start() const {
+    return !p_.free_timing && !p_.bounds[index(SliderParameter::start_angle)].fixed();
+  }
+
+  void solution(const SliderPathDesign& d, std::size_t number) {
+    constexpr std::array<std::string_view, slider_parameter_count> labels = {
+        "crank length",
+        "rod length",
+        "tracing point, distance from crank pin",
+        "tracing point, angle from rod",
+        "guide direction",
+        "offset of the guide",
+        "crank pivot x",
+        "crank pivot y",
+        "start angle"};
+    study::Solution out;
+    out.label = std::isnan(d.stroke) ? std::string(name_of(d.mechanism.branch))
+                                     : fmt::format("stroke {}, {} rms", metres(d.stroke), metres(rms(d)));
+    const auto values = parameter_values(p_, d);
+    for (std::size_t j = 0; j < slider_parameter_count; ++j) {
+      const auto parameter = SliderParameter(j);
+      if (parameter == SliderParameter::start_angle && !with_start()) continue;
+      const Range& range = p_.bounds[j];
+      double value = values[j];
+      if (is_angle(parameter)) {
+        const double turned = value - 2 * pi * std::floor((value - range.lower) / (2 * pi));
+        if (turned <= range.upper) value = turned;
+      }
+      out.parameters.push_back({std::string(name(parameter)) + (is_angle(parameter) ? "_rad" : "_m"),
+                                std::string(labels[j]), value, range.lower, range.upper});
+    }
+    // As the analysis of the same mechanism takes it.
+    const SliderCrankForm& f = d.mechanism.parameters;
+    out.parameters.push_back({"rod_u_m", "tracing point along rod", f.rod_u, -infinity, infinity});
+    out.parameters.push_back({"rod_v_m", "tracing point across", f.rod_v, -infinity, infinity});
+    const SliderPathErrors errors = path_errors(p_, d);
+    out.objectives["path_error_sum_sq_m2"] = d.error;
+    out.objectives["path_error_rms_m"] = rms(d);
+    out.objectives["path_error_max_m"] = *std::max_element(errors.distance.begin(), errors.distance.end());
+    out.objectives["stroke_m"] = d.stroke;
+    const double size = f.crank + f.rod + std::abs(f.offset);
+    out.classification["branch"] = name_of(d.mechanism.branch);
+    out.classification["sense"] = d.sense > 0 ? "positive" : "negative";
+    out.classification["crank_rotates_fully"] = rotation_margin(f) >= -tolerance::feasibility * size;
+    out.classification["rotation_margin_m"] = rotation_margin(f);
+    out.classification["max_pressure_angle_rad"] = greatest_pressure_angle(f);
+    out.classification["active_bounds"] = Value::array();
+    for (const std::string& bound : d.active_bounds) out.classification["active_bounds"].push_back(bound);
+    out.defects = Value::array();
+    for (const auto& violation : d.violations)
+      out.defects.push_back(fmt::format("violates {} by {:.3g}", violation.reason, violation.amount));
+    for (const Defect& defect : defects(p_, d))
+      out.defects.push_back(fmt::format("{}: {}", name_of(defect.kind), defect.text));
+    if (number <= most_drawn) {
+      out.scene = fmt::format("solution-{}", number);
+      result_.scenes.push_back(slider_path_scene(p_, d, out.scene, fmt::format("{}: {}", number, out.label),
+                                                 common_.output.samples));
+    }
+    result_.solutions.push_back(std::move(out));
+  }
+
+  // Of a front: the share of what the front of all seeds dominates that a seed misses. The worst of both
+  // objectives on that front, a tenth further, is the point from which it is counted.
+  std::vector<double> shortfalls() const {
+    std::vector<double> out(runs_.runs.size(), 1);
+    if (!feasible_) return out;
+    const double most_error = 1.1 * designs_.back().error, most_stroke = 1.1 * designs_.front().stroke;
+    const auto area = [&](const std::vector<SliderPathDesign>& front) {
+      double sum = 0, above = most_stroke;
+      // By rising error: each point adds the strip between its stroke and the one before it.
+      for (const SliderPathDesign& d : front) {
+        if (!d.violations.empty() || d.error >= most_error || d.stroke >= above) continue;
+        sum += (most_error - d.error) * (above - d.stroke);
+        above = d.stroke;
+      }
+      return sum;
+    };
+    const double whole = area(designs_);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = std::max(0.0, 1 - area(runs_.runs[i].designs) / whole);
+    return out;
+  }
+
+  void statistics() {
+    std::vector<optimise::SeedOutcome> outcomes;
+    if (s_.front) missing_ = shortfalls();
+    result_.log = Value::array();
+    for (std::size_t i = 0; i < runs_.runs.size(); ++i) {
+      const SliderPathSynthesis& run = runs_.runs[i];
+      const double violation = run.designs.empty() ? infinity : total_violation(run.designs[0]);
+      const double error = run.designs.empty() ? infinity : run.designs[0].error;
+      outcomes.push_back({s_.front ? missing_[i] : error, violation, run.evaluations});
+      Value entry;
+      entry["seed"] = static_cast<std::int64_t>(runs_.seeds[i]);
+      entry["status"] = to_string(run.status);
+      entry["best"] = violation > 0 ? nan : error;  // sum of squared distances (m2)
+      entry["violation"] = violation;
+      entry["evaluations"] = run.evaluations;
+      entry["history"] = Value::array();
+      std::vector<SearchPoint> history = run.history;
+      if (!history.empty())
+        history.push_back({run.evaluations, history.back().best});  // to the end of the run
+      for (const SearchPoint& point : history) {
+        Value step;
+        step["evaluations"] = point.evaluations;
+        step["best"] = point.best;
+        entry["history"].push_back(std::move(step));
+      }
+      result_.log.push_back(std::move(entry));
+    }
+    const double size = path_size(p_), best = feasible_ ? designs_[0].error : infinity;
+    const double threshold =
+        s_.front ? success_of_front : best + std::max(success_share * best, success_of_size * size * size);
+    const optimise::SeedStatistics st = optimise::statistics(outcomes, threshold);
+    result_.statistics["method"] = runs_.method;
+    result_.statistics["measure"] = s_.front ? "share of the common front that is missing" : "path error, m2";
+    study::write_statistics(result_.statistics, st);
+    success_ = st.success_rate;
+  }
+
+  void tables() {
+    for (std::size_t i = 0; i < std::min(designs_.size(), most_drawn); ++i) {
+      // The best design's tables have plain names, those of the others carry the number of the solution.
+      const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result_.solutions[i].scene;
+      result_.tables.push_back(slider_point_table(p_, designs_[i], "points" + suffix));
+      result_.tables.push_back(slider_motion_table(designs_[i], "motion" + suffix, common_.output.samples));
+      const auto plot = [&](std::string name, std::string title, std::string table, std::string y) {
+        result_.plots.push_back(
+            {.name = name + suffix,
+             .title = std::move(title),
+             .table = table + suffix,
+             .x = "crank_angle_rad",
+             .y = {std::move(y)},
+             .style = table == "points" ? study::Plot::Style::points : study::Plot::Style::line,
+             .scene = scene});
+      };
+      plot("errors", "Distance from the target points", "points", "distance_m");
+      plot("way", "Way of the slider", "motion", "slider_m");
+      plot("pressure", "Pressure angle between rod and guide", "motion", "pressure_angle_rad");
+    }
+    if (s_.front && feasible_) front_table();
+    Table seeds{.name = "seeds", .columns{}, .status{}};
+    std::vector<double> number, error, evaluations;
+    for (std::size_t i = 0; i < runs_.runs.size(); ++i) {
+      const SliderPathSynthesis& run = runs_.runs[i];
+      number.push_back(static_cast<double>(runs_.seeds[i]));
+      error.push_back(run.designs.empty() || !run.designs[0].violations.empty() ? nan : run.designs[0].error);
+      evaluations.push_back(static_cast<double>(run.evaluations));
+      seeds.status.emplace_back(to_string(run.status));
+    }
+    seeds.add("seed", "seed", number);
+    seeds.add("path_error_sum_sq_m2", "path error, sum of squares (m2)", error);
+    if (s_.front) seeds.add("missing", "share of the common front that is missing", missing_);
+    seeds.add("evaluations", "evaluations", evaluations);
+    result_.tables.push_back(std::move(seeds));
+    cognates();
+  }
+
+  void front_table() {
+    Table front{.name = "front", .columns{}, .status{}};
+    std::vector<double> number, error, way, distance, pressure;
+    for (std::size_t i = 0; i < designs_.size(); ++i) {
+      number.push_back(static_cast<double>(i + 1));
+      error.push_back(designs_[i].error);
+      way.push_back(designs_[i].stroke);
+      distance.push_back(rms(designs_[i]));
+      pressure.push_back(greatest_pressure_angle(designs_[i].mechanism.parameters));
+    }
+    front.add("solution", "solution", std::move(number));
+    front.add("stroke_m", "stroke (m)", std::move(way));
+    front.add("path_error_sum_sq_m2", "path error, sum of squares (m2)", std::move(error));
+    front.add("path_error_rms_m", "path error, root mean square (m)", std::move(distance));
+    front.add("max_pressure_angle_rad", "greatest pressure angle (rad)", std::move(pressure));
+    result_.tables.push_back(std::move(front));
+    result_.plots.insert(result_.plots.begin(), {.name = "front",
+                                                 .title = "Front: path error against stroke",
+                                                 .table = "front",
+                                                 .x = "stroke_m",
+                                                 .y = {"path_error_sum_sq_m2"},
+                                                 .style = study::Plot::Style::points});
+  }
+
+  // The best mechanism and the other one with the same curve.
+  void cognates() {
+    const SliderPathDesign& best = designs_[0];
+    Table table{.name = "cognates", .columns{}, .status{}};
+    constexpr std::string_view keys[] = {
+        "crank_m",   "rod_m",   "offset_m", "guide_angle_rad", "pivot_x_m",
+        "pivot_y_m", "rod_u_m", "rod_v_m",  "same_timing",     "crank_rotates_fully"};
+    for (std::string_view key : keys) table.add(std::string(key), std::string(key));
+    const auto row = [&](const SliderCrankForm& f, bool same) {
+      const double values[] = {
+          f.crank,   f.rod,   f.offset, f.guide_angle,    f.pivot_x,
+          f.pivot_y, f.rod_u, f.rod_v,  same ? 1.0 : 0.0, std::isnan(stroke(f)) ? 0.0 : 1.0};
+      for (std::size_t j = 0; j < std::size(values); ++j) table.columns[j].values.push_back(values[j]);
+    };
+    const SliderCrankForm& f = best.mechanism.parameters;
+    row(f, true);
+    // A tracing point on the crank pin leaves none, nor does one that lies there but for rounding.
+    if (std::hypot(f.rod_u, f.rod_v) > 1e-9 * f.rod)
+      row(slider_crank_cognate(best.mechanism, best.angles[0]).parameters, false);
+    result_.tables.push_back(std::move(table));
+  }
+
+  void comparisons() {
+    const SliderPathProblem known = eighteen_slider_points();
+    if (p_.free_timing || p_.x != known.x || p_.y != known.y || p_.offsets.size() != known.offsets.size())
+      return;
+    for (std::size_t k = 0; k < known.offsets.size(); ++k)
+      if (std::abs(p_.offsets[k] - known.offsets[k]) > 1e-12) return;
+    const std::string source = "Boskovic 2018, ";
+    for (const PublishedSliderCrank& published : published_slider_cranks()) {
+      if (!s_.front && published.label != "Table 4.2") continue;
+      std::vector<double> angles;
+      for (const double offset : known.offsets) angles.push_back(published.start_angle + offset);
+      const SliderPathDesign d = measure(known, published.mechanism, 1, angles);
+      result_.comparisons.push_back({published.label + ", design re-evaluated: path error, m2",
+                                     source + published.label, published.published_error, d.error,
+                                     "not reproduced",
+                                     "agrees to 0.3 to 0.6 %, which rounding does not explain"});
+      result_.comparisons.push_back({published.label + ": stroke, m", source + published.label,
+                                     published.published_stroke, d.stroke, "corrected",
+                                     "the number printed is the abscissa of the tracing point at the start"});
+      double least = infinity;
+      for (const SliderPathDesign& own : designs_)
+        if (!s_.front || own.stroke <= d.stroke * (1 + 1e-9)) least = std::min(least, own.error);
+      if (std::isfinite(least))
+        result_.comparisons.push_back(
+            {published.label + (s_.front ? ": path error of this study at no longer a stroke, m2"
+                                         : ": path error of this study, m2"),
+             source + published.label, published.published_error, least,
+             least < published.published_error ? "improved" : "not reached", ""});
+    }
+  }
+
+  void facts() {
+    const SliderPathDesign& best = designs_[0];
+    const SliderPathErrors errors = path_errors(p_, best);
+    const auto worst = std::max_element(errors.distance.begin(), errors.distance.end());
+    const double pressure = math::degrees(greatest_pressure_angle(best.mechanism.parameters));
+    const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
+      result_.facts.push_back({std::move(label), std::move(text), verdict});
+    };
+    if (!feasible_) {
+      std::string reasons;
+      for (const auto& v : best.violations) reasons += (reasons.empty() ? "" : ", ") + v.reason;
+      result_.headline =
+          fmt::format("No design meets every constraint; the nearest one violates {}.", reasons);
+    } else if (s_.front) {
+      const SliderPathDesign& shortest = designs_.back();
+      result_.headline =
+          designs_.size() > 1
+              ? fmt::format(
+                    "A front of {} slider-cranks: from a stroke of {} at {} root mean square to {} at {}.",
+                    designs_.size(), metres(best.stroke), metres(rms(best)), metres(shortest.stroke),
+                    metres(rms(shortest)))
+              : fmt::format("One slider-crank is the best in path error and stroke: {} root mean square, {}.",
+                            metres(rms(best)), metres(best.stroke));
+    } else {
+      result_.headline =
+          fmt::format("A slider-crank passes the {} points within {} (root mean square {}){}.", p_.x.size(),
+                      metres(*worst), metres(rms(best)),
+                      std::isnan(best.stroke) ? "" : fmt::format(", stroke {}", metres(best.stroke)));
+    }
+    fact(s_.front ? "least path error (sum of squares)" : "path error (sum of squares)",
+         best.error >= 1e-4 ? fmt::format("{:.8f} m²", best.error) : fmt::format("{:.4g} m²", best.error),
+         feasible_ ? Verdict::good : Verdict::bad);
+    fact("root mean square distance", metres(rms(best)));
+    fact("worst point", fmt::format("{} at point {}", metres(*worst), worst - errors.distance.begin() + 1));
+    if (!std::isnan(best.stroke)) {
+      fact("stroke of the slider",
+           s_.front && feasible_ && designs_.size() > 1
+               ? fmt::format("{}, down to {}", metres(best.stroke), metres(designs_.back().stroke))
+               : metres(best.stroke));
+      fact("greatest pressure angle", fmt::format("{:.1f}°", pressure),
+           pressure > steep ? Verdict::bad : Verdict::plain);
+    }
+    fact("method", runs_.method);
+    fact(s_.front ? "seeds that reached the common front" : "seeds that reached the best",
+         fmt::format("{:.0f} of {}", success_ * static_cast<double>(runs_.runs.size()), runs_.runs.size()),
+         success_ > 0.9 ? Verdict::good : Verdict::plain);
+    fact("evaluations", fmt::format("{}", result_.statistics.find("evaluations")->as_integer()));
+    const auto warn = [&](std::string message, std::string hint) {
+      result_.diagnostics.push_back(
+          {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
+    };
+    if (runs_.runs.size() < static_cast<std::size_t>(common_.seeds.count))
+      warn(fmt::format("interrupted: {} of {} seeds ran", runs_.runs.size(), common_.seeds.count), {});
+    if (pressure > steep)
+      warn(fmt::format("the rod comes to {:.1f}° from the guide: it presses the slider against it there",
+                       pressure),
+           "limit it: [[constraint]] type = \"pressure_angle\", max_deg = 60");
+  }
+
+  const SliderPathStudy& s_;
+  const SliderPathProblem& p_;
+  const study::Common& common_;
+  const SliderPathRuns& runs_;
+  const std::vector<SliderPathDesign> designs_;
+  bool feasible_ = false;
+  double success_ = 0;
+  std::vector<double> missing_;
+  study::Result result_;
+};
+
+}  // namespace
+
+study::Result report_slider_path(const SliderPathStudy& s, const study::Common& common,
+                                 const SliderPathRuns& runs) {
+  return Report(s, common, runs).make();
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "linkwright/core/tolerance.h"
+#include "linkwright/optimise/combine.h"
+#include "linkwright/optimise/statistics.h"
+#include "linkwright/planar/path/slider_crank_checkpoint.h"
+#include "linkwright/planar/path/slider_crank_defects.h"
+#include "linkwright/planar/studies/slider_crank_path.h"
+
+namespace linkwright::planar {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// A front goes down to this share of the stroke of the design with the least error, unless limits say more.
+constexpr double shortest_stroke = 0.4;
+
+bool interrupted(Status status) { return status == Status::deadline || status == Status::cancelled; }
+
+// Infinite when the seed found no feasible design.
+double best_error(const SliderPathSynthesis& run) {
+  return run.designs.empty() || !run.designs[0].violations.empty() ? infinity : run.designs[0].error;
+}
+
+bool better_design(const SliderPathDesign& a, const SliderPathDesign& b) {
+  return optimise::better(a.error, total_violation(a), b.error, total_violation(b));
+}
+
+SliderPathScales scales_of(const SliderPathStudy& s) {
+  const double size = path_size(s.problem);
+  SliderPathScales scales{size * size, size};
+  for (const SliderObjectiveEntry& o : s.objectives)
+    (o.type == SliderObjectiveType::stroke ? scales.stroke : scales.error) /= o.weight;
+  return scales;
+}
+
+struct Way {
+  SliderSide side;
+  double sense;
+  std::string_view name;  // in the checkpoint
+};
+std::vector<Way> ways(const SliderPathProblem& p) {
+  std::vector<Way> out;
+  constexpr Way all[] = {{SliderSide::forward, 1, "/positive"},
+                         {SliderSide::backward, 1, "/backward positive"},
+                         {SliderSide::forward, -1, "/negative"},
+                         {SliderSide::backward, -1, "/backward negative"}};
+  for (const Way& way : all)
+    if ((way.sense > 0 ? p.search_positive : p.search_negative) &&
+        (way.side == SliderSide::forward ? p.search_forward : p.search_backward))
+      out.push_back(way);
+  return out;
+}
+
+// The answer of a seed from what its searches came to: all of them, or the front; one infeasible design when
+// there is no other.
+void settle(SliderPathSynthesis& run, bool front) {
+  rank(run.designs);
+  const bool feasible = !run.designs.empty() && run.designs[0].violations.empty();
+  if (front && feasible) run.designs = slider_front_of(std::move(run.designs));
+  if (front && !feasible && run.designs.size() > 1) run.designs.resize(1);
+  if (run.status == Status::done && !feasible) run.status = Status::infeasible;
+}
+
+SliderPathSynthesis run_seed(const Recommended& method, const SliderPathStudy& s, std::uint64_t seed,
+                             bool only_seed, RunContext& context) {
+  PathSynthesisOptions options = method.options;
+  options.seed = seed;
+  options.progress = only_seed;  // several at once are told by the loop over them
+  SliderPathSynthesis best = synthesise_slider_path(s.problem, options, context);
+  if (!s.front || best.status != Status::done) return best;
+  const double longest = best.designs[0].stroke;
+  const double shortest =
+      s.problem.stroke.lower > 0 ? std::min(longest, s.problem.stroke.lower) : shortest_stroke * longest;
+  std::vector<double> strokes;
+  for (int i = 1; i < s.optimiser.front; ++i)
+    strokes.push_back(longest + (shortest - longest) * i / (s.optimiser.front - 1));
+  SliderPathSynthesis front = synthesise_slider_front(s.problem, strokes, options, context);
+  front.designs.push_back(std::move(best.designs[0]));
+  front.evaluations += best.evaluations;
+  settle(front, true);
+  return front;
+}
+
+template <class Options>
+SliderPathSynthesis run_seed(
+    const optimise::PopulationMethod<Options, optimise::Constraints::penalty>& method,
+    const SliderPathStudy& s, std::uint64_t seed, bool only_seed, RunContext& context) {
+  SliderPathSynthesis out;
+  std::uint32_t part = 0;
+  for (const Way& way : ways(s.problem)) {
+    const optimise::Seed key{.seed = seed, .run = part++};
+    optimise::MinimiseOptions minimise = method.minimise;
+    minimise.progress = only_seed;
+    minimise.checkpoint = optimise::seed_name(seed) + std::string(way.name);
+    optimise::Problem problem;
+    std::unique_ptr<optimise::Optimiser> optimiser;
+    if (s.front) {
+      minimise.front = std::max<std::size_t>(4, static_cast<std::size_t>(s.optimiser.front));
+      problem = slider_path_front_problem(s.problem, way.side, way.sense, scales_of(s));
+      // The front of a method of one objective is what it met on its way to the least sum.
+      if constexpr (requires {
+                      optimise::make_optimiser(problem.variables, method.options, key, std::size_t{2});
+                    }) {
+        optimiser = optimise::make_optimiser(problem.variables, method.options, key, problem.objectives);
+      } else {
+        const std::vector<double> both = {1, 1};  // weights are in the scales
+        problem = optimise::weighted_sum(problem, both);
+        optimiser = optimise::make_optimiser(problem.variables, method.options, key);
+      }
+    } else {
+      problem = slider_path_population_problem(s.problem, way.side, way.sense);
+      optimiser = optimise::make_optimiser(problem.variables, method.options, key);
+    }
+    const optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
+                                                       choice_word(method).name, minimise, context);
+    if (interrupted(report.status)) out.status = report.status;
+    out.evaluations += report.evaluations;
+    SliderPathDesign design = slider_path_design(s.problem, way.side, way.sense, report.x);
+    if (!s.front && (out.designs.empty() || better_design(design, out.designs[0]))) {
+      out.history.clear();
+      for (const auto& generation : report.log)
+        if (generation.best_violation == 0 &&
+            (out.history.empty() || generation.best_cost < out.history.back().best))
+          out.history.push_back({generation.evaluations, generation.best_cost});
+    }
+    out.designs.push_back(std::move(design));
+    for (const optimise::ParetoPoint& point : report.front)
+      out.designs.push_back(slider_path_design(s.problem, way.side, way.sense, point.x));
+    if (!s.front) rank(out.designs);
+  }
+  settle(out, s.front);
+  return out;
+}
+
+optimise::PagmoOptions pagmo(const optimise::Nsga2Options& o) {
+  return {.method = optimise::PagmoMethod::nsga2, .nsga2 = o};
+}
+optimise::PagmoOptions pagmo(const optimise::MoeadOptions& o) {
+  return {.method = optimise::PagmoMethod::moead, .moead = o};
+}
+
+template <class Options>
+SliderPathSynthesis run_seed(const FrontMethod<Options>& method, const SliderPathStudy& s, std::uint64_t seed,
+                             bool only_seed, RunContext& context) {
+  SliderPathSynthesis out;
+  std::uint32_t part = 0;
+  for (const Way& way : ways(s.problem)) {
+    optimise::FrontOptions options = method.front;
+    options.progress = only_seed;
+    options.checkpoint = optimise::seed_name(seed) + std::string(way.name);
+    const optimise::FrontReport report =
+        optimise::minimise_with_pagmo(slider_path_front_problem(s.problem, way.side, way.sense, scales_of(s)),
+                                      pagmo(method.options), options, {.seed = seed, .run = part++}, context);
+    if (interrupted(report.status)) out.status = report.status;
+    out.evaluations += report.evaluations;
+    for (const optimise::ParetoPoint& point : report.front)
+      out.designs.push_back(slider_path_design(s.problem, way.side, way.sense, point.x));
+  }
+  settle(out, true);
+  return out;
+}
+
+}  // namespace
+
+SliderPathRuns run_slider_path_seeds(const SliderPathStudy& s, const study::Common& common,
+                                     RunContext& context) {
+  SliderPathRuns out;
+  out.method = std::string(std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method));
+  const auto count = static_cast<std::size_t>(common.seeds.count);
+  std::vector<SliderPathSynthesis> all(count);
+  const optimise::SeedRange seeds{static_cast<std::uint64_t>(common.seeds.first), common.seeds.count};
+  const optimise::SeedLoop loop = optimise::for_each_seed(
+      seeds, context, out.method,
+      [&](std::size_t i, std::uint64_t seed) {
+        all[i] =
+            std::visit([&](const auto& method) { return run_seed(method, s, seed, count == 1, context); },
+                       s.optimiser.method);
+        return best_error(all[i]);
+      },
+      [&](std::size_t i) { return interrupted(all[i].status) ? Value() : kept(all[i]); },
+      [&](std::size_t i, const Value& value) {
+        all[i] = restored(value, s.problem, optimise::seed_name(seeds.first + i));
+        return best_error(all[i]);
+      });
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!loop.ran[i]) continue;
+    if (out.status == Status::done && interrupted(all[i].status)) out.status = all[i].status;
+    out.seeds.push_back(seeds.first + i);
+    out.runs.push_back(std::move(all[i]));
+  }
+  // An interruption after the last seed was done took nothing away.
+  if (out.runs.size() < count) out.status = loop.status;
+  return out;
+}
+
+std::vector<SliderPathDesign> slider_path_answers(const SliderPathStudy& s, const SliderPathRuns& runs) {
+  std::vector<SliderPathDesign> all;
+  for (const SliderPathSynthesis& seed : runs.runs)
+    all.insert(all.end(), seed.designs.begin(), seed.designs.end());
+  if (s.no_defects)
+    for (SliderPathDesign& d : all)
+      for (const Defect& defect : defects(s.problem, d))
+        d.violations.push_back({std::string(name_of(defect.kind)), 1});
+  rank(all);
+  if (all.empty()) return all;
+  if (!all[0].violations.empty()) {
+    all.resize(1);
+    return all;
+  }
+  if (s.front) {
+    // What two seeds find for one stroke differs by rounding.
+    std::vector<SliderPathDesign> front;
+    for (SliderPathDesign& d : slider_front_of(std::move(all)))
+      if (front.empty() || front.back().stroke - d.stroke > tolerance::same_design * d.stroke ||
+          d.error - front.back().error > tolerance::same_design * d.error)
+        front.push_back(std::move(d));
+    return front;
+  }
+  const auto* recommended = std::get_if<Recommended>(&s.optimiser.method);
+  const PathSynthesisOptions options = recommended ? recommended->options : PathSynthesisOptions();
+  std::vector<SliderPathDesign> out;
+  for (SliderPathDesign& d : all) {
+    if (out.size() == static_cast<std::size_t>(options.max_solutions) || !d.violations.empty()) break;
+    if (std::none_of(out.begin(), out.end(), [&](const SliderPathDesign& o) {
+          return o.sense == d.sense && same_mechanism(o.mechanism, d.mechanism);
+        }))
+      out.push_back(std::move(d));
+  }
+  return out;
+}
+
+study::Result run_slider_path_study(const SliderPathStudy& s, const study::Common& common,
+                                    RunContext& context) {
+  return report_slider_path(s, common, run_slider_path_seeds(s, common, context));
+}
+
+}  // namespace linkwright::planar

@@ -1,0 +1,49 @@
+#include "linkwright/planar/balancing/measures.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <vector>
+
+#include "support/message.h"
+
+namespace linkwright::planar {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Measures, OfAFewSamples) {
+  const std::vector<double> samples = {3, -4, 0, 12, 0};
+  EXPECT_DOUBLE_EQ(rss_over_n(samples), 13.0 / 4);  // five samples, four intervals
+  EXPECT_DOUBLE_EQ(rms(samples), 13 / std::sqrt(5.0));
+  EXPECT_DOUBLE_EQ(mean_abs(samples), 19.0 / 5);
+  EXPECT_EQ(max_abs(samples), 12);
+}
+
+TEST(Measures, ByName) {
+  const std::vector<double> samples = {3, -4, 0, 12, 0};
+  EXPECT_EQ(measure(Measure::rss_over_n, samples), rss_over_n(samples));
+  EXPECT_EQ(measure(Measure::rms, samples), rms(samples));
+  EXPECT_EQ(measure(Measure::mean_abs, samples), mean_abs(samples));
+  EXPECT_EQ(measure(Measure::max_abs, samples), 12);
+  EXPECT_EQ(measure(Measure::maximum, samples), 12);
+  EXPECT_EQ(measure(Measure::minimum, samples), -4);
+  EXPECT_EQ(measure(Measure::range, samples), 16);
+  const std::vector<double> missing = {3, NAN, 4};
+  for (const auto& name : names(Measure()))
+    EXPECT_TRUE(std::isnan(measure(name.value, missing))) << name.name;
+}
+
+TEST(Measures, KeepWhatIsMissing) {
+  const std::vector<double> samples = {3, NAN, 4};
+  for (auto of : {rss_over_n, rms, mean_abs, max_abs}) EXPECT_TRUE(std::isnan(of(samples)));
+}
+
+TEST(Measures, NeedSamples) {
+  EXPECT_THAT(test::message([] { rss_over_n(std::vector<double>{1}); }), HasSubstr("needs 2 samples, got 1"));
+  for (auto of : {rms, mean_abs, max_abs})
+    EXPECT_THAT(test::message([&] { of({}); }), HasSubstr("needs a sample"));
+}
+
+}  // namespace
+}  // namespace linkwright::planar

@@ -1,0 +1,73 @@
+#include "linkwright/planar/studies/four_bar_balancing.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
+
+#include "planar/balancing_studies.h"
+
+namespace linkwright::planar {
+namespace {
+
+using testing::balancing_study;
+using testing::replaced;
+
+std::string with_lengths() {
+  std::string text = testing::four_bar_masses;
+  text = replaced(text, "crank_m   = 0.1", "crank_mm = { min = 80, max = 120, initial = 100 }");
+  text = replaced(text, "rocker_m  = 0.32", "rocker_m  = { min = 0.256, max = 0.384, initial = 0.32 }");
+  return replaced(text, "ground_m  = 0.6", "ground_m  = { min = 0.3, max = 0.9, initial = 0.6 }");
+}
+
+TEST(BalancingFourBar, BothWaysGiveTheSameObjectives) {
+  const BalancingStudy s = balancing_study(with_lengths());
+  const BalancingProblem p = balancing_problem(testing::task_of(s));
+  const auto fast = four_bar_problem(s, p);
+  ASSERT_TRUE(fast);
+  constexpr std::size_t n = 40;
+  optimise::Population x(p.task.variables.size(), n);
+  std::mt19937_64 random(3);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < p.task.variables.size(); ++j)
+      x(j, i) = std::uniform_real_distribution(p.task.variables[j].lower, p.task.variables[j].upper)(random);
+  std::vector<double> a(n * fast->values()), b(n * p.problem.values());
+  fast->evaluate(x.view(), a);
+  p.problem.evaluate(x.view(), b);
+  int there = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double u = a[i * fast->values() + k], v = b[i * p.problem.values() + k];
+      ASSERT_EQ(std::isfinite(u), std::isfinite(v)) << i;
+      if (!std::isfinite(u)) continue;
+      ++there;
+      // Near a dead point forces amplify rounding; none of these is nearer than a thousandth.
+      EXPECT_NEAR(u, v, 1e-10 * v);
+    }
+  EXPECT_GT(there, 20);
+  EXPECT_LT(there, 2 * static_cast<int>(n));
+}
+
+TEST(BalancingFourBar, TheReportTellsTheCompleteForceBalance) {
+  const study::Result r = testing::run_text(testing::four_bar_masses);
+  const std::string told = testing::fact(r, "complete force balance would take");
+  EXPECT_THAT(told, ::testing::MatchesRegex("crank .* kg at 100 mm, .*, rocker .* kg at 320 mm, .*"));
+}
+
+TEST(BalancingFourBar, WhatItDoesNotKnowIsLeftToTheGeneralWay) {
+  const auto known = [](const std::string& text) {
+    const BalancingStudy s = balancing_study(text);
+    return four_bar_problem(s, balancing_problem(testing::task_of(s))).has_value();
+  };
+  EXPECT_TRUE(known(with_lengths()));
+  EXPECT_FALSE(known(replaced(with_lengths(), "shaking_force_x_N", "shaking_force_N")));
+  EXPECT_FALSE(known(replaced(with_lengths(), "\"rms\"", "\"range\"")));
+  EXPECT_FALSE(known(
+      replaced(with_lengths(), "speed_rpm = 300.0", "speed_rpm = { min = 100, max = 300, initial = 200 }")));
+  EXPECT_FALSE(known(
+      with_lengths() +
+      "[[constraint]]\nquantity = \"transmission_angle_rad\"\nmeasure = \"minimum\"\nat_least = 0.5\n"));
+}
+
+}  // namespace
+}  // namespace linkwright::planar

@@ -1,0 +1,172 @@
+#include "linkwright/planar/studies/simulation.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "linkwright/core/memory.h"
+#include "linkwright/study/write.h"
+#include "planar/studies.h"
+
+namespace linkwright::planar {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Each;
+using testing::fact;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::prepare;
+using testing::problems_of;
+using testing::replaced;
+using testing::run_text;
+
+std::string pendulum() { return linkage_simulation_kind().example; }
+
+TEST(LinkageSimulationStudy, ReportsMotionForcesAndTheEnergyAudit) {
+  const study::Result r = run_text(pendulum());
+  EXPECT_EQ(r.status, Status::done);
+  const Table& t = r.tables.at(0);
+  EXPECT_EQ(t.name, "motion");
+  EXPECT_THAT(t.status, Each("done"));
+  for (const char* key : {"time_s", "O_angle_rad", "O_joint_speed_rad_per_s",
+                          "A_joint_acceleration_rad_per_s2", "kinetic_energy_J", "potential_energy_J",
+                          "work_J", "energy_drift_J", "upper_angle_rad", "A_N", "shaking_force_N"})
+    EXPECT_TRUE(t.find(key)) << key;
+  EXPECT_FALSE(t.find("O_drive_torque_N_m")) << "the joint is free";
+  ASSERT_EQ(t.find("time_s")->values.size(), 501u);
+  EXPECT_EQ(t.find("time_s")->values.back(), 5.0);
+  EXPECT_EQ(fact(r, "degrees of freedom"), "2, 2 free and 0 driven");
+  EXPECT_THAT(fact(r, "energy balance"), HasSubstr("of the peak energy"));
+  for (const double d : t.find("energy_drift_J")->values) EXPECT_NEAR(d, 0, 1e-7);
+  EXPECT_THAT(r.diagnostics, IsEmpty());
+  ASSERT_EQ(r.scenes.size(), 1u);
+  EXPECT_EQ(r.scenes[0].input_key, "time_s");
+  bool audit = false;
+  for (const study::Plot& p : r.plots) {
+    audit = audit || p.name == "energy-audit";
+    for (const std::string& y : p.y) EXPECT_TRUE(t.find(y)) << y;
+  }
+  EXPECT_TRUE(audit);
+}
+
+// Both routes, from the file.
+TEST(LinkageSimulationStudy, TakesEitherRoute) {
+  const std::string text =
+      replaced(slider_crank_simulation_kind().example, "to_s = 0.5", "to_s = 0.2\nsamples = 21");
+  const study::Result free = run_text(text), all = run_text(text + "route = \"all_coordinates\"\n");
+  ASSERT_EQ(free.status, Status::done);
+  ASSERT_EQ(all.status, Status::done);
+  for (const char* key : {"O_angle_rad", "guide_way_m", "B_N", "kinetic_energy_J"}) {
+    const std::vector<double>&a = free.tables[0].find(key)->values, &b = all.tables[0].find(key)->values;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      EXPECT_NEAR(a[i], b[i], 1e-6 * (1 + std::abs(a[i]))) << key << " " << i;
+  }
+}
+
+TEST(LinkageSimulationStudy, MixesFreeAndDrivenJoints) {
+  const std::string text = replaced(pendulum(),
+                                    "joint           = \"O\"\nfree            = true\nstart_deg       = "
+                                    "0.0\nstart_speed_rpm = 0.0",
+                                    "joint = \"O\"\nlaw = \"constant_speed\"\nspeed_rpm = 30.0");
+  const study::Result r = run_text(text);
+  EXPECT_EQ(r.status, Status::done);
+  EXPECT_EQ(fact(r, "degrees of freedom"), "2, 1 free and 1 driven");
+  const Table& t = r.tables.at(0);
+  EXPECT_TRUE(t.find("O_drive_torque_N_m"));
+  EXPECT_FALSE(t.find("A_drive_torque_N_m"));
+  EXPECT_NEAR(t.find("O_angle_rad")->values.back(), 5 * 3.14159265358979, 1e-9);
+  for (const double d : t.find("energy_drift_J")->values) EXPECT_NEAR(d, 0, 1e-7);
+}
+
+TEST(LinkageSimulationStudy, WritesWhatItReads) {
+  std::string messages;
+  const auto first = prepare(pendulum(), messages);
+  ASSERT_TRUE(first) << messages;
+  const auto second = prepare(study::to_toml(first->canonical), messages);
+  ASSERT_TRUE(second) << messages;
+  EXPECT_EQ(first->canonical, second->canonical);
+}
+
+TEST(LinkageSimulationStudy, RefusesMoreRowsThanThereIsMemoryFor) {
+  const MemoryLimit limit(1e9);
+  const std::string text = pendulum();
+  const auto at = text.find("samples = ");
+  ASSERT_NE(at, std::string::npos);
+  std::string many = text;
+  many.replace(at, many.find('\n', at) - at, "samples = 1000000");
+  EXPECT_THAT(
+      problems_of(many),
+      AllOf(HasSubstr("simulation.samples: 1000000 rows would take "),
+            HasSubstr(" GB of memory, at most 1 GB may be taken; take fewer samples, or allow more")));
+}
+
+TEST(LinkageSimulationStudy, NamesWhatIsWrong) {
+  EXPECT_THAT(problems_of(replaced(pendulum(), "free      = true", "free = false")),
+              HasSubstr("joint 'A' has neither a motion law nor free = true"));
+  EXPECT_THAT(problems_of(replaced(pendulum(), "free      = true", "free = true\nlaw = \"harmonic\"")),
+              HasSubstr("joint 'A' is free and has a motion law"));
+  EXPECT_THAT(problems_of(replaced(pendulum(), "to_s    = 5.0", "to_s = -1.0")),
+              HasSubstr("the simulation ends at -1 s, but starts at 0 s"));
+  EXPECT_THAT(problems_of(replaced(pendulum(), "mass_kg   = 0.3", "")), HasSubstr("'lower' has none"));
+  EXPECT_THAT(problems_of(pendulum() + "\n[extra]\n"), HasSubstr("extra"));
+  const std::string slider_crank = slider_crank_simulation_kind().example;
+  EXPECT_THAT(problems_of(replaced(slider_crank,
+                                   "free            = true\nstart_deg       = 90.0\nstart_speed_rpm = 600.0",
+                                   "law = \"constant_speed\"\nspeed_rpm = 60.0")),
+              HasSubstr("every drive has a motion law: nothing is left for forces to move"));
+  EXPECT_THAT(problems_of(slider_crank + "route = \"all_coordinates\"\nmethod = \"adams\"\n"),
+              HasSubstr("all_coordinates are projected after every step, which adams does not allow"));
+}
+
+// A motion that ends early keeps its rows and says why, with what to do.
+TEST(LinkageSimulationStudy, TellsWhyAMotionEnds) {
+  const std::string chain = R"(schema = 1
+kind = "simulation"
+[mechanism]
+type = "planar.linkage"
+sample = "four_bar_chain"
+sample_count = 2
+[[drive]]
+free = true
+start_deg = 90.0
+start_speed_rad_per_s = -1.0
+[simulation]
+to_s = 2.0
+samples = 201
+)";
+  const study::Result stopped = run_text(chain + "at_change_point = \"stop\"\n");
+  EXPECT_EQ(stopped.status, Status::limit_reached);
+  EXPECT_EQ(stopped.tables[0].find("time_s")->values.size(), 72u);
+  EXPECT_THAT(to_string(stopped.diagnostics.at(0)), HasSubstr("can go on in two ways"));
+  const study::Result smooth = run_text(chain);
+  EXPECT_EQ(smooth.status, Status::done);
+  EXPECT_THAT(fact(smooth, "change points"), ::testing::StartsWith("2, the first at 0.7143 s with P0 at"));
+  EXPECT_THAT(to_string(smooth.diagnostics.at(0)),
+              HasSubstr("the linkage went through 2 change points, where it can go on in two ways"));
+}
+
+TEST(LinkageSimulationStudy, ExamplesPassTheirChecks) {
+  for (const char* name : {"andrews-squeezer", "four-bar-chain-2", "four-bar-chain-40", "double-pendulum"}) {
+    SCOPED_TRACE(name);
+    const std::filesystem::path file =
+        std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples/studies" / (std::string(name) + ".toml");
+    const std::vector<study::Kind> kinds = studies();
+    Diagnostics diagnostics;
+    const auto study = study::prepare(study::read_file(file, diagnostics), file.string(), file.parent_path(),
+                                      kinds, diagnostics);
+    EXPECT_THAT(diagnostics, IsEmpty());
+    ASSERT_TRUE(study);
+    RunContext context;
+    const study::Result result = study::run_study(*study, context);
+    EXPECT_EQ(result.status, Status::done);
+    EXPECT_FALSE(result.checks.empty());
+    for (const study::Check& check : result.checks)
+      EXPECT_TRUE(check.passed) << check.quantity << " " << check.value << check.message;
+  }
+}
+
+}  // namespace
+}  // namespace linkwright::planar
