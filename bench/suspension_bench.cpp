@@ -1,11 +1,11 @@
 #include <benchmark/benchmark.h>
 
-#include "linkwright/suspension/axle_sweep.h"
-#include "linkwright/suspension/compliance.h"
-#include "linkwright/suspension/derivatives.h"
-#include "linkwright/suspension/samples.h"
-#include "linkwright/suspension/statics.h"
-#include "linkwright/suspension/wheel_parameters.h"
+#include "linkwright/suspension/compliance/compliance.h"
+#include "linkwright/suspension/compliance/statics.h"
+#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/wheel/axle_sweep.h"
+#include "linkwright/suspension/wheel/derivatives.h"
+#include "linkwright/suspension/wheel/parameters.h"
 
 namespace linkwright::suspension {
 namespace {

@@ -18,10 +18,10 @@
 #include <vector>
 
 #include "linkwright/math/angles.h"
-#include "linkwright/suspension/guide_deviations.h"
-#include "linkwright/suspension/indirect_synthesis.h"
-#include "linkwright/suspension/published_guides.h"
-#include "linkwright/suspension/samples.h"
+#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/indirect/guide_deviations.h"
+#include "linkwright/suspension/indirect/published_guides.h"
+#include "linkwright/suspension/indirect/synthesis.h"
 
 namespace {
 

@@ -4,13 +4,13 @@
 #include <limits>
 
 #include "linkwright/math/angles.h"
-#include "linkwright/suspension/indirect_synthesis.h"
-#include "linkwright/suspension/indirect_synthesis_spin.h"
-#include "linkwright/suspension/link_synthesis.h"
-#include "linkwright/suspension/position.h"
-#include "linkwright/suspension/published_targets.h"
-#include "linkwright/suspension/samples.h"
-#include "linkwright/suspension/seven_poses.h"
+#include "linkwright/suspension/direct/published_targets.h"
+#include "linkwright/suspension/guide/position.h"
+#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/indirect/link_synthesis.h"
+#include "linkwright/suspension/indirect/seven_poses.h"
+#include "linkwright/suspension/indirect/synthesis.h"
+#include "linkwright/suspension/indirect/synthesis_spin.h"
 
 namespace linkwright::suspension {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "linkwright/suspension/published_targets.h"
+#include "linkwright/suspension/direct/published_targets.h"
 #include "tests/suspension/guides.h"
 
 namespace linkwright::suspension::test {

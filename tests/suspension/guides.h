@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "linkwright/suspension/suspension.h"
+#include "linkwright/suspension/guide/suspension.h"
 #include "support/published.h"
 
 // Wheel guides as tests/published/suspension.json writes them (figures of Poznanovic 2016 and computed

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "linkwright/core/random.h"
-#include "linkwright/suspension/carrier_poses.h"
-#include "linkwright/suspension/link_fit.h"
+#include "linkwright/suspension/guide/carrier_poses.h"
+#include "linkwright/suspension/indirect/link_fit.h"
 #include "support/published.h"
 #include "tests/suspension/guides.h"
 

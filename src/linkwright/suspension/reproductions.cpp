@@ -8,12 +8,12 @@
 #include <limits>
 
 #include "linkwright/math/angles.h"
-#include "linkwright/suspension/guide_deviations.h"
-#include "linkwright/suspension/indirect_synthesis.h"
-#include "linkwright/suspension/position.h"
-#include "linkwright/suspension/published_guides.h"
-#include "linkwright/suspension/published_targets.h"
-#include "linkwright/suspension/samples.h"
+#include "linkwright/suspension/direct/published_targets.h"
+#include "linkwright/suspension/guide/position.h"
+#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/indirect/guide_deviations.h"
+#include "linkwright/suspension/indirect/published_guides.h"
+#include "linkwright/suspension/indirect/synthesis.h"
 
 namespace linkwright::suspension {
 namespace {

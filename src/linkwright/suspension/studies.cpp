@@ -1,8 +1,8 @@
 #include "linkwright/suspension/studies.h"
 
-#include "linkwright/suspension/direct_study.h"
-#include "linkwright/suspension/indirect_study.h"
-#include "linkwright/suspension/sweep_study.h"
+#include "linkwright/suspension/studies/direct.h"
+#include "linkwright/suspension/studies/indirect.h"
+#include "linkwright/suspension/studies/sweep.h"
 
 namespace linkwright::suspension {
 

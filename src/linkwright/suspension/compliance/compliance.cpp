@@ -1,0 +1,443 @@
+#include "linkwright/suspension/compliance/compliance.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "linkwright/core/check.h"
+#include "linkwright/suspension/compliance/elastic_assembly.h"
+
+namespace linkwright::suspension {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Block = Eigen::Matrix<double, 6, 6>;
+using Solution = Eigen::Ref<const VectorXd>;  ///< displacements of the bodies, then multipliers
+using Row12 = Eigen::Matrix<double, 12, 1>;   ///< a relative displacement: by the first body, by the second
+
+/// Reciprocal condition below which an answer would be rounding.
+constexpr double no_rank = 1e-14;
+
+Eigen::Vector3d eigen(const Vec3& a) { return {a.x, a.y, a.z}; }
+Matrix3d skew(const Vec3& a) { return (Matrix3d() << 0, -a.z, a.y, a.z, 0, -a.x, -a.y, a.x, 0).finished(); }
+
+/// weight . (displacement of `point` as one of the body)
+Eigen::Matrix<double, 6, 1> point_row(const ElasticAssembly& of, int body, const Vec3& point,
+                                      const Vec3& weight) {
+  Eigen::Matrix<double, 6, 1> out;
+  out << eigen(weight), eigen(cross(of.arm(body, point), weight));
+  return out;
+}
+
+Row12 bar_row(const ElasticAssembly& of, const ElasticBar& bar) {
+  const Vec3 line = unit(bar.to - bar.from);
+  Row12 out = Row12::Zero();
+  if (bar.first != ground) out.head<6>() = -point_row(of, bar.first, bar.from, line);
+  if (bar.second != ground) out.tail<6>() = point_row(of, bar.second, bar.to, line);
+  return out;
+}
+
+Row12 joint_row(const ElasticAssembly& of, const ElasticJoint& joint, int component) {
+  const Vec3 axis = joint.axes.row[component % 3];
+  Row12 out = Row12::Zero();
+  if (component < 3) {
+    if (joint.first != ground) out.head<6>() = -point_row(of, joint.first, joint.point, axis);
+    out.tail<6>() = point_row(of, joint.second, joint.point, axis);
+  } else {
+    if (joint.first != ground) out.segment<3>(3) = -eigen(axis);
+    out.segment<3>(9) = eigen(axis);
+  }
+  return out;
+}
+
+/// Stiffness and rigid rows with one unknown each: [K G^T; G 0], divided by the largest stiffness so that
+/// both have the same size. Unknowns: displacements of the bodies, then multipliers.
+class Saddle {
+ public:
+  Saddle(ElasticAssembly& of, Support support) : of_(of) {
+    size_ = of.displacements();
+    for (ElasticJoint& joint : of.joints)
+      for (int i = 0; i < 6; ++i) {
+        const double stiffness = joint.stiffness.matrix ? 0
+                                                        : (i < 3 ? joint.stiffness.translation[i]
+                                                                 : joint.stiffness.rotation[i - 3]);
+        joint.multiplier[i] = stiffness == rigid ? size_++ : -1;
+      }
+    for (ElasticBar& bar : of.couplers) bar.multiplier = bar.stiffness == rigid ? size_++ : -1;
+    if (of.spring) of.spring->multiplier = support == Support::spring_held ? size_++ : -1;
+    height_ = support == Support::wheel_centre_held || support == Support::contact_held ? size_++ : -1;
+    for (HeldTurn& turn : of.held_turns) turn.multiplier = size_++;
+
+    matrix_ = MatrixXd::Zero(size_, size_);
+    for (const ElasticJoint& joint : of.joints) add_joint(joint);
+    for (const ElasticBar& bar : of.couplers) add_bar(bar);
+    if (of.spring && (support == Support::spring || support == Support::spring_held)) add_bar(*of.spring);
+    if (height_ >= 0) {
+      const Vec3 up{0, 0, 1};
+      Row12 row = Row12::Zero();
+      row.tail<6>() << eigen(up), eigen(cross(of.height_arm, up));
+      hold(height_, ground, 0, row);
+    }
+    for (const HeldTurn& turn : of.held_turns) {
+      Row12 row = Row12::Zero();
+      row.segment<3>(9) = eigen(turn.about);
+      hold(turn.multiplier, ground, turn.body, row);
+    }
+    const int n = of.displacements();
+    scale_ = std::max(1.0, matrix_.topLeftCorner(n, n).diagonal().cwiseAbs().maxCoeff());
+  }
+
+  /// Adds to the stiffness between the displacements of two bodies; the transposed block by itself.
+  void add(int a, int b, const Block& block) {
+    if (a == ground || b == ground) return;
+    matrix_.block<6, 6>(6 * a, 6 * b) += block;
+    if (a != b) matrix_.block<6, 6>(6 * b, 6 * a) += block.transpose();
+  }
+
+  /// False: singular, with the reason.
+  bool factor(std::string& reason) {
+    const int n = of_.displacements();
+    matrix_.topLeftCorner(n, n) /= scale_;
+    lu_.compute(matrix_);
+    if (lu_.rcond() > no_rank) return true;
+    reason = weakness();
+    return false;
+  }
+
+  /// Answers to right-hand sides of loads on the displacements and of given relative displacements on the
+  /// multipliers; multipliers come out in N and N m.
+  MatrixXd solve(MatrixXd right) const {
+    const int n = of_.displacements();
+    right.topRows(n) /= scale_;
+    MatrixXd out = lu_.solve(right);
+    out.bottomRows(size_ - n) *= scale_;
+    return out;
+  }
+
+  int size() const { return size_; }
+  int height() const { return height_; }
+
+ private:
+  void hold(int multiplier, int first, int second, const Row12& row) {
+    for (const auto& [body, part] : {std::pair{first, 0}, std::pair{second, 6}}) {
+      if (body == ground) continue;
+      matrix_.block<1, 6>(multiplier, 6 * body) += row.segment<6>(part).transpose();
+      matrix_.block<6, 1>(6 * body, multiplier) += row.segment<6>(part);
+    }
+  }
+
+  void add_pair(int first, int second, const Eigen::Matrix<double, 12, 12>& k) {
+    add(first, first, k.topLeftCorner<6, 6>());
+    add(second, second, k.bottomRightCorner<6, 6>());
+    add(first, second, k.topRightCorner<6, 6>());
+  }
+
+  void add_joint(const ElasticJoint& joint) {
+    Eigen::Matrix<double, 12, 6> rows;
+    for (int i = 0; i < 6; ++i) rows.col(i) = joint_row(of_, joint, i);
+    Block k = Block::Zero();
+    for (int i = 0; i < 6; ++i) {
+      if (joint.stiffness.matrix)
+        for (int j = 0; j < 6; ++j) k(i, j) = (*joint.stiffness.matrix)[i][j];
+      else if (joint.multiplier[i] >= 0)
+        hold(joint.multiplier[i], joint.first, joint.second, rows.col(i));
+      else
+        k(i, i) = i < 3 ? joint.stiffness.translation[i] : joint.stiffness.rotation[i - 3];
+    }
+    add_pair(joint.first, joint.second, rows * k * rows.transpose());
+  }
+
+  void add_bar(const ElasticBar& bar) {
+    const Row12 row = bar_row(of_, bar);
+    if (bar.multiplier >= 0)
+      hold(bar.multiplier, bar.first, bar.second, row);
+    else
+      add_pair(bar.first, bar.second, bar.stiffness * row * row.transpose());
+  }
+
+  /// What a vector of the null space says: a body that moves without resistance, or rigid joints that hold
+  /// against each other.
+  std::string weakness() const {
+    const Eigen::FullPivLU<MatrixXd> full(matrix_);
+    const MatrixXd kernel = full.kernel();
+    const VectorXd free = kernel.col(0).normalized();
+    const int n = of_.displacements();
+    double most = 1e-6;
+    int body = -1;
+    for (int i = 0; i < static_cast<int>(of_.origin.size()); ++i)
+      if (free.segment<6>(6 * i).norm() > most) {
+        body = i;
+        most = free.segment<6>(6 * i).norm();
+      }
+    if (free.head(n).norm() < 1e-6)
+      return "rigid joints hold the carrier more than once, so that their forces are not determined: give "
+             "some of them a stiffness";
+    if (free.head<6>().norm() > 1e-6) body = 0;
+    return fmt::format("{} can move without resistance: give its joints a stiffness, or hold it by a support",
+                       of_.labels[body]);
+  }
+
+  ElasticAssembly& of_;
+  int size_ = 0, height_ = -1;
+  double scale_ = 1;
+  MatrixXd matrix_;
+  Eigen::PartialPivLU<MatrixXd> lu_;
+};
+
+/// Right-hand sides: unit loads on the carrier, and the rack that takes body joints along by a metre.
+MatrixXd right_sides(const ElasticAssembly& of, const Saddle& saddle) {
+  MatrixXd out = MatrixXd::Zero(saddle.size(), 7);
+  out.topLeftCorner<6, 6>().setIdentity();
+  for (const ElasticJoint& joint : of.joints) {
+    if (joint.first != ground || !of.guide->links[joint.link].moved_by_rack) continue;
+    for (int i = 0; i < 6; ++i) {
+      const auto along = [&](int k) {
+        return k < 3 ? dot(joint.axes.row[k], of.guide->rack_direction) : 0.0;
+      };
+      if (joint.multiplier[i] >= 0) {
+        out(joint.multiplier[i], 6) = along(i);
+        continue;
+      }
+      double pull = 0;
+      if (joint.stiffness.matrix)
+        for (int j = 0; j < 6; ++j) pull += (*joint.stiffness.matrix)[i][j] * along(j);
+      else if (i < 3)
+        pull = joint.stiffness.translation[i] * along(i);
+      out.block<6, 1>(6 * joint.second, 6) += pull * joint_row(of, joint, i).tail<6>();
+    }
+  }
+  return out;
+}
+
+double elongation(const Row12& row, int first, int second, const Solution& x) {
+  double out = 0;
+  if (first != ground) out += row.head<6>().dot(x.segment<6>(6 * first));
+  if (second != ground) out += row.tail<6>().dot(x.segment<6>(6 * second));
+  return out;
+}
+
+double tension(const ElasticAssembly& of, const ElasticBar& bar, const Solution& x) {
+  return bar.multiplier >= 0 ? x(bar.multiplier)
+                             : bar.stiffness * elongation(bar_row(of, bar), bar.first, bar.second, x);
+}
+
+/// Force and moment on the second body.
+std::array<Vec3, 2> joint_force(const ElasticAssembly& of, const ElasticJoint& joint, const Solution& x,
+                                double rack) {
+  std::array<double, 6> relative{};
+  const bool moved = joint.first == ground && of.guide->links[joint.link].moved_by_rack;
+  for (int i = 0; i < 6; ++i) {
+    relative[i] = elongation(joint_row(of, joint, i), joint.first, joint.second, x);
+    if (moved && i < 3) relative[i] -= rack * dot(joint.axes.row[i], of.guide->rack_direction);
+  }
+  std::array<Vec3, 2> out{};
+  for (int i = 0; i < 6; ++i) {
+    double force = 0;
+    if (joint.stiffness.matrix)
+      for (int j = 0; j < 6; ++j) force -= (*joint.stiffness.matrix)[i][j] * relative[j];
+    else if (joint.multiplier[i] >= 0)
+      force = -x(joint.multiplier[i]);
+    else
+      force = -(i < 3 ? joint.stiffness.translation[i] : joint.stiffness.rotation[i - 3]) * relative[i];
+    out[i / 3] += force * joint.axes.row[i % 3];
+  }
+  if (joint.first == ground)  // a K joint that holds the link's spin
+    for (const HeldTurn& turn : of.held_turns)
+      if (turn.link == joint.link && turn.body == joint.second) out[1] += -x(turn.multiplier) * turn.about;
+  return out;
+}
+
+/// Second derivative of force . (shift of the end of the arm) by the turn of the arm, the force keeping its
+/// direction.
+Matrix3d turning_arm(const Vec3& force, const Vec3& arm) {
+  const Eigen::Vector3d f = eigen(force), r = eigen(arm);
+  return 0.5 * (f * r.transpose() + r * f.transpose()) - f.dot(r) * Matrix3d::Identity();
+}
+
+Block turn_block(const Matrix3d& m) {
+  Block out = Block::Zero();
+  out.bottomRightCorner<3, 3>() = m;
+  return out;
+}
+
+/// Geometric stiffness: second derivatives of the work of the forces that the position holds in balance.
+/// Forces of a joint act in its axes, which turn with the carrier (joints there) or stand still.
+void add_geometric(const ElasticAssembly& of, const Solution& x, const PointLoad& load, Saddle& to) {
+  to.add(0, 0, -turn_block(turning_arm(load.force, of.arm(0, load.point))));
+  for (const ElasticJoint& joint : of.joints) {
+    const auto [on_second, turning] = joint_force(of, joint, x, 0);
+    const Vec3 force = -on_second;  // derivative of the energy by the relative displacement
+    const int a = joint.first, b = joint.second;
+    const Vec3 rb = of.arm(b, joint.point);
+    to.add(b, b, turn_block(turning_arm(force, rb)));
+    if (a == ground) continue;  // its axes stand still, and a moment has no arm
+    const Vec3 ra = of.arm(a, joint.point);
+    to.add(a, a, -turn_block(turning_arm(force, ra)));
+    // The axes turn with the second body (the carrier): - turn . (force x relative shift).
+    const Matrix3d f = skew(force);
+    Block own = Block::Zero(), other = Block::Zero();
+    own.bottomLeftCorner<3, 3>() = f;
+    own.bottomRightCorner<3, 3>() = -f * skew(rb);
+    other.bottomLeftCorner<3, 3>() = -f;
+    other.bottomRightCorner<3, 3>() = f * skew(ra);
+    to.add(b, b, own + own.transpose());
+    to.add(b, a, other);
+    to.add(a, b, turn_block(-0.5 * skew(turning)));
+  }
+  // A K joint keeps its axes across each other: standing . exp(turn) turning = 0, to second order.
+  for (const HeldTurn& turn : of.held_turns) {
+    if (turn.link < 0) continue;
+    const Eigen::Vector3d a = eigen(turn.standing), b = eigen(turn.turning);
+    to.add(turn.body, turn.body,
+           turn_block(0.5 * x(turn.multiplier) * (a * b.transpose() + b * a.transpose())));
+  }
+  const auto add_bar = [&](const ElasticBar& bar) {
+    const double pull = tension(of, bar, x), length = norm(bar.to - bar.from);
+    const Vec3 line = unit(bar.to - bar.from);
+    const auto motion = [&](int body, const Vec3& point) {
+      Eigen::Matrix<double, 3, 6> out;
+      out << Matrix3d::Identity(), -skew(of.arm(body, point));
+      return out;
+    };
+    const Matrix3d across = pull / length * (Matrix3d::Identity() - eigen(line) * eigen(line).transpose());
+    const auto end = [&](int body, const Vec3& point, double sign) {
+      if (body == ground) return;
+      const auto m = motion(body, point);
+      to.add(body, body, m.transpose() * across * m);
+      to.add(body, body, turn_block(sign * turning_arm(pull * line, of.arm(body, point))));
+    };
+    end(bar.first, bar.from, -1);
+    end(bar.second, bar.to, 1);
+    if (bar.first != ground && bar.second != ground)
+      to.add(bar.first, bar.second,
+             -motion(bar.first, bar.from).transpose() * across * motion(bar.second, bar.to));
+  };
+  for (const ElasticBar& bar : of.couplers) add_bar(bar);
+  if (of.spring) add_bar(*of.spring);
+}
+
+Matrix6 plain(const Block& from) {
+  Matrix6 out{};
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) out[i][j] = from(i, j);
+  return out;
+}
+
+}  // namespace
+
+Compliance solve_compliance(const WheelGuide& guide, const GuidePlace& place, double rack,
+                            const GuideElasticity& elasticity, Support support,
+                            const std::optional<PointLoad>& preload) {
+  for (const Diagnostics& problems : {check(guide), check(guide, elasticity)})
+    LINKWRIGHT_REQUIRE(problems.empty(), "{} problems, the first: {}", problems.size(),
+                       to_string(problems.front()));
+  const bool by_spring = support == Support::spring || support == Support::spring_held;
+  LINKWRIGHT_REQUIRE(guide.spring || !by_spring, "the support is '{}', and the guide has no spring",
+                     name_of(support));
+  LINKWRIGHT_REQUIRE(guide.spring || !preload, "the preload needs a spring that carries it");
+
+  Compliance out{.support = support, .side = guide.side, .centre = place.carrier.centre};
+  out.angles = wheel_angles(guide.side, guide.wheel, place.carrier.rotation);
+  const Vec3 to_contact = contact_offset(guide.side, guide.wheel.tyre_diameter, out.angles);
+  out.contact = out.centre + to_contact;
+  ElasticAssembly assembly = assemble(guide, place, rack, elasticity);
+  if (support == Support::contact_held) assembly.height_arm = to_contact;
+  const auto fail = [&](std::string reason) {
+    out.status = Status::singular;
+    out.reason = std::move(reason);
+    return out;
+  };
+
+  VectorXd loaded;
+  std::string reason;
+  std::vector<JointForce> held;
+  if (preload) {
+    Saddle still(assembly, Support::spring_held);
+    if (!still.factor(reason)) return fail(std::move(reason));
+    const WheelLoad load = load_at(out.centre, preload->point, preload->force);
+    MatrixXd right = MatrixXd::Zero(still.size(), 1);
+    right.topRows(3) = eigen(load.force);
+    right.block<3, 1>(3, 0) = eigen(load.moment);
+    loaded = still.solve(right);
+    for (const ElasticJoint& joint : assembly.joints) {
+      const auto [force, moment] = joint_force(assembly, joint, loaded, 0);
+      held.push_back({joint.link, joint.at_carrier, joint.point, force, moment});
+    }
+  }
+  // The geometric stiffness is that of the first solution, whose multipliers are numbered with the spring
+  // held.
+  ElasticAssembly preloaded = assembly;
+  Saddle saddle(assembly, support);
+  if (preload) add_geometric(preloaded, loaded, *preload, saddle);
+  if (!saddle.factor(reason)) return fail(std::move(reason));
+  const MatrixXd right = right_sides(assembly, saddle), x = saddle.solve(right);
+
+  Block centre = x.topLeftCorner<6, 6>();
+  centre = 0.5 * (centre + centre.transpose()).eval();
+  Block shifted = Block::Identity();
+  shifted.topRightCorner<3, 3>() = -skew(to_contact);
+  out.at_centre = plain(centre);
+  out.at_contact = plain(shifted * centre * shifted.transpose());
+  for (int i = 0; i < 6; ++i) out.by_rack[i] = x(i, 6);
+
+  for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
+    const ElasticJoint& joint = assembly.joints[i];
+    JointTransfer& transfer = out.joints.emplace_back();
+    transfer.joint = preload ? held[i] : JointForce{joint.link, joint.at_carrier, joint.point, {}, {}};
+    for (int load = 0; load < 7; ++load) {
+      const auto [force, moment] = joint_force(assembly, joint, x.col(load), load == 6 ? 1 : 0);
+      const std::array<double, 6> all{force.x, force.y, force.z, moment.x, moment.y, moment.z};
+      for (int k = 0; k < 6; ++k) transfer.by[k][load] = all[k];
+      // The rack pushes with what the links give to it.
+      if (load == 6 && joint.first == ground && guide.links[joint.link].moved_by_rack)
+        out.rack_stiffness += dot(force, guide.rack_direction);
+    }
+  }
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  out.couplers.resize(assembly.couplers.size());
+  for (int load = 0; load < 7; ++load) {
+    for (std::size_t i = 0; i < assembly.couplers.size(); ++i)
+      out.couplers[i][load] = tension(assembly, assembly.couplers[i], x.col(load));
+    out.spring[load] = by_spring ? -tension(assembly, *assembly.spring, x.col(load)) : none;
+    out.height[load] = saddle.height() >= 0 ? -x(saddle.height(), load) : none;
+  }
+  return out;
+}
+
+ElasticResponse respond(const Compliance& compliance, const WheelLoad& load, double rack) {
+  LINKWRIGHT_REQUIRE(compliance.status == Status::done, "the compliance is {}: {}",
+                     to_string(compliance.status), compliance.reason);
+  const std::array<double, 7> by{load.force.x,  load.force.y,  load.force.z, load.moment.x,
+                                 load.moment.y, load.moment.z, rack};
+  const auto sum = [&](const std::array<double, 7>& row) {
+    double out = 0;
+    for (int i = 0; i < 7; ++i) out += row[i] * by[i];
+    return out;
+  };
+  std::array<double, 6> moved{};
+  for (int i = 0; i < 6; ++i) {
+    moved[i] = compliance.by_rack[i] * rack;
+    for (int j = 0; j < 6; ++j) moved[i] += compliance.at_centre[i][j] * by[j];
+  }
+  ElasticResponse out{.shift = {moved[0], moved[1], moved[2]}, .turn = {moved[3], moved[4], moved[5]}};
+  out.contact_shift = out.shift + cross(out.turn, compliance.contact - compliance.centre);
+  const WheelAngles change = angle_rates(compliance.side, compliance.angles, out.turn);
+  out.toe = change.toe;
+  out.camber = change.camber;
+  out.spring_force = sum(compliance.spring);
+  out.height_force = sum(compliance.height);
+  for (const JointTransfer& transfer : compliance.joints) {
+    JointForce joint = transfer.joint;
+    joint.force = {sum(transfer.by[0]), sum(transfer.by[1]), sum(transfer.by[2])};
+    joint.moment = {sum(transfer.by[3]), sum(transfer.by[4]), sum(transfer.by[5])};
+    out.joints.push_back(joint);
+  }
+  for (const auto& row : compliance.couplers) out.couplers.push_back(sum(row));
+  return out;
+}
+
+}  // namespace linkwright::suspension

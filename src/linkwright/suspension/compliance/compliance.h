@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/core/status.h"
+#include "linkwright/suspension/compliance/elasticity.h"
+#include "linkwright/suspension/guide/position.h"
+#include "linkwright/suspension/guide/wheel.h"
+
+/// Elasto-kinematics: how a wheel moves under load because the joints of its links give way. Linear, about a
+/// position of the rigid guide: small motions of the carrier and of every link as rigid bodies, joints with
+/// six stiffnesses each, rigid ones exact (Lagrange multipliers).
+namespace linkwright::suspension {
+
+/// What carries the wheel's load. Figures differ grossly with it, so it belongs to every result: with the
+/// spring active a lateral force also makes the wheel travel.
+enum class Support { spring, spring_held, wheel_centre_held, contact_held };
+constexpr std::array<EnumName<Support>, 4> names(Support) {
+  return {{{Support::spring, "spring", "the spring with its stiffness: the wheel travels"},
+           {Support::spring_held, "spring_held", "length of the spring held"},
+           {Support::wheel_centre_held, "wheel_centre_held", "height of the wheel centre held"},
+           {Support::contact_held, "contact_held", "height of the contact point held, as on a rig"}}};
+}
+
+/// Force (N) and moment (N m) on the carrier about the wheel centre, vehicle frame.
+struct WheelLoad {
+  Vec3 force, moment;
+};
+
+/// Load of a force at a point (m, vehicle frame) and of a moment on a carrier with its wheel centre at
+/// `centre`.
+constexpr WheelLoad load_at(const Vec3& centre, const Vec3& point, const Vec3& force,
+                            const Vec3& moment = {}) {
+  return {force, moment + cross(point - centre, force)};
+}
+
+/// Force at a point of the carrier (m, vehicle frame) that keeps its direction.
+struct PointLoad {
+  Vec3 point, force;
+};
+
+/// Force (N) and moment (N m) in a joint: on the link by the body, or on the carrier by the link (R and S: by
+/// the body), at the joint's point. Vehicle frame.
+struct JointForce {
+  int link = 0;
+  bool at_carrier = false;
+  Vec3 point;
+  Vec3 force, moment;
+};
+
+/// Answer of a joint to unit loads: columns 0 to 5 force along and moment about x, y, z at the wheel centre,
+/// 6 a metre of rack. Rows: force, moment.
+struct JointTransfer {
+  JointForce joint;  ///< where it is; its force and moment are those of the preload
+  std::array<std::array<double, 7>, 6> by{};
+};
+
+/// A guide with elastic joints at a position. Rows and columns of matrices: x, y, z, about x, y, z.
+struct Compliance {
+  /// singular: see the reason.
+  Status status = Status::done;
+  std::string reason;  ///< empty, or what is left free or held twice
+  Support support = Support::spring;
+  Side side = Side::left;
+  WheelAngles angles;
+  Vec3 centre, contact;
+  /// Motion of the wheel centre and turn of the carrier (m, rad) by force and moment there (N, N m), and the
+  /// same at the contact for the point of the carrier there. Symmetric; positive definite with the spring
+  /// active and all directions elastic, else semidefinite.
+  Matrix6 at_centre{}, at_contact{};
+  std::array<double, 6> by_rack{};    ///< motion without load by a metre of rack (m/m, rad/m)
+  double rack_stiffness = 0;          ///< N/m, of the guide against its rack without load on the wheel
+  std::vector<JointTransfer> joints;  ///< links in their order, joints at the body first
+  /// Tension of each coupler (N), compression of the spring (N, force with which it pushes its ends apart)
+  /// and upward force of a held height on the carrier (N), by unit loads as in `JointTransfer`. NaN = none.
+  std::vector<std::array<double, 7>> couplers;
+  std::array<double, 7> spring{}, height{};
+};
+
+/// Assembles and solves the guide at a position of its carrier, as the kinematic solver or the reference
+/// gives it. Any number of links: a guide whose rigid links would lock is what elastic joints are for.
+///
+/// With a `preload` (such as the static load at the contact) the turning of loaded links and of the load's
+/// own arm is taken in (geometric stiffness), to first order in the forces of all joints, of which the spring
+/// as it stands takes its share; needs a spring. Moments of bushings from travel before are not known and not
+/// in it.
+///
+/// Throws ContractError for what `check` finds, and for a support that needs a spring when there is none.
+Compliance solve_compliance(const WheelGuide& guide, const GuidePlace& place, double rack,
+                            const GuideElasticity& elasticity, Support support,
+                            const std::optional<PointLoad>& preload = std::nullopt);
+
+/// What a load and a rack displacement (m) do to first order. Changes from the position without them.
+struct ElasticResponse {
+  Vec3 shift, turn;            ///< of the wheel centre (m) and of the carrier (rad)
+  Vec3 contact_shift;          ///< m, point of the carrier at the contact
+  double toe = 0, camber = 0;  ///< rad
+  double spring_force = 0;     ///< N, more compression
+  double height_force = 0;     ///< N, upward, of a height that is held
+  std::vector<JointForce> joints;
+  std::vector<double> couplers;  ///< N, more tension
+};
+ElasticResponse respond(const Compliance& compliance, const WheelLoad& load, double rack = 0);
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "linkwright/suspension/compliance/elasticity.h"
+#include "linkwright/suspension/guide/constraints.h"
+
+/// The bodies and elastic elements of a guide at a position, as `solve_compliance` puts them together.
+namespace linkwright::suspension {
+
+/// In the place of a body's number: the vehicle body, which stands still.
+inline constexpr int ground = -1;
+
+/// Joint between two bodies: relative displacement of the second against the first, in its axes.
+struct ElasticJoint {
+  int first = ground, second = 0;
+  bool at_carrier = false;
+  int link = 0;
+  Vec3 point;
+  Mat3 axes;  ///< its rows
+  JointStiffness stiffness;
+  std::array<int, 6> multiplier{-1, -1, -1, -1, -1, -1};  ///< of rigid components
+};
+
+/// Something that acts along a line: a spring, a coupler. Elongation = motion of the second end against the
+/// first one along `line`.
+struct ElasticBar {
+  int first = ground, second = 0;
+  Vec3 from, to;
+  double stiffness = 0;
+  int multiplier = -1;
+};
+
+/// A turn of a body that no joint of it resists: of an SS link and a strut about their line, which no force
+/// feels; of a KS link about the direction across both axes of its K joint, which holds it rigidly. The joint
+/// keeps its axes across each other.
+struct HeldTurn {
+  int body = 0;
+  Vec3 about;              ///< unit
+  int link = -1;           ///< KS
+  Vec3 standing, turning;  ///< KS: axes of the K joint, unit; `about` = turning x standing
+  int multiplier = -1;  ///< moment of the body joint on the link about `about`, with the opposite sign (N m)
+};
+
+struct ElasticAssembly {
+  const WheelGuide* guide = nullptr;
+  std::vector<Vec3> origin;         ///< of the bodies: 0 is the carrier
+  std::vector<std::string> labels;  ///< of the bodies
+  std::vector<ElasticJoint> joints;
+  std::vector<ElasticBar> couplers;
+  std::optional<ElasticBar> spring;
+  std::vector<HeldTurn> held_turns;
+  Vec3 height_arm;  ///< from the wheel centre to the point whose height can be held
+
+  int displacements() const { return 6 * static_cast<int>(origin.size()); }
+  Vec3 arm(int body, const Vec3& point) const { return point - origin[body]; }
+};
+
+/// Bodies: the carrier with its origin at the wheel centre, then each link but R and S, its origin at the
+/// first body point as it stands. The stiffnesses have to be free of what `check` finds. The guide has to
+/// outlive the assembly.
+ElasticAssembly assemble(const WheelGuide& guide, const GuidePlace& place, double rack,
+                         const GuideElasticity& elasticity);
+
+}  // namespace linkwright::suspension

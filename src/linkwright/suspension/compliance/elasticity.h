@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/suspension/guide/suspension.h"
+
+/// How stiff the joints of a wheel guide are. Links are rigid; what is elastic lies in their joints.
+namespace linkwright::suspension {
+
+using Matrix6 = std::array<std::array<double, 6>, 6>;
+
+/// A component that gives way by nothing; it is kept exactly, not by a large number.
+inline constexpr double rigid = std::numeric_limits<double>::infinity();
+
+/// A joint as an elastic element in axes of its own: 0 leaves a component free, `rigid` holds it.
+struct JointStiffness {
+  /// Along and about the first, second and third axis: N/m, N m/rad. For a bushing the first axis is its own:
+  /// axial, radial, radial; torsional, conical, conical. As it stands: a ball joint that gives way by
+  /// nothing.
+  std::array<double, 3> translation{rigid, rigid, rigid};
+  std::array<double, 3> rotation{0, 0, 0};
+  /// First axis at the reference (any length), fixed in the body for a joint at the body and in the carrier
+  /// for one at the carrier. Zero: the axis of the hinge, or the line of the rod or strut as it stands.
+  Vec3 axis;
+  /// The second axis is this direction (at the reference) as far as it is across the first one. Zero: any.
+  Vec3 across;
+  /// Full stiffness in these axes (translations, then rotations) in the place of the numbers above:
+  /// symmetric, positive semidefinite.
+  std::optional<Matrix6> matrix;
+};
+
+/// A rubber bushing with the same stiffness all round its axis.
+JointStiffness bushing(double axial, double radial, double torsional, double conical, const Vec3& axis = {});
+/// A ball joint with the same stiffness in all directions (N/m).
+JointStiffness ball_joint(double stiffness);
+
+/// Joints of a link. None: as rigid as its type says (R hinge, S ball joint, P slide without turning). One
+/// where the type has two points: in the middle between them. Two: one at each point, such as both bushings
+/// of a wishbone; then rigid ones can hold the link more than once. R and S take joints at the body only.
+struct LinkElasticity {
+  std::vector<JointStiffness> body, carrier;
+};
+
+struct GuideElasticity {
+  std::vector<LinkElasticity> links;  ///< none (all rigid), or one a link
+  std::vector<double> couplers;       ///< along their line (N/m); none (rigid), or one a coupler
+  double spring = 0;                  ///< along its line, N/m
+};
+
+/// Rods that give way along their line only (rod and both joints in series, N/m); every link has to be a rod.
+GuideElasticity elastic_rods(const WheelGuide& guide, const std::vector<double>& rods, double spring);
+
+/// An ideal joint: 'R' hinge, 'S' ball joint, 'P' slide along its first axis.
+JointStiffness ideal_joint(char letter);
+
+/// What is wrong with the stiffnesses for this guide: counts, negative numbers, matrices that are not
+/// symmetric. Keys are "link.<name>", "coupler.<name>" and "spring".
+Diagnostics check(const WheelGuide& guide, const GuideElasticity& elasticity);
+
+}  // namespace linkwright::suspension

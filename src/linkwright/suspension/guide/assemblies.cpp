@@ -1,0 +1,121 @@
+#include "linkwright/suspension/guide/assemblies.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "linkwright/core/check.h"
+#include "linkwright/core/random.h"
+#include "linkwright/math/small_lu.h"
+
+namespace linkwright::suspension {
+namespace {
+
+constexpr int most_iterations = 80;
+constexpr double converged = 1e-12;   ///< m
+constexpr double longest_step = 0.3;  ///< m, rad
+constexpr double same = 1e-6;         ///< m, rad: places that are one
+
+template <int N>
+bool newton(const GuidePlan& plan, Driver driver, const GuideInput& input, GuidePlace& place,
+            double& residual) {
+  GuideEquations equations;
+  math::SmallLu<N> lu;
+  for (int i = 0; i < most_iterations; ++i) {
+    evaluate(plan, place, input.rack, driver, input.value, equations);
+    std::array<double, N> right;
+    residual = 0;
+    for (int k = 0; k < N; ++k) {
+      right[k] = equations.residual[k];
+      residual = std::max(residual, std::abs(right[k]));
+    }
+    if (!std::isfinite(residual)) return false;
+    if (residual <= converged) return true;
+    lu.factor(equations.jacobian);
+    const std::array<double, N> step = lu.solve(right);
+    double square = 0;
+    for (const double s : step) square += s * s;
+    if (!std::isfinite(square)) return false;
+    const double by = -std::min(1.0, longest_step / std::sqrt(square));
+    place.carrier.centre += by * Vec3{step[0], step[1], step[2]};
+    place.carrier.rotation =
+        math::rectified(math::turn_about(by * Vec3{step[3], step[4], step[5]}) * place.carrier.rotation);
+    if constexpr (N == 7) place.arm += by * step[6];
+  }
+  return false;
+}
+
+/// The equations do not tell a hinge from one put together the wrong way round, nor a strut from one that has
+/// passed its ball joint.
+bool right_way_round(const GuidePlan& plan, const GuidePlace& place, double rack) {
+  const Mat3& turned = place.carrier.rotation;
+  return std::all_of(plan.links.begin(), plan.links.end(), [&](const LinkConstants& link) {
+    if (link.type == LinkType::R) return dot(turned * link.carrier_axis, link.carrier_axis) > 0;
+    if (link.type == LinkType::RR)
+      return dot(turned * link.carrier_axis, math::turn_about(place.arm * link.axis) * link.carrier_axis) > 0;
+    if (link.type != LinkType::SP) return true;
+    const Vec3 body = link.body[0] + (link.moved_by_rack ? rack : 0) * plan.rack_direction;
+    return dot(place.carrier.centre + turned * link.offset[0] - body, turned * link.axis) > 0;
+  });
+}
+
+bool alike(const GuidePlace& a, const GuidePlace& b) {
+  double difference = norm(a.carrier.centre - b.carrier.centre);
+  for (int i = 0; i < 3; ++i)
+    difference = std::max(difference, norm(a.carrier.rotation.row[i] - b.carrier.rotation.row[i]));
+  return difference < same;
+}
+
+/// How far points of the carrier come from the wheel centre's reference.
+double reach(const GuidePlan& plan) {
+  double out = plan.wheel.tyre_diameter;
+  for (const LinkConstants& link : plan.links) {
+    const double carrier = std::max(norm(link.offset[0]), norm(link.offset[1]));
+    out = std::max(out, 2 * carrier + std::max(link.length[0], link.length[1]));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Assembly> assemblies(const GuidePlan& plan, Driver driver, const GuideInput& input,
+                                 std::uint64_t seed, int starts) {
+  LINKWRIGHT_REQUIRE(starts > 0, "{} starts", starts);
+  LINKWRIGHT_REQUIRE(driver != Driver::spring || plan.spring, "the guide has no spring");
+  const double far = 2 * reach(plan);
+  std::vector<Assembly> found;
+  for (int i = 0; i < starts; ++i) {
+    GuidePlace place{{plan.wheel.centre, {}}, 0};
+    if (i > 0) {
+      RandomStream random({seed, static_cast<std::uint32_t>(i)});
+      const auto shift = [&] { return random.uniform(-far / 2, far / 2); };
+      const double x = shift(), y = shift(), z = shift();
+      place.carrier.centre += Vec3{x, y, z};
+      const auto turn = [&] { return random.uniform(-std::numbers::pi, std::numbers::pi); };
+      const double a = turn(), b = turn(), c = turn();
+      place.carrier.rotation = math::turn_z(a) * math::turn_x(b) * math::turn_z(c);
+      place.arm = turn();
+    }
+    double residual = 0;
+    const bool good = plan.unknowns == 7 ? newton<7>(plan, driver, input, place, residual)
+                                         : newton<6>(plan, driver, input, place, residual);
+    if (!good || !right_way_round(plan, place, input.rack)) continue;
+    const auto known =
+        std::find_if(found.begin(), found.end(), [&](const Assembly& a) { return alike(a.place, place); });
+    if (known != found.end())
+      ++known->hits;
+    else
+      found.push_back({place, residual, 1});
+  }
+  const auto away = [&](const Assembly& a) {
+    double out = norm(a.place.carrier.centre - plan.wheel.centre);
+    for (int i = 0; i < 3; ++i) out += norm(a.place.carrier.rotation.row[i] - Mat3{}.row[i]);
+    return out;
+  };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const Assembly& a, const Assembly& b) { return away(a) < away(b); });
+  return found;
+}
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,94 @@
+#include "linkwright/suspension/guide/constraints.h"
+
+#include <cmath>
+
+#include "linkwright/core/check.h"
+#include "linkwright/suspension/guide/constraints_kernel.h"
+#include "linkwright/suspension/guide/structure.h"
+
+namespace linkwright::suspension {
+namespace {
+
+void require_spring(const GuidePlan& plan, Driver driver) {
+  LINKWRIGHT_REQUIRE(driver != Driver::spring || plan.spring,
+                     "the driver is the spring, and the guide has none");
+}
+
+}  // namespace
+
+GuidePlan prepare(const WheelGuide& guide) {
+  const Diagnostics problems = check(guide);
+  LINKWRIGHT_REQUIRE(problems.empty(), "{} problems, the first: {}", problems.size(),
+                     to_string(problems.front()));
+  const int freedoms = mobility(structure_of(guide), static_cast<int>(guide.couplers.size()));
+  LINKWRIGHT_REQUIRE(freedoms == 1, "the count of constraints leaves {} freedoms", freedoms);
+  GuidePlan plan = kernel::prepare(guide);
+  for (int i = 0; i < static_cast<int>(guide.links.size()); ++i) plan.labels.push_back(link_label(guide, i));
+  for (std::size_t i = 0; i < guide.couplers.size(); ++i) {
+    const std::string& name = guide.couplers[i].name;
+    plan.labels.push_back(name.empty() ? "coupler " + std::to_string(i + 1) : name);
+  }
+  return plan;
+}
+
+void evaluate(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver, double value,
+              GuideEquations& out) {
+  require_spring(plan, driver);
+  kernel::evaluate(plan, place, rack, driver, value, out);
+}
+
+double driver_value(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver) {
+  require_spring(plan, driver);
+  return kernel::driver_value(plan, place, rack, driver);
+}
+
+double driver_rate(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver,
+                   const Twist& twist, double rack_rate) {
+  require_spring(plan, driver);
+  return kernel::driver_rate(plan, place, rack, driver, twist, rack_rate);
+}
+
+Misfit worst_misfit(const GuidePlan& plan, const GuidePlace& place, double rack) {
+  const kernel::Placed<double> placed{plan, place, rack};
+  Misfit worst;
+  const auto keep = [&](int link, double gap) {
+    if (std::abs(gap) > std::abs(worst.gap) || worst.link < 0) worst = {link, gap};
+  };
+  const int links = static_cast<int>(plan.links.size());
+  for (int i = 0; i < links; ++i) {
+    const LinkConstants& link = plan.links[i];
+    const auto point = [&](int k) { return placed.point(placed.offset(link.offset[k])); };
+    const Vec3 d = point(0) - placed.body(link, 0);
+    switch (link.type) {
+      case LinkType::KS:
+      case LinkType::SS:
+        keep(i, norm(d) - link.length[0]);
+        break;
+      case LinkType::RS:
+        keep(i, norm(d) - link.length[0]);
+        keep(i, norm(point(0) - placed.body(link, 1)) - link.length[1]);
+        break;
+      case LinkType::SR:
+        keep(i, norm(d) - link.length[0]);
+        keep(i, norm(point(1) - placed.body(link, 0)) - link.length[1]);
+        break;
+      case LinkType::SP:
+        keep(i, norm(cross(d, placed.offset(link.axis))));
+        break;
+      case LinkType::S:
+      case LinkType::R:
+        keep(i, norm(d));
+        break;
+      case LinkType::RR:
+        keep(i, norm(d - math::turn_about(place.arm * link.axis) *
+                             (plan.wheel.centre + link.offset[0] - link.body[0])));
+        break;
+    }
+  }
+  for (std::size_t i = 0; i < plan.couplers.size(); ++i)
+    keep(links + static_cast<int>(i),
+         norm(kernel::ends(placed, plan.couplers[i]).between) - plan.couplers[i].length);
+  return worst;
+}
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "linkwright/suspension/guide/constructions.h"
+#include "linkwright/suspension/guide/suspension.h"
+
+/// The equations of a wheel guide: residuals of its joints and of a driver, with exact derivatives.
+namespace linkwright::suspension {
+
+/// Which coordinate is prescribed beside the rack, as a change from the reference (m).
+enum class Driver { wheel_centre_z, contact_z, spring };
+constexpr std::array<EnumName<Driver>, 3> names(Driver) {
+  return {{{Driver::wheel_centre_z, "wheel_centre_z", "height of the wheel centre"},
+           {Driver::contact_z, "contact_z", "height of the lowest point of the tyre"},
+           {Driver::spring, "spring", "length of the spring, longer positive"}}};
+}
+
+/// Where a guide stands: the carrier, and the angle (rad, from the reference, right-handed from the first to
+/// the second body point) of its RR arm if it has one.
+template <class T>
+struct BasicGuidePlace {
+  BasicCarrierPose<T> carrier;
+  T arm{0};
+};
+using GuidePlace = BasicGuidePlace<double>;
+
+/// Rates of a guide: velocity of the wheel centre (m/s), angular velocity of the carrier (rad/s), rate of the
+/// arm.
+template <class T>
+struct BasicTwist {
+  Vector3<T> velocity;
+  Vector3<T> turning;
+  T arm{0};
+};
+using Twist = BasicTwist<double>;
+
+/// Constants of a link in the equations. Offsets are those of carrier points from the wheel centre.
+template <class T>
+struct BasicLinkConstants {
+  LinkType type = LinkType::KS;
+  bool moved_by_rack = false;
+  std::array<Vector3<T>, 2> body, offset;
+  std::array<T, 2> length{};         ///< of the distances that it keeps
+  Vector3<T> axis;                   ///< unit: strut line, hinge axis in the body (R, RR)
+  Vector3<T> carrier_axis;           ///< unit: hinge axis in the carrier (R, RR)
+  Vector3<T> standing_axis;          ///< unit: axis of the K joint in the body (KS)
+  std::array<Vector3<T>, 2> across;  ///< unit, normal to the strut line or to the carrier's axis
+};
+using LinkConstants = BasicLinkConstants<double>;
+
+/// A point fixed to a link, by three points of the link P, Q, S: P + a (Q - P) + b (S - P) + k (Q - P) x (S -
+/// P).
+template <class T>
+struct BasicAffinePoint {
+  T a{0}, b{0}, k{0};
+};
+using AffinePoint = BasicAffinePoint<double>;
+
+/// A point fixed to a rod: its share of the rod's line, and where a K joint holds the rod's spin its offsets
+/// from the line (m), along the axis of the joint that turns with the rod and across both.
+template <class T>
+struct BasicRodPoint {
+  T along{0}, beside{0}, above{0};
+  bool held = false;
+};
+using RodPoint = BasicRodPoint<double>;
+
+template <class T>
+struct BasicCouplerConstants {
+  int first = 0, second = 0;
+  BasicRodPoint<T> begin;
+  T length{0};
+  BasicAffinePoint<T> point;
+};
+using CouplerConstants = BasicCouplerConstants<double>;
+
+template <class T>
+struct BasicSpringConstants {
+  Vector3<T> body;
+  Vector3<T> offset;  ///< carrier: from the wheel centre; RR arm: from its first body point
+  int link = -1;
+  T length{0};
+  BasicRodPoint<T> on_rod;
+  BasicAffinePoint<T> point;
+};
+using SpringConstants = BasicSpringConstants<double>;
+
+/// A guide made ready for solving. Make it with `prepare`.
+template <class T>
+struct BasicGuidePlan {
+  Side side = Side::left;
+  BasicGuideWheel<T> wheel;
+  Vector3<T> wheel_axis;  ///< unit, outboard, at the reference
+  Vector3<T> contact;     ///< point of the tyre, at the reference
+  Vec3 rack_direction;
+  std::vector<BasicLinkConstants<T>> links;
+  std::vector<BasicCouplerConstants<T>> couplers;
+  std::optional<BasicSpringConstants<T>> spring;
+  GuideConstruction construction;
+  std::vector<std::string> labels;  ///< of the links and couplers
+  int unknowns = 6;                 ///< 7 with an RR arm
+};
+using GuidePlan = BasicGuidePlan<double>;
+
+/// Throws ContractError for a guide that `check` finds errors in, or whose constraints do not add up to five.
+GuidePlan prepare(const WheelGuide& guide);
+
+inline constexpr int most_unknowns = 7;
+
+/// Residuals and their derivatives with respect to the unknowns - shift of the wheel centre, small turn of
+/// the carrier, angle of the arm - and to the rack. First the constraints, in the order of links and couplers
+/// (m; rad for directions of hinges), the driver last. A distance d that should be l has the residual (d^2 -
+/// l^2) / (2 l); a strut has two distances across its line (equation 43, two rows); an RR arm is placed by
+/// its angle, since its four distances (equation 44) lose rank where its axes meet or are parallel.
+template <class T>
+struct BasicGuideEquations {
+  std::array<T, most_unknowns> residual{};
+  std::array<std::array<T, most_unknowns>, most_unknowns> jacobian{};  ///< [equation][unknown]
+  std::array<T, most_unknowns> by_rack{};
+};
+using GuideEquations = BasicGuideEquations<double>;
+
+/// `value` is what the driver should have (m). The driver `spring` needs a plan with a spring.
+void evaluate(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver, double value,
+              GuideEquations& out);
+
+/// What the driver's coordinate is at a place (m, change from the reference), and its rate for a motion.
+double driver_value(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver);
+double driver_rate(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver,
+                   const Twist& twist, double rack_rate);
+
+/// How much a KS link, or a distance of another link, is too long (+) or too short (-) at a place: the
+/// largest, and the link that has it. Hinges and struts are measured as they miss each other.
+struct Misfit {
+  int link = -1;   ///< links first, then couplers
+  double gap = 0;  ///< m
+};
+Misfit worst_misfit(const GuidePlan& plan, const GuidePlace& place, double rack);
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/core/diagnostic.h"
+#include "linkwright/core/field.h"
+#include "linkwright/core/table.h"
+#include "linkwright/suspension/guide/suspension.h"
+
+/// Hard points: the named points of a wheel guide as lists of other programs and drawings give them, and
+/// their conversion into the vehicle's frame (x forward, y to the left, z up, y = 0 in the middle; m).
+namespace linkwright::suspension {
+
+struct HardPoint {
+  std::string name;
+  Vec3 at;  ///< m
+
+  friend bool operator==(const HardPoint&, const HardPoint&) = default;
+};
+
+/// Where an axis of a list points, as seen by the driver.
+enum class Direction { forward, rearward, left, right, up, down };
+constexpr std::array<EnumName<Direction>, 6> names(Direction) {
+  return {{{Direction::forward, "forward"},
+           {Direction::rearward, "rearward"},
+           {Direction::left, "left"},
+           {Direction::right, "right"},
+           {Direction::up, "up"},
+           {Direction::down, "down"}}};
+}
+
+/// The frame that points are given in; by default the vehicle's own. Left-handed frames are mirrored as they
+/// must be: only directions count.
+struct PointFrame {
+  Direction x = Direction::forward, y = Direction::left, z = Direction::up;
+  Vec3 origin;  ///< m: its origin in the vehicle's frame
+};
+
+/// Empty, or why the three directions span no space ("x and z both lie along forward and rearward").
+std::string problem(const PointFrame& frame);
+
+/// A point of the frame (m) in the vehicle's frame, and back.
+Vec3 to_vehicle(const PointFrame& frame, const Vec3& at);
+Vec3 from_vehicle(const PointFrame& frame, const Vec3& at);
+
+/// The unit of lists that name none.
+enum class PointUnit { mm, cm, m, in };
+constexpr std::array<EnumName<PointUnit>, 4> names(PointUnit) {
+  return {{{PointUnit::mm, "mm"}, {PointUnit::cm, "cm"}, {PointUnit::m, "m"}, {PointUnit::in, "in"}}};
+}
+
+/// Reads a list of points, in the list's own frame but in metres. Two forms are known by their first line:
+/// - CSV with the columns name, x_mm, y_mm, z_mm (any unit of length; further columns are passed over);
+/// - plain text, one point a line: its name, of one or several words, quoted or not, with or without a number
+///   before it, then x, y, z, separated by blanks, tabs, commas or semicolons, as suspension programs print
+///   them. Lines that do not end in three numbers are headings and passed over, and so are comments (# $ !
+///   %). Commas may stand for decimal points where blanks or semicolons separate.
+/// Names are made plain: "Lower wishbone, front pivot" becomes lower_wishbone_front_pivot.
+/// Problems are appended with their line under the name `file`; nothing is returned if there is an error,
+/// such as two points of one name at different places, or no point at all.
+std::optional<std::vector<HardPoint>> read_hard_points(std::string_view text, const std::string& file,
+                                                       PointUnit unit, Diagnostics& diagnostics);
+
+/// The points as a table with names and columns x_m, y_m, z_m, which read_hard_points reads back.
+Table hard_point_table(const std::vector<HardPoint>& points);
+
+/// The points of a guide's links, couplers and spring, by the names of the links: tie_rod_body,
+/// lower_wishbone_body_2.
+std::vector<HardPoint> points_of(const WheelGuide& guide);
+
+/// A name in small letters, digits and _.
+std::string plain_name(std::string_view name);
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "linkwright/suspension/guide/suspension.h"
+
+namespace linkwright::suspension {
+
+/// A canned wheel guide.
+struct GuideSample {
+  std::string name;     ///< "2RS-KS": a basic mechanism; or that of a published example
+  std::string summary;  ///< what it is
+  WheelGuide guide;
+};
+
+/// All samples: the twelve basic mechanisms, one realistic left wheel each, movable by at least 80 mm both
+/// ways and five of them steered; then the four examples of Poznanovic 2016 (sections 6.1 to 6.4).
+std::span<const GuideSample> guide_samples();
+/// The sample of this name; throws ContractError when there is none.
+const GuideSample& guide_sample(std::string_view name);
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,218 @@
+#include "linkwright/suspension/guide/structure.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <Eigen/SVD>
+#include <algorithm>
+
+namespace linkwright::suspension {
+namespace {
+
+constexpr std::array order{LinkType::R,  LinkType::RR, LinkType::S, LinkType::RS,
+                           LinkType::SR, LinkType::SP, LinkType::KS};
+
+/// Below this (metres a radian) a singular value is rounding.
+constexpr double no_rank = 1e-9;
+
+std::string allowed() {
+  std::string out;
+  for (const auto& entry : names(LinkType{})) out += (out.empty() ? "" : ", ") + std::string(entry.name);
+  return out;
+}
+
+/// How the carrier moves: "turning about y", "turning about x with the wheel centre moving along y".
+std::string in_words(const Vec3& shift, const Vec3& turn, double radius) {
+  const auto largest = [](const Vec3& a) {
+    const std::array<double, 3> size{std::abs(a.x), std::abs(a.y), std::abs(a.z)};
+    return "xyz"[std::max_element(size.begin(), size.end()) - size.begin()];
+  };
+  if (norm(turn) < 1e-3 * norm(shift) / radius) return fmt::format("moving along {}", largest(shift));
+  std::string out = fmt::format("turning about {}", largest(turn));
+  if (norm(shift) > 0.3 * radius * norm(turn))
+    out += fmt::format(" with the wheel centre moving along {}", largest(shift));
+  return out;
+}
+
+std::string count_of(const Structure& structure, int couplers) {
+  std::string out;
+  for (LinkType type : order) {
+    const auto count = std::count_if(structure.begin(), structure.end(), [&](LinkType of) {
+      return of == type || (type == LinkType::KS && of == LinkType::SS);
+    });
+    if (count > 0)
+      out += fmt::format("{}{} {} takes {}", out.empty() ? "" : ", ", count, name_of(type),
+                         count * constraints(type));
+  }
+  if (couplers > 0) out += fmt::format(", {} couplers take {}", couplers, couplers);
+  return out;
+}
+
+void check_rank(const WheelGuide& guide, Diagnostics& found) {
+  const WeakMotion weakest =
+      weakest_motion(prepare(guide), {{guide.wheel.centre, {}}, 0}, 0, Driver::wheel_centre_z);
+  const double least = weakest.singular_value;
+  if (least >= poor_rank) return;
+  const std::string motion = in_words(weakest.shift, weakest.turn, guide.wheel.tyre_diameter / 2);
+  Diagnostic& out = found.emplace_back();
+  out.key = "links";
+  out.hint = "turn or move a link so that it stands against this motion";
+  if (least < no_rank) {
+    out.message = fmt::format(
+        "the count is right, and yet the links leave the carrier free with the height of the wheel "
+        "centre held: {}",
+        motion);
+  } else {
+    out.severity = Diagnostic::Severity::warning;
+    out.message = fmt::format(
+        "the links hardly hold the carrier with the height of the wheel centre held: {} (smallest "
+        "singular value {:.2g}, good ones are above {})",
+        motion, least, poor_rank);
+  }
+}
+
+}  // namespace
+
+ParsedStructure parse_structure(std::string_view name) {
+  ParsedStructure out;
+  const auto fail = [&](std::string problem) { return ParsedStructure{{}, std::move(problem)}; };
+  for (std::size_t at = 0; at <= name.size();) {
+    const std::size_t end = std::min(name.find('-', at), name.size());
+    const std::string_view part = name.substr(at, end - at);
+    const bool counted = !part.empty() && part[0] >= '0' && part[0] <= '9';
+    const std::string_view word = part.substr(counted ? 1 : 0);
+    const int count = counted ? part[0] - '0' : 1;
+    if (part.empty())
+      return fail(fmt::format("'{}' has nothing between its '-': write link types such as SR-3KS", name));
+    const auto known = names(LinkType{});
+    const auto entry =
+        std::find_if(known.begin(), known.end(), [&](const auto& of) { return of.name == word; });
+    if (entry == known.end())
+      return fail(fmt::format("'{}' in '{}' is no link type; there are {}", word, name, allowed()));
+    if (count < 1 || count > 5)
+      return fail(fmt::format("'{}' in '{}': a count lies between 1 and 5", part, name));
+    out.structure.insert(out.structure.end(), count, entry->value);
+    at = end + 1;
+  }
+  return out;
+}
+
+std::string structure_name(const Structure& structure) {
+  std::string out;
+  for (LinkType type : order) {
+    const auto count = std::count_if(structure.begin(), structure.end(), [&](LinkType of) {
+      return of == type || (type == LinkType::KS && of == LinkType::SS);
+    });
+    if (count == 0) continue;
+    if (!out.empty()) out += '-';
+    if (count > 1) out += std::to_string(count);
+    out += name_of(type);
+  }
+  return out;
+}
+
+Structure structure_of(const WheelGuide& guide) {
+  Structure out;
+  for (const GuideLink& link : guide.links) out.push_back(link.type);
+  return out;
+}
+
+int constraints(LinkType type) {
+  switch (type) {
+    case LinkType::R:
+      return 5;
+    case LinkType::RR:
+      return 4;
+    case LinkType::S:
+      return 3;
+    case LinkType::RS:
+    case LinkType::SR:
+    case LinkType::SP:
+      return 2;
+    case LinkType::KS:
+    case LinkType::SS:
+      return 1;
+  }
+  return 0;
+}
+
+int design_parameters(LinkType type) {
+  switch (type) {
+    case LinkType::R:
+      return 4;
+    case LinkType::RR:
+      return 8;
+    case LinkType::S:
+      return 3;
+    case LinkType::RS:
+    case LinkType::SR:
+      return 7;
+    case LinkType::SP:
+      return 5;
+    case LinkType::KS:
+    case LinkType::SS:
+      return 6;
+  }
+  return 0;
+}
+
+WeakMotion weakest_motion(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver) {
+  GuideEquations equations;
+  evaluate(plan, place, rack, driver, 0, equations);
+  const double radius = plan.wheel.tyre_diameter / 2;
+  Eigen::MatrixXd scaled(plan.unknowns, plan.unknowns);
+  for (int i = 0; i < plan.unknowns; ++i)
+    for (int j = 0; j < plan.unknowns; ++j) scaled(i, j) = equations.jacobian[i][j] / (j < 3 ? 1 : radius);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeFullV);
+  const Eigen::VectorXd free = svd.matrixV().col(plan.unknowns - 1);
+  return {svd.singularValues()(plan.unknowns - 1),
+          {free(0), free(1), free(2)},
+          {free(3) / radius, free(4) / radius, free(5) / radius}};
+}
+
+int mobility(const Structure& structure, int couplers) {
+  int out = 6 - couplers;
+  for (LinkType type : structure) out -= constraints(type);
+  return out;
+}
+
+std::vector<Structure> basic_structures() {
+  std::vector<Structure> out;
+  const auto add = [&](auto& self, std::size_t from, int left, const Structure& chosen) -> void {
+    if (left == 0) out.push_back(chosen);
+    for (std::size_t i = from; i < order.size(); ++i) {
+      const LinkType type = order[i];
+      const auto has = [&](LinkType of) { return std::count(chosen.begin(), chosen.end(), of) > 0; };
+      if (constraints(type) > left || (type == LinkType::SP && has(LinkType::SP)) ||
+          (constraints(type) == 2 && has(LinkType::S)))
+        continue;
+      Structure with = chosen;
+      with.push_back(type);
+      self(self, i, left - constraints(type), with);
+    }
+  };
+  add(add, 0, 5, {});
+  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  return out;
+}
+
+Diagnostics check_structure(const WheelGuide& guide) {
+  Diagnostics found = check(guide);
+  if (has_errors(found)) return found;
+  const Structure structure = structure_of(guide);
+  const int couplers = static_cast<int>(guide.couplers.size()), freedoms = mobility(structure, couplers);
+  if (freedoms != 1) {
+    const int held = 6 - freedoms;
+    Diagnostic& out = found.emplace_back();
+    out.key = "links";
+    out.message = fmt::format("the links take {} of the carrier's 6 freedoms ({}), 5 are to be taken", held,
+                              structure.empty() ? "there are none" : count_of(structure, couplers));
+    out.hint = held < 5 ? fmt::format("the wheel could move in {} ways: add links", freedoms)
+                        : "redundant links need elastic joints: rigid ones would lock, or fit by luck";
+    return found;
+  }
+  check_rank(guide, found);
+  return found;
+}
+
+}  // namespace linkwright::suspension

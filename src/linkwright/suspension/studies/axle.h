@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "linkwright/study/kind.h"
+#include "linkwright/suspension/studies/values.h"
+#include "linkwright/suspension/wheel/axle.h"
+#include "linkwright/suspension/wheel/axle_sweep.h"
+
+// What an analysis of a wheel guide may ask of the whole axle: `[vehicle]` and `[axle]`.
+namespace linkwright::suspension {
+
+/// `[vehicle]`.
+struct VehicleForm {
+  AxlePlace axle = AxlePlace::front;
+  VehicleLayout layout;
+};
+template <class Visitor>
+void fields(Visitor&& visit, VehicleForm& v) {
+  visit(Field{.key = "axle", .summary = "where this axle is"}, v.axle);
+  const auto length = [](std::string_view key, std::string_view summary) {
+    return Field{.key = key,
+                 .summary = summary,
+                 .dimension = Dimension::length,
+                 .minimum = 0.01,
+                 .maximum = 1e3,
+                 .required = true};
+  };
+  visit(length("wheelbase", "between the axles"), v.layout.wheelbase);
+  visit(length("centre_height", "mass centre above the ground"), v.layout.centre_height);
+  const auto share = [](std::string_view key, std::string_view summary) {
+    return Field{.key = key, .summary = summary, .minimum = 0, .maximum = 1};
+  };
+  visit(share("front_brake_share", "of the braking force"), v.layout.front_brake_share);
+  visit(share("axle_drive_share", "of the driving force at this axle"), v.layout.axle_drive_share);
+}
+
+/// `[axle]`: the symmetric axle of the guide.
+struct AxleForm {
+  std::optional<AngleValues> roll;
+  std::optional<LengthValues> rack;
+  std::optional<double> rack_per_turn;
+};
+template <class Visitor>
+void fields(Visitor&& visit, AxleForm& a) {
+  visit(Field{.key = "roll", .summary = "angles by which the body leans to the left over a plane road"},
+        a.roll);
+  visit(Field{.key = "rack", .summary = "displacements of the rack, the wheels at their reference height"},
+        a.rack);
+  visit(Field{.key = "rack_per_turn",
+              .summary = "C factor: rack travel by a turn of the steering wheel, for the steering ratio",
+              .dimension = Dimension::length,
+              .minimum = 1e-4,
+              .maximum = 10},
+        a.rack_per_turn);
+}
+
+/// Checks what was read against the guide; problems go to the reader. Values are replaced by their list.
+void complete_axle(study::ObjectReader& document, AxleForm& axle, const WheelGuide& guide);
+/// Whether what complete_axle() has listed has room in memory; an error at the reader if not.
+bool fits_memory(study::ObjectReader& document, const AxleForm& axle);
+
+/// Columns of the first table, whose rows are `wheels`: anti features of the axle in its vehicle, with a
+/// diagram.
+void add_anti_features(study::Result& result, const VehicleForm& vehicle,
+                       std::span<const WheelParameters> wheels);
+/// The tables `roll` and `steer` with diagrams and facts; rows so far, with the status, when the run is to
+/// stop.
+void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& axle,
+              const std::optional<VehicleForm>& vehicle, const RunContext& context);
+
+}  // namespace linkwright::suspension

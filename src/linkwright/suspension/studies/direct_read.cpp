@@ -1,0 +1,510 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/core/csv.h"
+#include "linkwright/core/units.h"
+#include "linkwright/study/beside.h"
+#include "linkwright/study/bind_write.h"
+#include "linkwright/study/designed.h"
+#include "linkwright/suspension/studies/direct.h"
+
+namespace linkwright::suspension {
+namespace {
+
+constexpr std::size_t most_targets = 5000;
+
+/// A point of a link by its label.
+struct PointAddress {
+  int link = 0;
+  bool carrier = false;
+  int point = 0;
+};
+
+std::string point_label(const GuideLink& link, bool carrier, std::size_t point) {
+  const std::size_t count = (carrier ? link.carrier : link.body).size();
+  return fmt::format("{}.{}{}", link.name, carrier ? "carrier" : "body",
+                     count > 1 ? fmt::format("_{}", point + 1) : std::string());
+}
+
+std::optional<PointAddress> find_point(study::ObjectReader& table, const WheelGuide& guide,
+                                       const std::string& label) {
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < guide.links.size(); ++i)
+    for (const bool carrier : {false, true})
+      for (std::size_t k = 0; k < (carrier ? guide.links[i].carrier : guide.links[i].body).size(); ++k) {
+        known.push_back(point_label(guide.links[i], carrier, k));
+        if (known.back() == label) return PointAddress{static_cast<int>(i), carrier, static_cast<int>(k)};
+      }
+  const std::vector<std::string_view> words(known.begin(), known.end());
+  const std::string_view nearest = nearest_word(label, words);
+  table.error("point", fmt::format("no point is called '{}'; there are: {}", label, fmt::join(known, ", ")),
+              nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+  return std::nullopt;
+}
+
+std::optional<int> find_link(study::ObjectReader& table, std::string_view key, const WheelGuide& guide,
+                             const std::string& name) {
+  std::vector<std::string_view> known;
+  for (std::size_t i = 0; i < guide.links.size(); ++i) {
+    if (guide.links[i].name == name) return static_cast<int>(i);
+    known.emplace_back(guide.links[i].name);
+  }
+  const std::string_view nearest = nearest_word(name, known);
+  table.error(key, fmt::format("no link is called '{}'; there are: {}", name, fmt::join(known, ", ")),
+              nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+  return std::nullopt;
+}
+
+Dimension dimension_of(const GuideColumn& c, TargetMeasure measure) {
+  const auto parts = split_unit(c.key);
+  return parts && measure != TargetMeasure::relative_change ? parts->dimension : Dimension::none;
+}
+
+/// Reads `[target]`.
+class TargetReader {
+ public:
+  TargetReader(study::ObjectReader& target, const study::Common& common, DirectStudy& s)
+      : target_(target), common_(common), s_(s) {}
+
+  void read() {
+    target_(Field{.key = "coordinate", .summary = {}}, s_.task.driver);
+    std::string file;
+    if (target_(Field{.key = "file", .summary = {}}, file))
+      if (const auto text = study::read_beside(target_, "file", common_.folder, file)) {
+        Diagnostics problems;
+        table_ = read_csv(*text, file, problems);
+        for (const Diagnostic& d : problems) target_.unreadable("file", to_string(d));
+      }
+    std::vector<study::ObjectReader> curves = target_.tables("curve");
+    if (curves.empty() && !target_.has("curve"))
+      target_.error("curve", "there are no curves",
+                    "add [[target.curve]] with quantity, travel_mm and value");
+    std::size_t count = 0;
+    for (study::ObjectReader& table : curves)
+      if (auto curve = read_curve(table)) {
+        count += curve->values.size();
+        s_.curves.push_back(*std::move(curve));
+      }
+    if (count > most_targets)
+      target_.error("curve", fmt::format("{} targets, at most {} are allowed", count, most_targets));
+  }
+
+ private:
+  /// A column of the file in SI.
+  std::optional<std::vector<double>> column(const std::string& base, Dimension dimension) const {
+    if (!table_) return std::nullopt;
+    for (const Column& c : table_->columns) {
+      const auto key = split_unit(c.key);
+      if (dimension == Dimension::none ? c.key != base
+                                       : !key || key->base != base || key->dimension != dimension)
+        continue;
+      std::vector<double> out;
+      for (const double v : c.values) out.push_back(dimension == Dimension::none ? v : key->unit->to_si(v));
+      return out;
+    }
+    return std::nullopt;
+  }
+
+  /// One value for each position, from one for all of them.
+  static bool spread(study::ObjectReader& table, std::string_view key, std::vector<double>& values,
+                     std::size_t count) {
+    if (values.size() == 1) values.resize(count, values[0]);
+    if (values.size() == count) return true;
+    table.error(key, fmt::format("{} values for {} positions", values.size(), count),
+                "give one for each, or one for all");
+    return false;
+  }
+
+  std::optional<CurveForm> read_curve(study::ObjectReader& table) {
+    CurveForm c;
+    std::vector<std::string> bases;
+    for (const GuideColumn& column : guide_columns())
+      if (quantity_of(column, s_.lock)) bases.push_back(study::base_of(column.key));
+    std::vector<Word> words;
+    for (const std::string& b : bases) words.push_back({b});
+    const auto which = table.word(Field{.key = "quantity", .summary = {}, .required = true}, words);
+    table(Field{.key = "measure", .summary = {}}, c.measure);
+    table(Field{.key = "weight", .summary = {}, .minimum = 0, .maximum = 1e9}, c.weight);
+    table(Field{.key = "objective", .summary = {}}, c.objective);
+    if (!which) {
+      table.members();  // what the others mean depends on the quantity
+      return std::nullopt;
+    }
+    c.column = guide_column(bases[*which]);
+    if (!s_.description.guide.links.empty())
+      if (const std::string why = why_missing(s_.description.guide, *c.column); !why.empty())
+        table.error("quantity", fmt::format("this guide has no '{}': {}", bases[*which], why));
+    if (c.objective.empty()) c.objective = bases[*which];
+    const Dimension dimension = dimension_of(*c.column, c.measure);
+    const auto number = [&](std::string_view key, double least) {
+      return Field{.key = key, .summary = {}, .dimension = dimension, .minimum = least, .maximum = 1e9};
+    };
+    const auto length = [](std::string_view key) {
+      return Field{.key = key, .summary = {}, .dimension = Dimension::length, .minimum = -10, .maximum = 10};
+    };
+    Numbers travel, rack, value;
+    const bool has_travel = table(length("travel"), travel), has_rack = table(length("rack"), rack);
+    const bool has_value = table(number("value", -1e9), value);
+    const bool has_tolerance = table(number("tolerance", 0), c.tolerance.least);
+    table(Field{.key = "tolerance_slope", .summary = {}, .minimum = 0, .maximum = 1e3}, c.tolerance.slope);
+    table(number("tolerance_from", 0), c.tolerance.from);
+    if (!has_tolerance || !(c.tolerance.least > 0)) {
+      if (!has_tolerance && !table.has(number("tolerance", 0)))
+        table.error("tolerance", "this key is missing: by how much the value may be missed",
+                    fmt::format("write {}", si_key("tolerance", dimension)));
+      else if (has_tolerance)
+        table.error("tolerance", "is 0, must be larger");
+      return std::nullopt;
+    }
+    // What the table does not have comes from the file.
+    c.values = value.of;
+    if (!has_value) {
+      const auto found = column(study::base_of(c.column->key), dimension);
+      if (!found) {
+        table.error("value",
+                    table_ ? fmt::format("is missing, and the file has no column {}",
+                                         si_key(study::base_of(c.column->key), dimension))
+                           : std::string("is missing"),
+                    "one number for all positions, or a list");
+        return std::nullopt;
+      }
+      c.values = *found;
+    }
+    c.travels = has_travel   ? travel.of
+                : !has_value ? column("travel", Dimension::length).value_or(std::vector{0.0})
+                             : std::vector{0.0};
+    c.racks = has_rack     ? rack.of
+              : !has_value ? column("rack", Dimension::length).value_or(std::vector{0.0})
+                           : std::vector{0.0};
+    const std::size_t count = std::max({c.values.size(), c.travels.size(), c.racks.size()});
+    if (!spread(table, "value", c.values, count) || !spread(table, "travel", c.travels, count) ||
+        !spread(table, "rack", c.racks, count))
+      return std::nullopt;
+    // Empty cells of a file are positions without a target.
+    for (std::size_t i = count; i-- > 0;)
+      if (std::isnan(c.values[i]) || std::isnan(c.travels[i]) || std::isnan(c.racks[i])) {
+        c.values.erase(c.values.begin() + static_cast<std::ptrdiff_t>(i));
+        c.travels.erase(c.travels.begin() + static_cast<std::ptrdiff_t>(i));
+        c.racks.erase(c.racks.begin() + static_cast<std::ptrdiff_t>(i));
+      }
+    if (c.values.empty()) {
+      table.error("value", "there is none");
+      return std::nullopt;
+    }
+    return c;
+  }
+
+  study::ObjectReader& target_;
+  const study::Common& common_;
+  DirectStudy& s_;
+  std::optional<Table> table_;
+};
+
+void read_designs(study::ObjectReader& document, DirectStudy& s, std::vector<DesignForm>& kept) {
+  std::vector<DesignForm> forms;
+  document(Field{.key = "design", .summary = {}}, forms);
+  std::vector<study::ObjectReader> tables = document.tables("design");
+  WheelGuide& guide = s.description.guide;
+  for (std::size_t i = 0; i < forms.size() && i < tables.size(); ++i) {
+    const DesignForm& d = forms[i];
+    study::ObjectReader& table = tables[i];
+    if (d.point.empty() == d.link.empty()) {
+      table.error("point", d.point.empty() ? "nothing is named" : "a point and a link are named",
+                  "write point = \"tie rod.body\" with box_mm, or link = \"tie rod\" with length_mm");
+      continue;
+    }
+    if (!d.point.empty()) {
+      const auto at = find_point(table, guide, d.point);
+      if (!d.box)
+        table.error("box", "this key is missing", "write box_mm = 40.0 for a cube around the point");
+      if (!at || !d.box) continue;
+      LinkTask& task = s.description.links[static_cast<std::size_t>(at->link)];
+      const GuideLink& link = guide.links[static_cast<std::size_t>(at->link)];
+      const auto point = static_cast<std::size_t>(at->point);
+      (at->carrier ? task.carrier : task.body)[point] =
+          box_of((at->carrier ? link.carrier : link.body)[point], *d.box, {}, d.given);
+      continue;
+    }
+    const auto link = find_link(table, "link", guide, d.link);
+    if (!link) continue;
+    GuideLink& l = guide.links[static_cast<std::size_t>(*link)];
+    if (l.type != LinkType::KS && l.type != LinkType::SS) {
+      table.error("link", fmt::format("'{}' is of type {}: only KS links have a length to design", l.name,
+                                      name_of(l.type)));
+    } else if (!d.length || d.length->fixed()) {
+      table.error("length", "has no range", "write length_mm = { min = 200.0, max = 300.0 }");
+    } else {
+      if (!l.length) l.length = std::clamp(norm(l.carrier[0] - l.body[0]), d.length->lower, d.length->upper);
+      s.task.designed.push_back({{DesignKind::length, *link, 0, 0}, d.length->lower, d.length->upper});
+      kept.push_back(d);
+    }
+  }
+}
+
+double coordinate(const Vec3& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
+
+/// The open coordinates of boxes.
+void add_points(DirectStudy& s) {
+  for (std::size_t i = 0; i < s.description.links.size(); ++i)
+    for (const bool carrier : {false, true}) {
+      const LinkTask& task = s.description.links[i];
+      const std::vector<PointBox>& boxes = carrier ? task.carrier : task.body;
+      for (std::size_t k = 0; k < boxes.size(); ++k)
+        for (int axis = 0; axis < 3; ++axis) {
+          const double low = coordinate(boxes[k].lower, axis), high = coordinate(boxes[k].upper, axis);
+          if (low < high)
+            s.task.designed.push_back({{carrier ? DesignKind::carrier : DesignKind::body, static_cast<int>(i),
+                                        static_cast<int>(k), axis},
+                                       low,
+                                       high});
+        }
+    }
+}
+
+PointBox box_of(const Range& x, const Range& y, const Range& z) {
+  return {{x.lower, y.lower, z.lower}, {x.upper, y.upper, z.upper}};
+}
+
+void add_limit(study::ObjectReader& table, const LengthConstraint& c, DirectStudy& s) {
+  const auto link = find_link(table, "link", s.description.guide, c.link);
+  if (!c.min && !c.max) table.error("min", "no limit is given", "write min_mm, max_mm or both");
+  if (link)
+    s.task.limits.lengths.push_back(
+        {*link, c.min.value_or(0), c.max.value_or(std::numeric_limits<double>::infinity())});
+}
+void add_limit(study::ObjectReader& table, const LinkClearanceConstraint& c, DirectStudy& s) {
+  const auto first = find_link(table, "first", s.description.guide, c.first);
+  const auto second = find_link(table, "second", s.description.guide, c.second);
+  if (first && second && *first == *second) table.error("second", "is the same link", "name another one");
+  if (first && second) s.task.limits.links.push_back({*first, *second, c.min});
+}
+void add_limit(study::ObjectReader& table, const TyreClearanceConstraint& c, DirectStudy& s) {
+  const auto link = find_link(table, "link", s.description.guide, c.link);
+  const double outer = c.outer_diameter.value_or(s.description.guide.wheel.tyre_diameter);
+  if (!(outer > c.inner_diameter))
+    table.error("inner_diameter", fmt::format("is {}, must be less than the outer one, {}",
+                                              s.units.text(c.inner_diameter, Dimension::length, 6),
+                                              s.units.text(outer, Dimension::length, 6)));
+  if (link) s.task.limits.tyres.push_back({*link, {c.inner_diameter, outer, c.width}, c.min});
+}
+void add_limit(study::ObjectReader& table, const BoxClearanceConstraint& c, DirectStudy& s) {
+  const auto link = find_link(table, "link", s.description.guide, c.link);
+  if (link) s.task.limits.boxes.push_back({*link, box_of(c.x, c.y, c.z), c.min});
+}
+void add_limit(study::ObjectReader& table, const KeepOutConstraint& c, DirectStudy& s) {
+  if (const auto at = find_point(table, s.description.guide, c.point))
+    s.task.limits.keep_out.push_back({at->link, at->carrier, at->point, box_of(c.x, c.y, c.z)});
+}
+
+/// Curves of one name together, in the order in which names are first met: that of priorities.
+void set_objectives(DirectStudy& s) {
+  for (const CurveForm& c : s.curves) {
+    auto objective = std::find_if(s.task.objectives.begin(), s.task.objectives.end(),
+                                  [&](const TargetObjective& o) { return o.name == c.objective; });
+    if (objective == s.task.objectives.end()) {
+      s.task.objectives.push_back({c.objective, {}});
+      objective = std::prev(s.task.objectives.end());
+    }
+    TargetCurve curve{
+        .quantity = *quantity_of(*c.column, s.lock), .measure = c.measure, .reference = {}, .points = {}};
+    for (std::size_t i = 0; i < c.values.size(); ++i)
+      curve.points.push_back(
+          {{c.travels[i], c.racks[i]}, c.values[i], tolerance_of(c.tolerance, c.values[i]), c.weight});
+    objective->curves.push_back(std::move(curve));
+  }
+}
+
+Value write_curves(const DirectStudy& s) {
+  Value out = Value::array();
+  for (const CurveForm& c : s.curves) {
+    const Dimension dimension = dimension_of(*c.column, c.measure);
+    Value curve;
+    curve["quantity"] = study::base_of(c.column->key);
+    curve["objective"] = c.objective;
+    curve["measure"] = name_of(c.measure);
+    curve["travel_m"] = study::ObjectWriter::to_value(c.travels);
+    curve["rack_m"] = study::ObjectWriter::to_value(c.racks);
+    curve[si_key("value", dimension)] = study::ObjectWriter::to_value(c.values);
+    curve[si_key("tolerance", dimension)] = c.tolerance.least;
+    curve["tolerance_slope"] = c.tolerance.slope;
+    curve[si_key("tolerance_from", dimension)] = c.tolerance.from;
+    curve["weight"] = c.weight;
+    out.push_back(std::move(curve));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<DirectStudy> read_direct_study(study::ObjectReader& document, const study::Common& common,
+                                             Value& canonical) {
+  DirectStudy s;
+  s.units = common.units;
+  const auto description = read_guide(document, common, OpenPoints::boxes);
+  if (description) {
+    s.description = *description;
+    s.lock = description->guide.spring ? Driver::spring : Driver::wheel_centre_z;
+  }
+  auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
+  if (target) {
+    std::optional<Driver> lock;
+    target->operator()(Field{.key = "steering_lock", .summary = {}}, lock);
+    if (lock) s.lock = *lock;
+    TargetReader(*target, common, s).read();
+    if (description && !description->guide.spring &&
+        (s.lock == Driver::spring || s.task.driver == Driver::spring))
+      target->error(s.lock == Driver::spring ? "steering_lock" : "coordinate", "there is no spring",
+                    "add [mechanism.spring], or take wheel_centre_z");
+  }
+  std::vector<DesignForm> lengths;
+  document(Field{.key = "constraint", .summary = {}}, s.constraints);
+  if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
+  if (!description) return std::nullopt;
+  read_designs(document, s, lengths);
+  add_points(s);
+  if (s.task.designed.empty() && !document.document().has_errors())
+    document.error(
+        "design", "nothing is to be found",
+        "add [[design]] point = \"tie rod.body\", box_mm = 40.0, or open a point of the mechanism");
+  std::vector<study::ObjectReader> tables = document.tables("constraint");
+  for (std::size_t i = 0; i < s.constraints.size() && i < tables.size(); ++i)
+    std::visit([&](const auto& limit) { add_limit(tables[i], limit, s); }, s.constraints[i].limit);
+  set_objectives(s);
+  const DirectOptions& options =
+      std::visit([](const auto& m) -> const DirectOptions& { return m.options; }, s.optimiser.method);
+  if (auto optimiser = document.table("optimiser")) {
+    if (options.goal == DirectGoal::one && !s.optimiser.objective)
+      optimiser->error("objective", "is missing: which one is made small?", "write objective = \"toe\"");
+    if (s.optimiser.objective) {
+      const auto at =
+          std::find_if(s.task.objectives.begin(), s.task.objectives.end(),
+                       [&](const TargetObjective& o) { return o.name == *s.optimiser.objective; });
+      if (at == s.task.objectives.end())
+        optimiser->error("objective", fmt::format("no objective is called '{}'", *s.optimiser.objective));
+      else
+        std::visit([&](auto& m) { m.options.one = static_cast<int>(at - s.task.objectives.begin()); },
+                   s.optimiser.method);
+    }
+  }
+  if (document.document().has_errors()) return std::nullopt;
+  s.task.guide = s.description.guide;
+
+  canonical["mechanism"] = write_guide(s.description);
+  Value target_out;
+  target_out["coordinate"] = name_of(s.task.driver);
+  target_out["steering_lock"] = name_of(s.lock);
+  target_out["curve"] = write_curves(s);
+  canonical["target"] = std::move(target_out);
+  if (!lengths.empty()) {
+    canonical["design"] = Value::array();
+    for (const DesignForm& d : lengths) {
+      Value design;
+      design["link"] = d.link;
+      design["length_m"] = study::ObjectWriter::to_value(*d.length);
+      canonical["design"].push_back(std::move(design));
+    }
+  }
+  canonical["constraint"] = study::ObjectWriter::to_value(s.constraints);
+  canonical["optimiser"] = study::write_fields(s.optimiser);
+  return s;
+}
+
+study::Kind direct_kind() {
+  study::Kind kind;
+  kind.kind = "synthesis";
+  kind.mechanism = "suspension.wheel_guide";
+  kind.target = "wheel_parameters";
+  kind.summary =
+      "wheel guide from what its wheel is to do: toe, camber, track, roll centre ... (direct synthesis)";
+  kind.seeded = true;
+  kind.example =
+      R"(# linkwright study: less bump steer of a double wishbone, only the inner point of the tie rod being free
+schema = 1
+kind   = "synthesis"
+title  = "Less bump steer"
+
+[mechanism]
+type   = "suspension.wheel_guide"
+sample = "2RS-KS"                   # or links with their points, as in an analysis
+
+# What is free: a box around the point. Also link = "tie rod", length_mm = { min = 250, max = 300 }
+[[design]]
+point  = "tie rod.body"
+box_mm = 60.0
+
+[target]
+type       = "wheel_parameters"
+coordinate = "wheel_centre_z"       # what travel_mm counts
+# file = "curves.csv"               # columns travel_mm, rack_mm, toe_deg, ... for curves without value
+
+[[target.curve]]
+quantity      = "toe"               # any column of an analysis
+measure       = "change"            # against the reference position; or value, relative_change
+travel_mm     = [-80, -60, -40, -20, 20, 40, 60, 80]
+value_deg     = 0.0
+tolerance_deg = 0.02
+
+[[constraint]]
+type   = "link_length"
+link   = "tie rod"
+min_mm = 250.0
+
+[optimiser]
+method = "recommended"
+goal   = "largest"                  # or least_squares, priorities (in the order of curves), one
+starts = 10
+seeds  = { first = 1, count = 1 }
+)";
+  kind.schema = [](study::SchemaWriter& document) {
+    describe_guide(document);
+    study::SchemaWriter target, curve;
+    curve.property(
+        Field{.key = "quantity", .summary = "column of an analysis, without unit", .required = true},
+        Value());
+    curve.property(Field{.key = "measure", .summary = "value, change, relative_change"}, Value());
+    curve.property(Field{.key = "objective", .summary = "name under which curves count together"}, Value());
+    curve.property(Field{.key = "weight", .summary = "on its deviations"}, study::schema_number());
+    const Value numbers =
+        study::schema_any_of({study::schema_number(), study::schema_array(study::schema_number())});
+    curve.property(Field{.key = "travel", .summary = "one or a list", .dimension = Dimension::length},
+                   numbers);
+    curve.property(Field{.key = "rack", .summary = "one or a list", .dimension = Dimension::length}, numbers);
+    for (const Dimension dimension :
+         {Dimension::none, Dimension::length, Dimension::angle, Dimension::angle_by_length}) {
+      curve.property(Field{.key = "value", .summary = "one or a list", .dimension = dimension}, numbers);
+      curve.property(
+          Field{.key = "tolerance", .summary = "by which a value may be missed", .dimension = dimension},
+          study::schema_number());
+      curve.property(
+          Field{.key = "tolerance_from", .summary = "size from which it grows", .dimension = dimension},
+          study::schema_number());
+    }
+    curve.property(Field{.key = "tolerance_slope", .summary = "by which it grows"}, study::schema_number());
+    target.property(Field{.key = "coordinate", .summary = "what travels"}, Value());
+    target.property(Field{.key = "steering_lock", .summary = "what the steering axis holds"}, Value());
+    target.property(Field{.key = "file", .summary = "CSV file with values of curves"}, Value());
+    target.property(Field{.key = "curve", .summary = "what is to be reached", .required = true},
+                    study::schema_array(std::move(curve).finish()));
+    document.property(Field{.key = "target", .summary = "what the wheel is to do", .required = true},
+                      std::move(target).finish());
+    document.property(Field{.key = "design", .summary = "what is free"},
+                      study::schema_array(study::schema_fields<DesignForm>()));
+    document.property(Field{.key = "constraint", .summary = "room and lengths"},
+                      study::schema_array(study::schema_fields<DirectConstraint>()));
+    document.property(Field{.key = "optimiser", .summary = "how designs are searched"},
+                      study::schema_fields<DirectOptimiser>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    study::Prepared prepared;
+    if (auto s = read_direct_study(document, common, prepared.canonical))
+      prepared.run = [s = *std::move(s), common](RunContext& context) {
+        return run_direct_study(s, common, context);
+      };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,420 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "linkwright/core/units.h"
+#include "linkwright/study/designed.h"
+#include "linkwright/study/run_seeds.h"
+#include "linkwright/suspension/guide/hard_points.h"
+#include "linkwright/suspension/guide/structure.h"
+#include "linkwright/suspension/studies/direct.h"
+#include "linkwright/suspension/studies/guide_scene.h"
+#include "linkwright/suspension/studies/sweep.h"
+
+namespace linkwright::suspension {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// A seed succeeds when it comes this close to the best of all, as a share of it.
+constexpr double success_share = 1e-4;
+
+const DirectOptions& options_of(const DirectStudy& s) {
+  return std::visit([](const auto& m) -> const DirectOptions& { return m.options; }, s.optimiser.method);
+}
+
+DirectSynthesis search(const RecommendedDirect& method, const DirectTask& task, std::uint64_t seed,
+                       RunContext& context) {
+  return synthesise(task, method.options, seed, context);
+}
+DirectSynthesis search(const PublishedDirect& method, const DirectTask& task, std::uint64_t seed,
+                       RunContext& context) {
+  return evolve(task, method.options, seed, context, method.population, method.generations).found;
+}
+
+/// One figure for what the goal makes small. By priorities it is the largest deviation, although the order of
+/// answers goes by objectives met: see better.
+double cost_of(const DirectSynthesis& answer, const DirectOptions& options) {
+  if (!answer.answer.assembled) return infinity;
+  switch (options.goal) {
+    case DirectGoal::largest:
+    case DirectGoal::priorities:
+      return answer.largest;
+    case DirectGoal::least_squares:
+      return answer.half_sum_of_squares;
+    case DirectGoal::one:
+      return answer.objectives.at(static_cast<std::size_t>(options.one));
+  }
+  return infinity;
+}
+
+/// Whether `a` is the better answer.
+bool better(const DirectSynthesis& a, const DirectSynthesis& b, const DirectOptions& options) {
+  const bool good = a.status == Status::done, other = b.status == Status::done;
+  if (good != other) return good;
+  if (options.goal == DirectGoal::priorities && good) return optimise::better(a.key, b.key);
+  return cost_of(a, options) < cost_of(b, options);
+}
+
+using Runs = study::SeedRuns<DirectSynthesis>;
+
+/// A seed that came to its end as a checkpoint keeps it: the design, not what it achieves.
+Value kept(const DirectSynthesis& answer) {
+  Value out;
+  out["status"] = study::kept_status(answer.status);
+  out["reason"] = answer.reason;
+  out["shares"] = pack_numbers(answer.shares);
+  out["assembled"] = answer.assembled;
+  out["reached_best"] = answer.reached_best;
+  out["evaluations"] = answer.evaluations;
+  return out;
+}
+
+DirectSynthesis restored(const Value& value, const DirectStudy& s, std::string_view what) {
+  constexpr double rounding = 1e-9;
+  const std::vector<double> shares = study::restored_numbers(value, "shares", s.task.designed.size(), what);
+  if (!std::all_of(shares.begin(), shares.end(),
+                   [](double u) { return std::abs(u - 0.5) <= 0.5 + rounding; }))
+    throw CheckpointError(fmt::format("{}: its design lies outside of the ranges", what));
+  DirectSynthesis out = assess(s.task, options_of(s), shares);
+  out.status = study::restored_status(value, what);
+  const Value& reason = kept_member(value, "reason", what);
+  if (!reason.is_string()) throw CheckpointError(fmt::format("{}: its reason is no text", what));
+  out.reason = reason.as_string();
+  out.assembled = static_cast<int>(kept_integer(value, "assembled", 0, 1000000, what));
+  out.reached_best = static_cast<int>(kept_integer(value, "reached_best", 0, out.assembled, what));
+  out.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
+  return out;
+}
+
+std::string unit_suffix(const GuideColumn& c, TargetMeasure measure) {
+  const auto parts = split_unit(c.key);
+  return parts && measure != TargetMeasure::relative_change ? "_" + std::string(parts->unit->suffix)
+                                                            : std::string();
+}
+
+/// "toe", "toe_change", "track_relative_change"
+std::string curve_name(const CurveForm& c) {
+  std::string name = study::base_of(c.column->key);
+  if (c.measure != TargetMeasure::value) name += "_" + std::string(name_of(c.measure));
+  return name;
+}
+
+/// The order of the study's curves among the rows of an answer, which go by objectives.
+std::vector<std::vector<std::size_t>> rows_of_curves(const DirectStudy& s, const TargetPositions& positions) {
+  std::vector<std::vector<std::size_t>> out(s.curves.size());
+  for (std::size_t r = 0; r < positions.rows.size(); ++r) {
+    const auto& row = positions.rows[r];
+    const std::string& objective = s.task.objectives[row.objective].name;
+    std::size_t seen = 0;
+    for (std::size_t c = 0; c < s.curves.size(); ++c)
+      if (s.curves[c].objective == objective && seen++ == row.curve) out[c].push_back(r);
+  }
+  return out;
+}
+
+void add_curves(study::Result& result, const DirectStudy& s, const DirectSynthesis& best,
+                const DirectSynthesis& before) {
+  const auto rows = rows_of_curves(s, best.positions);
+  for (std::size_t i = 0; i < s.curves.size(); ++i) {
+    const CurveForm& c = s.curves[i];
+    const std::string name = curve_name(c), unit = unit_suffix(*c.column, c.measure);
+    const auto same = std::count_if(s.curves.begin(), s.curves.begin() + static_cast<std::ptrdiff_t>(i),
+                                    [&](const CurveForm& o) { return curve_name(o) == name; });
+    Table table{.name = "target-" + name + (same > 0 ? fmt::format("-{}", same + 1) : std::string())};
+    std::vector<double> achieved, initial, lower, upper, deviation;
+    for (std::size_t k = 0; k < c.values.size(); ++k) {
+      const std::size_t row = rows[i].at(k);
+      const double allowed = tolerance_of(c.tolerance, c.values[k]);
+      achieved.push_back(best.answer.assembled ? best.answer.achieved[row] : WheelParameters::missing);
+      initial.push_back(before.answer.assembled ? before.answer.achieved[row] : WheelParameters::missing);
+      lower.push_back(c.values[k] - allowed);
+      upper.push_back(c.values[k] + allowed);
+      deviation.push_back((achieved.back() - c.values[k]) / allowed);
+    }
+    const auto add = [&](std::string key, std::string label, std::vector<double> values) {
+      table.add(std::move(key), std::move(label), std::move(values));
+    };
+    const std::string words(words_of(*c.column));
+    add("travel_m", "travel (m)", c.travels);
+    add("rack_m", "rack (m)", c.racks);
+    add(name + unit, words + ", achieved", achieved);
+    add("target_" + name + unit, words + ", target", c.values);
+    add("lower_" + name + unit, words + ", least allowed", lower);
+    add("upper_" + name + unit, words + ", most allowed", upper);
+    add("deviation", "deviation in tolerances", deviation);
+    add("initial_" + name + unit, words + ", initial design", initial);
+    const auto varies = [](const std::vector<double>& v) {
+      return std::any_of(v.begin(), v.end(), [&](double x) { return x != v.front(); });
+    };
+    const bool by_rack = varies(c.racks) && !varies(c.travels);
+    const auto& x = by_rack ? c.racks : c.travels;
+    const bool one_curve = !(varies(c.racks) && varies(c.travels)) && std::is_sorted(x.begin(), x.end());
+    result.plots.push_back(
+        {.name = table.name,
+         .title = fmt::format("{} over {}: target, achieved and initial", words, by_rack ? "rack" : "travel"),
+         .table = table.name,
+         .x = by_rack ? "rack_m" : "travel_m",
+         .y = {name + unit, "target_" + name + unit, "initial_" + name + unit},
+         .style = one_curve ? study::Plot::Style::line : study::Plot::Style::points,
+         .scene = "solution-1",
+         .bands = {}});
+    if (one_curve)
+      result.plots.back().bands.push_back({"lower_" + name + unit, "upper_" + name + unit, "tolerance"});
+    result.tables.push_back(std::move(table));
+  }
+}
+
+/// The standard curves of a design over the travels of the targets.
+Table sweep_table(const DirectStudy& s, const WheelGuide& guide, std::string name,
+                  std::span<const double> travels) {
+  Table table{.name = std::move(name)};
+  RunContext nobody;
+  const std::array<double, 1> racks{0};
+  const GridPositions grid = solve_grid(prepare(guide), s.task.driver, travels, racks, nobody);
+  table.add("travel_m", "travel (m)", {travels.begin(), travels.end()});
+  for (const GuideColumn& c : guide_columns()) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < travels.size(); ++i)
+      values.push_back(value_of(c, {grid.positions[i], grid.wheels[i], s.lock}));
+    if (std::any_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); }))
+      table.add(std::string(c.key), std::string(c.label), std::move(values));
+  }
+  for (const GuidePosition& p : grid.positions) table.status.emplace_back(to_string(p.status));
+  return table;
+}
+
+struct Range1 {
+  std::vector<double> travels, racks;
+};
+Range1 range_of(const DirectStudy& s) {
+  double low = 0, high = 0;
+  Range1 out;
+  out.racks.push_back(0);
+  for (const CurveForm& c : s.curves)
+    for (std::size_t i = 0; i < c.travels.size(); ++i) {
+      low = std::min(low, c.travels[i]);
+      high = std::max(high, c.travels[i]);
+      out.racks.push_back(c.racks[i]);
+      out.racks.push_back(-c.racks[i]);  // of the other wheel
+    }
+  constexpr int steps = 20;  // each way
+  for (int i = -steps; i <= steps; ++i) out.travels.push_back((i < 0 ? -low : high) * i / steps);
+  for (auto* values : {&out.travels, &out.racks}) {
+    for (double& v : *values) v += 0.0;  // no -0
+    std::sort(values->begin(), values->end());
+    values->erase(std::unique(values->begin(), values->end()), values->end());
+  }
+  if (out.racks.size() > 41) out.racks = {out.racks.front(), 0, out.racks.back()};
+  return out;
+}
+
+void add_designs(study::Result& result, const DirectStudy& s, const DirectSynthesis& best,
+                 const DirectSynthesis& before) {
+  const Range1 range = range_of(s);
+  result.tables.push_back(sweep_table(s, best.guide, "sweep", range.travels));
+  if (before.answer.assembled)
+    result.tables.push_back(sweep_table(s, s.task.guide, "initial", range.travels));
+  for (const auto& [key, title] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"toe_rad", "Toe over travel"},
+           {"camber_rad", "Camber over travel"},
+           {"half_track_change_m", "Half-track change over travel"},
+           {"roll_centre_height_m", "Roll-centre height over travel"},
+           {"caster_rad", "Caster over travel"},
+           {"motion_ratio", "Motion ratio of the spring over travel"}}) {
+    const auto sweep = std::find_if(result.tables.begin(), result.tables.end(),
+                                    [](const Table& t) { return t.name == "sweep"; });
+    if (!sweep->find(key)) continue;
+    result.plots.push_back({.name = std::string("sweep-") + key,
+                            .title = title,
+                            .table = "sweep",
+                            .x = "travel_m",
+                            .y = {key},
+                            .scene = "solution-1",
+                            .baseline = before.answer.assembled ? "initial" : ""});
+  }
+  RunContext nobody;
+  const GridPositions grid =
+      solve_grid(prepare(best.guide), s.task.driver, range.travels, range.racks, nobody);
+  result.scenes.push_back(
+      guide_scene(best.guide, "solution-1", "the design found",
+                  {s.task.driver, range.travels, range.racks, grid.positions, grid.wheels, s.lock}));
+}
+
+study::Solution solution_of(const DirectStudy& s, const DirectSynthesis& best) {
+  study::Solution out;
+  out.label = structure_name(structure_of(best.guide));
+  for (std::size_t i = 0; i < s.task.designed.size(); ++i) {
+    const DesignedNumber& d = s.task.designed[i];
+    const std::string name = label(s.task.guide, d.number);
+    out.parameters.push_back({plain_name(name) + "_m", name, best.x.at(i), d.lower, d.upper});
+  }
+  for (std::size_t i = 0; i < best.objectives.size(); ++i)
+    out.objectives[plain_name(s.task.objectives[i].name) + "_largest_deviation"] = best.objectives[i];
+  out.objectives["largest_deviation"] = best.largest;
+  out.objectives["half_sum_of_squares"] = best.half_sum_of_squares;
+  out.classification["structure"] = out.label;
+  out.classification["objectives_met"] = static_cast<std::int64_t>(
+      std::count_if(best.objectives.begin(), best.objectives.end(), [](double v) { return v <= 1; }));
+  out.classification["active_targets"] = static_cast<std::int64_t>(best.active.size());
+  out.defects = Value::array();
+  if (!best.reason.empty()) out.defects.push_back(best.reason);
+  for (const LimitAnswer& l : best.limits)
+    if (l.excess > 1e-9)
+      out.defects.push_back(fmt::format("{}: missed by {:.4g} mm", l.name, l.excess * 1e3));
+  out.scene = best.answer.assembled ? "solution-1" : "";
+  return out;
+}
+
+void add_statistics(study::Result& result, const DirectStudy& s, const Runs& runs, double best) {
+  std::vector<optimise::SeedOutcome> outcomes;
+  result.log = Value::array();
+  Table seeds{.name = "seeds"};
+  std::vector<double> number, cost, evaluations, assembled, reached;
+  for (std::size_t i = 0; i < runs.answers.size(); ++i) {
+    const DirectSynthesis& a = runs.answers[i];
+    const double value = cost_of(a, options_of(s));
+    outcomes.push_back({value, a.status == Status::done ? 0.0 : 1.0, a.evaluations});
+    Value entry;
+    entry["seed"] = static_cast<std::int64_t>(runs.seeds[i]);
+    entry["status"] = to_string(a.status);
+    entry["best"] = value;
+    entry["evaluations"] = a.evaluations;
+    entry["history"] = Value::array();
+    result.log.push_back(std::move(entry));
+    number.push_back(static_cast<double>(runs.seeds[i]));
+    cost.push_back(std::isfinite(value) ? value : WheelParameters::missing);
+    evaluations.push_back(static_cast<double>(a.evaluations));
+    assembled.push_back(a.assembled);
+    reached.push_back(a.reached_best);
+    seeds.status.emplace_back(to_string(a.status));
+  }
+  seeds.add("seed", "seed", number);
+  seeds.add("goal", "what the goal makes small", cost);
+  seeds.add("evaluations", "evaluations", evaluations);
+  seeds.add("starts_assembled", "starts that assembled", assembled);
+  seeds.add("starts_at_best_least_squares", "of them, starts that reached the best least squares", reached);
+  result.tables.push_back(std::move(seeds));
+  const optimise::SeedStatistics st = optimise::statistics(outcomes, best + success_share * std::abs(best));
+  result.statistics["method"] =
+      std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method);
+  result.statistics["goal"] = name_of(options_of(s).goal);
+  result.statistics["seeds"] = st.seeds;
+  result.statistics["success_rate"] = st.success_rate;
+  result.statistics["best"] = st.best;
+  result.statistics["median"] = st.median;
+  result.statistics["worst"] = st.worst;
+  result.statistics["evaluations"] = st.evaluations;
+  result.statistics["median_evaluations"] = st.median_evaluations;
+}
+
+Table directions_table(const DirectStudy& s, const DirectSynthesis& best) {
+  Table table{.name = "weak_directions"};
+  for (const DesignedNumber& d : s.task.designed) table.names.push_back(label(s.task.guide, d.number));
+  for (std::size_t k = best.singular_values.size(); k-- > 0;)
+    table.add(fmt::format("direction_{}", k + 1),
+              fmt::format("direction {} (share of its range), singular value {:.3g}", k + 1,
+                          best.singular_values[k]),
+              best.directions.at(k));
+  return table;
+}
+
+}  // namespace
+
+study::Result run_direct_study(const DirectStudy& s, const study::Common& common, RunContext& context) {
+  study::Result result;
+  const DirectOptions& options = options_of(s);
+  const DirectSynthesis before = assess(s.task, options, s.task.guide);
+  const Runs runs = study::run_seeds(
+      common.seeds, context, "designs",
+      [&](std::uint64_t seed) {
+        return std::visit([&](const auto& method) { return search(method, s.task, seed, context); },
+                          s.optimiser.method);
+      },
+      [](const DirectSynthesis& answer) { return answer.status; },
+      [&](const DirectSynthesis& answer) { return cost_of(answer, options); },
+      [](const DirectSynthesis& answer) { return kept(answer); },
+      [&](const Value& value, std::string_view what) { return restored(value, s, what); });
+  result.status = runs.status;
+  if (runs.answers.empty()) {
+    result.headline = "Interrupted before the first seed was done.";
+    return result;
+  }
+  const DirectSynthesis& best = *std::min_element(
+      runs.answers.begin(), runs.answers.end(),
+      [&](const DirectSynthesis& a, const DirectSynthesis& b) { return better(a, b, options); });
+  if (result.status == Status::done) result.status = best.status;
+  if (!best.answer.assembled) {
+    result.headline =
+        "No design found: " + (best.reason.empty() ? std::string("no start assembles") : best.reason) + ".";
+    add_statistics(result, s, runs, infinity);
+    return result;
+  }
+  result.solutions.push_back(solution_of(s, best));
+  add_curves(result, s, best, before);
+  add_designs(result, s, best, before);
+  result.tables.push_back(hard_point_table(points_of(best.guide)));
+  result.tables.push_back(directions_table(s, best));
+  add_statistics(result, s, runs, cost_of(best, options));
+  for (std::size_t i = 0; i < best.objectives.size(); ++i)
+    result.changes.push_back(
+        {.quantity = s.task.objectives[i].name,
+         .label = s.task.objectives[i].name + " (tolerances)",
+         .measure = "largest deviation",
+         .before = before.answer.assembled ? before.objectives.at(i) : WheelParameters::missing,
+         .after = best.objectives[i],
+         .wanted = true});
+
+  using Verdict = study::Fact::Verdict;
+  const auto met =
+      std::count_if(best.objectives.begin(), best.objectives.end(), [](double v) { return v <= 1; });
+  const bool all = met == static_cast<std::ptrdiff_t>(best.objectives.size());
+  result.headline =
+      all ? fmt::format("All targets are met: the largest deviation is {:.4g} of its tolerance.",
+                        best.largest)
+          : fmt::format("{} of {} objectives are met; the largest deviation is {:.4g} tolerances.", met,
+                        best.objectives.size(), best.largest);
+  for (std::size_t i = 0; i < best.objectives.size(); ++i)
+    result.facts.push_back(
+        {s.task.objectives[i].name + ", largest deviation",
+         fmt::format("{:.6f} tolerances{}", best.objectives[i],
+                     before.answer.assembled ? fmt::format(" (before: {:.4g})", before.objectives.at(i))
+                                             : std::string()),
+         best.objectives[i] <= 1 ? Verdict::good : Verdict::bad});
+  result.facts.push_back({"half sum of squared deviations", fmt::format("{:.6f}", best.half_sum_of_squares)});
+  result.facts.push_back({"active targets", fmt::format("{} for {} designed numbers", best.active.size(),
+                                                        s.task.designed.size())});
+  result.facts.push_back({"method", std::string(result.statistics.find("method")->as_string())});
+  result.facts.push_back(
+      {"seeds that reached the best", fmt::format("{:.0f} of {}",
+                                                  result.statistics.find("success_rate")->as_number() *
+                                                      static_cast<double>(runs.answers.size()),
+                                                  runs.answers.size())});
+  result.facts.push_back(
+      {"evaluations", fmt::format("{}", result.statistics.find("evaluations")->as_integer())});
+  const auto remark = [&](std::string message, std::string hint) {
+    result.diagnostics.push_back(
+        {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
+  };
+  if (!before.answer.assembled)
+    remark(
+        "the initial design does not assemble at every position of the targets: there is nothing to compare "
+        "with",
+        {});
+  for (std::size_t i = 0; i < s.task.designed.size(); ++i) {
+    const DesignedNumber& d = s.task.designed[i];
+    const double span = d.upper - d.lower;
+    if (best.x[i] - d.lower < 1e-6 * span || d.upper - best.x[i] < 1e-6 * span)
+      remark(fmt::format("{} lies at its limit, {}", label(s.task.guide, d.number),
+                         d.number.kind == DesignKind::coupler_fraction
+                             ? fmt::format("{:.6g}", best.x[i])
+                             : common.units.text(best.x[i], Dimension::length, 6)),
+             "a larger box may give more");
+  }
+  if (runs.answers.size() < static_cast<std::size_t>(common.seeds.count))
+    remark(fmt::format("interrupted: {} of {} seeds ran", runs.answers.size(), common.seeds.count), {});
+  return result;
+}
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "linkwright/study/scene.h"
+#include "linkwright/suspension/wheel/guide_columns.h"
+
+namespace linkwright::suspension {
+
+/// What a scene of a wheel guide shows: positions of a grid, all travels for each rack.
+struct GuideGrid {
+  Driver travel = Driver::wheel_centre_z;
+  std::span<const double> travels, racks;    ///< m
+  std::span<const GuidePosition> positions;  ///< [rack * travels + travel]
+  std::span<const WheelParameters> wheels;   ///< likewise
+  Driver lock = Driver::wheel_centre_z;      ///< of the steering axis that is drawn
+};
+
+/// A wheel guide over a grid of travel and rack: links, couplers, spring, wheel, steering axis, and in the
+/// middle plane of the vehicle the roll centre of both wheels travelling equally; on the other side the
+/// mirrored wheel where the racks hold the opposite displacement.
+study::Scene guide_scene(const WheelGuide& guide, std::string name, std::string title, const GuideGrid& grid);
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "linkwright/suspension/indirect/synthesis.h"
+#include "linkwright/suspension/studies/guide.h"
+
+// The synthesis of a wheel guide from positions of its carrier: what its file holds, how it is read, run and
+// reported.
+namespace linkwright::suspension {
+
+/// `[[target.pose]]`: one position that the carrier is to take.
+struct PoseEntry {
+  double rack = 0;
+  std::array<double, 3> centre{};
+  double toe = 0, camber = 0;
+  std::optional<double> spin;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PoseEntry& p) {
+  visit(Field{.key = "rack",
+              .summary = "displacement along its direction",
+              .dimension = Dimension::length,
+              .minimum = -10,
+              .maximum = 10},
+        p.rack);
+  visit(guide_fields::place("centre", "of the wheel, in the vehicle's frame", true), p.centre);
+  const auto angle = [](std::string_view key, std::string_view summary, bool required) {
+    return Field{.key = key,
+                 .summary = summary,
+                 .dimension = Dimension::angle,
+                 .minimum = -1.5,
+                 .maximum = 1.5,
+                 .required = required};
+  };
+  visit(angle("toe", "> 0: front of the wheel towards the vehicle", true), p.toe);
+  visit(angle("camber", "> 0: top of the wheel away from the vehicle", true), p.camber);
+  visit(angle("spin", "of the carrier about the wheel's axis; left out: not prescribed", false), p.spin);
+}
+
+/// `[target]`: positions listed, or in a CSV file with the columns rack, centre_x, centre_y, centre_z, toe,
+/// camber, spin.
+struct PosesTarget {
+  std::optional<std::string> file;
+  std::optional<std::vector<PoseEntry>> poses;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PosesTarget& t) {
+  visit(Field{.key = "file", .summary = "CSV file with a position a line"}, t.file);
+  visit(Field{.key = "pose", .summary = "positions of the carrier"}, t.poses);
+}
+
+struct RecommendedIndirect {
+  IndirectOptions options;
+};
+template <class Visitor>
+void fields(Visitor&& visit, RecommendedIndirect& r) {
+  fields(visit, r.options.link);
+  visit(Field{.key = "unknown_spin", .summary = "for positions that do not prescribe the spin"},
+        r.options.spin);
+}
+constexpr Word choice_word(const RecommendedIndirect&) {
+  return {"recommended", "link by link: variable projection and least squares within the boxes"};
+}
+
+struct PublishedIndirect {
+  IndirectEvolutionOptions options;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PublishedIndirect& p) {
+  visit(Field{.key = "generations", .summary = "at most", .minimum = 1, .maximum = 1e7},
+        p.options.method.method.generations);
+  visit(Field{.key = "together", .summary = "all links at once, not link by link"}, p.options.together);
+  visit(Field{.key = "tolerance",
+              .summary = "root mean square of the structural errors of a link that counts as found",
+              .dimension = Dimension::length,
+              .minimum = 1e-14,
+              .maximum = 1},
+        p.options.tolerance);
+  visit(Field{.key = "spin_technique", .summary = "what stands for spins that are not prescribed"},
+        p.options.method.technique);
+}
+constexpr Word choice_word(const PublishedIndirect&) {
+  return {"differential_evolution",
+          "with the settings of Poznanovic 2016: 5 members an unknown, F 0.6, CR 0.9"};
+}
+
+struct IndirectOptimiser {
+  std::variant<RecommendedIndirect, PublishedIndirect> method;
+};
+template <class Visitor>
+void fields(Visitor&& visit, IndirectOptimiser& o) {
+  visit(Field{.key = "method", .summary = "how links are searched"}, o.method);
+}
+
+/// A synthesis as read.
+struct IndirectStudy {
+  GuideDescription description;
+  IndirectTask task;  ///< of a left wheel: a right one is mirrored, and its answer mirrored back
+  IndirectOptimiser optimiser;
+};
+
+/// "synthesis" of "suspension.wheel_guide" for "carrier_poses".
+study::Kind indirect_kind();
+
+/// Reads the tables of the study and writes them into the canonical one; nothing when there are problems,
+/// which go to the reader.
+std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, const study::Common& common,
+                                                 Value& canonical);
+
+/// Runs it over the seeds and reports.
+study::Result run_indirect_study(const IndirectStudy& study, const study::Common& common,
+                                 RunContext& context);
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,256 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/core/csv.h"
+#include "linkwright/study/beside.h"
+#include "linkwright/study/bind_write.h"
+#include "linkwright/suspension/guide/plausibility.h"
+#include "linkwright/suspension/studies/indirect.h"
+
+namespace linkwright::suspension {
+namespace {
+
+constexpr std::size_t most_poses = 2000;
+
+bool open_box(const PointBox& box) { return !(box.lower == box.upper); }
+
+/// The coordinate along which an axis runs most.
+void give_along(PointBox& box, const Vec3& at, const Vec3& axis) {
+  const double x = std::abs(axis.x), y = std::abs(axis.y), z = std::abs(axis.z);
+  if (x >= y && x >= z)
+    box.lower.x = box.upper.x = at.x;
+  else if (y >= z)
+    box.lower.y = box.upper.y = at.y;
+  else
+    box.lower.z = box.upper.z = at.z;
+}
+
+bool fully_open(const PointBox& b) {
+  return b.lower.x != b.upper.x && b.lower.y != b.upper.y && b.lower.z != b.upper.z;
+}
+
+/// Two points of an axis, and the point of a strut, may slide along it: where a study leaves all their
+/// coordinates open, the one along the axis stays where the box is.
+void settle_axes(LinkTask& task, const GuideLink& start) {
+  for (auto [boxes, points] : {std::pair{&task.body, &start.body}, std::pair{&task.carrier, &start.carrier}})
+    if (points->size() == 2)
+      for (std::size_t i = 0; i < 2; ++i)
+        if (fully_open((*boxes)[i])) give_along((*boxes)[i], (*points)[i], (*points)[1] - (*points)[0]);
+  if (task.type == LinkType::SP && fully_open(task.carrier[0]))
+    give_along(task.carrier[0], start.carrier[0], start.carrier[0] - start.body[0]);
+}
+
+PointBox mirrored_box(const PointBox& b) {
+  return {{b.lower.x, -b.upper.y, b.lower.z}, {b.upper.x, -b.lower.y, b.upper.z}};
+}
+
+/// Targets of the study as those of a left wheel.
+void mirror(IndirectTask& task) {
+  CarrierTargets& t = task.targets;
+  t.wheel.centre = math::mirrored(t.wheel.centre);
+  t.rack_direction = math::mirrored(t.rack_direction);
+  for (CarrierTarget& pose : t.poses) pose.centre = math::mirrored(pose.centre);
+  for (LinkTask& link : task.links)
+    for (auto* boxes : {&link.body, &link.carrier})
+      for (PointBox& box : *boxes) box = mirrored_box(box);
+  for (CouplerTask& c : task.couplers) c.point = mirrored_box(c.point);
+}
+
+void read_poses(study::ObjectReader& target, const study::Common& common, IndirectTask& task,
+                PosesTarget& form) {
+  target.read(form);
+  if (form.file.has_value() == form.poses.has_value()) {
+    target.error(form.file ? "file" : "pose",
+                 form.file ? "positions are given here, too" : "the target has no positions",
+                 "write file = \"poses.csv\", or [[target.pose]]");
+    return;
+  }
+  if (form.file) {
+    const auto text = study::read_beside(target, "file", common.folder, *form.file);
+    if (!text) return;
+    Diagnostics problems;
+    const std::optional<Table> table = read_csv(*text, *form.file, problems);
+    std::optional<CarrierTargets> targets;
+    if (table) targets = carrier_targets(task.targets, *table, *form.file, problems);
+    for (const Diagnostic& d : problems) target.unreadable("file", to_string(d));
+    if (targets) task.targets = std::move(*targets);
+  } else {
+    for (const PoseEntry& p : *form.poses)
+      task.targets.poses.push_back({p.rack,
+                                    {p.centre[0], p.centre[1], p.centre[2]},
+                                    {p.toe, p.camber, p.spin.value_or(std::nan(""))}});
+  }
+  const char* key = form.file ? "file" : "pose";
+  if (task.targets.poses.size() > most_poses)
+    target.error(key,
+                 fmt::format("{} positions, at most {} are allowed", task.targets.poses.size(), most_poses));
+  for (const Diagnostic& d : implausible(task.targets))
+    d.severity == Diagnostic::Severity::error ? target.error(key, d.message, d.hint)
+                                              : target.warning(key, d.message, d.hint);
+  const bool elsewhere = std::any_of(
+      task.targets.poses.begin(), task.targets.poses.end(),
+      [&](const CarrierTarget& p) { return !(p.centre == task.targets.wheel.centre && p.rack == 0); });
+  if (!elsewhere && !target.document().has_errors())
+    target.error(key, "no position besides the reference", "list the positions that the carrier is to take");
+}
+
+}  // namespace
+
+std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, const study::Common& common,
+                                                 Value& canonical) {
+  IndirectStudy s;
+  const auto description = read_guide(document, common, OpenPoints::boxes);
+  PosesTarget form;
+  if (description) {
+    s.description = *description;
+    const WheelGuide& guide = description->guide;
+    s.task.targets.wheel = guide.wheel;
+    s.task.targets.rack_direction = guide.rack_direction;
+    s.task.links = description->links;
+    s.task.couplers = description->couplers;
+    bool open = std::any_of(s.task.couplers.begin(), s.task.couplers.end(),
+                            [](const CouplerTask& c) { return open_box(c.point); });
+    for (std::size_t i = 0; i < s.task.links.size(); ++i) {
+      settle_axes(s.task.links[i], guide.links[i]);
+      const LinkTask& l = s.task.links[i];
+      open = open || std::any_of(l.body.begin(), l.body.end(), open_box) ||
+             std::any_of(l.carrier.begin(), l.carrier.end(), open_box);
+    }
+    auto mechanism = document.table("mechanism");
+    if (!open)
+      mechanism->error("link", "nothing is to be found: all points are given",
+                       "write body_m = { near = [x, y, z], box_m = 0.15 } for a point to be found");
+    for (const Coupler& c : guide.couplers)
+      if (c.begin)
+        mechanism->error(
+            "coupler",
+            fmt::format("'{}' begins off the line of its first link: this synthesis takes it on the line",
+                        c.name),
+            "give fraction or offset in the place of first_point");
+    for (const GuideLink& l : guide.links)
+      if (l.length)
+        mechanism->error(
+            "link", fmt::format("'{}' has a length: in this synthesis it follows from its points", l.name),
+            "remove length");
+  }
+  if (auto target = document.table(Field{.key = "target", .summary = {}, .required = true}))
+    read_poses(*target, common, s.task, form);
+  if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
+  if (!description || document.document().has_errors()) return std::nullopt;
+
+  canonical["mechanism"] = write_guide(s.description);
+  PosesTarget resolved{.file = {}, .poses = std::vector<PoseEntry>{}};
+  for (const CarrierTarget& p : s.task.targets.poses) {
+    PoseEntry entry{.rack = p.rack,
+                    .centre = {p.centre.x, p.centre.y, p.centre.z},
+                    .toe = p.angles.toe,
+                    .camber = p.angles.camber,
+                    .spin = {}};
+    if (std::isfinite(p.angles.spin)) entry.spin = p.angles.spin;
+    resolved.poses->push_back(entry);
+  }
+  canonical["target"] = study::write_fields(resolved);
+  canonical["optimiser"] = study::write_fields(s.optimiser);
+  s.description.links = s.task.links;
+  if (s.description.guide.side == Side::right) mirror(s.task);
+  return s;
+}
+
+study::Kind indirect_kind() {
+  study::Kind kind;
+  kind.kind = "synthesis";
+  kind.mechanism = "suspension.wheel_guide";
+  kind.target = "carrier_poses";
+  kind.summary = "wheel guide whose carrier takes prescribed positions (indirect synthesis)";
+  kind.seeded = true;
+  kind.example = R"(# linkwright study: three rods of a five-link suspension from positions of its carrier
+schema = 1
+kind   = "synthesis"
+title  = "Rods for my carrier motion"
+
+[mechanism]
+type = "suspension.wheel_guide"     # frame: x forward, y to the left, z up
+side = "left"
+
+[mechanism.wheel]
+centre_mm        = [0.0, 768.0, 0.0]
+camber_deg       = -0.7
+tyre_diameter_mm = 604.0
+
+# A given point is [x, y, z]; one to be found { near = [x, y, z], box_mm = edge }.
+[[mechanism.link]]
+name       = "lower front rod"
+type       = "KS"
+body_mm    = { near = [220.0, 380.0,  -90.0], box_mm = 150.0 }
+carrier_mm = { near = [ 10.0, 730.0, -140.0], box_mm = 150.0 }
+
+[[mechanism.link]]
+name       = "lower rear rod"
+type       = "KS"
+body_mm    = { near = [-230.0, 380.0, -110.0], box_mm = 150.0 }
+carrier_mm = { near = [   0.0, 730.0, -120.0], box_mm = 150.0 }
+
+[[mechanism.link]]
+name       = "tie rod"
+type       = "KS"
+body_mm    = { near = [-100.0, 370.0,   0.0], box_mm = 150.0 }
+carrier_mm = { near = [-180.0, 650.0, -30.0], box_mm = 150.0 }
+moved_by   = "rack"
+
+[[mechanism.link]]
+name       = "upper rear rod"
+type       = "KS"
+body_mm    = [-303.0, 432.0, 295.0]
+carrier_mm = [-117.0, 636.0, 338.0]
+
+[[mechanism.link]]
+name       = "upper front rod"
+type       = "KS"
+body_mm    = [-64.0, 413.0, 327.0]
+carrier_mm = [-64.0, 636.0, 345.0]
+
+# Or file = "poses.csv" with the columns rack_mm,centre_x_mm,centre_y_mm,centre_z_mm,toe_deg,camber_deg,spin_deg
+[target]
+type = "carrier_poses"
+pose = [
+  { rack_m = 0.0, centre_m = [0.002861998415, 0.6826680943, -0.2], toe_deg = -6.688676046, camber_deg = -1.652053421, spin_deg = 0.1680795677 },
+  { rack_m = 0.0, centre_m = [0.005730264494, 0.7235117288, -0.15], toe_deg = -2.28735283, camber_deg = 0.2687526315, spin_deg = 1.219416897 },
+  { rack_m = 0.0, centre_m = [0.004569064669, 0.7480698437, -0.1], toe_deg = -1.030872049, camber_deg = 0.4783324696, spin_deg = 1.023041541 },
+  { rack_m = 0.0, centre_m = [0.002486871976, 0.7623126819, -0.05], toe_deg = -0.4143097706, camber_deg = 0.09083904684, spin_deg = 0.5701769279 },
+  { rack_m = 0.0, centre_m = [-0.002700675123, 0.7657175349, 0.05], toe_deg = 0.3906419809, camber_deg = -1.884277994, spin_deg = -0.6381377505 },
+  { rack_m = 0.0, centre_m = [-0.00550114657, 0.7553228277, 0.1], toe_deg = 0.8866406962, camber_deg = -3.559885061, spin_deg = -1.30710296 },
+  { rack_m = 0.0, centre_m = [-0.00827816346, 0.7358851716, 0.15], toe_deg = 1.652894437, camber_deg = -5.971405095, spin_deg = -1.943189515 },
+  { rack_m = 0.0, centre_m = [-0.01079312112, 0.7050512822, 0.2], toe_deg = 3.021814454, camber_deg = -9.699955519, spin_deg = -2.365042515 },
+  { rack_m = -0.075, centre_m = [-0.01875979938, 0.7701986017, 0.0], toe_deg = -23.45924997, camber_deg = 2.510559538, spin_deg = -2.650583115 },
+  { rack_m = -0.05, centre_m = [-0.0113524973, 0.7706370829, 0.0], toe_deg = -14.94173729, camber_deg = 1.247494922, spin_deg = -1.612318581 },
+  { rack_m = -0.025, centre_m = [-0.005226815289, 0.7698295994, 0.0], toe_deg = -7.263311113, camber_deg = 0.2307496603, spin_deg = -0.7529531339 },
+  { rack_m = 0.025, centre_m = [0.004527479726, 0.7652039146, 0.0], toe_deg = 7.107690599, camber_deg = -1.640212823, spin_deg = 0.7166787762 },
+  { rack_m = 0.05, centre_m = [0.008468028918, 0.7613971501, 0.0], toe_deg = 14.26761681, camber_deg = -2.654370026, spin_deg = 1.477382897 },
+  { rack_m = 0.075, centre_m = [0.01187823496, 0.7564448526, 0.0], toe_deg = 21.69163029, camber_deg = -3.786586863, spin_deg = 2.384545291 },
+]
+
+[optimiser]
+method = "recommended"              # or "differential_evolution" with the settings of the source
+seeds  = { first = 1, count = 10 }
+)";
+  kind.schema = [](study::SchemaWriter& document) {
+    describe_guide(document);
+    document.property(Field{.key = "target", .summary = "positions of the carrier", .required = true},
+                      study::schema_fields<PosesTarget>());
+    document.property(Field{.key = "optimiser", .summary = "how links are searched"},
+                      study::schema_fields<IndirectOptimiser>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    study::Prepared prepared;
+    if (auto s = read_indirect_study(document, common, prepared.canonical))
+      prepared.run = [s = *std::move(s), common](RunContext& context) {
+        return run_indirect_study(s, common, context);
+      };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,536 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "linkwright/math/angles.h"
+#include "linkwright/study/run_seeds.h"
+#include "linkwright/suspension/guide/hard_points.h"
+#include "linkwright/suspension/guide/structure.h"
+#include "linkwright/suspension/indirect/guide_deviations.h"
+#include "linkwright/suspension/indirect/seven_poses.h"
+#include "linkwright/suspension/studies/guide_scene.h"
+#include "linkwright/suspension/studies/indirect.h"
+#include "linkwright/suspension/studies/sweep.h"
+
+namespace linkwright::suspension {
+namespace {
+
+/// m: a rod of seven positions with errors below this fits all the others as well.
+constexpr double fits_all = 1e-8;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+double coordinate(const Vec3& v, std::size_t i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
+
+/// What one seed came to.
+struct SeedRun {
+  IndirectSynthesis answer;
+  double error = infinity;  ///< m, largest misfit of the joints at the prescribed positions
+};
+
+IndirectSynthesis search(const RecommendedIndirect& method, const IndirectTask& task, std::uint64_t seed,
+                         bool only, RunContext& context) {
+  IndirectOptions options = method.options;
+  options.link.progress = options.spin.progress = only;
+  return synthesise(task, options, seed, context);
+}
+IndirectSynthesis search(const PublishedIndirect& method, const IndirectTask& task, std::uint64_t seed,
+                         bool only, RunContext& context) {
+  IndirectEvolutionOptions options = method.options;
+  options.method.progress = only;
+  return evolve(task, options, seed, context);
+}
+
+/// What an answer is worth, turned to the side of the guide.
+SeedRun measured(const IndirectStudy& s, IndirectSynthesis answer) {
+  SeedRun out;
+  out.answer = std::move(answer);
+  // Measured by the equations of the mechanism, not by the fit.
+  if (!has_errors(check_structure(out.answer.guide)))
+    out.error = constraint_error(out.answer.guide, out.answer.targets).gap;
+  if (s.description.guide.side == Side::right) out.answer.guide = mirrored(out.answer.guide);
+  return out;
+}
+
+SeedRun run_seed(const IndirectStudy& s, std::uint64_t seed, bool only, RunContext& context) {
+  return measured(s,
+                  std::visit([&](const auto& method) { return search(method, s.task, seed, only, context); },
+                             s.optimiser.method));
+}
+
+/// A link or coupler that was found, of one of these places; or none.
+std::vector<double> numbers_of(const LinkFit& fit) {
+  std::vector<double> out{fit.rms, fit.largest};
+  for (const std::vector<Vec3>* points : {&fit.link.body, &fit.link.carrier})
+    for (const Vec3& p : *points) out.insert(out.end(), {p.x, p.y, p.z});
+  return out;
+}
+std::vector<double> numbers_of(const CouplerFit& fit) {
+  const Vec3& p = fit.coupler.point;
+  return {fit.rms, fit.largest, fit.offset, fit.coupler.fraction, p.x, p.y, p.z};
+}
+
+/// A seed that came to its end as a checkpoint keeps it: links, couplers and spins, not what follows.
+Value kept(const SeedRun& run) {
+  const auto fits = [](const auto& all) {
+    Value out = Value::array();
+    for (const auto& fit : all) {
+      Value one;
+      one["status"] = study::kept_status(fit.status);
+      one["numbers"] = pack_numbers(numbers_of(fit));
+      if constexpr (std::is_same_v<std::decay_t<decltype(fit)>, CouplerFit>)
+        one["looked_for"] = !fit.coupler.name.empty();  // not without the links that it joins
+      out.push_back(std::move(one));
+    }
+    return out;
+  };
+  std::vector<double> spins;
+  for (const CarrierTarget& pose : run.answer.targets.poses) spins.push_back(pose.angles.spin);
+  Value out;
+  out["links"] = fits(run.answer.links);
+  out["couplers"] = fits(run.answer.couplers);
+  out["spins"] = pack_numbers(spins);
+  out["evaluations"] = run.answer.evaluations;
+  out["generations"] = run.answer.generations;
+  return out;
+}
+
+/// Errors (not less than 0, infinite where nothing was found) and `count` finite numbers, or none.
+std::vector<double> restored_fit(const Value& value, std::size_t count, std::string_view what) {
+  const std::vector<double> numbers = unpack_numbers(kept_member(value, "numbers", what), what);
+  const auto is_error = [](double e) { return e >= 0; };
+  const bool sound =
+      (numbers.size() == 2 || numbers.size() == 2 + count) && is_error(numbers[0]) && is_error(numbers[1]) &&
+      std::all_of(numbers.begin() + 2, numbers.end(), [](double x) { return std::abs(x) < 1e6; }) &&
+      (numbers.size() > 2 || std::isinf(numbers[0]));
+  if (!sound) throw CheckpointError(fmt::format("{}: a link or coupler is none of this guide", what));
+  return numbers;
+}
+
+SeedRun restored(const Value& value, const IndirectStudy& s, std::string_view what) {
+  IndirectSynthesis ended;
+  ended.targets = s.task.targets;
+  const Value &links = kept_member(value, "links", what), &couplers = kept_member(value, "couplers", what);
+  if (!links.is_array() || links.as_array().size() != s.task.links.size() || !couplers.is_array() ||
+      couplers.as_array().size() != s.task.couplers.size())
+    throw CheckpointError(fmt::format("{}: is not what a seed came to", what));
+  for (std::size_t l = 0; l < s.task.links.size(); ++l) {
+    const LinkTask& task = s.task.links[l];
+    const Value& one = links.as_array()[l];
+    const std::vector<double> v = restored_fit(one, 3 * (task.body.size() + task.carrier.size()), what);
+    LinkFit fit{.status = study::restored_status(one, what), .link = {}, .rms = v[0], .largest = v[1]};
+    if (v.size() > 2) {
+      fit.link.name = task.name;
+      fit.link.type = task.type;
+      fit.link.moved_by_rack = task.moved_by_rack;
+      for (std::size_t k = 2; k < v.size(); k += 3)
+        (fit.link.body.size() < task.body.size() ? fit.link.body : fit.link.carrier)
+            .push_back({v[k], v[k + 1], v[k + 2]});
+    }
+    ended.links.push_back(std::move(fit));
+  }
+  for (std::size_t k = 0; k < s.task.couplers.size(); ++k) {
+    const CouplerTask& task = s.task.couplers[k];
+    const Value& one = couplers.as_array()[k];
+    const std::vector<double> v = restored_fit(one, 5, what);
+    CouplerFit fit{.status = study::restored_status(one, what), .coupler = {}, .rms = v[0], .largest = v[1]};
+    const Value& looked_for = kept_member(one, "looked_for", what);
+    if (!looked_for.is_bool() || v.size() == 2)
+      throw CheckpointError(fmt::format("{}: coupler '{}' is not told", what, task.name));
+    if (looked_for.as_bool()) fit.coupler = {.name = task.name, .first = task.first, .second = task.second};
+    fit.offset = v[2];
+    fit.coupler.fraction = v[3];
+    fit.coupler.point = {v[4], v[5], v[6]};
+    ended.couplers.push_back(std::move(fit));
+  }
+  const std::vector<double> spins = unpack_numbers(kept_member(value, "spins", what), what);
+  if (spins.size() != ended.targets.poses.size())
+    throw CheckpointError(
+        fmt::format("{}: {} spins of {} positions", what, spins.size(), ended.targets.poses.size()));
+  for (std::size_t i = 0; i < spins.size(); ++i) {
+    double& spin = ended.targets.poses[i].angles.spin;
+    // Only those that were not prescribed were found.
+    if (std::isinf(spins[i]) || (!std::isnan(spin) && spin != spins[i]))
+      throw CheckpointError(fmt::format("{}: spin {} is none of this position", what, spins[i]));
+    spin = spins[i];
+  }
+  ended.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
+  ended.generations = static_cast<int>(kept_integer(value, "generations", 0, 1000000000, what));
+  return measured(s, completed(s.task, ended));
+}
+
+using Runs = study::SeedRuns<SeedRun>;
+
+/// Exact ones first, then by what the joints miss.
+bool better(const SeedRun& a, const SeedRun& b) {
+  const bool good = a.answer.status == Status::done, other = b.answer.status == Status::done;
+  return good != other ? good : a.error < b.error;
+}
+
+/// Calls visit(name, point, box) for every point of the links.
+template <class Visit>
+void each_point(const IndirectStudy& s, const WheelGuide& guide, Visit&& visit) {
+  for (std::size_t i = 0; i < guide.links.size(); ++i) {
+    const GuideLink& link = guide.links[i];
+    const LinkTask& task = s.description.links[i];
+    const auto one_end = [&](const std::vector<Vec3>& points, const std::vector<PointBox>& boxes,
+                             std::string_view end) {
+      for (std::size_t k = 0; k < points.size(); ++k)
+        visit(fmt::format("{}, {}{}", link.name, end,
+                          points.size() > 1 ? fmt::format(" {}", k + 1) : std::string()),
+              points[k], boxes[k]);
+    };
+    one_end(link.body, task.body, "body");
+    one_end(link.carrier, task.carrier, "carrier");
+  }
+  for (std::size_t i = 0; i < guide.couplers.size() && i < s.description.couplers.size(); ++i)
+    visit(guide.couplers[i].name + ", second end", guide.couplers[i].point, s.description.couplers[i].point);
+}
+
+study::Solution solution_of(const IndirectStudy& s, const SeedRun& run, std::string scene) {
+  study::Solution out;
+  out.label = structure_name(structure_of(run.answer.guide));
+  each_point(s, run.answer.guide, [&](const std::string& name, const Vec3& at, const PointBox& box) {
+    for (std::size_t i = 0; i < 3; ++i)
+      out.parameters.push_back({fmt::format("{}_{}_m", plain_name(name), axes[i]),
+                                fmt::format("{} {}", name, axes[i]), coordinate(at, i),
+                                coordinate(box.lower, i), coordinate(box.upper, i)});
+  });
+  out.objectives["max_constraint_error_m"] = run.error;
+  out.objectives["max_structural_error_m"] = run.answer.largest;
+  out.classification["structure"] = out.label;
+  out.classification["status"] = to_string(run.answer.status);
+  out.defects = Value::array();
+  for (const Diagnostic& d : run.answer.findings)
+    if (d.severity == Diagnostic::Severity::error) out.defects.push_back(d.message);
+  out.scene = std::move(scene);
+  return out;
+}
+
+/// Prescribed positions and what the wheel does there at the height and rack of each.
+Table poses_table(const CarrierTargets& targets, const WheelGuide& left) {
+  Table table{.name = "poses"};
+  const GuidePlan plan = prepare(left);
+  const GuidePosition reference = reference_position(plan);
+  const std::array<std::pair<const char*, const char*>, 6> keys{{{"centre_x_m", "wheel centre x"},
+                                                                 {"centre_y_m", "wheel centre y"},
+                                                                 {"centre_z_m", "wheel centre z"},
+                                                                 {"toe_rad", "toe"},
+                                                                 {"camber_rad", "camber"},
+                                                                 {"spin_rad", "spin"}}};
+  std::vector<std::vector<double>> columns(2 + 3 * keys.size());
+  for (const CarrierTarget& t : targets.poses) {
+    const double travel = t.centre.z - targets.wheel.centre.z;
+    const GuidePosition p = reference.status == Status::done
+                                ? solve_position(plan, Driver::wheel_centre_z, {travel, t.rack}, reference)
+                                : reference;
+    const WheelAngles a = wheel_angles(Side::left, left.wheel, p.place.carrier.rotation);
+    const Vec3 c = p.place.carrier.centre;
+    const std::array<double, 6> wanted{t.centre.x,   t.centre.y,      t.centre.z,
+                                       t.angles.toe, t.angles.camber, t.angles.spin};
+    const std::array<double, 6> got{c.x, c.y, c.z, a.toe, a.camber, a.spin};
+    columns[0].push_back(travel);
+    columns[1].push_back(t.rack);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const double now = p.status == Status::done ? got[i] : WheelParameters::missing;
+      columns[2 + i].push_back(now);
+      columns[2 + keys.size() + i].push_back(wanted[i]);
+      columns[2 + 2 * keys.size() + i].push_back(now - wanted[i]);
+    }
+    table.status.emplace_back(to_string(p.status));
+  }
+  const auto add = [&](std::string key, std::string label, std::size_t i) {
+    table.add(std::move(key), std::move(label), columns[i]);
+  };
+  add("travel_m", "travel (m)", 0);
+  add("rack_m", "rack (m)", 1);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const std::string key = keys[i].first, name = keys[i].second, unit = i < 3 ? " (m)" : " (rad)";
+    add(key, name + unit, 2 + i);
+    add("prescribed_" + key, "prescribed " + name + unit, 2 + keys.size() + i);
+    add("deviation_" + key, "deviation of " + name + unit, 2 + 2 * keys.size() + i);
+  }
+  return table;
+}
+
+/// How well the positions determine each link.
+Table conditioning_table(const IndirectStudy& s, const SeedRun& run) {
+  Table table{.name = "conditioning"};
+  std::vector<double> rms, largest, strongest, weakest;
+  for (std::size_t i = 0; i < s.task.links.size() && i < run.answer.links.size(); ++i) {
+    const LinkFit& fit = run.answer.links[i];
+    table.names.push_back(s.task.links[i].name);
+    rms.push_back(fit.rms);
+    largest.push_back(fit.largest);
+    double most = WheelParameters::missing, least = most;
+    if (spin_is_given(run.answer.targets) && std::isfinite(fit.rms)) {
+      const LinkConditioning c = conditioning(run.answer.targets, s.task.links[i], fit.link);
+      if (!c.singular_values.empty()) most = c.singular_values.front(), least = c.singular_values.back();
+    }
+    strongest.push_back(most);
+    weakest.push_back(least);
+  }
+  table.add("structural_error_rms_m", "structural error, root mean square (m)", rms);
+  table.add("structural_error_max_m", "structural error, largest (m)", largest);
+  table.add("largest_singular_value", "largest singular value (error by coordinate)", strongest);
+  table.add("smallest_singular_value",
+            "smallest singular value: errors of positions move points by its inverse", weakest);
+  return table;
+}
+
+/// The name of the link of the task in whose boxes a rod lies; "-" of a rod that lies in none.
+std::string place_of(const IndirectStudy& s, const GuideLink& rod) {
+  for (const LinkTask& task : s.task.links) {
+    if ((task.type != LinkType::KS && task.type != LinkType::SS) || task.moved_by_rack != rod.moved_by_rack)
+      continue;
+    GuideLink as_asked = rod;
+    as_asked.type = task.type;
+    if (LinkCoordinates(task).inside(as_asked)) return task.name;
+  }
+  return "-";
+}
+
+/// Every rod through seven positions, complex solutions too, and the hinged arms that rods in families stand
+/// for: what there is to choose from, where the search takes one rod for each box.
+void add_seven_poses(study::Result& result, const IndirectStudy& s, const CarrierTargets& targets) {
+  const bool right = s.description.guide.side == Side::right;
+  const auto seen = [&](const Vec3& p) { return right ? math::mirrored(p) : p; };
+  Table rods{.name = "seven_pose_rods"}, arms{.name = "seven_pose_arms"};
+  constexpr std::array<std::string_view, 2> ends{"body", "carrier"};
+  std::vector<double> moved, number, is_real, rms, largest;
+  std::array<std::array<std::vector<double>, 6>, 2> parts;  // [end][x, y, z, imaginary x, y, z]
+  std::array<std::vector<double>, 9> arm_points;
+  std::vector<double> arm_moved;
+  for (const bool by_rack : {false, true}) {
+    const bool asked = std::any_of(s.task.links.begin(), s.task.links.end(), [&](const LinkTask& l) {
+      return (l.type == LinkType::KS || l.type == LinkType::SS) && l.moved_by_rack == by_rack &&
+             !LinkCoordinates(l).free().empty();
+    });
+    if (!asked || link_motion(targets, by_rack).size() < 6) continue;
+    const SevenPoseReport found = seven_pose_rods(targets, by_rack);
+    int fitting = 0;
+    for (std::size_t i = 0; i < found.all.size(); ++i) {
+      const SevenPoseSolution& one = found.all[i];
+      const bool real = one.rod >= 0;
+      const SevenPoseRod* rod = real ? &found.rods[static_cast<std::size_t>(one.rod)] : nullptr;
+      rods.names.push_back(rod ? place_of(s, rod->link) : std::string("-"));
+      moved.push_back(by_rack);
+      number.push_back(static_cast<double>(i + 1));
+      is_real.push_back(real);
+      rms.push_back(rod ? rod->rms : WheelParameters::missing);
+      largest.push_back(rod ? rod->largest : WheelParameters::missing);
+      fitting += rod && rod->rms <= fits_all;
+      for (std::size_t end = 0; end < 2; ++end)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::complex<double> at = (end == 0 ? one.body : one.carrier)[k];
+          const double sign = right && k == 1 ? -1 : 1;
+          parts[end][k].push_back(sign * at.real());
+          parts[end][3 + k].push_back(real ? 0 : sign * at.imag());
+        }
+    }
+    for (const GuideLink& arm : found.arms) {
+      arms.names.emplace_back(name_of(arm.type));
+      const bool wishbone = arm.type == LinkType::RS;
+      const auto &ball = wishbone ? arm.carrier : arm.body, &hinge = wishbone ? arm.body : arm.carrier;
+      std::size_t column = 0;
+      for (const Vec3& p : {ball[0], hinge[0], hinge[1]})
+        for (std::size_t k = 0; k < 3; ++k) arm_points[column++].push_back(coordinate(seen(p), k));
+      arm_moved.push_back(by_rack);
+    }
+    result.facts.push_back(
+        {fmt::format("rods through seven positions{}", by_rack ? ", on the rack" : ""),
+         fmt::format("{} solutions, {} of them real; {} fit all positions{}", found.solutions,
+                     found.rods.size(), fitting,
+                     found.arms.empty() ? std::string()
+                                        : fmt::format("; {} hinged arms (RS, SR) whose rods form families",
+                                                      found.arms.size()))});
+  }
+  if (!rods.names.empty()) {
+    rods.add("number", "number", std::move(number));
+    rods.add("moved_by_rack", "on the rack (1 = yes)", std::move(moved));
+    rods.add("is_real", "real (1 = yes)", std::move(is_real));
+    rods.add("structural_error_rms_m", "structural error at all positions, root mean square (m)",
+             std::move(rms));
+    rods.add("structural_error_max_m", "structural error at all positions, largest (m)", std::move(largest));
+    for (std::size_t end = 0; end < 2; ++end)
+      for (std::size_t k = 0; k < 6; ++k)
+        rods.add(fmt::format("{}_{}{}_m", ends[end], axes[k % 3], k < 3 ? "" : "_imaginary"),
+                 fmt::format("{} {}{} (m)", ends[end], axes[k % 3], k < 3 ? "" : ", imaginary part"),
+                 std::move(parts[end][k]));
+    result.tables.push_back(std::move(rods));
+  }
+  if (arms.names.empty()) return;
+  constexpr std::array<std::string_view, 3> points{"ball", "hinge_1", "hinge_2"};
+  constexpr std::array<std::string_view, 3> words{"ball joint", "hinge 1", "hinge 2"};
+  arms.add("moved_by_rack", "on the rack (1 = yes)", std::move(arm_moved));
+  for (std::size_t c = 0; c < arm_points.size(); ++c)
+    arms.add(fmt::format("{}_{}_m", points[c / 3], axes[c % 3]),
+             fmt::format("{} {} (m)", words[c / 3], axes[c % 3]), std::move(arm_points[c]));
+  result.tables.push_back(std::move(arms));
+}
+
+Table seeds_table(const Runs& runs) {
+  Table table{.name = "seeds"};
+  std::vector<double> seed, error, evaluations;
+  for (std::size_t i = 0; i < runs.answers.size(); ++i) {
+    const SeedRun& r = runs.answers[i];
+    seed.push_back(static_cast<double>(runs.seeds[i]));
+    error.push_back(std::isfinite(r.error) ? r.error : WheelParameters::missing);
+    evaluations.push_back(static_cast<double>(r.answer.evaluations));
+    table.status.emplace_back(to_string(r.answer.status));
+  }
+  table.add("seed", "seed", seed);
+  table.add("max_constraint_error_m", "largest constraint error (m)", error);
+  table.add("evaluations", "evaluations", evaluations);
+  return table;
+}
+
+study::Scene scene_of(const IndirectStudy& s, const WheelGuide& guide, const std::string& name) {
+  double low = 0, high = 0;
+  std::vector<double> racks{0};
+  const double height = s.task.targets.wheel.centre.z;
+  for (const CarrierTarget& t : s.task.targets.poses) {
+    low = std::min(low, t.centre.z - height);
+    high = std::max(high, t.centre.z - height);
+    if (racks.size() < 41) racks.push_back(t.rack);
+  }
+  std::sort(racks.begin(), racks.end());
+  racks.erase(std::unique(racks.begin(), racks.end()), racks.end());
+  std::vector<double> travels;
+  constexpr int steps = 20;  // each way
+  for (int i = -steps; i <= steps; ++i) travels.push_back((i < 0 ? -low : high) * i / steps);
+  travels.erase(std::unique(travels.begin(), travels.end()), travels.end());
+  RunContext nobody;
+  const GridPositions grid = solve_grid(prepare(guide), Driver::wheel_centre_z, travels, racks, nobody);
+  return guide_scene(
+      guide, name, "wheel travel and rack",
+      {Driver::wheel_centre_z, travels, racks, grid.positions, grid.wheels, Driver::wheel_centre_z});
+}
+
+void add_statistics(study::Result& result, const IndirectStudy& s, const Runs& runs) {
+  std::vector<optimise::SeedOutcome> outcomes;
+  result.log = Value::array();
+  for (std::size_t i = 0; i < runs.answers.size(); ++i) {
+    const SeedRun& r = runs.answers[i];
+    const bool good = r.answer.status == Status::done;
+    outcomes.push_back({r.error, good ? 0.0 : 1.0, r.answer.evaluations});
+    Value entry;
+    entry["seed"] = static_cast<std::int64_t>(runs.seeds[i]);
+    entry["status"] = to_string(r.answer.status);
+    entry["best"] = r.error;
+    entry["evaluations"] = r.answer.evaluations;
+    if (r.answer.generations > 0) entry["generations"] = r.answer.generations;
+    entry["history"] = Value::array();
+    result.log.push_back(std::move(entry));
+  }
+  const optimise::SeedStatistics st = optimise::statistics(outcomes, infinity);
+  result.statistics["method"] =
+      std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method);
+  result.statistics["seeds"] = st.seeds;
+  result.statistics["success_rate"] = st.success_rate;
+  result.statistics["best"] = st.best;
+  result.statistics["median"] = st.median;
+  result.statistics["worst"] = st.worst;
+  result.statistics["evaluations"] = st.evaluations;
+  result.statistics["median_evaluations"] = st.median_evaluations;
+}
+
+std::string metres(double value) {
+  if (value >= 1e-3) return fmt::format("{:.4g} mm", value * 1e3);
+  return fmt::format("{:.2g} m", value);
+}
+
+}  // namespace
+
+study::Result run_indirect_study(const IndirectStudy& s, const study::Common& common, RunContext& context) {
+  study::Result result;
+  const Runs runs = study::run_seeds(
+      common.seeds, context, "links",
+      [&](std::uint64_t seed) { return run_seed(s, seed, common.seeds.count == 1, context); },
+      [](const SeedRun& run) { return run.answer.status; }, [](const SeedRun& run) { return run.error; },
+      [](const SeedRun& run) { return kept(run); },
+      [&](const Value& value, std::string_view what) { return restored(value, s, what); });
+  result.status = runs.status;
+  if (runs.answers.empty()) {
+    result.headline = "Interrupted before the first seed was done.";
+    return result;
+  }
+  const SeedRun& best = *std::min_element(runs.answers.begin(), runs.answers.end(), better);
+  const WheelGuide& guide = best.answer.guide;
+  const bool assembled = std::isfinite(best.error);
+  if (result.status == Status::done) result.status = best.answer.status;
+  add_statistics(result, s, runs);
+  const double success = result.statistics.find("success_rate")->as_number();
+  const std::string scene = assembled ? "solution-1" : "";
+  result.solutions.push_back(solution_of(s, best, scene));
+  if (assembled) {
+    const WheelGuide left = guide.side == Side::left ? guide : mirrored(guide);
+    result.tables.push_back(poses_table(best.answer.targets, left));
+    result.scenes.push_back(scene_of(s, guide, scene));
+    const auto deviations = [&](std::string name, std::string title, std::vector<std::string> y) {
+      result.plots.push_back({.name = std::move(name),
+                              .title = std::move(title),
+                              .table = "poses",
+                              .x = "travel_m",
+                              .y = std::move(y),
+                              .style = study::Plot::Style::points});
+    };
+    deviations("place-deviations", "Deviations of the wheel centre from the prescribed positions",
+               {"deviation_centre_x_m", "deviation_centre_y_m"});
+    deviations("angle-deviations", "Deviations of the angles from the prescribed positions",
+               {"deviation_toe_rad", "deviation_camber_rad", "deviation_spin_rad"});
+  }
+  result.tables.push_back(hard_point_table(points_of(guide)));
+  result.tables.push_back(conditioning_table(s, best));
+  result.tables.push_back(seeds_table(runs));
+
+  using Verdict = study::Fact::Verdict;
+  const bool good = best.answer.status == Status::done;
+  const std::size_t poses = s.task.targets.poses.size();
+  result.headline =
+      good ? fmt::format("A {} wheel guide takes all {} positions: its joints miss at most {}.",
+                         structure_name(structure_of(guide)), poses, metres(best.error))
+      : assembled
+          ? fmt::format(
+                "No exact wheel guide found ({}): the best one misses the {} positions by {} at most.",
+                to_string(best.answer.status), poses, metres(best.error))
+          : fmt::format("No wheel guide found ({}).", to_string(best.answer.status));
+  result.facts = {
+      {"largest constraint error at the positions", assembled ? metres(best.error) : "-",
+       good ? Verdict::good : Verdict::bad},
+      {"structure", structure_name(structure_of(guide))},
+      {"positions", fmt::format("{} (at least {:.2g} determine the links)", poses, best.answer.fewest)},
+      {"method", std::string(result.statistics.find("method")->as_string())},
+      {"seeds that found exact links",
+       fmt::format("{:.0f} of {}", success * static_cast<double>(runs.answers.size()), runs.answers.size()),
+       success > 0.9 ? Verdict::good : Verdict::plain},
+      {"evaluations", fmt::format("{}", result.statistics.find("evaluations")->as_integer())}};
+  if (spin_is_given(best.answer.targets)) add_seven_poses(result, s, best.answer.targets);
+  for (const Diagnostic& d : best.answer.findings) {
+    Diagnostic remark = d;
+    remark.severity = Diagnostic::Severity::warning;
+    result.diagnostics.push_back(std::move(remark));
+  }
+  if (!spin_is_given(s.task.targets))
+    result.diagnostics.push_back({Diagnostic::Severity::warning,
+                                  {},
+                                  {},
+                                  {},
+                                  "the positions do not prescribe the spin of the carrier: many guides move "
+                                  "the wheel alike, this is one of them",
+                                  {}});
+  if (runs.answers.size() < static_cast<std::size_t>(common.seeds.count))
+    result.diagnostics.push_back(
+        {Diagnostic::Severity::warning,
+         {},
+         {},
+         {},
+         fmt::format("interrupted: {} of {} seeds ran", runs.answers.size(), common.seeds.count),
+         {}});
+  return result;
+}
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "linkwright/study/kind.h"
+#include "linkwright/suspension/wheel/guide_columns.h"
+#include "linkwright/suspension/wheel/tolerances.h"
+
+// What an analysis of a wheel guide may ask about its hard points: `[sensitivity]` and `[tolerances]`.
+namespace linkwright::suspension {
+
+/// `[sensitivity]`.
+struct SensitivityForm {
+  std::vector<std::string> quantities;
+};
+template <class Visitor>
+void fields(Visitor&& visit, SensitivityForm& s) {
+  visit(Field{.key = "quantities",
+              .summary = "columns of the sweep, without unit; default: toe, camber, half_track_change, "
+                         "roll_centre_height"},
+        s.quantities);
+}
+
+/// `[[tolerances.point]]`.
+struct PointTolerance {
+  std::string coordinate;
+  double tolerance = 0;
+};
+template <class Visitor>
+void fields(Visitor&& visit, PointTolerance& p) {
+  visit(Field{.key = "coordinate",
+              .summary = "\"tie rod.body\" for all three, \"tie rod.body_z\" for one",
+              .required = true},
+        p.coordinate);
+  visit(Field{.key = "tolerance",
+              .summary = "plus and minus",
+              .dimension = Dimension::length,
+              .minimum = 0,
+              .maximum = 1,
+              .required = true},
+        p.tolerance);
+}
+
+/// `[tolerances]`.
+struct TolerancesForm {
+  double tolerance = 0;
+  std::vector<PointTolerance> points;
+  std::vector<std::string> quantities;
+  MonteCarlo monte_carlo{.samples = 0, .scatter = Scatter::normal, .seed = 1};
+};
+template <class Visitor>
+void fields(Visitor&& visit, TolerancesForm& t) {
+  visit(Field{.key = "tolerance",
+              .summary = "plus and minus, of every coordinate of every point that has none of its own",
+              .dimension = Dimension::length,
+              .minimum = 0,
+              .maximum = 1},
+        t.tolerance);
+  visit(Field{.key = "point", .summary = "tolerances of their own"}, t.points);
+  visit(
+      Field{.key = "quantities", .summary = "columns of the sweep, without unit; default as for sensitivity"},
+      t.quantities);
+  visit(Field{.key = "samples",
+              .summary = "designs drawn at random and solved; 0 = none",
+              .minimum = 0,
+              .maximum = 1e6},
+        t.monte_carlo.samples);
+  visit(Field{.key = "scatter", .summary = "how numbers lie in their tolerances"}, t.monte_carlo.scatter);
+  visit(Field{.key = "seed", .summary = "of the designs drawn", .minimum = 0}, t.monte_carlo.seed);
+}
+
+/// Check what was read against the guide; problems go to the reader. Defaults are filled in.
+void complete_sensitivity(study::ObjectReader& document, SensitivityForm& form, const WheelGuide& guide);
+void complete_tolerances(study::ObjectReader& document, TolerancesForm& form, const WheelGuide& guide);
+/// Whether the values of all designs drawn, over so many travels, have room in memory; an error at the reader
+/// if not.
+bool fits_memory(study::ObjectReader& document, const TolerancesForm& form, std::size_t travels);
+
+/// The table `sensitivity` at the position next to the reference, and a table and a diagram over travel for
+/// each quantity; the rack next to the middle.
+struct SensitivityInputs {
+  Driver travel = Driver::wheel_centre_z;
+  std::span<const double> travels;
+  double rack = 0;
+  Driver lock = Driver::wheel_centre_z;
+};
+void add_sensitivity(study::Result& result, const WheelGuide& guide, const SensitivityForm& form,
+                     const SensitivityInputs& inputs);
+/// A table and a diagram with bands for each quantity, and the table `tolerance_shares`.
+void add_tolerances(study::Result& result, const WheelGuide& guide, const TolerancesForm& form,
+                    const SensitivityInputs& inputs, RunContext& context);
+
+}  // namespace linkwright::suspension

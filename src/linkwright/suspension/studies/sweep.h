@@ -1,0 +1,99 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "linkwright/suspension/studies/axle.h"
+#include "linkwright/suspension/studies/compliance.h"
+#include "linkwright/suspension/studies/guide.h"
+#include "linkwright/suspension/studies/sensitivity.h"
+#include "linkwright/suspension/wheel/parameters.h"
+
+// The analysis of a wheel guide over wheel travel and rack: what its file holds, how it is read, run and
+// reported.
+namespace linkwright::suspension {
+
+struct TravelValues {
+  Driver coordinate = Driver::wheel_centre_z;
+  LengthValues values;
+};
+template <class Visitor>
+void fields(Visitor&& visit, TravelValues& t) {
+  visit(Field{.key = "coordinate", .summary = "what travels, as a change from the reference"}, t.coordinate);
+  fields(visit, t.values);
+}
+
+struct GridSweep {
+  TravelValues travel;
+  std::optional<LengthValues> rack;
+};
+template <class Visitor>
+void fields(Visitor&& visit, GridSweep& s) {
+  visit(Field{.key = "travel", .summary = "values of the wheel's travel", .required = true}, s.travel);
+  visit(Field{.key = "rack", .summary = "values of the rack; default: centred"}, s.rack);
+}
+constexpr Word choice_word(const GridSweep&) { return {"grid", "every travel with every rack displacement"}; }
+
+struct GuideSweep {
+  std::variant<GridSweep> type;
+  std::optional<Driver> steering_lock;
+  bool assemblies = false;
+};
+template <class Visitor>
+void fields(Visitor&& visit, GuideSweep& s) {
+  visit(Field{.key = "type", .summary = "which positions are taken"}, s.type);
+  visit(Field{.key = "steering_lock",
+              .summary = "what is held while the wheel is steered about its steering axis: spring, "
+                         "wheel_centre_z or contact_z; default: the spring if there is one"},
+        s.steering_lock);
+  visit(Field{.key = "assemblies", .summary = "table of the other ways to put the guide together"},
+        s.assemblies);
+}
+
+/// An analysis as read.
+struct SweepStudy {
+  GuideDescription description;
+  Driver travel = Driver::wheel_centre_z;
+  std::vector<double> travels, racks;        ///< m, ascending
+  Driver lock = Driver::wheel_centre_z;      ///< of the steering axis
+  std::vector<std::string> quantities;       ///< empty = all that the guide has
+  bool assemblies = false;                   ///< the other ways to put it together are looked for
+  bool drawn = true;                         ///< whether a scene is wanted: a grid may have many positions
+  std::optional<GuideDescription> baseline;  ///< another guide, whose curves are laid behind
+  std::optional<VehicleForm> vehicle;
+  std::optional<AxleForm> axle;
+  std::optional<ComplianceForm> compliance;
+  std::optional<SensitivityForm> sensitivity;
+  std::optional<TolerancesForm> tolerances;
+};
+
+/// "analysis" of "suspension.wheel_guide".
+study::Kind sweep_kind();
+
+/// Reads the tables of the study and writes them into the canonical one; nothing when there are problems,
+/// which go to the reader.
+std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const study::Common& common,
+                                           Value& canonical);
+
+/// Columns that are quantities of the study, whether its guide has them or not, else all that it has.
+std::vector<const GuideColumn*> columns_of(const SweepStudy& study);
+
+/// Positions of a grid: for each rack all travels. Each rack is gone to at the travel next to zero, and the
+/// travels outwards from there, each from the one before; a position that is not reached keeps its reason.
+struct GridPositions {
+  std::size_t first_travel = 0, travels = 0;  ///< which of the travels asked for they are
+  std::vector<GuidePosition> positions;       ///< [rack * travels + travel]
+  std::vector<WheelParameters> wheels;        ///< likewise; singular where there is no position
+};
+/// Interrupted: the racks so far; in the first of them the travels so far, about the one next to zero.
+GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const double> travels,
+                         std::span<const double> racks, RunContext& context);
+
+/// Evaluates the grid and reports. Rows without a position hold NaN and their status; the status of the
+/// result is then the first of these. Cancelled or out of time: the positions so far (solve_grid).
+study::Result run_sweep_study(const SweepStudy& study, RunContext& context);
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,252 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/study/bind_write.h"
+#include "linkwright/study/memory.h"
+#include "linkwright/study/read.h"
+#include "linkwright/suspension/studies/sweep.h"
+#include "linkwright/suspension/wheel/guide_columns.h"
+
+namespace linkwright::suspension {
+namespace {
+
+constexpr std::size_t most_rows = 1000000;
+
+/// `[baseline]`: the mechanism of another study, or one beside this one.
+std::optional<GuideDescription> read_baseline(study::ObjectReader& document, const study::Common& common) {
+  auto table = document.table("baseline");
+  if (!table) return std::nullopt;
+  std::string file;
+  const bool named = (*table)(Field{.key = "file", .summary = {}}, file);
+  if (named == table->has("mechanism")) {
+    table->error("file", named ? "the baseline is given twice" : "the baseline is missing",
+                 "write file = \"before.toml\", the study that it stands in; or [baseline.mechanism]");
+    return std::nullopt;
+  }
+  if (!named) {
+    std::string type;
+    if (auto mechanism = table->table("mechanism")) (*mechanism)(Field{.key = "type", .summary = {}}, type);
+    return read_guide(*table, common, OpenPoints::none);
+  }
+  Diagnostics problems;
+  study::Common there = common;
+  const std::filesystem::path path = common.folder / file;
+  there.folder = path.parent_path();
+  const Value other = study::read_file(path, problems);
+  std::optional<GuideDescription> out;
+  if (!has_errors(problems)) {
+    study::DocumentReader reader(other, file, problems);
+    study::ObjectReader root = reader.root();
+    out = read_guide(root, there, OpenPoints::none);
+    if (!out && !has_errors(problems)) table->error("file", fmt::format("'{}' has no wheel guide", file));
+  }
+  for (const Diagnostic& d : problems)
+    if (d.severity == Diagnostic::Severity::error) table->unreadable("file", to_string(d));
+  return out;
+}
+
+/// Whether the tables of the study, and what they are made from, have room.
+bool fits_memory(study::ObjectReader& document, const SweepStudy& s) {
+  constexpr double of_rates = 3, of_anti_features = 3;
+  const double columns = 3 + static_cast<double>(columns_of(s).size()) +
+                         (s.description.spring ? of_rates : 0) + (s.vehicle ? of_anti_features : 0),
+               positions = static_cast<double>(s.travels.size() * s.racks.size()),
+               position = sizeof(GuidePosition) + sizeof(WheelParameters) + study::table_bytes(1, columns);
+  auto sweep = document.table("sweep");
+  if (!study::require_memory(*sweep, "travel", positions * position * (s.baseline ? 2 : 1),
+                             fmt::format("{} travels with {} racks", s.travels.size(), s.racks.size()),
+                             "take fewer travels or racks, or fewer quantities"))
+    return false;
+  if (s.axle && !fits_memory(document, *s.axle)) return false;
+  return !s.tolerances || fits_memory(document, *s.tolerances, s.travels.size());
+}
+
+std::vector<Word> quantity_words() {
+  return {{"carrier", "place of the wheel centre"},
+          {"toe", ""},
+          {"camber", "angle of the vertical with the wheel's plane, and as the front view shows it"},
+          {"spin", "turn of the carrier about the wheel's axis"},
+          {"contact", "contact point of the tyre"},
+          {"track", "half-track change"},
+          {"wheelbase", "wheelbase change and recession"},
+          {"gains", "bump steer and camber by travel"},
+          {"roll_centre", "its height, both wheels travelling equally"},
+          {"instant_centres", "front and side view, with swing arms"},
+          {"support", "support tangents of braking and driving"},
+          {"spring", "length and motion ratio"},
+          {"steering_axis", "caster, kingpin inclination, trail, scrub radius, offsets, pitch of the screw"},
+          {"steering", "toe by rack"},
+          {"contact_axis", "the steering axis with the height of the contact point held"},
+          {"geometric_axis", "the line through both ball joints of the carrier: caster, inclination, ..."},
+          {"arm_planes", "roll centre and instant centres by the planes of the arms"},
+          {"screw", "pitch of the carrier's screw as it travels"}};
+}
+
+}  // namespace
+
+std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const study::Common& common,
+                                           Value& canonical) {
+  SweepStudy s;
+  s.quantities = common.output.quantities;
+  s.drawn = std::any_of(common.output.formats.begin(), common.output.formats.end(),
+                        [](study::Format f) { return f != study::Format::json && f != study::Format::csv; });
+  const auto description = read_guide(document, common, OpenPoints::none);
+  GuideSweep sweep;
+  std::optional<std::vector<double>> travels, racks = std::vector{0.0};
+  if (auto table = document.table(Field{.key = "sweep", .summary = {}, .required = true})) {
+    table->read(sweep);
+    const GridSweep& grid = std::get<GridSweep>(sweep.type);
+    s.travel = grid.travel.coordinate;
+    s.assemblies = sweep.assemblies;
+    if (description)
+      s.lock =
+          sweep.steering_lock.value_or(description->guide.spring ? Driver::spring : Driver::wheel_centre_z);
+    if (auto travel = table->table("travel")) travels = values_of(*travel, grid.travel.values, "mm");
+    if (auto rack = table->table("rack"); rack && grid.rack) racks = values_of(*rack, *grid.rack, "mm");
+    if (description) {
+      const WheelGuide& guide = description->guide;
+      if (s.travel == Driver::spring && !guide.spring)
+        if (auto travel = table->table("travel"))
+          travel->error("coordinate", "there is no spring", "add [mechanism.spring], or take wheel_centre_z");
+      if (s.lock == Driver::spring && !guide.spring)
+        table->error("steering_lock", "there is no spring to hold",
+                     "add [mechanism.spring], or take wheel_centre_z");
+      const bool steered = std::any_of(guide.links.begin(), guide.links.end(),
+                                       [](const GuideLink& l) { return l.moved_by_rack; });
+      if (!steered && racks && (racks->size() > 1 || (*racks)[0] != 0))
+        table->error("rack", "no link is moved by the rack",
+                     "write moved_by = \"rack\" in the tie rod's table");
+    }
+    if (travels && racks && travels->size() * racks->size() > most_rows)
+      table->error("travel",
+                   fmt::format("{} travels with {} racks make {} rows, at most {} are allowed",
+                               travels->size(), racks->size(), travels->size() * racks->size(), most_rows));
+  }
+  s.baseline = read_baseline(document, common);
+  document(Field{.key = "vehicle", .summary = {}}, s.vehicle);
+  document(Field{.key = "axle", .summary = {}}, s.axle);
+  document(Field{.key = "compliance", .summary = {}}, s.compliance);
+  document(Field{.key = "sensitivity", .summary = {}}, s.sensitivity);
+  document(Field{.key = "tolerances", .summary = {}}, s.tolerances);
+  if (description && s.sensitivity) complete_sensitivity(document, *s.sensitivity, description->guide);
+  if (description && s.tolerances) complete_tolerances(document, *s.tolerances, description->guide);
+  if (description && s.axle) complete_axle(document, *s.axle, description->guide);
+  if (description && s.compliance) check_compliance(document, *s.compliance, *description);
+  if (!description || !travels || !racks || document.document().has_errors()) return std::nullopt;
+  s.description = *description;
+  s.travels = *travels;
+  s.racks = *racks;
+  if (!fits_memory(document, s)) return std::nullopt;
+  canonical["mechanism"] = write_guide(s.description);
+  canonical["sweep"] = study::write_fields(
+      GuideSweep{GridSweep{{s.travel, listed<LengthValues>(s.travels)}, listed<LengthValues>(s.racks)},
+                 s.lock, s.assemblies});
+  if (s.baseline) canonical["baseline"]["mechanism"] = write_guide(*s.baseline);
+  if (s.vehicle) canonical["vehicle"] = study::write_fields(*s.vehicle);
+  if (s.axle) canonical["axle"] = study::write_fields(*s.axle);
+  if (s.sensitivity) canonical["sensitivity"] = study::write_fields(*s.sensitivity);
+  if (s.tolerances) canonical["tolerances"] = study::write_fields(*s.tolerances);
+  if (s.compliance) canonical["compliance"] = study::write_fields(*s.compliance);
+  return s;
+}
+
+study::Kind sweep_kind() {
+  study::Kind kind;
+  kind.kind = "analysis";
+  kind.mechanism = "suspension.wheel_guide";
+  kind.summary =
+      "wheel guide over wheel travel and rack: toe, camber, track, roll centre, steering axis, ...";
+  kind.quantities = quantity_words();
+  kind.example = R"(# linkwright study: a double wishbone over wheel travel and rack
+schema = 1
+kind   = "analysis"
+title  = "My front suspension"
+
+[mechanism]
+type = "suspension.wheel_guide"     # frame: x forward, y to the left, z up
+side = "left"
+
+# Points by name. A list of another program: file = "points.csv" (name,x_mm,y_mm,z_mm) or plain text, and the
+# directions of its axes, for example x = "rearward", y = "right".
+[mechanism.hard_points.points_mm]
+lower_front   = [ 180.0, 370.0, -110.0]
+lower_rear    = [-170.0, 370.0, -100.0]
+lower_ball    = [   8.0, 715.0, -130.0]
+upper_front   = [ 120.0, 440.0,  165.0]
+upper_rear    = [-140.0, 440.0,  150.0]
+upper_ball    = [ -22.0, 665.0,  215.0]
+tie_inner     = [-125.0, 415.0,  -47.0]
+tie_outer     = [-140.0, 700.0,  -42.0]
+spring_top    = [ -10.0, 500.0,  330.0]
+spring_bottom = [   0.0, 570.0, -105.0]
+wheel_centre  = [   0.0, 760.0,    0.0]
+
+[mechanism.wheel]
+point            = "wheel_centre"   # or centre_mm = [0, 760, 0]
+toe_deg          = 0.1
+camber_deg       = -0.5
+tyre_diameter_mm = 640.0
+
+# Type: joint at the body, joint at the carrier. Points: those of the body first; or body_mm and carrier_mm.
+[[mechanism.link]]
+name   = "lower wishbone"
+type   = "RS"
+points = ["lower_front", "lower_rear", "lower_ball"]
+
+[[mechanism.link]]
+name   = "upper wishbone"
+type   = "RS"
+points = ["upper_front", "upper_rear", "upper_ball"]
+
+[[mechanism.link]]
+name     = "tie rod"
+type     = "KS"
+points   = ["tie_inner", "tie_outer"]
+moved_by = "rack"
+
+[mechanism.spring]
+points      = ["spring_top", "spring_bottom"]
+attached_to = "lower wishbone"
+
+[sweep.travel]
+coordinate = "wheel_centre_z"       # or contact_z, spring
+from_mm    = -80.0
+to_mm      =  80.0
+step_mm    =  5.0
+
+[sweep.rack]
+values_mm = [-60.0, -30.0, 0.0, 30.0, 60.0]
+)";
+  kind.schema = [](study::SchemaWriter& document) {
+    describe_guide(document);
+    document.property(Field{.key = "sweep", .summary = "positions that are taken", .required = true},
+                      study::schema_fields<GuideSweep>());
+    study::SchemaWriter baseline;
+    baseline.property(Field{.key = "file", .summary = "study whose mechanism it is"}, Value());
+    baseline.property(Field{.key = "mechanism", .summary = "the mechanism itself"},
+                      study::schema_fields<GuideForm>());
+    document.property(Field{.key = "baseline", .summary = "another wheel guide to compare with"},
+                      std::move(baseline).finish());
+    document.property(Field{.key = "vehicle", .summary = "what the axle is part of: anti-dive, Ackermann"},
+                      study::schema_fields<VehicleForm>());
+    document.property(Field{.key = "axle", .summary = "both wheels: roll and steering"},
+                      study::schema_fields<AxleForm>());
+    document.property(Field{.key = "compliance", .summary = "elastic joints and loads"},
+                      study::schema_fields<ComplianceForm>());
+    document.property(Field{.key = "sensitivity", .summary = "derivatives of curves by the hard points"},
+                      study::schema_fields<SensitivityForm>());
+    document.property(Field{.key = "tolerances", .summary = "bands of curves when points have tolerances"},
+                      study::schema_fields<TolerancesForm>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    study::Prepared prepared;
+    if (auto s = read_sweep_study(document, common, prepared.canonical))
+      prepared.run = [s = *std::move(s)](RunContext& context) { return run_sweep_study(s, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,428 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "linkwright/math/angles.h"
+#include "linkwright/suspension/guide/assemblies.h"
+#include "linkwright/suspension/guide/constructions.h"
+#include "linkwright/suspension/guide/hard_points.h"
+#include "linkwright/suspension/guide/structure.h"
+#include "linkwright/suspension/studies/guide_scene.h"
+#include "linkwright/suspension/studies/sweep.h"
+#include "linkwright/suspension/wheel/guide_columns.h"
+
+namespace linkwright::suspension {
+namespace {
+
+constexpr const char* scene_name = "travel";
+/// A scene is for looking at: so many samples at most.
+constexpr std::size_t most_scene_samples = 2500;
+
+std::size_t next_to_zero(std::span<const double> values) {
+  const auto at = std::min_element(values.begin(), values.end(),
+                                   [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return static_cast<std::size_t>(at - values.begin());
+}
+
+/// Why quantities that the study asks for have no values.
+void tell_missing(study::Result& result, const SweepStudy& s) {
+  std::string_view told;
+  for (const GuideColumn* c : columns_of(s)) {
+    if (c->group == told) continue;
+    const std::string why = why_missing(s.description.guide, *c);
+    if (why.empty()) continue;
+    told = c->group;
+    result.diagnostics.push_back({Diagnostic::Severity::warning,
+                                  {},
+                                  {},
+                                  "output.quantities",
+                                  fmt::format("'{}' has no values: {}", c->group, why),
+                                  {}});
+  }
+}
+
+/// The study with the travels that its grid has: fewer when it was interrupted in its first row.
+SweepStudy with_travels_of(SweepStudy study, const GridPositions& solved) {
+  const auto first = study.travels.begin() + static_cast<std::ptrdiff_t>(solved.first_travel);
+  study.travels = {first, first + static_cast<std::ptrdiff_t>(solved.travels)};
+  return study;
+}
+
+struct Grid {
+  const SweepStudy& study;
+  GridPositions solved;
+  std::size_t racks = 0;  ///< that were done
+
+  std::size_t rows() const { return racks * study.travels.size(); }
+  double travel(std::size_t row) const { return study.travels[row % study.travels.size()]; }
+  double rack(std::size_t row) const { return study.racks[row / study.travels.size()]; }
+  GuideRow row(std::size_t i) const {
+    const WheelParameters& w = solved.wheels[i];
+    return {solved.positions[i], w, study.lock};
+  }
+};
+
+Table sweep_table(const Grid& grid, std::string name) {
+  Table table{.name = std::move(name)};
+  const std::size_t rows = grid.rows();
+  const auto add = [&](std::string_view key, std::string_view label, auto&& value) {
+    std::vector<double> values(rows);
+    for (std::size_t i = 0; i < rows; ++i) values[i] = value(i);
+    table.add(std::string(key), std::string(label), std::move(values));
+  };
+  add("travel_m", "travel (m)", [&](std::size_t i) { return grid.travel(i); });
+  add("rack_m", "rack (m)", [&](std::size_t i) { return grid.rack(i); });
+  for (const GuideColumn* c : columns_of(grid.study))
+    add(c->key, c->label, [&](std::size_t i) { return value_of(*c, grid.row(i)); });
+  add("closure_residual_m", "closure residual (m)",
+      [&](std::size_t i) { return grid.solved.positions[i].residual; });
+  const bool complete = std::all_of(grid.solved.positions.begin(), grid.solved.positions.end(),
+                                    [](const GuidePosition& p) { return p.status == Status::done; });
+  if (!complete)
+    for (const GuidePosition& p : grid.solved.positions) table.status.emplace_back(to_string(p.status));
+  return table;
+}
+
+Table limits_table(const std::vector<double>& racks, const std::vector<TravelLimits>& limits) {
+  Table table{.name = "limits"};
+  std::vector<double> low, high;
+  for (const TravelLimits& l : limits) {
+    // Without a fold the wheel goes further than anyone asks.
+    low.push_back(l.status[0] == Status::no_assembly ? l.value[0] : WheelParameters::missing);
+    high.push_back(l.status[1] == Status::no_assembly ? l.value[1] : WheelParameters::missing);
+  }
+  table.add("rack_m", "rack (m)",
+            {racks.begin(), racks.begin() + static_cast<std::ptrdiff_t>(limits.size())});
+  table.add("lowest_travel_m", "lowest travel that the links reach (m)", low);
+  table.add("highest_travel_m", "highest travel that the links reach (m)", high);
+  return table;
+}
+
+/// What the spring does at the wheel, in further columns.
+void add_wheel_rates(study::Result& result, const SweepStudy& s, const GuidePlan& plan, const Grid& grid,
+                     const RunContext& context) {
+  constexpr std::size_t between_looks = 256;
+  std::vector<double> force, rate, by_ratio;
+  bool stopped = false;
+  for (std::size_t i = 0; i < grid.rows(); ++i) {
+    if (i > 0 && i % between_looks == 0 && !stopped) {
+      const Status why = context.interruption();
+      stopped = why != Status::done;
+      if (stopped) result.status = why;
+    }
+    WheelRate w{.status = Status::no_assembly};
+    if (!stopped && grid.solved.positions[i].status == Status::done)
+      w = wheel_rate(s.description.guide, plan, grid.solved.positions[i], *s.description.spring);
+    const bool there = w.status == Status::done;
+    force.push_back(there ? w.wheel_force : WheelParameters::missing);
+    rate.push_back(there ? w.rate : WheelParameters::missing);
+    by_ratio.push_back(there ? w.motion_ratio_by_travel : WheelParameters::missing);
+  }
+  Table& table = result.tables.front();
+  table.add("wheel_force_N", "force of the spring at the wheel centre (N)", std::move(force));
+  table.add("wheel_rate_N_per_m", "wheel rate (N/m)", std::move(rate));
+  table.add("motion_ratio_by_travel", "motion ratio by travel (1/m)", std::move(by_ratio));
+}
+
+/// At the position next to the reference.
+void add_assemblies(study::Result& result, const SweepStudy& s, const GuidePlan& plan) {
+  const GuideInput input{s.travels[next_to_zero(s.travels)], s.racks[next_to_zero(s.racks)]};
+  Table table{.name = "assemblies"};
+  std::array<std::vector<double>, 7> c;
+  for (const Assembly& a : assemblies(plan, s.travel, input)) {
+    const WheelAngles angles = wheel_angles(plan.side, plan.wheel, a.place.carrier.rotation);
+    const Vec3& centre = a.place.carrier.centre;
+    const std::array<double, 7> row{
+        centre.x, centre.y, centre.z, angles.toe, angles.camber, angles.spin, static_cast<double>(a.hits)};
+    for (std::size_t i = 0; i < row.size(); ++i) c[i].push_back(row[i]);
+  }
+  constexpr std::array<std::pair<const char*, const char*>, 7> keys{
+      {{"centre_x_m", "wheel centre x (m)"},
+       {"centre_y_m", "wheel centre y (m)"},
+       {"centre_z_m", "wheel centre z (m)"},
+       {"toe_rad", "toe (rad)"},
+       {"camber_rad", "camber (rad)"},
+       {"spin_rad", "spin of the carrier (rad)"},
+       {"hits", "random starts that ended here"}}};
+  for (std::size_t i = 0; i < keys.size(); ++i) table.add(keys[i].first, keys[i].second, c[i]);
+  result.facts.push_back({"ways to put it together, found", fmt::format("{}", table.rows())});
+  result.tables.push_back(std::move(table));
+}
+
+void add_plots(study::Result& result, const SweepStudy& s) {
+  const Table& table = result.tables.front();
+  const auto over_travel = [&](std::string name, std::string title, std::vector<std::string> y) {
+    std::erase_if(y, [&](const std::string& key) { return !table.find(key); });
+    if (y.empty()) return;
+    result.plots.push_back({.name = std::move(name),
+                            .title = std::move(title),
+                            .table = "sweep",
+                            .x = "travel_m",
+                            .y = std::move(y),
+                            .scene = scene_name,
+                            .group = s.racks.size() > 1 ? "rack_m" : ""});
+  };
+  over_travel("toe", "Toe over travel", {"toe_rad"});
+  over_travel("camber", "Camber over travel", {"camber_rad"});
+  over_travel("track", "Half-track change over travel", {"half_track_change_m"});
+  over_travel("wheelbase", "Wheelbase change over travel", {"wheelbase_change_m"});
+  over_travel("roll-centre", "Roll-centre height over travel", {"roll_centre_height_m"});
+  over_travel("caster", "Caster over travel", {"caster_rad"});
+  over_travel("kingpin-inclination", "Kingpin inclination over travel", {"kingpin_inclination_rad"});
+  over_travel("trail", "Trail over travel", {"trail_m"});
+  over_travel("scrub-radius", "Scrub radius over travel", {"scrub_radius_m"});
+  over_travel("motion-ratio", "Motion ratio of the spring over travel", {"motion_ratio"});
+  over_travel("wheel-rate", "Wheel rate over travel", {"wheel_rate_N_per_m"});
+  over_travel("spin", "Spin of the carrier over travel", {"spin_rad"});
+}
+
+/// The same table of the other guide, laid behind the diagrams.
+void add_baseline(study::Result& result, const SweepStudy& s, RunContext& context) {
+  SweepStudy other = s;
+  other.description = *s.baseline;
+  if (!other.description.guide.spring) other.lock = Driver::wheel_centre_z;
+  if (s.travel == Driver::spring && !other.description.guide.spring) {
+    result.diagnostics.push_back(
+        {Diagnostic::Severity::warning, {}, {}, "baseline", "it has no spring to travel by", {}});
+    return;
+  }
+  GridPositions solved = solve_grid(prepare(other.description.guide), s.travel, s.travels, s.racks, context);
+  const std::size_t positions = solved.positions.size();
+  if (positions < s.travels.size() * s.racks.size()) result.status = context.interruption();
+  if (positions == 0) return;
+  other = with_travels_of(std::move(other), solved);
+  const Grid grid{other, std::move(solved), positions / other.travels.size()};
+  Table table = sweep_table(grid, "baseline");
+  for (study::Plot& plot : result.plots)
+    if (plot.table == "sweep" &&
+        std::all_of(plot.y.begin(), plot.y.end(), [&](const std::string& key) { return table.find(key); }))
+      plot.baseline = table.name;
+  result.tables.push_back(std::move(table));
+}
+
+std::string degrees(double radians) { return fmt::format("{:.3f}°", math::degrees(radians)); }
+std::string millimetres(double metres) { return fmt::format("{:.2f} mm", metres * 1e3); }
+std::string degrees_by_metre(double value) { return fmt::format("{:.3f} °/m", math::degrees(value)); }
+
+void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, const TravelLimits& limits) {
+  const WheelGuide& guide = s.description.guide;
+  const auto fact = [&](std::string label, std::string text) {
+    result.facts.push_back({std::move(label), std::move(text)});
+  };
+  fact("structure", structure_name(structure_of(guide)));
+  const std::size_t rack = next_to_zero(s.racks), first = rack * s.travels.size();
+  if (rack >= grid.racks) return;
+  const std::string centred = s.racks[rack] == 0 ? "" : fmt::format(" (rack {})", millimetres(s.racks[rack]));
+  const auto span = [&](double WheelAngles::*angle) {
+    double least = 1e300, largest = -1e300;
+    for (std::size_t i = first; i < first + s.travels.size(); ++i) {
+      if (grid.solved.positions[i].status != Status::done) continue;
+      const double value = grid.solved.wheels[i].angles.*angle;
+      least = std::min(least, value);
+      largest = std::max(largest, value);
+    }
+    return fmt::format("{} to {}", degrees(least), degrees(largest));
+  };
+  fact("toe over the travel" + centred, span(&WheelAngles::toe));
+  fact("camber over the travel" + centred, span(&WheelAngles::camber));
+  const std::size_t middle = first + next_to_zero(s.travels);
+  const WheelParameters& w = grid.solved.wheels[middle];
+  if (grid.solved.positions[middle].status == Status::done && w.status == Status::done) {
+    const std::string here = s.travels[next_to_zero(s.travels)] == 0
+                                 ? centred
+                                 : fmt::format(" (travel {})", millimetres(grid.travel(middle)));
+    fact("bump steer" + here, degrees_by_metre(w.toe_by_travel));
+    fact("camber by travel" + here, degrees_by_metre(w.camber_by_travel));
+    fact("roll-centre height" + here, millimetres(w.roll_centre_height));
+    if (guide.spring) fact("motion ratio" + here, fmt::format("{:.4f}", w.motion_ratio));
+    if (std::isfinite(w.arms.roll_centre_height))
+      fact("roll-centre height by arm planes" + here, millimetres(w.arms.roll_centre_height));
+    if (const SteeringAxis* axis = steering_axis_of(w, s.lock)) {
+      const std::string held = s.lock == Driver::spring      ? "spring held"
+                               : s.lock == Driver::contact_z ? "contact point's height held"
+                                                             : "wheel centre's height held";
+      fact("caster, kingpin inclination" + here,
+           fmt::format("{}, {} ({})", degrees(axis->caster), degrees(axis->inclination), held));
+      fact("trail, scrub radius" + here,
+           fmt::format("{}, {}", millimetres(axis->trail), millimetres(axis->scrub)));
+    }
+    if (const auto& axis = w.geometric_axis)
+      fact("the same by the line through the ball joints" + here,
+           fmt::format("{}, {}, {}, {}", degrees(axis->caster), degrees(axis->inclination),
+                       millimetres(axis->trail), millimetres(axis->scrub)));
+  }
+  if (const std::string why = why_no_axis(guide); !why.empty())
+    fact("geometric steering axis", "none: " + why);
+  if (const std::string why = why_no_planes(guide); !why.empty())
+    fact("roll centre by arm planes", "none: " + why);
+  const auto limit = [&](int i) {
+    return limits.status[static_cast<std::size_t>(i)] == Status::no_assembly
+               ? millimetres(limits.value[static_cast<std::size_t>(i)])
+               : std::string("none within 1 m");
+  };
+  fact("travel limits of the links, rack centred", fmt::format("{} and {}", limit(0), limit(1)));
+}
+
+/// Every so manieth value, with both ends and the one next to zero.
+std::vector<std::size_t> thinned(std::span<const double> values, std::size_t most) {
+  std::vector<std::size_t> out;
+  const std::size_t step = (values.size() + most - 1) / most, middle = next_to_zero(values);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (i % step == 0 || i + 1 == values.size() || i == middle) out.push_back(i);
+  return out;
+}
+
+study::Scene scene_of(const SweepStudy& s, const Grid& grid) {
+  const auto racks = thinned(std::span(s.racks).first(grid.racks), 41);
+  const auto travels = thinned(s.travels, std::max<std::size_t>(2, most_scene_samples / racks.size()));
+  std::vector<double> rack_values, travel_values;
+  std::vector<GuidePosition> positions;
+  std::vector<WheelParameters> wheels;
+  for (const std::size_t t : travels) travel_values.push_back(s.travels[t]);
+  for (const std::size_t r : racks) {
+    rack_values.push_back(s.racks[r]);
+    for (const std::size_t t : travels) {
+      positions.push_back(grid.solved.positions[r * s.travels.size() + t]);
+      wheels.push_back(grid.solved.wheels[r * s.travels.size() + t]);
+    }
+  }
+  return guide_scene(s.description.guide, scene_name, "wheel travel and rack",
+                     {s.travel, travel_values, rack_values, positions, wheels, s.lock});
+}
+
+}  // namespace
+
+std::vector<const GuideColumn*> columns_of(const SweepStudy& s) {
+  std::vector<const GuideColumn*> out;
+  for (const GuideColumn& c : guide_columns()) {
+    const bool listed = std::find(s.quantities.begin(), s.quantities.end(), c.group) != s.quantities.end();
+    if (listed || (s.quantities.empty() && why_missing(s.description.guide, c).empty())) out.push_back(&c);
+  }
+  return out;
+}
+
+GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const double> travels,
+                         std::span<const double> racks, RunContext& context) {
+  constexpr std::size_t between_looks = 256;
+  GridPositions out;
+  const GuidePosition reference = reference_position(plan, travel);
+  const auto middle = static_cast<std::ptrdiff_t>(next_to_zero(travels)),
+             end = static_cast<std::ptrdiff_t>(travels.size());
+  std::vector<GuidePosition> row(travels.size());
+  std::vector<WheelParameters> wheels(travels.size());
+  std::size_t solved = 0;
+  bool stopped = false;
+  for (const double rack : racks) {
+    if (context.interrupted()) break;
+    std::ptrdiff_t first = middle, last = middle;  // what the row has, first <= i < last
+    const auto from = [&](const GuidePosition& start, std::ptrdiff_t at) {
+      const auto i = static_cast<std::size_t>(at);
+      row[i] = start.status == Status::done ? solve_position(plan, travel, {travels[i], rack}, start) : start;
+      const bool there = row[i].status == Status::done;
+      if (there) {
+        wheels[i] = wheel_parameters(plan, row[i]);
+      } else {
+        wheels[i] = {};
+        wheels[i].status = row[i].status;
+      }
+      first = std::min(first, at);
+      last = std::max(last, at + 1);
+      if (++solved % between_looks == 0 && context.interrupted()) stopped = true;
+      return there;
+    };
+    from(reference, middle);
+    // Outwards, each from the last one that was reached.
+    const GuidePosition begin =
+        row[next_to_zero(travels)].status == Status::done ? row[next_to_zero(travels)] : reference;
+    for (const int way : {-1, 1}) {
+      GuidePosition near = begin;
+      for (std::ptrdiff_t i = middle + way; i >= 0 && i < end && !stopped; i += way)
+        if (from(near, i)) near = row[static_cast<std::size_t>(i)];
+    }
+    const bool whole = first == 0 && last == end;
+    if (!whole && !out.positions.empty()) break;  // a grid has all travels for each of its racks
+    out.first_travel = static_cast<std::size_t>(first);
+    out.travels = static_cast<std::size_t>(last - first);
+    out.positions.insert(out.positions.end(), std::make_move_iterator(row.begin() + first),
+                         std::make_move_iterator(row.begin() + last));
+    out.wheels.insert(out.wheels.end(), wheels.begin() + first, wheels.begin() + last);
+    if (stopped) break;
+  }
+  return out;
+}
+
+study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
+  study::Result result;
+  const GuidePlan plan = prepare(asked.description.guide);
+  GridPositions solved = solve_grid(plan, asked.travel, asked.travels, asked.racks, context);
+  const std::size_t positions = solved.positions.size();
+  if (positions < asked.travels.size() * asked.racks.size()) result.status = context.interruption();
+  if (positions == 0) {
+    result.headline = "Interrupted before the first position.";
+    return result;
+  }
+  const SweepStudy s = with_travels_of(asked, solved);
+  Grid grid{s, std::move(solved), positions / s.travels.size()};
+  result.tables.push_back(sweep_table(grid, "sweep"));
+  if (s.description.spring) add_wheel_rates(result, s, plan, grid, context);
+  std::vector<TravelLimits> limits;
+  const GuidePosition reference = reference_position(plan, s.travel);
+  TravelLimits centred;
+  if (reference.status == Status::done) {
+    for (std::size_t i = 0; i < grid.racks && (i == 0 || !context.interrupted()); ++i)
+      limits.push_back(travel_limits(plan, s.travel, s.racks[i], reference));
+    centred = travel_limits(plan, s.travel, 0, reference);
+    result.tables.push_back(limits_table(s.racks, limits));
+  }
+  if (s.assemblies) add_assemblies(result, s, plan);
+  result.tables.push_back(hard_point_table(points_of(s.description.guide)));
+  add_plots(result, s);
+  if (s.baseline) add_baseline(result, s, context);
+  add_facts(result, s, grid, centred);
+  tell_missing(result, s);
+  if (s.vehicle) add_anti_features(result, *s.vehicle, grid.solved.wheels);
+  if (s.axle) add_axle(result, s.description.guide, *s.axle, s.vehicle, context);
+  const SensitivityInputs inputs{s.travel, s.travels, s.racks[next_to_zero(s.racks)], s.lock};
+  if (s.sensitivity) add_sensitivity(result, s.description.guide, *s.sensitivity, inputs);
+  if (s.tolerances) add_tolerances(result, s.description.guide, *s.tolerances, inputs, context);
+  if (s.compliance) add_compliance(result, s.description, *s.compliance);
+  if (s.drawn) result.scenes.push_back(scene_of(s, grid));
+
+  std::size_t lost = 0;
+  double worst = 0;
+  for (std::size_t i = 0; i < grid.rows(); ++i) {
+    const GuidePosition& p = grid.solved.positions[i];
+    if (p.status == Status::done) {
+      worst = std::max(worst, p.residual);
+      continue;
+    }
+    if (result.status == Status::done) result.status = p.status;
+    if (lost++ < 5)
+      result.diagnostics.push_back(
+          {Diagnostic::Severity::warning,
+           {},
+           {},
+           {},
+           fmt::format("travel {:.6g} mm, rack {:.6g} mm: {}: {}", grid.travel(i) * 1e3, grid.rack(i) * 1e3,
+                       to_string(p.status), p.reason),
+           "the table `limits` tells how far the links reach"});
+  }
+  if (lost > 5)
+    result.diagnostics.push_back({Diagnostic::Severity::warning,
+                                  {},
+                                  {},
+                                  {},
+                                  fmt::format("{} more positions are not reached", lost - 5),
+                                  {}});
+  result.headline =
+      lost == 0 ? fmt::format("{} wheel guide: all {} positions reached (largest closure residual {:.1g} m).",
+                              structure_name(structure_of(s.description.guide)), grid.rows(), worst)
+                : fmt::format("{} wheel guide: {} of {} positions are not reached.",
+                              structure_name(structure_of(s.description.guide)), lost, grid.rows());
+  return result;
+}
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "linkwright/suspension/wheel/parameters.h"
+
+/// Two wheels of an axle, and the axle in its vehicle.
+namespace linkwright::suspension {
+
+/// Roll centre (y, z) in the vehicle's frame (m) when both wheels stand and travel differently: where the
+/// lines meet that pass through the contact points across their velocities, seen along x. Nothing if they are
+/// parallel.
+std::optional<std::array<double, 2>> roll_centre(const WheelParameters& left, const WheelParameters& right);
+
+/// What a small roll of the body towards this wheel does (rad per rad): both contact points stay on the road,
+/// so this one rises against the body by half the track times the roll, the other one falls.
+struct RollGains {
+  double toe = 0;  ///< roll steer: change of toe
+  double camber =
+      0;  ///< change of the camber against the road; 1 = the wheel leans with the body, 0 = it stays upright
+};
+RollGains roll_gains(const WheelParameters& wheel);
+
+/// Where an axle sits and how the vehicle is laid out.
+enum class AxlePlace { front, rear };
+constexpr std::array<EnumName<AxlePlace>, 2> names(AxlePlace) {
+  return {{{AxlePlace::front, "front"}, {AxlePlace::rear, "rear"}}};
+}
+struct VehicleLayout {
+  double wheelbase = 0;            ///< m, > 0
+  double centre_height = 0;        ///< m, mass centre above the ground, > 0
+  double front_brake_share = 0.5;  ///< of the braking force, 0 to 1
+  double axle_drive_share = 1;     ///< of the driving force at this axle, 0 to 1
+};
+
+/// Share of the load transfer that the links take instead of the springs, in percent; 100 = the body does not
+/// pitch there (from virtual work). Front: anti-dive, and anti-lift under drive. Rear: anti-lift, and
+/// anti-squat.
+struct AntiFeatures {
+  double outboard_brake = 0;  ///< brake torque taken by the carrier
+  double inboard_brake = 0;   ///< brake torque taken by the body
+  double inboard_drive = 0;   ///< driving torque taken by the body
+};
+AntiFeatures anti_features(const WheelParameters& wheel, AxlePlace place, const VehicleLayout& layout);
+
+/// How near the steer angles of both wheels come to a common centre of turning on the line of the rear axle.
+struct Ackermann {
+  double ideal_inner = 0;  ///< rad, what the inner wheel should turn by when the outer one turns by `outer`
+  double percent = 0;      ///< 100 = ideal, 0 = parallel, negative = the outer wheel turns more
+};
+/// `inner` and `outer` are changes of the steer angles from straight ahead (rad, > 0), `track` the distance
+/// that the angles refer to (m): of the steering axes at the ground, or of the wheels. Of one wheel: its
+/// changes of toe at opposite rack displacements.
+Ackermann ackermann(double inner, double outer, double wheelbase, double track);
+
+}  // namespace linkwright::suspension

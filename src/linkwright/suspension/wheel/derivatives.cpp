@@ -1,0 +1,296 @@
+#include "linkwright/suspension/wheel/derivatives.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "linkwright/math/small_lu.h"
+#include "linkwright/suspension/wheel/parameters_kernel.h"
+
+namespace linkwright::suspension {
+namespace {
+
+constexpr double missing = WheelParameters::missing;
+
+/// Numbers with the derivatives of one pass.
+constexpr int W = derivative_width;
+using T = math::Dual<W>;
+
+Vector3<T> constant(const Vec3& a) { return {T(a.x), T(a.y), T(a.z)}; }
+std::vector<Vector3<T>> constants(const std::vector<Vec3>& points) {
+  std::vector<Vector3<T>> out;
+  for (const Vec3& point : points) out.push_back(constant(point));
+  return out;
+}
+
+BasicWheelGuide<T> constant(const WheelGuide& guide) {
+  BasicWheelGuide<T> out{.side = guide.side,
+                         .wheel = {constant(guide.wheel.centre), T(guide.wheel.toe), T(guide.wheel.camber),
+                                   guide.wheel.tyre_diameter},
+                         .rack_direction = guide.rack_direction};
+  for (const GuideLink& link : guide.links) {
+    out.links.push_back({.type = link.type,
+                         .body = constants(link.body),
+                         .carrier = constants(link.carrier),
+                         .moved_by_rack = link.moved_by_rack,
+                         .cross_axis = link.cross_axis});
+    if (link.length) out.links.back().length = T(*link.length);
+  }
+  for (const Coupler& coupler : guide.couplers) {
+    out.couplers.push_back({.first = coupler.first,
+                            .fraction = T(coupler.fraction),
+                            .second = coupler.second,
+                            .point = constant(coupler.point)});
+    if (coupler.begin) out.couplers.back().begin = constant(*coupler.begin);
+  }
+  if (guide.spring)
+    out.spring = {constant(guide.spring->body), constant(guide.spring->moving), guide.spring->link};
+  return out;
+}
+
+BasicGuidePlace<T> constant(const GuidePlace& place) {
+  BasicGuidePlace<T> out;
+  out.carrier.centre = constant(place.carrier.centre);
+  for (int i = 0; i < 3; ++i) out.carrier.rotation.row[i] = constant(place.carrier.rotation.row[i]);
+  out.arm = T(place.arm);
+  return out;
+}
+
+template <int N>
+using Column = std::array<double, N>;
+
+/// A number in each direction.
+struct Directions {
+  std::array<double, W> of{};
+  double& operator[](int k) { return of[k]; }
+  double operator[](int k) const { return of[k]; }
+  Directions& operator-=(const Directions& other) {
+    for (int k = 0; k < W; ++k) of[k] -= other.of[k];
+    return *this;
+  }
+  friend Directions operator*(double factor, Directions a) {
+    for (double& value : a.of) value *= factor;
+    return a;
+  }
+};
+template <int N>
+using Columns = std::array<Directions, N>;  // [row][direction]
+
+template <int N>
+Column<N> direction(const Columns<N>& columns, int k) {
+  Column<N> out;
+  for (int i = 0; i < N; ++i) out[i] = columns[i][k];
+  return out;
+}
+
+/// A metre of travel that turns the wheel by a million radians is no motion any more.
+bool slow_enough(std::span<const double> rates) {
+  double square = 0;
+  for (const double rate : rates) square += rate * rate;
+  return std::sqrt(square) < 1e6;
+}
+
+template <int N>
+Twist twist(const Column<N>& x) {
+  Twist out{{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+  if constexpr (N == 7) out.arm = x[6];
+  return out;
+}
+
+/// The equations at a position: what all derivatives there have in common.
+template <int N>
+class Linearised {
+ public:
+  Linearised(const GuidePlan& plan, const GuidePosition& position) : position_(position) {
+    GuideEquations equations;
+    const double rack = position.input.rack;
+    const auto factors = [&](Driver driver) {
+      evaluate(plan, position.place, rack, driver, 0, equations);
+      math::SmallLu<N> lu;
+      lu.factor(equations.jacobian);
+      return lu;
+    };
+    by_height_ = factors(Driver::wheel_centre_z);
+    by_driver_ = position.driver == Driver::wheel_centre_z ? by_height_ : factors(position.driver);
+    Columns<N> right{};
+    right[N - 1][0] = 1;
+    for (int i = 0; i < N - 1; ++i) right[i][1] = -equations.by_rack[i];
+    const Columns<N> motions = by_height_.solve(right);
+    bump_ = direction<N>(motions, 0);
+    steer_ = direction<N>(motions, 1);
+    moves_ = slow_enough(bump_) && slow_enough(steer_);
+  }
+
+  bool moves() const { return moves_; }
+  const Column<N>& bump() const { return bump_; }
+  const Column<N>& steer() const { return steer_; }
+
+  /// How the place follows the numbers of `plan`.
+  Columns<N> shifts(const BasicGuidePlan<T>& plan) const {
+    BasicGuideEquations<T> equations;
+    kernel::evaluate(plan, constant(position_.place), T(position_.input.rack), position_.driver,
+                     T(position_.input.value), equations);
+    Columns<N> right;
+    for (int i = 0; i < N; ++i)
+      for (int k = 0; k < W; ++k) right[i][k] = -equations.residual[i].by[k];
+    return by_driver_.solve(right);
+  }
+
+  /// The place with its derivatives.
+  BasicGuidePlace<T> moved(const Columns<N>& shifts) const {
+    BasicGuidePlace<T> out = constant(position_.place);
+    const Mat3& rotation = position_.place.carrier.rotation;
+    for (int k = 0; k < W; ++k) {
+      const Twist by = twist<N>(direction<N>(shifts, k));
+      out.carrier.centre.x.by[k] = by.velocity.x;
+      out.carrier.centre.y.by[k] = by.velocity.y;
+      out.carrier.centre.z.by[k] = by.velocity.z;
+      const auto& [x, y, z] = rotation.row;
+      const auto set = [&](Vector3<T>& row, const Vec3& change) {
+        row.x.by[k] = change.x;
+        row.y.by[k] = change.y;
+        row.z.by[k] = change.z;
+      };
+      // turning x (each column of the rotation), by rows
+      set(out.carrier.rotation.row[0], by.turning.y * z - by.turning.z * y);
+      set(out.carrier.rotation.row[1], by.turning.z * x - by.turning.x * z);
+      set(out.carrier.rotation.row[2], by.turning.x * y - by.turning.y * x);
+      out.arm.by[k] = by.arm;
+    }
+    return out;
+  }
+
+  /// Adds what the motions show: J x = b gives J x' = b' - J' x.
+  void add_rates(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place, const T& rack,
+                 BasicWheelParameters<T>& out) const {
+    BasicGuideEquations<T> equations;
+    kernel::evaluate(plan, place, rack, Driver::wheel_centre_z, T(0), equations);
+    const auto motion = [&](const Column<N>& x, bool steering) {
+      Columns<N> right;
+      for (int i = 0; i < N; ++i)
+        for (int k = 0; k < W; ++k) {
+          double sum = steering ? -equations.by_rack[i].by[k] : 0;
+          for (int j = 0; j < N; ++j) sum -= equations.jacobian[i][j].by[k] * x[j];
+          right[i][k] = sum;
+        }
+      const Columns<N> change = by_height_.solve(right);
+      std::array<T, N> dual;
+      for (int i = 0; i < N; ++i) {
+        dual[i].value = x[i];
+        for (int k = 0; k < W; ++k) dual[i].by[k] = change[i][k];
+      }
+      BasicTwist<T> made{{dual[0], dual[1], dual[2]}, {dual[3], dual[4], dual[5]}};
+      if constexpr (N == 7) made.arm = dual[6];
+      return made;
+    };
+    kernel::add_rates(plan, place, rack, motion(bump_, false), motion(steer_, true), out);
+  }
+
+ private:
+  const GuidePosition& position_;
+  math::SmallLu<N> by_height_, by_driver_;
+  Column<N> bump_{}, steer_{};
+  bool moves_ = true;
+};
+
+/// Values and derivatives out of dual parameters; `by[k]` may end before the last direction.
+void take_apart(const BasicWheelParameters<T>& from, WheelParameters& values, std::span<WheelParameters> by) {
+  kernel::for_each_number(from, values, [](const T& a, double& to) { to = a.value; });
+  for (std::size_t k = 0; k < by.size(); ++k)
+    kernel::for_each_number(from, by[k],
+                            [k](const T& a, double& to) { to = std::isfinite(a.value) ? a.by[k] : missing; });
+}
+
+WheelParameters unknown(Status status) {
+  WheelParameters out;
+  const BasicWheelParameters<double> nothing;
+  kernel::for_each_number(nothing, out, [](double, double& to) { to = missing; });
+  out.status = status;
+  return out;
+}
+
+template <int N>
+WheelDerivatives by_numbers(const DerivativePlan& plan, const GuidePosition& position, Extent extent) {
+  WheelDerivatives out;
+  out.by.resize(plan.numbers.size());
+  out.shift.resize(plan.numbers.size());
+  const Linearised<N> linear(plan.plan, position);
+  if (!linear.moves() || plan.passes.empty()) out.parameters = wheel_parameters(plan.plan, position);
+  if (!linear.moves()) {
+    out.status = Status::singular;
+    for (WheelParameters& by : out.by) by = unknown(out.status);
+    const Vec3 none{missing, missing, missing};
+    for (Twist& shift : out.shift) shift = {none, none, missing};
+    return out;
+  }
+  const T rack(position.input.rack);
+  for (std::size_t i = 0; i < plan.passes.size(); ++i) {
+    const auto& pass = plan.passes[i];
+    const Columns<N> shifts = linear.shifts(pass);
+    const auto place = linear.moved(shifts);
+    auto parameters = kernel::parameters_at_rest(pass, place, rack);
+    if (extent == Extent::all) {
+      kernel::add_constructions(pass, place, rack, parameters);
+      linear.add_rates(pass, place, rack, parameters);
+    }
+    const std::size_t first = i * W, count = std::min<std::size_t>(W, plan.numbers.size() - first);
+    take_apart(parameters, out.parameters, std::span(out.by).subspan(first, count));
+    for (std::size_t k = 0; k < count; ++k)
+      out.shift[first + k] = twist<N>(direction<N>(shifts, static_cast<int>(k)));
+  }
+  return out;
+}
+
+template <int N>
+InputDerivatives by_inputs(const DerivativePlan& plan, const GuidePosition& position) {
+  InputDerivatives out;
+  const Linearised<N> linear(plan.plan, position);
+  if (!linear.moves()) {
+    out.status = Status::singular;
+    out.parameters = wheel_parameters(plan.plan, position);
+    out.by_travel = out.by_rack = unknown(out.status);
+    return out;
+  }
+  Columns<N> shifts{};
+  for (int i = 0; i < N; ++i) {
+    shifts[i][0] = linear.bump()[i];
+    shifts[i][1] = linear.steer()[i];
+  }
+  const auto place = linear.moved(shifts);
+  const auto rack = T::variable(position.input.rack, 1);
+  auto parameters = kernel::parameters_at_rest(plan.inputs, place, rack);
+  kernel::add_constructions(plan.inputs, place, rack, parameters);
+  linear.add_rates(plan.inputs, place, rack, parameters);
+  std::array<WheelParameters, 2> by;
+  take_apart(parameters, out.parameters, by);
+  out.by_travel = by[0];
+  out.by_rack = by[1];
+  return out;
+}
+
+}  // namespace
+
+DerivativePlan prepare_derivatives(const WheelGuide& guide, std::vector<DesignNumber> numbers) {
+  DerivativePlan out{.plan = prepare(guide), .numbers = std::move(numbers)};
+  const auto constants = constant(guide);
+  for (std::size_t first = 0; first < out.numbers.size(); first += derivative_width) {
+    auto varied = constants;
+    for (std::size_t k = first; k < out.numbers.size() && k < first + derivative_width; ++k)
+      at(varied, out.numbers[k]).by[k - first] = 1;
+    out.passes.push_back(kernel::prepare(varied));
+  }
+  out.inputs = kernel::prepare(constants);
+  return out;
+}
+
+WheelDerivatives wheel_derivatives(const DerivativePlan& plan, const GuidePosition& position, Extent extent) {
+  return plan.plan.unknowns == 7 ? by_numbers<7>(plan, position, extent)
+                                 : by_numbers<6>(plan, position, extent);
+}
+
+InputDerivatives input_derivatives(const DerivativePlan& plan, const GuidePosition& position) {
+  return plan.plan.unknowns == 7 ? by_inputs<7>(plan, position) : by_inputs<6>(plan, position);
+}
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "linkwright/math/dual.h"
+#include "linkwright/suspension/guide/design_numbers.h"
+#include "linkwright/suspension/wheel/parameters.h"
+
+/// Exact derivatives of the wheel parameters with respect to the numbers of the design and to the inputs, by
+/// the implicit function theorem: one Newton step in dual numbers at the position, one dual solve for the
+/// motions.
+namespace linkwright::suspension {
+
+/// Numbers taken together in one pass.
+inline constexpr int derivative_width = 4;
+
+/// A guide and the numbers that derivatives are asked for. Make it with `prepare_derivatives`.
+struct DerivativePlan {
+  GuidePlan plan;
+  std::vector<DesignNumber> numbers;
+  std::vector<BasicGuidePlan<math::Dual<derivative_width>>> passes;
+  BasicGuidePlan<math::Dual<derivative_width>> inputs;
+};
+/// Throws ContractError as `prepare` does, and for numbers that the guide does not have.
+DerivativePlan prepare_derivatives(const WheelGuide& guide, std::vector<DesignNumber> numbers);
+
+/// How much of the parameters is wanted: at_rest is what a position shows without motion - angles, contact
+/// point, track, changes, length of the spring - and costs half.
+enum class Extent { at_rest, all };
+
+struct WheelDerivatives {
+  /// singular: at a limit of travel nothing has a derivative, and `by` has NaN.
+  Status status = Status::done;
+  WheelParameters parameters;
+  /// [number]: every member is the derivative of the parameter of that name, the driver's value and the rack
+  /// held; NaN where the parameter is.
+  std::vector<WheelParameters> by;
+  /// [number]: how the carrier (and the arm) moves with it, as rates of a motion.
+  std::vector<Twist> shift;
+};
+/// At a position of `plan.plan`.
+WheelDerivatives wheel_derivatives(const DerivativePlan& plan, const GuidePosition& position,
+                                   Extent extent = Extent::all);
+
+/// Derivatives of every parameter along the motions, second derivatives of the position where the parameter
+/// is a rate: of `motion_ratio` by travel follows the wheel rate.
+struct InputDerivatives {
+  Status status = Status::done;  ///< as in WheelDerivatives
+  WheelParameters parameters;
+  WheelParameters by_travel;  ///< per metre of wheel-centre height, the rack held
+  WheelParameters by_rack;    ///< per metre of rack, the height of the wheel centre held
+};
+InputDerivatives input_derivatives(const DerivativePlan& plan, const GuidePosition& position);
+
+}  // namespace linkwright::suspension

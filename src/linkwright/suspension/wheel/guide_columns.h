@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "linkwright/suspension/wheel/quantities.h"
+
+namespace linkwright::suspension {
+
+/// A position as tables show it.
+struct GuideRow {
+  const GuidePosition& position;
+  const WheelParameters& wheel;
+  Driver lock = Driver::wheel_centre_z;  ///< of the steering axis
+};
+
+/// One of the numbers that a position has, for tables, diagrams and targets: one name for it everywhere.
+struct GuideColumn {
+  std::string_view key;    ///< with unit: "toe_rad"
+  std::string_view label;  ///< for people: "toe (rad)"
+  std::string_view group;  ///< word of `output.quantities` that it belongs to: "steering_axis"
+  /// The quantity: with the height of the wheel centre, the spring, the height of the contact point held,
+  /// where that matters.
+  std::optional<WheelQuantity> at_height, at_spring, at_contact;
+  double (*place)(const GuidePosition& position) = nullptr;  ///< where it is no quantity of the wheel
+};
+
+/// All of them, in the order of tables.
+std::span<const GuideColumn> guide_columns();
+/// The column whose key without unit this is, or null: "toe", "kingpin_inclination".
+const GuideColumn* guide_column(std::string_view base);
+
+/// Its label without the unit: "toe".
+std::string_view words_of(const GuideColumn& column);
+
+/// The quantity that a column shows; nothing for those of the place of the wheel centre.
+std::optional<WheelQuantity> quantity_of(const GuideColumn& column, Driver lock);
+/// Its value; NaN without a position, steering axis or spring.
+double value_of(const GuideColumn& column, const GuideRow& row);
+
+/// Empty, or why a guide has no such number: without a spring, without a link on the rack, without two ball
+/// joints or two planes of arms. Its values are then missing.
+std::string why_missing(const WheelGuide& guide, const GuideColumn& column);
+
+/// The steering axis with `lock` held; null when the guide is not steered or has no spring to hold.
+const SteeringAxis* steering_axis_of(const WheelParameters& wheel, Driver lock);
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "linkwright/suspension/guide/position.h"
+#include "linkwright/suspension/guide/wheel.h"
+
+namespace linkwright::suspension {
+
+/// The axis about which the wheel turns when it is steered: instantaneous screw axis of the motion by the
+/// rack while `lock` is held (equations 30 to 37 with 30, 31 and 36 put right). What is held has to be told:
+/// with the spring held the axis of a double wishbone passes through both ball joints, with the wheel
+/// centre's or the contact point's height held it does not. The geometric axis is the line through both ball
+/// joints of the carrier, without any motion: it holds nothing and has no pitch.
+template <class T>
+struct BasicSteeringAxis {
+  Driver lock = Driver::wheel_centre_z;  ///< without meaning for the geometric axis
+  Vector3<T> point;                      ///< on the axis, nearest to the wheel centre
+  Vector3<T> direction;                  ///< unit, upward
+  Vector3<T> ground;                     ///< on the axis, at the height of the contact point
+  T caster = 0;                          ///< rad, > 0: top to the rear
+  T inclination = 0;                     ///< rad, > 0: top inboard
+  T trail = 0;                           ///< m along x, > 0: meets the ground ahead of the contact point
+  T scrub = 0;                           ///< m along y, > 0: meets the ground inboard of the contact point
+  T wheel_trail = 0, wheel_scrub = 0;    ///< the same along and across the wheel
+  T caster_offset = 0;   ///< m along the wheel, at the height of its centre, > 0: axis ahead of it
+  T kingpin_offset = 0;  ///< m across the wheel, at the height of its centre, > 0: axis inboard of it
+  T pitch = 0;           ///< m/rad along the axis; 0 for a pure turn; NaN of the geometric axis
+};
+using SteeringAxis = BasicSteeringAxis<double>;
+
+/// Roll centre and instant centres as they are drawn: the planes of both arms meet in the axis about which
+/// the carrier would turn as it travels, if the tie rod agreed. That axis meets the transverse plane through
+/// the wheel centre in the front centre and the longitudinal plane through it in the side centre; the line
+/// from the contact point to the front centre meets the middle plane of the vehicle in the roll centre. The
+/// motion itself (`front_centre`, `roll_centre_height`) differs by what the tie rod adds: bump steer. NaN for
+/// a guide without two planes, see GuideConstruction; a centre of parallel arms lies at infinity.
+template <class T>
+struct BasicArmCentres {
+  static constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  T roll_centre_height = missing;            ///< m above the ground line
+  std::array<T, 2> front{missing, missing};  ///< (y, z), m
+  std::array<T, 2> side{missing, missing};   ///< (x, z), m
+  T front_swing_arm = missing;               ///< m, from contact to front centre
+  T side_swing_arm = missing;                ///< m, from contact to side centre
+  T side_swing_angle = missing;              ///< rad, of that arm above the ground
+};
+
+/// What the chassis engineer asks of a position. Rates are taken in the motion of the wheel with the rack
+/// held, per metre of wheel-centre height, unless the name says rack. Points are in the vehicle's frame;
+/// directions of numbers are the same for both wheels. Without a spring its numbers are NaN.
+template <class T>
+struct BasicWheelParameters {
+  /// singular: at a limit of travel, where only angles and points are known and the rest is NaN.
+  Status status = Status::done;
+  static constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  BasicWheelAngles<T> angles;
+  /// rad, > 0: top of the wheel away from the vehicle; the angle of the wheel's plane with the vehicle's
+  /// vertical as the front view shows it, tan = tan(camber) / cos(toe). `angles.camber` is that of the
+  /// vertical with the plane itself.
+  T front_view_camber = missing;
+  Vector3<T> contact;
+  T track = missing;              ///< m, twice the contact point's distance from the middle plane (26)
+  T half_track_change = missing;  ///< m, contact point outboard of that at the reference (26)
+  T wheelbase_change = missing;   ///< m, contact point forward of that at the reference
+  T recession = missing;          ///< m, wheel centre forward of that at the reference
+  T toe_by_travel = missing;      ///< rad/m, bump steer: > 0 toes in when it rises
+  T camber_by_travel = missing;   ///< rad/m
+  Vector3<T> velocity, turning;   ///< of the wheel centre (m/m) and of the carrier (rad/m)
+  BasicContactVelocity<T> contact_velocity;  ///< m/m
+  /// m above the ground line, both wheels travelling equally (27): with the carrier's velocity at the
+  /// contact, and with that of the contact point.
+  T roll_centre_height = missing, roll_centre_height_geometric = missing;
+  std::array<T, 2> front_centre{missing, missing};  ///< (y, z) of the instant centre seen along x, m
+  std::array<T, 2> side_centre{missing, missing};   ///< (x, z) of the instant centre seen along y, m
+  T front_swing_arm = missing;   ///< m, from contact to front centre; infinite for a wheel that only shifts
+  T side_swing_arm = missing;    ///< m, from contact to side centre
+  T side_swing_angle = missing;  ///< rad, of that arm above the ground
+  /// Forward per upward velocity at the contact, of the carrier (outboard brake) and of the contact point
+  /// (torque not taken by the carrier).
+  T support_tangent = missing, support_tangent_free = missing;
+  T spring_length = missing;  ///< m
+  T motion_ratio = missing;   ///< compression of the spring per metre of wheel-centre height
+  T toe_by_rack = missing;    ///< rad/m, wheel-centre height held
+  /// m/rad, of the carrier's screw as it travels with the rack held; infinite where it only shifts.
+  T screw_pitch = missing;
+  BasicArmCentres<T> arms;
+  /// Of a guide with a link on the rack; the second only with a spring.
+  std::optional<BasicSteeringAxis<T>> axis_at_height, axis_at_spring, axis_at_contact;
+  /// Of a guide whose carrier has two ball joints, steered or not.
+  std::optional<BasicSteeringAxis<T>> geometric_axis;
+};
+using WheelParameters = BasicWheelParameters<double>;
+
+/// Everything at a position, whatever its driver. The steer angle about +z is -toe on the left and +toe on
+/// the right.
+WheelParameters wheel_parameters(const GuidePlan& plan, const GuidePosition& position);
+
+/// Steering motion (unit rate of the rack) with `lock` held, from the motions of `solve_rates` for any
+/// driver.
+Twist steering_twist(const GuidePlan& plan, const GuidePosition& position, const GuideRates& rates,
+                     Driver lock);
+
+/// The axis of a steering motion (any rate) of a wheel with its centre, contact point and toe; nothing if the
+/// motion does not turn the wheel about an upright axis. `lock` is what the motion holds, for the record.
+std::optional<SteeringAxis> steering_axis(Side side, const Vec3& centre, const Vec3& contact, double toe,
+                                          const Twist& steering, Driver lock);
+
+}  // namespace linkwright::suspension

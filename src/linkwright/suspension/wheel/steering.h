@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+
+#include "linkwright/suspension/wheel/parameters.h"
+
+namespace linkwright::suspension {
+
+/// How a wheel is steered at a position, while `lock` is held: height of the wheel centre or of the contact,
+/// or the spring. Exact, from the steering motion.
+///
+/// A lever arm is the moment about the steering axis by a unit force, as virtual work over the rate of toe;
+/// its sign is that of the toe (for both wheels), and a force the other way turns the other way.
+struct SteeringParameters {
+  Driver lock = Driver::spring;
+  double toe_by_rack = 0;  ///< rad/m
+  double steer_by_rack =
+      0;  ///< rad/m, steer angle about +z, of either wheel > 0 if a rack to the left steers left
+  double camber_by_toe = 0;  ///< rad/rad
+  double spin_by_toe = 0;  ///< rad/rad, carrier about the wheel's axis: what caster the wheel's bearing keeps
+  /// m: force forward at the contact, braked by the carrier (outboard brake): > 0 where braking toes out.
+  double brake_arm = 0;
+  /// m: force forward at the contact, the wheel free to turn on its carrier (drive shaft, inboard brake).
+  double drive_arm = 0;
+  double lateral_arm = 0;  ///< m: force outboard at the contact
+  /// m: force upward at the contact; also the rise of the contact against the body by toe (m/rad). With the
+  /// spring held that is jacking: where the contact rises, the body sinks.
+  double load_arm = 0;
+  double contact_rise_by_rack = 0;  ///< m/m, the same by rack
+};
+
+/// Nothing for a guide that no rack moves, at a limit of travel, and where the rack does not turn the wheel.
+std::optional<SteeringParameters> steering_parameters(const GuidePlan& plan, const GuidePosition& position,
+                                                      Driver lock);
+
+/// Whether any link of the guide is on the rack.
+bool is_steered(const GuidePlan& plan);
+
+/// Turn of the steering wheel (with its pinion) by steer angle, > 0: from the rack travel by a turn of the
+/// pinion (m, the C factor) and the steer angle by rack (rad/m, either sign).
+double steering_ratio(double steer_by_rack, double rack_per_turn);
+
+}  // namespace linkwright::suspension

@@ -1,0 +1,364 @@
+#include "linkwright/suspension/compliance/compliance.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "linkwright/suspension/compliance/statics.h"
+#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/wheel/parameters.h"
+#include "support/message.h"
+#include "suspension/guides.h"
+
+namespace linkwright::suspension {
+namespace {
+
+using testing::at;
+using testing::number_at;
+using testing::numbers;
+using Matrix = Eigen::Matrix<double, 6, 6>;
+
+Matrix eigen(const Matrix6& from) {
+  Matrix out;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) out(i, j) = from[i][j];
+  return out;
+}
+
+GuidePosition solve(const WheelGuide& guide, double travel, double rack) {
+  const GuidePlan plan = prepare(guide);
+  return solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan));
+}
+
+std::vector<double> reference_rods() {
+  return numbers(at(published("5KS-compliance-and-rod-forces"), "inputs.rod_axial_stiffness_N_per_m"));
+}
+constexpr double reference_spring = 30000;
+
+// A joint of rubber somewhere between those of passenger cars, not the same in any two links.
+GuideElasticity rubber(const WheelGuide& guide) {
+  GuideElasticity out{.spring = 28000};
+  double stiffness = 6e6;
+  const auto next = [&] { return stiffness *= 1.13; };
+  for (const GuideLink& link : guide.links) {
+    LinkElasticity& joints = out.links.emplace_back();
+    for (int k = 0; k < body_points(link.type); ++k)
+      joints.body.push_back(bushing(next(), 3 * next(), 40, 1500 + k));
+    for (int k = 0; k < carrier_points(link.type); ++k) joints.carrier.push_back(ball_joint(20 * next()));
+    if (link.type == LinkType::SP)
+      joints.carrier = {{.translation = {0, 5e7, 4e7}, .rotation = {3e4, 5e5, 4e5}}};
+    if (link.type == LinkType::R || link.type == LinkType::S) {
+      for (JointStiffness& joint : joints.body) joint.rotation = {60, 2e4, 3e4};
+    }
+  }
+  out.couplers.assign(guide.couplers.size(), 1.5e7);
+  return out;
+}
+
+TEST(Compliance, ReferenceOfRodsWithASpring) {
+  const Value& reference = published("5KS-compliance-and-rod-forces");
+  const WheelGuide& guide = guide_sample("5KS").guide;
+  const GuidePosition here = solve(guide, 0, 0);
+  EXPECT_EQ(number_at(reference, "inputs.spring_stiffness_N_per_m"), reference_spring);
+  const Compliance found = solve_compliance(
+      guide, here.place, 0, elastic_rods(guide, reference_rods(), reference_spring), Support::spring);
+  ASSERT_EQ(found.status, Status::done) << found.reason;
+  const Matrix stiffness = eigen(found.at_centre).inverse();
+  const auto& rows = at(reference, "computed.stiffness_matrix_wheel_centre").as_array();
+  for (int i = 0; i < 6; ++i) {
+    const auto row = numbers(rows[i]);
+    for (int j = 0; j < 6; ++j)
+      EXPECT_NEAR(stiffness(i, j), row[j], 1e-9 * std::sqrt(stiffness(i, i) * stiffness(j, j)));
+  }
+
+  const Vec3 &c = found.centre, &p = found.contact;
+  const std::array<std::pair<const char*, WheelLoad>, 5> loads{
+      {{"lateral_1kN_at_contact", load_at(c, p, {0, 1000, 0})},
+       {"braking_1kN_at_contact_wheel_locked", load_at(c, p, {-1000, 0, 0})},
+       {"traction_1kN_at_wheel_centre", {{1000, 0, 0}, {}}},
+       {"vertical_1kN_at_contact", load_at(c, p, {0, 0, 1000})},
+       {"aligning_torque_100Nm", {{}, {0, 0, 100}}}}};
+  for (const auto& [name, load] : loads) {
+    SCOPED_TRACE(name);
+    const Value& row = at(reference, std::string("computed.load_cases.") + name);
+    const ElasticResponse moved = respond(found, load);
+    // To 1e-9 of the largest of the three: small components are differences of large ones.
+    const auto expect = [&](const Vec3& value, const char* key) {
+      const Vec3 expected = point(at(row, key));
+      EXPECT_LT(distance(value, expected), 1e-9 * norm(expected)) << key;
+    };
+    expect(moved.shift, "wheel_centre_displacement_m");
+    expect(moved.turn, "rotation_rad");
+    expect(moved.contact_shift, "contact_displacement_m");
+    EXPECT_NEAR(moved.toe, number_at(row, "toe_change_rad"), 1e-9 * norm(moved.turn));
+    EXPECT_NEAR(moved.camber, number_at(row, "camber_change_rad"), 1e-9 * norm(moved.turn));
+  }
+
+  const auto forces =
+      numbers(at(reference, "computed.element_force_N_positive_pushes_carrier_away_from_body"));
+  const ElasticResponse carried =
+      respond(found, load_at(c, p, {0, 0, number_at(reference, "inputs.static_load_N")}));
+  for (const JointForce& joint : carried.joints)
+    EXPECT_NEAR(rod_force(guide, here, joint), forces[joint.link], 1e-9 * 4000);
+  EXPECT_NEAR(carried.spring_force, forces[5], 1e-9 * 4000);
+}
+
+// Rods as bodies on balls of finite stiffness against the sum of k w w^T with the three springs of each rod
+// in series; a ball's stiffness across the rod moves nothing.
+TEST(Compliance, RodsOnElasticBallsAgainstTheirSum) {
+  const WheelGuide& guide = guide_sample("5KS").guide;
+  const GuidePosition here = solve(guide, 0.04, -0.02);
+  GuideElasticity elasticity{.spring = reference_spring};
+  Matrix sum = Matrix::Zero();
+  const auto add = [&](const Vec3& from, const Vec3& to, double stiffness) {
+    const Vec3 d = unit(to - from), turn = cross(to - here.place.carrier.centre, d);
+    Eigen::Matrix<double, 6, 1> w;
+    w << d.x, d.y, d.z, turn.x, turn.y, turn.z;
+    sum += stiffness * w * w.transpose();
+  };
+  for (int i = 0; i < 5; ++i) {
+    const double body = (9 + i) * 1e6, carrier = (40 - 3 * i) * 1e6;
+    elasticity.links.push_back({{ball_joint(body)}, {ball_joint(carrier)}});
+    Vec3 from = guide.links[i].body[0];
+    if (guide.links[i].moved_by_rack) from += -0.02 * guide.rack_direction;
+    add(from, place(here.place.carrier, guide.links[i].carrier[0], guide.wheel.centre),
+        1 / (1 / body + 1 / carrier));
+  }
+  add(guide.spring->body, place(here.place.carrier, guide.spring->moving, guide.wheel.centre),
+      reference_spring);
+  const Compliance found = solve_compliance(guide, here.place, -0.02, elasticity, Support::spring);
+  ASSERT_EQ(found.status, Status::done) << found.reason;
+  const Matrix expected = sum.inverse();
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      EXPECT_NEAR(found.at_centre[i][j], expected(i, j), 1e-10 * std::sqrt(expected(i, i) * expected(j, j)));
+}
+
+TEST(Compliance, SymmetricAndPositiveForEveryMechanism) {
+  for (const GuideSample& sample : guide_samples()) {
+    SCOPED_TRACE(sample.name);
+    const WheelGuide& guide = sample.guide;
+    const GuidePosition here = solve(guide, 0.03, 0.01);
+    const bool spring = guide.spring.has_value();
+    const Compliance found = solve_compliance(guide, here.place, 0.01, rubber(guide),
+                                              spring ? Support::spring : Support::contact_held);
+    ASSERT_EQ(found.status, Status::done) << found.reason;
+    for (const Matrix6* of : {&found.at_centre, &found.at_contact}) {
+      const Matrix c = eigen(*of);
+      // Turns taken at 0.3 m so that units agree.
+      Matrix scale = Matrix::Identity();
+      scale.bottomRightCorner<3, 3>() *= 0.3;
+      const auto values = Eigen::SelfAdjointEigenSolver<Matrix>(scale * c * scale).eigenvalues();
+      EXPECT_GT(values(0), spring ? 1e-9 : -1e-18);
+      EXPECT_LT(values(5), 1e-3);
+      EXPECT_LT((c - c.transpose()).cwiseAbs().maxCoeff(), 1e-15);
+    }
+    if (!spring) {
+      EXPECT_NEAR(found.at_contact[2][2], 0, 1e-18);
+    }
+    // Reciprocity: a load pushes the rack as the rack pushes the wheel.
+    for (int load = 0; load < 6; ++load) {
+      double on_rack = 0;
+      for (const JointTransfer& joint : found.joints)
+        if (!joint.joint.at_carrier && guide.links[joint.joint.link].moved_by_rack)
+          on_rack += dot(Vec3{joint.by[0][load], joint.by[1][load], joint.by[2][load]}, guide.rack_direction);
+      EXPECT_NEAR(on_rack, -found.by_rack[load], 1e-8 * (1 + std::abs(on_rack)));
+    }
+  }
+}
+
+// Rigid joints: forces are those of statics, and motions with the spring active those of kinematics.
+TEST(Compliance, RigidJointsGiveStaticsAndKinematics) {
+  const WheelLoad load{{-700, 1100, 3900}, {310, -90, 55}};
+  for (const GuideSample& sample : guide_samples()) {
+    SCOPED_TRACE(sample.name);
+    const WheelGuide& guide = sample.guide;
+    const GuidePlan plan = prepare(guide);
+    const GuidePosition here = solve(guide, -0.02, 0.015);
+    const GuideRates rates = solve_rates(plan, here, Driver::wheel_centre_z);
+    for (Support support :
+         {Support::spring, Support::spring_held, Support::wheel_centre_held, Support::contact_held}) {
+      const bool by_spring = support == Support::spring || support == Support::spring_held;
+      if (by_spring && !guide.spring) continue;
+      const Compliance found = solve_compliance(guide, here.place, 0.015, {.spring = 25000}, support);
+      ASSERT_EQ(found.status, Status::done) << found.reason;
+      const ElasticResponse moved = respond(found, load);
+      const GuideForces expected = solve_forces(guide, plan, here, load, support);
+      ASSERT_EQ(moved.joints.size(), expected.joints.size());
+      for (std::size_t i = 0; i < moved.joints.size(); ++i) {
+        // Forces of some 1e4 N, conditions of some 1e2; with the spring active the stiffness enters.
+        EXPECT_EQ(moved.joints[i].at_carrier, expected.joints[i].at_carrier);
+        EXPECT_LT(distance(moved.joints[i].point, expected.joints[i].point), 1e-14);
+        EXPECT_LT(distance(moved.joints[i].force, expected.joints[i].force), 1e-7) << i;
+        EXPECT_LT(distance(moved.joints[i].moment, expected.joints[i].moment), 1e-7) << i;
+      }
+      for (std::size_t i = 0; i < moved.couplers.size(); ++i)
+        EXPECT_NEAR(moved.couplers[i], expected.couplers[i], 1e-7);
+      EXPECT_NEAR(by_spring ? moved.spring_force : moved.height_force, expected.support, 1e-7);
+      if (support != Support::spring) {
+        EXPECT_LT(norm(moved.shift), 1e-12);
+        continue;
+      }
+      const double ratio = wheel_parameters(plan, here).motion_ratio;
+      const double travel = expected.support / (25000 * ratio);
+      EXPECT_LT(distance(moved.shift, travel * rates.bump.velocity), 1e-11);
+      EXPECT_LT(distance(moved.turn, travel * rates.bump.turning), 1e-11);
+    }
+    // A metre of rack, with the height held.
+    const Compliance held = solve_compliance(guide, here.place, 0.015, {}, Support::wheel_centre_held);
+    const ElasticResponse steered = respond(held, {}, 1);
+    EXPECT_LT(distance(steered.shift, rates.steer.velocity), 1e-10);
+    EXPECT_LT(distance(steered.turn, rates.steer.turning), 1e-10);
+  }
+}
+
+// A wishbone with two bushings: the pair's stiffness against turning about the vertical is that of two radial
+// springs at their distance; here from the forces.
+TEST(Compliance, TwoBushingsShareTheLoad) {
+  const WheelGuide& guide = guide_sample("2RS-KS").guide;
+  const GuidePosition here = solve(guide, 0, 0);
+  GuideElasticity elasticity{.links = {{.body = {bushing(2e6, 9e6, 0, 0), bushing(1e6, 5e6, 0, 0)}}, {}, {}},
+                             .spring = 25000};
+  const Compliance found = solve_compliance(guide, here.place, 0, elasticity, Support::spring_held);
+  ASSERT_EQ(found.status, Status::done) << found.reason;
+  ASSERT_EQ(found.joints.size(), 7u);
+  const ElasticResponse moved = respond(found, {{1000, 0, 0}, {}});
+  const Vec3 axis = unit(guide.links[0].body[1] - guide.links[0].body[0]);
+  // Along the hinge both bushings shift by the same, so they share by their axial stiffness.
+  const double first = dot(moved.joints[0].force, axis), second = dot(moved.joints[1].force, axis);
+  EXPECT_GT(std::abs(first), 100);
+  EXPECT_NEAR(first, 2 * second, 1e-8);
+  // With the links rigid against the same load the sums are the same: the guide is determinate.
+  const GuideForces rigid_forces =
+      solve_forces(guide, prepare(guide), here, {{1000, 0, 0}, {}}, Support::spring_held);
+  EXPECT_LT(distance(moved.joints[0].force + moved.joints[1].force, rigid_forces.joints[0].force), 1e-8);
+}
+
+// A full matrix in turned axes is the same element as numbers in others.
+TEST(Compliance, FullMatrixInItsOwnAxes) {
+  const WheelGuide& guide = guide_sample("RS-3KS").guide;
+  const GuidePosition here = solve(guide, 0.02, 0);
+  const auto with = [&](const JointStiffness& joint) {
+    GuideElasticity elasticity = rubber(guide);
+    elasticity.links[1].body = {joint};
+    elasticity.links[2].carrier = {joint};
+    return eigen(solve_compliance(guide, here.place, 0, elasticity, Support::spring).at_centre);
+  };
+  const JointStiffness numbers_of{
+      .translation = {2e6, 7e6, 4e6}, .rotation = {300, 900, 500}, .axis = {0, 0, 2}, .across = {1, 0, 3}};
+  Matrix6 k{};
+  const double cosine = std::cos(0.4), sine = std::sin(0.4);
+  for (const int part : {0, 3}) {
+    const auto& of = part == 0 ? numbers_of.translation : numbers_of.rotation;
+    // Axes of the matrix: the same third one, the others turned by 0.4 about it.
+    k[part][part] = of[0] * cosine * cosine + of[1] * sine * sine;
+    k[part + 1][part + 1] = of[0] * sine * sine + of[1] * cosine * cosine;
+    k[part][part + 1] = k[part + 1][part] = (of[1] - of[0]) * sine * cosine;
+    k[part + 2][part + 2] = of[2];
+  }
+  const Vec3 z{0, 0, 1}, x{1, 0, 0};
+  const JointStiffness matrix{.axis = cosine * z + sine * x, .across = cosine * x - sine * z, .matrix = k};
+  EXPECT_LT((with(numbers_of) - with(matrix)).cwiseAbs().maxCoeff(),
+            1e-11 * with(matrix).cwiseAbs().maxCoeff());
+  EXPECT_GT((with(numbers_of) - with(bushing(2e6, 7e6, 300, 900))).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+// A sixth rod: the kinematic solver refuses it, elastic joints carry it.
+TEST(Compliance, RedundantGuide) {
+  WheelGuide guide = guide_sample("5KS").guide;
+  guide.links.push_back({.body = {{0.05, 0.4, 0.1}}, .carrier = {{0.02, 0.66, 0.1}}});
+  std::vector<double> rods = reference_rods();
+  rods.push_back(8e6);
+  EXPECT_THAT(test::message([&] { prepare(guide); }),
+              ::testing::HasSubstr("the count of constraints leaves 0 freedoms"));
+  const GuidePlace here{{guide.wheel.centre, {}}, 0};
+  const Compliance found =
+      solve_compliance(guide, here, 0, elastic_rods(guide, rods, reference_spring), Support::spring);
+  ASSERT_EQ(found.status, Status::done) << found.reason;
+  // The rod adds k w w^T.
+  const WheelGuide& five = guide_sample("5KS").guide;
+  Matrix sum = eigen(solve_compliance(five, here, 0, elastic_rods(five, reference_rods(), reference_spring),
+                                      Support::spring)
+                         .at_centre)
+                   .inverse();
+  const Vec3 d = unit(guide.links[5].carrier[0] - guide.links[5].body[0]);
+  const Vec3 turn = cross(guide.links[5].carrier[0] - guide.wheel.centre, d);
+  Eigen::Matrix<double, 6, 1> w;
+  w << d.x, d.y, d.z, turn.x, turn.y, turn.z;
+  sum += 8e6 * w * w.transpose();
+  const Matrix expected = sum.inverse();
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      EXPECT_NEAR(found.at_centre[i][j], expected(i, j), 1e-9 * std::sqrt(expected(i, i) * expected(j, j)));
+
+  const Compliance locked = solve_compliance(guide, here, 0, {.spring = 1e4}, Support::spring_held);
+  EXPECT_EQ(locked.status, Status::singular);
+  EXPECT_THAT(locked.reason, ::testing::StartsWith("rigid joints hold the carrier more than once"));
+  EXPECT_THAT(test::message([&] { respond(locked, {}); }),
+              ::testing::StartsWith("respond: the compliance is singular: rigid joints hold"));
+  const Compliance loose = solve_compliance(five, here, 0, {}, Support::spring);
+  EXPECT_EQ(loose.status, Status::singular);
+  EXPECT_THAT(loose.reason, ::testing::StartsWith("the carrier can move without resistance"));
+}
+
+// The other wheel: all that is a number is the same, all that is a vector its mirror image.
+TEST(Compliance, MirroredWheel) {
+  const WheelGuide& guide = guide_sample("RS-SP-KS").guide;
+  const WheelGuide other = mirrored(guide);
+  const auto moved = [&](const WheelGuide& of, double rack, const WheelLoad& load) {
+    return respond(solve_compliance(of, solve(of, 0.02, rack).place, rack, rubber(of), Support::spring),
+                   load);
+  };
+  const ElasticResponse left = moved(guide, 0.01, {{200, 300, 400}, {5, 6, 7}});
+  const ElasticResponse right = moved(other, -0.01, {{200, -300, 400}, {-5, 6, -7}});
+  EXPECT_LT(distance(left.shift, math::mirrored(right.shift)), 1e-13);
+  EXPECT_LT(distance(left.turn, -math::mirrored(right.turn)), 1e-13);
+  EXPECT_NEAR(left.toe, right.toe, 1e-13);
+  EXPECT_NEAR(left.camber, right.camber, 1e-13);
+}
+
+// Rigid joints under a preload: what is left is the wheel rate, the slope of the force that holds the wheel
+// at its height: k i^2 and the change of the motion ratio. All joints of all mechanisms turn there.
+TEST(Compliance, GeometricStiffnessIsThatOfTheWheelRate) {
+  constexpr double stiffness = 25000, weight = 4000;
+  for (const GuideSample& sample : guide_samples().first(12)) {
+    SCOPED_TRACE(sample.name);
+    const WheelGuide& guide = sample.guide;
+    const GuidePlan plan = prepare(guide);
+    const double travel = 0.03;
+    const GuidePosition here = solve(guide, travel, 0);
+    const double ratio = wheel_parameters(plan, here).motion_ratio;
+    const PointLoad load{here.place.carrier.centre, {0, 0, weight}};
+    const Compliance found =
+        solve_compliance(guide, here.place, 0, {.spring = stiffness}, Support::spring, load);
+    ASSERT_EQ(found.status, Status::done) << found.reason;
+    const double spring = weight / ratio;
+    const auto ratio_at = [&](double z) { return wheel_parameters(plan, solve(guide, z, 0)).motion_ratio; };
+    // Difference over 1 mm: truncation 1e-6 of a third derivative of some 10.
+    const double bend = (ratio_at(travel + 1e-3) - ratio_at(travel - 1e-3)) / 2e-3;
+    const double rate = stiffness * ratio * ratio + spring * bend;
+    EXPECT_NEAR(1 / found.at_centre[2][2], rate, 0.1) << stiffness * ratio * ratio;
+    EXPECT_GT(std::abs(spring * bend), 20);
+  }
+}
+
+TEST(Compliance, Contract) {
+  WheelGuide guide = guide_sample("5KS").guide;
+  const GuidePlace here{{guide.wheel.centre, {}}, 0};
+  EXPECT_THAT(test::message([&] { solve_compliance(guide, here, 0, {.spring = -1}, Support::spring); }),
+              ::testing::StartsWith("solve_compliance: 1 problems, the first: "));
+  guide.spring.reset();
+  EXPECT_THAT(
+      test::message([&] { solve_compliance(guide, here, 0, {}, Support::spring_held); }),
+      ::testing::StartsWith("solve_compliance: the support is 'spring_held', and the guide has no spring"));
+  EXPECT_THAT(test::message([&] {
+                solve_compliance(guide, here, 0, {}, Support::contact_held, PointLoad{{}, {0, 0, 1}});
+              }),
+              ::testing::StartsWith("solve_compliance: the preload needs a spring"));
+}
+
+}  // namespace
+}  // namespace linkwright::suspension

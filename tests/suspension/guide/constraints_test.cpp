@@ -1,0 +1,115 @@
+#include "linkwright/suspension/guide/constraints.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "linkwright/suspension/guide/samples.h"
+#include "support/message.h"
+
+namespace linkwright::suspension {
+namespace {
+
+TEST(GuideConstraints, ReferenceIsAssembled) {
+  for (const GuideSample& sample : guide_samples()) {
+    const GuidePlan plan = prepare(sample.guide);
+    GuideEquations at;
+    evaluate(plan, {{sample.guide.wheel.centre, {}}, 0}, 0, Driver::contact_z, 0, at);
+    // Rounding of points of about 1 m.
+    for (int i = 0; i < plan.unknowns; ++i) EXPECT_NEAR(at.residual[i], 0, 5e-16) << sample.name << i;
+    EXPECT_NEAR(worst_misfit(plan, {{sample.guide.wheel.centre, {}}, 0}, 0).gap, 0, 5e-16);
+  }
+}
+
+// Exact derivatives against central differences, at a place off the reference and off assembly, with the
+// spring on carrier and links, both sides, hinges moved by the rack.
+TEST(GuideConstraints, DerivativesAgainstDifferences) {
+  constexpr double h = 1e-6;
+  // Truncation h^2 times third derivatives of about 10 /m2, and rounding 1e-16 / h.
+  constexpr double close = 1e-9;
+  for (const GuideSample& sample : guide_samples())
+    for (bool all_on_rack : {false, true})
+      for (Driver driver : {Driver::wheel_centre_z, Driver::contact_z, Driver::spring}) {
+        WheelGuide guide = sample.guide;
+        if (all_on_rack) {
+          guide = mirrored(guide);
+          for (GuideLink& link : guide.links) link.moved_by_rack = true;
+          if (guide.links[0].type == LinkType::KS) {
+            const auto& rod = guide.links[0];
+            guide.spring = GuideSpring{{0, -0.4, 0.6}, rod.body[0] + 0.6 * (rod.carrier[0] - rod.body[0]), 0};
+          } else if (guide.links[0].type == LinkType::SR) {
+            guide.spring = GuideSpring{{0, -0.4, 0.6}, {0.2, -0.5, 0.1}, 0};
+          }
+        }
+        if (driver == Driver::spring && !guide.spring) continue;
+        SCOPED_TRACE(sample.name + " " + std::string(name_of(driver)));
+        const GuidePlan plan = prepare(guide);
+        const Mat3 turned = math::turn_about({0.1, -0.2, 0.15});
+        const GuidePlace place{{guide.wheel.centre + Vec3{0.02, -0.01, 0.03}, turned}, 0.2};
+        const double rack = 0.013;
+        GuideEquations at, more, less;
+        evaluate(plan, place, rack, driver, 0, at);
+        for (int j = 0; j <= plan.unknowns; ++j) {
+          const auto shifted = [&](double by, GuideEquations& out) {
+            GuidePlace to = place;
+            double q = rack;
+            const Vec3 along{j % 3 == 0 ? by : 0, j % 3 == 1 ? by : 0, j % 3 == 2 ? by : 0};
+            if (j == plan.unknowns)
+              q += by;
+            else if (j < 3)
+              to.carrier.centre += along;
+            else if (j < 6)
+              to.carrier.rotation = math::turn_about(along) * turned;
+            else
+              to.arm += by;
+            evaluate(plan, to, q, driver, 0, out);
+          };
+          shifted(h, more);
+          shifted(-h, less);
+          for (int i = 0; i < plan.unknowns; ++i)
+            EXPECT_NEAR(j == plan.unknowns ? at.by_rack[i] : at.jacobian[i][j],
+                        (more.residual[i] - less.residual[i]) / (2 * h), close)
+                << "equation " << i << ", unknown " << j;
+        }
+      }
+}
+
+TEST(GuideConstraints, DriverRateIsTheLastRow) {
+  const GuidePlan plan = prepare(guide_sample("2RS-KS").guide);
+  const GuidePlace place{{plan.wheel.centre, math::turn_about({0.02, 0.03, -0.1})}, 0};
+  GuideEquations at;
+  evaluate(plan, place, 0.01, Driver::spring, 0.002, at);
+  EXPECT_NEAR(driver_value(plan, place, 0.01, Driver::spring) - 0.002, at.residual[5], 1e-18);
+  const double rate = driver_rate(plan, place, 0.01, Driver::spring, {{1, 2, 3}, {4, 5, 6}, 0}, 7);
+  double sum = 7 * at.by_rack[5];
+  for (int j = 0; j < 6; ++j) sum += (j + 1) * at.jacobian[5][j];
+  EXPECT_NEAR(rate, sum, 1e-14);
+}
+
+TEST(GuideConstraints, WorstMisfitNamesTheLink) {
+  WheelGuide guide = guide_sample("5KS").guide;
+  const auto& rod = guide.links[3];
+  guide.links[3].length = norm(rod.carrier[0] - rod.body[0]) - 0.002;
+  const GuidePlan plan = prepare(guide);
+  const Misfit worst = worst_misfit(plan, {{plan.wheel.centre, {}}, 0}, 0);
+  EXPECT_EQ(worst.link, 3);
+  EXPECT_NEAR(worst.gap, 0.002, 1e-15);
+}
+
+TEST(GuideConstraints, Contract) {
+  WheelGuide guide = guide_sample("5KS").guide;
+  guide.links.pop_back();
+  EXPECT_THAT(test::message([&] { prepare(guide); }),
+              ::testing::HasSubstr("the count of constraints leaves 2 freedoms"));
+  guide = guide_sample("5KS").guide;
+  guide.wheel.tyre_diameter = -1;
+  EXPECT_THAT(test::message([&] { prepare(guide); }),
+              ::testing::HasSubstr(
+                  "1 problems, the first: error: wheel: tyre diameter -1 m, needs a positive number"));
+  guide = guide_sample("interconnected").guide;
+  const GuidePlan plan = prepare(guide);
+  EXPECT_THAT(test::message([&] { driver_value(plan, {}, 0, Driver::spring); }),
+              ::testing::HasSubstr("the driver is the spring, and the guide has none"));
+}
+
+}  // namespace
+}  // namespace linkwright::suspension

@@ -1,0 +1,63 @@
+#include "linkwright/suspension/guide/design_numbers.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "linkwright/core/check.h"
+#include "linkwright/suspension/guide/samples.h"
+
+namespace linkwright::suspension {
+namespace {
+
+TEST(DesignNumbers, EveryHardPointOnceAndWithANameOfItsOwn) {
+  for (const GuideSample& sample : guide_samples()) {
+    WheelGuide guide = sample.guide;
+    for (GuideLink& link : guide.links)
+      if (link.type == LinkType::KS) link.length = norm(link.carrier[0] - link.body[0]);
+    std::set<std::string> labels;
+    std::set<const double*> places;
+    for (const DesignNumber& number : hard_points(guide)) {
+      EXPECT_TRUE(labels.insert(label(guide, number)).second) << label(guide, number);
+      EXPECT_TRUE(places.insert(&at(guide, number)).second);
+    }
+    std::size_t count = 6 + 4 * guide.couplers.size();
+    if (!guide.spring) count -= 6;
+    for (const GuideLink& link : guide.links)
+      count += 3 * (link.body.size() + link.carrier.size()) + (link.length ? 1 : 0);
+    EXPECT_EQ(labels.size(), count) << sample.name;
+  }
+}
+
+TEST(DesignNumbers, AreCalledByLinkPointAndAxis) {
+  WheelGuide guide = guide_sample("2RS-KS").guide;
+  guide.links[0].name = "lower arm";
+  EXPECT_EQ(label(guide, {DesignKind::body, 0, 1, 2}), "lower arm.body_2_z");
+  EXPECT_EQ(label(guide, {DesignKind::carrier, 0, 0, 0}), "lower arm.carrier_x");
+  EXPECT_EQ(label(guide, {DesignKind::body, 2, 0, 1}), "tie rod.body_y");
+  EXPECT_EQ(label(guide, {DesignKind::spring_moving, 0, 0, 2}), "spring.moving_z");
+  EXPECT_EQ(label(guide, {DesignKind::wheel_toe}), "wheel.toe");
+  at(guide, {DesignKind::body, 2, 0, 1}) = 0.5;
+  EXPECT_EQ(guide.links[2].body[0].y, 0.5);
+}
+
+TEST(DesignNumbers, ThatAGuideDoesNotHaveAreRefused) {
+  const WheelGuide guide = guide_sample("5KS").guide;
+  const auto message = [&](const DesignNumber& number) -> std::string {
+    try {
+      at(guide, number);
+    } catch (const ContractError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_NE(message({DesignKind::length, 1}).find("the guide has no number length, index 1"),
+            std::string::npos);
+  EXPECT_NE(message({DesignKind::body, 5}).find("no number body, index 5"), std::string::npos);
+  EXPECT_NE(message({DesignKind::body, 0, 1}).find("point 1"), std::string::npos);
+  EXPECT_NE(message({DesignKind::carrier, 0, 0, 3}).find("axis 3"), std::string::npos);
+  EXPECT_NE(message({DesignKind::coupler_point, 0}).find("coupler_point"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace linkwright::suspension

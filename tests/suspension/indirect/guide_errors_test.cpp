@@ -1,0 +1,185 @@
+#include "linkwright/suspension/indirect/guide_errors.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "linkwright/suspension/indirect/link_fit.h"
+#include "support/message.h"
+#include "tests/suspension/synthesis_cases.h"
+
+namespace linkwright::suspension {
+namespace {
+
+using linkwright::test::message;
+using ::testing::HasSubstr;
+
+struct Case {
+  test::Example example;
+  CarrierTargets open;  ///< without spins
+  std::vector<LinkTask> links;
+  std::vector<CouplerTask> couplers;
+};
+
+Case make_case(const char* id, double edge = 0.05) {
+  Case c{.example = test::example(id)};
+  c.open = c.example.targets;
+  for (CarrierTarget& pose : c.open.poses) pose.angles.spin = std::numeric_limits<double>::quiet_NaN();
+  RandomStream random({3, 17});
+  for (const GuideLink& link : c.example.links) c.links.push_back(test::random_task(link, edge, random));
+  for (const Coupler& k : c.example.guide.couplers)
+    c.couplers.push_back({.name = "coupler",
+                          .first = k.first,
+                          .second = k.second,
+                          .least_offset = 0.1,
+                          .point = box_around(k.point, edge)});
+  return c;
+}
+
+TEST(GuideErrors, VanishForTheMechanismItself) {
+  for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "mechanism-RR-KS", "mechanism-S-2KS",
+                         "mechanism-R", "mechanism-RS-SR-KS"}) {
+    const Case c = make_case(id);
+    GuideErrors errors(c.example.targets, c.links, c.couplers);
+    std::vector<double> x(errors.unknowns()), rows(errors.rows());
+    errors.start_from(c.example.links, c.example.guide.couplers, x);
+    ASSERT_TRUE(errors.evaluate(x, rows, {})) << id;
+    EXPECT_LT(errors.totals(rows).largest, 1e-14) << id;
+    for (std::size_t l = 0; l < c.links.size(); ++l)
+      EXPECT_LT(largest_distance(errors.links()[l], c.example.links[l]), 1e-15);
+    for (std::size_t k = 0; k < c.couplers.size(); ++k)
+      EXPECT_NEAR(errors.couplers()[k].fraction, c.example.guide.couplers[k].fraction, 1e-15);
+  }
+}
+
+TEST(GuideErrors, AreThoseOfTheLinksOneByOne) {
+  const Case c = make_case("ex2-forward");
+  GuideErrors errors(c.example.targets, c.links);
+  std::vector<double> x(errors.unknowns()), rows(errors.rows());
+  for (std::size_t j = 0; j < x.size(); ++j) x[j] = 0.5 * (errors.lower()[j] + errors.upper()[j]);
+  ASSERT_TRUE(errors.evaluate(x, rows, {}));
+  ErrorTotals all;
+  RunContext context;
+  for (std::size_t l = 0; l < c.links.size(); ++l) {
+    const LinkFit as_it_is = fit_link(c.example.targets, given_link(errors.links()[l]), {}, {}, 1, context);
+    EXPECT_NEAR(errors.link_totals(l, rows).rms(), as_it_is.rms, 1e-15);
+    all.add(errors.link_totals(l, rows));
+  }
+  EXPECT_EQ(all.count, 4 * 14);
+  EXPECT_EQ(all.rms(), errors.totals(rows).rms());
+  EXPECT_EQ(all.mean(), errors.totals(rows).sum / (4 * 14));
+}
+
+/// Derivatives against central differences: an error of step^2 times third derivatives of some 10 / m^2 - a
+/// hundred times that for a dyad, which may be near the end of its reach - and rounding, 1e-16 over the step.
+void expect_derivatives(GuideErrors& errors, std::uint64_t seed, const char* what, double step = 1e-5) {
+  std::vector<double> x(errors.unknowns()), rows(errors.rows()), jacobian(x.size() * rows.size());
+  RandomStream random({seed, 5});
+  for (int tries = 0; tries < 1000; ++tries) {
+    for (std::size_t j = 0; j < x.size(); ++j) {
+      const double middle = 0.5 * (errors.lower()[j] + errors.upper()[j]),
+                   half = 0.1 * (errors.upper()[j] - errors.lower()[j]);
+      x[j] = random.uniform(middle - half, middle + half);
+    }
+    if (errors.evaluate(x, rows, {})) break;
+  }
+  ASSERT_TRUE(errors.evaluate(x, rows, jacobian)) << what;
+  std::vector<double> below(rows.size()), above(rows.size());
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    const double at = x[j];
+    x[j] = at - step;
+    ASSERT_TRUE(errors.evaluate(x, below, {}));
+    x[j] = at + step;
+    ASSERT_TRUE(errors.evaluate(x, above, {}));
+    x[j] = at;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      EXPECT_NEAR(jacobian[j * rows.size() + i], (above[i] - below[i]) / (2 * step), 2e-8)
+          << what << ", " << errors.unknown_names()[j] << ", row " << i;
+  }
+}
+
+TEST(GuideErrors, DerivativesAgainstDifferences) {
+  for (const char* id : {"ex2-forward", "ex3-forward", "mechanism-RR-KS", "mechanism-S-2KS", "mechanism-R",
+                         "mechanism-RS-SR-KS"}) {
+    const Case c = make_case(id);
+    GuideErrors given(c.example.targets, c.links, c.couplers);
+    expect_derivatives(given, 1, id);
+    GuideErrors each(c.open, c.links, c.couplers, SpinTechnique::each);
+    EXPECT_EQ(each.spin_unknowns(), c.open.poses.size() - 1);
+    expect_derivatives(each, 2, id);
+  }
+  for (const char* id : {"ex3-forward", "ex4-forward"}) {
+    const Case c = make_case(id);
+    GuideErrors quadratic(c.open, c.links, c.couplers, SpinTechnique::quadratic);
+    EXPECT_EQ(quadratic.spin_unknowns(), 3u);
+    expect_derivatives(quadratic, 3, id);
+  }
+  for (const char* id : {"ex1-forward", "ex4-forward"}) {
+    const Case c = make_case(id);
+    GuideErrors dyad(c.open, c.links, c.couplers, SpinTechnique::dyad);
+    EXPECT_EQ(dyad.spin_unknowns(), 0u);
+    expect_derivatives(dyad, 4, id, 1e-6);
+  }
+}
+
+TEST(GuideErrors, TechniquesGiveTheSpinsBack) {
+  const Case c = make_case("ex4-forward");
+  GuideErrors dyad(c.open, c.links, {}, SpinTechnique::dyad);
+  std::vector<double> x(dyad.unknowns()), rows(dyad.rows());
+  dyad.start_from(c.example.links, {}, x);
+  ASSERT_TRUE(dyad.evaluate(x, rows, {}));
+  EXPECT_LT(dyad.totals(rows).largest, 1e-13);
+  for (std::size_t i = 0; i < c.open.poses.size(); ++i)
+    EXPECT_NEAR(dyad.targets().poses[i].angles.spin, c.example.targets.poses[i].angles.spin, 1e-12);
+
+  GuideErrors quadratic(c.open, c.links, {}, SpinTechnique::quadratic);
+  x.assign(quadratic.unknowns(), 0);
+  quadratic.start_from(c.example.links, {}, x);
+  x[30] = 0.2, x[31] = 0.3, x[32] = -0.7;
+  ASSERT_TRUE(quadratic.evaluate(x, rows, {}));
+  const auto spin = [&](std::size_t i) { return quadratic.targets().poses[i].angles.spin; };
+  EXPECT_EQ(spin(6), 0);
+  EXPECT_NEAR(spin(12), 0.2 * 0.15 + 0.3 * 0.0225, 1e-15);
+  EXPECT_NEAR(spin(0), -0.2 * 0.15 - 0.7 * 0.0225, 1e-15);
+}
+
+TEST(GuideErrors, ADyadThatDoesNotReachTellsByHowMuch) {
+  Case c = make_case("ex4-forward", 0.02);
+  for (PointBox& box : c.links[0].body) box.lower.y -= 1, box.upper.y -= 1;  // the rod is a metre longer
+  GuideErrors dyad(c.open, c.links, {}, SpinTechnique::dyad);
+  std::vector<double> x(dyad.unknowns()), rows(dyad.rows());
+  std::size_t apart = 0;
+  RandomStream random({1});
+  for (int i = 0; i < 50; ++i) {
+    for (std::size_t j = 0; j < x.size(); ++j) x[j] = random.uniform(dyad.lower()[j], dyad.upper()[j]);
+    if (dyad.evaluate(x, rows, {})) continue;
+    ++apart;
+    EXPECT_GT(dyad.shortfall(), 0);
+    EXPECT_LT(dyad.shortfall(), 1);
+  }
+  EXPECT_GT(apart, 10u);
+}
+
+TEST(GuideErrors, WhatIsRefused) {
+  Case c = make_case("ex3-forward");
+  const auto told = [&](SpinTechnique technique) {
+    return message([&] { GuideErrors(c.open, c.links, c.couplers, technique); });
+  };
+  c.couplers[0].second = 1;
+  EXPECT_THAT(told(SpinTechnique::each), HasSubstr("coupler 'coupler': from a link of type KS to one of type "
+                                                   "KS, needs KS and SR"));
+  c.couplers[0].second = 4;
+  EXPECT_THAT(told(SpinTechnique::each), HasSubstr("coupler 'coupler': link 4 of 3"));
+  c.couplers.clear();
+  c.links.erase(c.links.begin(), c.links.begin() + 2);
+  EXPECT_THAT(told(SpinTechnique::dyad), HasSubstr("no KS link makes a dyad with the carrier"));
+  const Case steered = make_case("ex1-forward");
+  EXPECT_THAT(message([&] { GuideErrors(steered.open, steered.links, {}, SpinTechnique::quadratic); }),
+              HasSubstr("position 10 has the rack at -0.075 m: a quadratic of the travel does not know the "
+                        "rack"));
+}
+
+}  // namespace
+}  // namespace linkwright::suspension

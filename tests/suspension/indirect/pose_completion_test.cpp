@@ -1,0 +1,132 @@
+#include "linkwright/suspension/indirect/pose_completion.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "linkwright/math/angles.h"
+#include "support/message.h"
+#include "tests/suspension/synthesis_cases.h"
+
+namespace linkwright::suspension {
+namespace {
+
+using linkwright::test::message;
+using ::testing::HasSubstr;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+const CarrierTarget& state(const test::Example& e, double travel, double rack) {
+  for (const CarrierTarget& pose : e.targets.poses)
+    if (std::abs(pose.centre.z - e.targets.wheel.centre.z - travel) < 1e-9 &&
+        std::abs(pose.rack - rack) < 1e-9)
+      return pose;
+  throw std::runtime_error("no such state");
+}
+
+TEST(PoseCompletion, DyadOfTheSource) {
+  for (const Value& row : testing::at(published("rs-dyad-spin"), "computed.rows").as_array()) {
+    const test::Example e = test::example(testing::at(row, "mechanism").as_string() + "-forward");
+    const GuideLink& rod = e.links[static_cast<std::size_t>(testing::number_at(row, "link_1based")) - 1];
+    const CarrierTarget& pose =
+        state(e, testing::number_at(row, "travel_m"), testing::number_at(row, "rack_m"));
+    const RsDyad dyad = rs_dyad(e.targets, pose, rod);
+    EXPECT_EQ(dyad.status, Status::done);
+    EXPECT_NEAR(dyad.e, testing::number_at(row, "E_m2"), 1e-10);
+    EXPECT_NEAR(dyad.f, testing::number_at(row, "F_m2"), 1e-10);
+    EXPECT_NEAR(dyad.g, testing::number_at(row, "G_m2"), 1e-10);
+    EXPECT_NEAR(dyad.relative, testing::number_at(row, "beta_rel_rad"), 1e-10);
+    EXPECT_NEAR(dyad.other, testing::number_at(row, "beta_rel_other_branch_rad"), 1e-10);
+    // The spin of (50) is another angle of the same rotation.
+    const double spin = testing::number_at(row, "beta_nt_rad");
+    EXPECT_NEAR(wheel_angles(Side::left, e.targets.wheel, dyad.rotation).spin, spin, 1e-10);
+    EXPECT_NEAR(solve_for(e.targets, pose, rod, PoseParameter::spin).value, spin, 1e-10);
+    EXPECT_GT(std::abs(dyad.relative - spin), 3e-5);
+  }
+}
+
+TEST(PoseCompletion, DyadAndClosedFormTurnTheCarrierAlike) {
+  for (const char* id : {"ex1-forward", "ex2-forward", "ex4-forward", "mechanism-5KS", "mechanism-RS-3KS"}) {
+    const test::Example e = test::example(id);
+    for (const GuideLink& rod : e.links) {
+      if (rod.type != LinkType::KS) continue;
+      for (const CarrierTarget& pose : e.targets.poses) {
+        const RsDyad dyad = rs_dyad(e.targets, pose, rod);
+        const RodSolution spin = solve_for(e.targets, pose, rod, PoseParameter::spin);
+        ASSERT_EQ(dyad.status, spin.status) << id;
+        CarrierTarget turned = pose;
+        turned.angles.spin = spin.value;
+        const Mat3 r = target_rotation(e.targets, turned);
+        // Next to the end of the rod's reach an error of the length counts by its root.
+        for (int k = 0; k < 3; ++k) EXPECT_LT(norm(r.row[k] - dyad.rotation.row[k]), 1e-7) << id;
+        // The other branch keeps the length, too.
+        turned.angles.spin = spin.other;
+        const Vec3 p =
+            place({pose.centre, target_rotation(e.targets, turned)}, rod.carrier[0], e.targets.wheel.centre);
+        const Vec3 body = rod.moved_by_rack ? rod.body[0] + pose.rack * Vec3{0, 1, 0} : rod.body[0];
+        EXPECT_NEAR(norm(p - body), norm(rod.carrier[0] - rod.body[0]), 1e-12) << id;
+      }
+    }
+  }
+}
+
+TEST(PoseCompletion, EveryParameterComesBack) {
+  // All rods of the rear suspension, each parameter in turn, through the dead point of link 3 for the spin.
+  // The dead point of links 1 and 4 for the height lies next to the reference: nothing tells the sides apart.
+  const test::Example e = test::example("ex4-forward");
+  for (const auto& parameter : names(PoseParameter{}))
+    for (const GuideLink& rod : e.links) {
+      if (parameter.value == PoseParameter::centre_z && (rod.name == "link 1" || rod.name == "link 4"))
+        continue;
+      CarrierTargets open = e.targets;
+      for (CarrierTarget& pose : open.poses) set_value(pose, parameter.value, nan);
+      const PoseCompletion made = complete(open, rod, parameter.value);
+      ASSERT_EQ(made.status, Status::done);
+      for (std::size_t i = 0; i < open.poses.size(); ++i)
+        EXPECT_NEAR(value_of(made.targets.poses[i], parameter.value),
+                    value_of(e.targets.poses[i], parameter.value), 1e-11)
+            << parameter.name << " by " << rod.name << " at " << i;
+    }
+}
+
+TEST(PoseCompletion, ARodOutOfReachIsTold) {
+  const test::Example e = test::example("ex4-forward");
+  GuideLink rod = e.links[0];
+  rod.length = 0.2;  // half a metre is needed
+  CarrierTargets open = e.targets;
+  for (CarrierTarget& pose : open.poses) pose.angles.spin = nan;
+  const PoseCompletion made = complete(open, rod, PoseParameter::spin);
+  EXPECT_EQ(made.status, Status::no_assembly);
+  EXPECT_EQ(made.position, 6);  // the reference itself is settled first
+  EXPECT_GT(made.shortfall, 0.01);
+  EXPECT_TRUE(std::isnan(made.targets.poses[0].angles.spin));
+  EXPECT_EQ(rs_dyad(e.targets, e.targets.poses[0], rod).status, Status::no_assembly);
+  const RodSolution x = solve_for(e.targets, e.targets.poses[0], rod, PoseParameter::centre_x);
+  EXPECT_EQ(x.status, Status::no_assembly);
+  EXPECT_GT(x.shortfall, 0.1);
+}
+
+TEST(PoseCompletion, ARodOnTheWheelsAxisSettlesNoSpin) {
+  const test::Example e = test::example("ex4-forward");
+  GuideLink rod = e.links[0];
+  rod.carrier[0] = e.targets.wheel.centre - 0.1 * wheel_axis(Side::left, 0, e.targets.wheel.camber);
+  EXPECT_EQ(solve_for(e.targets, e.targets.poses[2], rod, PoseParameter::spin).status, Status::singular);
+}
+
+TEST(PoseCompletion, WhatIsRefused) {
+  const test::Example e = test::example("ex2-forward");
+  EXPECT_THAT(message([&] {
+                complete(e.targets, e.links[3], PoseParameter::spin);
+                rs_dyad(e.targets, e.targets.poses[0], e.links[3]);
+              }),
+              HasSubstr("link 'link 4' of type SP: only a KS or SS link settles a parameter"));
+  CarrierTarget pose = e.targets.poses[0];
+  pose.angles.toe = pose.angles.spin = nan;
+  EXPECT_THAT(message([&] { solve_for(e.targets, pose, e.links[0], PoseParameter::spin); }),
+              HasSubstr("link 'link 1' cannot settle spin: toe is missing, too"));
+}
+
+}  // namespace
+}  // namespace linkwright::suspension

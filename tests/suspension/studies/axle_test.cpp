@@ -1,0 +1,81 @@
+#include "linkwright/suspension/studies/axle.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <string>
+
+#include "suspension/studies.h"
+
+namespace linkwright::suspension {
+namespace {
+
+using testing::fact;
+using ::testing::HasSubstr;
+using testing::problems_of;
+using testing::run_text;
+using testing::table;
+
+std::string study(const std::string& sample, const std::string& rest) {
+  return "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\nsample = \"" +
+         sample + "\"\n[sweep.travel]\nvalues_mm = [0]\n" + rest;
+}
+const std::string vehicle =
+    "[vehicle]\nwheelbase_m = 2.7\ncentre_height_m = 0.55\nfront_brake_share = 0.65\n";
+
+double at(const Table& t, std::string_view key, std::size_t row) {
+  const Column* column = t.find(key);
+  EXPECT_TRUE(column) << key;
+  return column ? column->values.at(row) : std::nan("");
+}
+
+TEST(AxleStudy, TellsTheAntiFeaturesOfFrontAndRear) {
+  // Reference figures of the double wishbone at the front and the semi-trailing arm at the rear.
+  const study::Result front = run_text(study("2RS-KS", vehicle));
+  EXPECT_NEAR(at(front.tables[0], "anti_dive_outboard_percent", 0), 22.44960845365772, 1e-7);
+  EXPECT_NEAR(at(front.tables[0], "anti_lift_drive_percent", 0), -2.770800471872947, 1e-7);
+  const study::Result rear = run_text(study("R", vehicle + "axle = \"rear\"\n"));
+  EXPECT_NEAR(at(rear.tables[0], "anti_lift_outboard_percent", 0), 105.73616060410075, 1e-7);
+  EXPECT_NEAR(at(rear.tables[0], "anti_squat_percent", 0), -18.31591156279213, 1e-7);
+}
+
+TEST(AxleStudy, RollsASymmetricAxleAlikeBothWays) {
+  const study::Result result =
+      run_text(study("2RS-KS", "[axle.roll]\nfrom_deg = -4\nto_deg = 4\nstep_deg = 2\n"));
+  const Table& roll = table(result, "roll");
+  ASSERT_EQ(roll.rows(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR(at(roll, "left_toe_rad", i), at(roll, "right_toe_rad", 4 - i), 1e-12);
+    EXPECT_NEAR(at(roll, "roll_centre_offset_m", i), -at(roll, "roll_centre_offset_m", 4 - i), 1e-9);
+    EXPECT_NEAR(at(roll, "left_road_camber_rad", i), at(roll, "right_road_camber_rad", 4 - i), 1e-12);
+  }
+  // Upright, the roll centre is the one of equal travel.
+  EXPECT_NEAR(at(roll, "roll_centre_height_m", 2), at(result.tables[0], "roll_centre_height_m", 0), 1e-9);
+  EXPECT_NE(fact(result, "roll steer (mean steer by roll)"), "no fact");
+}
+
+TEST(AxleStudy, SteersBothWheelsOnOneRack) {
+  const study::Result result = run_text(
+      study("2RS-KS", vehicle + "[axle]\nrack_per_turn_mm = 50\n[axle.rack]\nvalues_mm = [-40, 0, 40]\n"));
+  const Table& steer = table(result, "steer");
+  EXPECT_NEAR(at(steer, "left_steer_rad", 0), -at(steer, "right_steer_rad", 2), 1e-12);
+  EXPECT_NEAR(at(steer, "ackermann_percent", 0), at(steer, "ackermann_percent", 2), 1e-9);
+  EXPECT_TRUE(std::isnan(at(steer, "ackermann_percent", 1)));  // straight ahead there is none
+  // One turn moves the rack by 50 mm: a turn over the steer angle that this makes.
+  const double mean = at(steer, "left_steer_by_rack_rad_per_m", 1);
+  EXPECT_NEAR(at(steer, "steering_ratio", 1), 2 * M_PI / std::abs(0.05 * mean), 1e-9);
+}
+
+TEST(AxleStudyRead, NamesWhatIsWrong) {
+  EXPECT_THAT(problems_of(study("R", "[axle.rack]\nvalues_mm = [0]\n")),
+              HasSubstr("axle.rack: no link is moved by the rack"));
+  EXPECT_THAT(problems_of(study("rear_5KS", "[axle.roll]\nvalues_deg = [0]\n")),
+              HasSubstr("axle.roll: the wheel centre lies in the middle of the vehicle: there is no axle"));
+  EXPECT_THAT(problems_of(study("R", "[vehicle]\nwheelbase_m = 2.7\n")),
+              HasSubstr("vehicle.centre_height_m: this key is missing"));
+  EXPECT_THAT(problems_of(study("2RS-KS", "[axle.roll]\nfrom_deg = 1\n")),
+              HasSubstr("axle.roll.to: is missing; write from_deg, to_deg and step_deg"));
+}
+
+}  // namespace
+}  // namespace linkwright::suspension

@@ -1,0 +1,103 @@
+#include "linkwright/suspension/studies/compliance.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <string>
+
+#include "suspension/studies.h"
+
+namespace linkwright::suspension {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::named;
+using testing::problems_of;
+using testing::replaced;
+using testing::run_text;
+using testing::table;
+
+// The sample 5KS with the stiffness of its spring.
+std::string study(const std::string& rest, const std::string& stiffness = "") {
+  std::string text =
+      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\n"
+      "[mechanism.wheel]\ncentre_m = [0, 0.75, 0]\ntoe_deg = 0.12\ncamber_deg = -0.6\ntyre_diameter_m = "
+      "0.65\n"
+      "[mechanism.spring]\nbody_m = [0.02, 0.5, 0.42]\nmoving_m = [0, 0.6, -0.11]\n" +
+      stiffness;
+  const auto link = [&](const char* name, const char* body, const char* carrier, const char* more = "") {
+    text +=
+        fmt::format("[[mechanism.link]]\nname = \"{}\"\ntype = \"KS\"\nbody_m = [{}]\ncarrier_m = [{}]\n{}",
+                    name, body, carrier, more);
+  };
+  link("lower front rod", "0.2, 0.36, -0.1", "0.022, 0.7, -0.125");
+  link("lower rear rod", "-0.21, 0.37, -0.105", "-0.018, 0.695, -0.128");
+  link("tie rod", "-0.125, 0.406, -0.018", "-0.15, 0.69, -0.02", "moved_by = \"rack\"\n");
+  link("upper front rod", "0.14, 0.44, 0.28", "-0.005, 0.655, 0.31");
+  link("upper rear rod", "-0.17, 0.45, 0.27", "-0.035, 0.648, 0.308");
+  return text + "[sweep.travel]\nvalues_mm = [0]\n[compliance]\n" + rest;
+}
+std::string rod(const std::string& name, int stiffness) {
+  return fmt::format("[[compliance.joint]]\nlink = \"{}\"\nstiffness_N_per_mm = {}\n", name, stiffness);
+}
+std::string rods() {
+  return rod("lower front rod", 18000) + rod("lower rear rod", 20000) + rod("tie rod", 15000) +
+         rod("upper front rod", 12000) + rod("upper rear rod", 12000);
+}
+
+TEST(ComplianceStudy, TellsWhatElasticRodsDo) {
+  // Reference figures of five elastic rods and a spring of 30 N/mm, body fixed: a kilonewton to the left at
+  // the contact, and the spring force of 4 kN there.
+  const study::Result result =
+      run_text(study(rods() + "[[compliance.load]]\nname = \"lateral\"\nforce_N = [0, 1000, 0]\n"
+                              "[[compliance.load]]\nname = \"weight\"\nforce_N = [0, 0, 4000]\n",
+                     "stiffness_N_per_mm = 30\n"));
+  ASSERT_EQ(result.status, Status::done);
+  EXPECT_TRUE(result.diagnostics.empty());
+  const Table& loads = table(result, "loads");
+  EXPECT_NEAR(named(loads, "lateral", "toe_rad"), -0.0005945128820499071, 1e-9 * 6e-4);
+  EXPECT_NEAR(named(loads, "lateral", "camber_rad"), -0.003929538567960345, 1e-9 * 4e-3);
+  EXPECT_NEAR(named(loads, "lateral", "centre_z_m"), 0.00724337568465979, 1e-9 * 7e-3);
+  EXPECT_NEAR(named(loads, "weight", "spring_N"), 4480.535826622259, 1e-9 * 4500);
+  // The coefficients are the same figures, outboard on the left.
+  EXPECT_NEAR(named(table(result, "compliance"), "lateral force steer, toe (deg/kN)", "value"),
+              -0.0005945128820499071 * 180 / M_PI, 1e-9);
+  const Table& forces = table(result, "load_forces-2");
+  EXPECT_NEAR(named(forces, "lower front rod, body", "size_N"), 1337.7355480453393, 1e-6);
+  const Table& matrix = table(result, "compliance_matrix");
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j)
+      EXPECT_NEAR(matrix.columns[j].values[i], matrix.columns[i].values[j], 1e-15);
+}
+
+TEST(ComplianceStudyRead, NamesWhatIsWrong) {
+  const std::string good = study(rods());
+  EXPECT_THAT(problems_of(replaced(good, "link = \"tie rod\"", "link = \"tie rot\"")),
+              HasSubstr("compliance.joint[2].link: no link is called 'tie rot'; did you mean 'tie rod'?"));
+  EXPECT_THAT(
+      problems_of(study("support = \"spring\"\n" + rods())),
+      HasSubstr("compliance.support: the stiffness of the spring is not known; write stiffness_N_per_mm in"));
+  EXPECT_THAT(problems_of(study("preload_N = 4000\n" + rods())),
+              HasSubstr("compliance.preload_N: needs the spring that carries it"));
+  EXPECT_THAT(
+      problems_of(study("[[compliance.joint]]\nlink = \"tie rod\"\nend = \"body\"\naxial_N_per_mm = 1\n")),
+      HasSubstr("compliance.joint[0].radial: is missing; a bushing has both"));
+  const std::string wishbone =
+      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\nsample = \"2RS-KS\"\n"
+      "[sweep.travel]\nvalues_mm = [0]\n[compliance]\n";
+  EXPECT_THAT(problems_of(wishbone + rods()),
+              HasSubstr("no link is called 'lower front rod'; there are: lower wishbone"));
+  EXPECT_THAT(problems_of(wishbone + rod("lower wishbone", 1)),
+              HasSubstr("compliance.joint[0].end: is missing: 'lower wishbone' is no rod"));
+}
+
+TEST(ComplianceStudy, SaysWhatIsLeftFree) {
+  const study::Result result =
+      run_text(study("[[compliance.joint]]\nlink = \"tie rod\"\nend = \"body\"\nstiffness_N_per_mm = 0\n"));
+  ASSERT_EQ(result.diagnostics.size(), 1U);
+  EXPECT_THAT(to_string(result.diagnostics[0]), HasSubstr("compliance: no compliance: "));
+}
+
+}  // namespace
+}  // namespace linkwright::suspension

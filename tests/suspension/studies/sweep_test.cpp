@@ -1,0 +1,239 @@
+#include "linkwright/suspension/studies/sweep.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "linkwright/core/looks.h"
+#include "linkwright/core/memory.h"
+#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/wheel/guide_columns.h"
+#include "suspension/studies.h"
+
+namespace linkwright::suspension {
+namespace {
+
+using ::testing::AllOf;
+using testing::column;
+using ::testing::HasSubstr;
+using testing::problems_of;
+using testing::racks;
+using testing::run_text;
+using testing::sample;
+using testing::sweep;
+using testing::table;
+
+TEST(SweepStudy, TablesAGridAsTheLibrarySolvesIt) {
+  const study::Result result = run_text(sample("5KS", sweep + racks));
+  ASSERT_EQ(result.status, Status::done) << result.headline;
+  ASSERT_EQ(result.tables.at(0).rows(), 15U);
+  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  const GuidePosition reference = reference_position(plan);
+  for (std::size_t i = 0; i < 15; ++i) {
+    const GuideInput input{column(result, "travel_m")[i], column(result, "rack_m")[i]};
+    const GuidePosition at = solve_position(plan, Driver::wheel_centre_z, input, reference);
+    const WheelParameters wheel = wheel_parameters(plan, at);
+    const GuideRow row{at, wheel, Driver::spring};
+    // Another way to the same position: rounding.
+    for (const GuideColumn& c : guide_columns()) {
+      if (!why_missing(guide_sample("5KS").guide, c).empty()) {
+        EXPECT_EQ(result.tables.at(0).find(c.key), nullptr) << c.key;
+        continue;
+      }
+      EXPECT_NEAR(column(result, c.key)[i], value_of(c, row), 1e-9 * (1 + std::abs(value_of(c, row))))
+          << c.key;
+    }
+    EXPECT_LE(column(result, "closure_residual_m")[i], 1e-11);
+  }
+  EXPECT_EQ(column(result, "rack_m").front(), -0.03);
+  EXPECT_EQ(column(result, "travel_m")[1], -0.04);
+}
+
+TEST(SweepStudy, KeepsToTheQuantitiesThatAreAskedFor) {
+  const study::Result result =
+      run_text(sample("5KS", sweep + "[output]\nquantities = [\"toe\", \"track\"]\n"));
+  std::vector<std::string> keys;
+  for (const Column& c : result.tables.at(0).columns) keys.push_back(c.key);
+  EXPECT_EQ(keys, (std::vector<std::string>{"travel_m", "rack_m", "toe_rad", "half_track_change_m", "track_m",
+                                            "closure_residual_m"}));
+}
+
+TEST(SweepStudy, ToldLimitsAreWhereRowsEnd) {
+  const study::Result whole = run_text(sample("SP-3KS", sweep));
+  const double highest = whole.tables.at(1).find("highest_travel_m")->values.at(0) * 1e3;
+  const std::string to = fmt::format("{:.3f}", highest - 1), beyond = fmt::format("{:.3f}", highest + 1);
+  const study::Result result =
+      run_text(sample("SP-3KS", "[sweep.travel]\nvalues_mm = [0, " + to + ", " + beyond + "]\n"));
+  EXPECT_EQ(result.status, Status::no_assembly);
+  EXPECT_EQ(result.tables.at(0).status, (std::vector<std::string>{"done", "done", "no_assembly"}));
+  EXPECT_TRUE(std::isnan(column(result, "toe_rad").at(2)));
+  ASSERT_EQ(result.diagnostics.size(), 1U);
+  EXPECT_THAT(to_string(result.diagnostics[0]),
+              AllOf(HasSubstr("no_assembly"), HasSubstr("cannot pass"), HasSubstr("1.000 mm short of")));
+}
+
+TEST(SweepStudy, LaysAnotherGuideBehindTheCurves) {
+  const std::string text = sample("2RS-KS", sweep) + "[baseline.mechanism]\nsample = \"RS-SP-KS\"\n";
+  const study::Result result = run_text(text), other = run_text(sample("RS-SP-KS", sweep));
+  const auto baseline = std::find_if(result.tables.begin(), result.tables.end(),
+                                     [](const Table& t) { return t.name == "baseline"; });
+  ASSERT_NE(baseline, result.tables.end());
+  EXPECT_EQ(baseline->find("toe_rad")->values, column(other, "toe_rad"));
+  for (const study::Plot& plot : result.plots) EXPECT_EQ(plot.baseline, "baseline") << plot.name;
+  // From the study that it stands in, too.
+  const auto folder = std::filesystem::temp_directory_path() / "linkwright_sweep_study";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "before.toml") << sample("RS-SP-KS", sweep);
+  const study::Result read =
+      run_text(sample("2RS-KS", sweep) + "[baseline]\nfile = \"before.toml\"\n", folder);
+  EXPECT_EQ(read.tables.at(0).find("toe_rad")->values, column(result, "toe_rad"));
+  std::filesystem::remove_all(folder);
+  EXPECT_THAT(problems_of(sample("2RS-KS", sweep) + "[baseline]\nfile = \"nowhere.toml\"\n"),
+              HasSubstr("baseline.file: ./nowhere.toml: error: there is no such file"));
+  EXPECT_THAT(problems_of(sample("2RS-KS", sweep) + "[baseline]\n"),
+              HasSubstr("baseline.file: the baseline is missing"));
+}
+
+TEST(SweepStudy, ListsOtherAssemblies) {
+  const study::Result result = run_text(sample("R", "[sweep]\nassemblies = true\n" + sweep));
+  const auto table = std::find_if(result.tables.begin(), result.tables.end(),
+                                  [](const Table& t) { return t.name == "assemblies"; });
+  ASSERT_NE(table, result.tables.end());
+  EXPECT_EQ(table->rows(), 2U);
+}
+
+TEST(SweepStudy, SteersAboutTheAxisThatIsAskedFor) {
+  const auto caster = [&](const std::string& lock) {
+    return run_text(sample("2RS-KS", "[sweep]\n" + lock + "[sweep.travel]\nvalues_mm = [0]\n"))
+        .tables.at(0)
+        .find("caster_rad")
+        ->values.at(0);
+  };
+  // Specified for this double wishbone: 4.970 deg through both ball joints, 4.715 deg with the height held.
+  EXPECT_NEAR(caster("") * 180 / M_PI, 4.970, 6e-4);
+  EXPECT_NEAR(caster("steering_lock = \"wheel_centre_z\"\n") * 180 / M_PI, 4.715, 6e-4);
+}
+
+TEST(SweepStudy, TellsOtherDefinitionsBesideItsOwn) {
+  const study::Result result = run_text(sample("2RS-KS", "[sweep.travel]\nvalues_mm = [0]\n"));
+  EXPECT_NEAR(column(result, "geometric_caster_rad").at(0), column(result, "caster_rad").at(0), 1e-12);
+  EXPECT_NEAR(column(result, "contact_held_caster_rad").at(0),
+              run_text(sample("2RS-KS",
+                              "[sweep]\nsteering_lock = \"contact_z\"\n"
+                              "[sweep.travel]\nvalues_mm = [0]\n"))
+                  .tables.at(0)
+                  .find("caster_rad")
+                  ->values.at(0),
+              1e-15);
+  EXPECT_NEAR(column(result, "arm_roll_centre_height_m").at(0), 0.180847126051839, 1e-12);
+  EXPECT_NE(column(result, "front_view_camber_rad").at(0), column(result, "camber_rad").at(0));
+  EXPECT_TRUE(result.diagnostics.empty());
+}
+
+TEST(SweepStudy, TellsWhyAQuantityHasNoValues) {
+  const std::string quantities = "[output]\nquantities = [\"geometric_axis\", \"arm_planes\", \"spring\"]\n";
+  const study::Result result = run_text(sample("front_5KS", sweep + quantities));
+  EXPECT_EQ(result.status, Status::done);
+  EXPECT_TRUE(std::isnan(column(result, "geometric_caster_rad").at(0)));
+  ASSERT_EQ(result.diagnostics.size(), 3U);
+  EXPECT_EQ(result.diagnostics[0].key, "output.quantities");
+  EXPECT_THAT(to_string(result.diagnostics[0]), HasSubstr("'spring' has no values: there is no spring"));
+  EXPECT_THAT(to_string(result.diagnostics[1]),
+              HasSubstr("'geometric_axis' has no values: no ball joint holds the carrier"));
+  EXPECT_THAT(to_string(result.diagnostics[2]), HasSubstr("'arm_planes' has no values: no link is an arm"));
+  EXPECT_THAT(
+      problems_of(sample("front_5KS", sweep + "[sensitivity]\nquantities = [\"geometric_caster\"]\n")),
+      HasSubstr("sensitivity.quantities: this guide has no 'geometric_caster': no ball joint"));
+}
+
+TEST(SweepStudyRead, NamesWhatIsWrongWithTheSweep) {
+  EXPECT_THAT(problems_of(sample("front_5KS", "[sweep.travel]\ncoordinate = \"spring\"\nvalues_mm = [0]\n")),
+              HasSubstr("sweep.travel.coordinate: there is no spring"));
+  EXPECT_THAT(problems_of(sample("R", sweep + racks)), HasSubstr("sweep.rack: no link is moved by the rack"));
+}
+
+TEST(SolveGrid, GoesOutwardsAndStopsWhenCancelled) {
+  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  const std::vector<double> travels{-0.05, 0, 0.05}, displacements{-0.02, 0.02};
+  RunContext context;
+  EXPECT_EQ(solve_grid(plan, Driver::wheel_centre_z, travels, displacements, context).positions.size(), 6U);
+  RunContext cancelled;
+  cancelled.cancel();
+  EXPECT_TRUE(solve_grid(plan, Driver::wheel_centre_z, travels, displacements, cancelled).positions.empty());
+}
+
+TEST(SolveGrid, LooksWithinALongRowAndKeepsItsMiddle) {
+  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  std::vector<double> travels;
+  for (int i = 0; i < 10000; ++i) travels.push_back(1e-5 * (i - 300));
+  RunContext context;
+  const LooksAllowed looks(2);  // one at the rack, one after 256 positions; the next one ends it
+  const GridPositions some =
+      solve_grid(plan, Driver::wheel_centre_z, travels, std::vector{0.0, 0.01}, context);
+  // Downwards from the middle, all 300, and then upwards.
+  EXPECT_EQ(some.first_travel, 0U);
+  ASSERT_EQ(some.travels, 512U);
+  ASSERT_EQ(some.positions.size(), some.travels);
+  ASSERT_EQ(some.wheels.size(), some.travels);
+  for (std::size_t i = 0; i < some.travels; ++i) EXPECT_EQ(some.positions[i].input.value, travels[i]);
+}
+
+TEST(SolveGrid, ARackThatWasCutShortDoesNotCountBehindAWholeOne) {
+  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  std::vector<double> travels;
+  for (int i = 0; i < 300; ++i) travels.push_back(1e-5 * i);
+  RunContext context;
+  const LooksAllowed looks(3);  // at both racks and after 256 positions: ended by that after 512
+  const GridPositions some =
+      solve_grid(plan, Driver::wheel_centre_z, travels, std::vector{0.0, 0.01}, context);
+  EXPECT_EQ(some.travels, 300U);
+  EXPECT_EQ(some.positions.size(), 300U);
+}
+
+TEST(SweepStudy, InterruptedTellsThePositionsSoFar) {
+  const std::string text = sample("2RS-KS", "[sweep.travel]\nfrom_mm = -50\nto_mm = 50\nstep_mm = 0.05\n") +
+                           "[axle.roll]\nfrom_deg = -3\nto_deg = 3\nstep_deg = 0.01\n";
+  const auto run = [&](std::int64_t allowed) {
+    const LooksAllowed looks(allowed);
+    return run_text(text);
+  };
+  // In the row: what it has of it is consistent, and is what an undisturbed run has there.
+  const study::Result whole = run_text(text), some = run(2);
+  EXPECT_EQ(some.status, Status::cancelled);
+  const std::vector<double>&travels = column(some, "travel_m"), &toe = column(some, "toe_rad");
+  ASSERT_EQ(travels.size(), 512U);
+  const std::vector<double>& all = column(whole, "travel_m");
+  const auto first = std::find(all.begin(), all.end(), travels.front()) - all.begin();
+  for (std::size_t i = 0; i < travels.size(); ++i)
+    EXPECT_EQ(toe[i], column(whole, "toe_rad")[static_cast<std::size_t>(first) + i]);
+  // In the roll of the axle: the sweep is whole, the roll is not.
+  const study::Result rolled = run(12);
+  EXPECT_EQ(rolled.status, Status::cancelled);
+  EXPECT_EQ(column(rolled, "travel_m").size(), all.size());
+  EXPECT_LT(table(rolled, "roll").rows(), table(whole, "roll").rows());
+  EXPECT_EQ(table(rolled, "roll").rows() % 64, 0U);
+}
+
+TEST(SweepStudyRead, RefusesWhatHasNoRoom) {
+  const MemoryLimit limit(10e6);
+  EXPECT_THAT(problems_of(sample("2RS-KS", "[sweep.travel]\nfrom_mm = -80\nto_mm = 80\nsamples = 50000\n")),
+              AllOf(HasSubstr("sweep.travel: 50000 travels with 1 racks would take "),
+                    HasSubstr("of memory, at most 10 MB may be taken; take fewer travels or racks")));
+  const std::string short_sweep = "[sweep.travel]\nvalues_mm = [0]\n";
+  EXPECT_THAT(problems_of(sample("2RS-KS", short_sweep) +
+                          "[axle.roll]\nfrom_deg = -3\nto_deg = 3\nsamples = 50000\n"),
+              AllOf(HasSubstr("axle.roll: 50000 positions of the axle would take "),
+                    HasSubstr("at most 10 MB may be taken; take fewer values")));
+  EXPECT_THAT(problems_of(sample("2RS-KS", short_sweep) + "[tolerances]\ntolerance_mm = 0.5\n"
+                                                          "quantities = [\"toe\", \"camber\"]\n"
+                                                          "samples = 1000000\n"),
+              AllOf(HasSubstr("tolerances.samples: 1000000 designs with 2 quantities at 1 travels would take "
+                              "16 MB of memory, at most 10 MB may be taken; take fewer samples")));
+}
+
+}  // namespace
+}  // namespace linkwright::suspension

@@ -1,0 +1,201 @@
+#include "linkwright/suspension/wheel/derivatives.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "linkwright/core/check.h"
+#include "linkwright/suspension/guide/samples.h"
+#include "linkwright/suspension/wheel/parameters_kernel.h"
+
+namespace linkwright::suspension {
+namespace {
+
+/// Derivative at 0 by central differences of fourth order: (8 (f1 - f-1) - (f2 - f-2)) / 12 h.
+template <class F>
+WheelParameters differenced(F f, double h) {
+  std::array<WheelParameters, 4> at{f(-2 * h), f(-h), f(h), f(2 * h)};
+  WheelParameters out = at[0];
+  const auto add = [&](int i, double by) {
+    kernel::for_each_number(at[i], out, [&](double a, double& to) { to += by * a / (12 * h); });
+  };
+  kernel::for_each_number(at[0], out, [&](double a, double& to) { to = a / (12 * h); });
+  add(1, -8);
+  add(2, 8);
+  add(3, -1);
+  return out;
+}
+
+/// Largest difference of two sets, relative to numbers of at least 1; parameters of more than 5 (centres
+/// far away) are left out, differences cannot tell their derivatives.
+double apart(const WheelParameters& a, const WheelParameters& b, const WheelParameters& values, int& count) {
+  std::vector<double> sizes, first;
+  WheelParameters scratch;
+  kernel::for_each_number(values, scratch, [&](double v, double&) { sizes.push_back(v); });
+  kernel::for_each_number(a, scratch, [&](double v, double&) { first.push_back(v); });
+  double worst = 0;
+  std::size_t i = 0;
+  kernel::for_each_number(b, scratch, [&](double v, double&) {
+    const double x = first[i], size = sizes[i++];
+    if (std::isnan(size)) {
+      EXPECT_TRUE(std::isnan(x));
+      return;
+    }
+    if (!(std::abs(size) < 5)) return;
+    ++count;
+    const double off = std::abs(x - v) / std::max(1.0, std::abs(v));
+    worst = std::isnan(off) ? 1e9 : std::max(worst, off);
+  });
+  EXPECT_EQ(i, first.size());
+  return worst;
+}
+
+// Steps of 2e-5 m: the fourth power of their share in what changes most, a swing arm of some ten metres that
+// turns round within millimetres, leaves 1e-8; rounding of 1e-15 over the step less.
+constexpr double step = 2e-5, agreement = 1e-7;
+
+WheelParameters solved(const WheelGuide& guide, Driver driver, const GuideInput& input) {
+  const GuidePlan plan = prepare(guide);
+  const GuidePosition at = solve_position(plan, driver, input, reference_position(plan, driver));
+  EXPECT_EQ(at.status, Status::done);
+  return wheel_parameters(plan, at);
+}
+
+struct Station {
+  Driver driver;
+  GuideInput input;
+};
+
+void expect_exact(const WheelGuide& guide, const std::string& name, const std::vector<Station>& stations) {
+  std::vector<DesignNumber> numbers = hard_points(guide);
+  for (int axis = 0; axis < 3; ++axis) numbers.push_back({DesignKind::wheel_centre, 0, 0, axis});
+  numbers.push_back({DesignKind::wheel_toe});
+  numbers.push_back({DesignKind::wheel_camber});
+  const DerivativePlan plan = prepare_derivatives(guide, numbers);
+  for (const auto& [driver, input] : stations) {
+    const GuidePosition at = solve_position(plan.plan, driver, input, reference_position(plan.plan, driver));
+    const WheelDerivatives exact = wheel_derivatives(plan, at);
+    const WheelParameters values = wheel_parameters(plan.plan, at);
+    ASSERT_EQ(exact.by.size(), numbers.size());
+    int unused = 0;
+    // The same formulas in another order of rounding.
+    EXPECT_LT(apart(exact.parameters, values, values, unused), 1e-11);
+    for (std::size_t j = 0; j < numbers.size(); ++j) {
+      int count = 0;
+      const auto off = [&, driver = driver, input = input](double by_step) {
+        const WheelParameters by = differenced(
+            [&](double h) {
+              WheelGuide other = guide;
+              suspension::at(other, numbers[j]) += h;
+              return solved(other, driver, input);
+            },
+            by_step);
+        count = 0;
+        return apart(exact.by[j], by, values, count);
+      };
+      // What curves more than the step was chosen for has a sixteenth of the truncation at half of it.
+      double worst = off(step);
+      if (!(worst < agreement)) worst = off(step / 2);
+      EXPECT_LT(worst, agreement) << name << ": " << label(guide, numbers[j]) << " at " << input.value << ", "
+                                  << input.rack;
+      EXPECT_GT(count, 30);
+    }
+  }
+}
+
+TEST(Derivatives, AgreeWithDifferencesOfSolvedDesigns) {
+  for (const GuideSample& sample : guide_samples().first(12))
+    expect_exact(sample.guide, sample.name,
+                 {{Driver::wheel_centre_z, {0.045, 0.02}}, {Driver::wheel_centre_z, {-0.06, 0}}});
+}
+
+TEST(Derivatives, HoldWhatDrives) {
+  for (const char* name : {"2RS-KS", "RS-SP-KS", "RR-KS"})
+    expect_exact(guide_sample(name).guide, name,
+                 {{Driver::spring, {0.02, 0.01}}, {Driver::contact_z, {0.05, 0}}});
+}
+
+TEST(Derivatives, OfPrescribedLengthsAndCouplers) {
+  WheelGuide lengths = guide_sample("5KS").guide;
+  for (GuideLink& link : lengths.links) link.length = norm(link.carrier[0] - link.body[0]);
+  *lengths.links[1].length += 0.003;
+  expect_exact(lengths, "5KS with lengths", {{Driver::wheel_centre_z, {0.03, 0.01}}});
+  const WheelGuide coupled = guide_sample("interconnected").guide;
+  expect_exact(coupled, "interconnected", {{Driver::wheel_centre_z, {0.05, 0}}});
+  WheelGuide right = mirrored(guide_sample("2RS-KS").guide);
+  expect_exact(right, "right wheel", {{Driver::wheel_centre_z, {0.03, -0.02}}});
+}
+
+TEST(Derivatives, OfWhatIsFixedToARodOffItsLine) {
+  for (const int link : {0, 2}) {
+    WheelGuide guide = guide_sample("5KS").guide;
+    guide.spring->link = link;
+    expect_exact(guide, "5KS, spring on a rod", {{Driver::wheel_centre_z, {0.045, 0.02}}});
+    guide.links[link].cross_axis = Vec3{0.7, 0.5, -0.6};
+    guide.links[link].length = norm(guide.links[link].carrier[0] - guide.links[link].body[0]) + 0.004;
+    expect_exact(guide, "5KS, spring on a rod of another length", {{Driver::spring, {0.01, -0.01}}});
+  }
+  WheelGuide coupled = guide_sample("interconnected").guide;
+  const GuideLink& rod = coupled.links[coupled.couplers[0].first];
+  coupled.couplers[0].begin = rod.body[0] + 0.6 * (rod.carrier[0] - rod.body[0]) + Vec3{0.02, 0.005, -0.03};
+  expect_exact(coupled, "coupler off the line", {{Driver::wheel_centre_z, {0.03, 0}}});
+}
+
+TEST(Derivatives, AlongTravelAndRackAgreeWithDifferences) {
+  for (const GuideSample& sample : guide_samples()) {
+    const DerivativePlan plan = prepare_derivatives(sample.guide, {});
+    const GuidePosition reference = reference_position(plan.plan);
+    for (const GuideInput& input : {GuideInput{0.04, 0.015}, GuideInput{-0.05, 0}}) {
+      const auto at = [&](double travel, double rack) {
+        return solve_position(plan.plan, Driver::wheel_centre_z, {input.value + travel, input.rack + rack},
+                              reference);
+      };
+      const InputDerivatives exact = input_derivatives(plan, at(0, 0));
+      const WheelParameters values = wheel_parameters(plan.plan, at(0, 0));
+      int count = 0;
+      EXPECT_LT(apart(exact.parameters, values, values, count), 1e-11);
+      const auto travel = differenced([&](double h) { return wheel_parameters(plan.plan, at(h, 0)); }, step);
+      EXPECT_LT(apart(exact.by_travel, travel, values, count), agreement) << sample.name;
+      const auto rack = differenced([&](double h) { return wheel_parameters(plan.plan, at(0, h)); }, step);
+      EXPECT_LT(apart(exact.by_rack, rack, values, count), agreement) << sample.name;
+      EXPECT_NEAR(exact.by_travel.angles.toe, values.toe_by_travel,
+                  1e-11 * (1 + std::abs(values.toe_by_travel)));
+    }
+  }
+}
+
+TEST(Derivatives, AtRestAreTheSameWithoutRates) {
+  const WheelGuide guide = guide_sample("2RS-KS").guide;
+  const DerivativePlan plan = prepare_derivatives(guide, hard_points(guide));
+  const GuidePosition at =
+      solve_position(plan.plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan.plan));
+  const WheelDerivatives all = wheel_derivatives(plan, at),
+                         rest = wheel_derivatives(plan, at, Extent::at_rest);
+  for (std::size_t j = 0; j < all.by.size(); ++j) {
+    EXPECT_EQ(all.by[j].angles.toe, rest.by[j].angles.toe);
+    EXPECT_EQ(all.by[j].spring_length, rest.by[j].spring_length);
+    EXPECT_TRUE(std::isnan(rest.by[j].roll_centre_height));
+  }
+}
+
+TEST(Derivatives, WhereLinksLoseRankThereAreNone) {
+  WheelGuide guide = guide_sample("5KS").guide;
+  guide.links[4] = guide.links[3];
+  guide.links[4].name = "double";
+  const DerivativePlan plan = prepare_derivatives(guide, hard_points(guide));
+  const GuidePosition at{.place = {{plan.plan.wheel.centre, {}}, 0}};
+  const WheelDerivatives found = wheel_derivatives(plan, at);
+  EXPECT_EQ(found.status, Status::singular);
+  EXPECT_EQ(found.parameters.status, Status::singular);
+  EXPECT_NEAR(found.parameters.angles.toe, guide.wheel.toe, 1e-15);
+  EXPECT_TRUE(std::isnan(found.by[0].angles.toe));
+  EXPECT_EQ(input_derivatives(plan, at).status, Status::singular);
+}
+
+TEST(Derivatives, OfNumbersThatAreNotThereAreRefused) {
+  EXPECT_THROW(prepare_derivatives(guide_sample("5KS").guide, {{DesignKind::length, 0}}), ContractError);
+}
+
+}  // namespace
+}  // namespace linkwright::suspension
