@@ -3,8 +3,8 @@
 #include <array>
 #include <numbers>
 
-#include "linkwright/parallel/assembly_modes.h"
-#include "linkwright/parallel/platform_paths.h"
+#include "linkwright/parallel/assembly_modes/assembly_modes.h"
+#include "linkwright/parallel/assembly_modes/platform_paths.h"
 
 namespace linkwright::parallel {
 namespace {

@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
-#include "linkwright/parallel/dexterity.h"
-#include "linkwright/parallel/dexterity_synthesis_samples.h"
-#include "linkwright/parallel/prescribed_region.h"
+#include "linkwright/parallel/dexterity/dexterity.h"
+#include "linkwright/parallel/dexterity/synthesis_samples.h"
+#include "linkwright/parallel/workspace/prescribed_region.h"
 
 namespace linkwright::parallel {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "linkwright/core/random.h"
-#include "linkwright/parallel/drives.h"
+#include "linkwright/parallel/robot/drives.h"
 
 namespace linkwright::parallel {
 namespace {

@@ -1,6 +1,6 @@
 #include <benchmark/benchmark.h>
 
-#include "linkwright/parallel/dynamics.h"
+#include "linkwright/parallel/robot/dynamics.h"
 
 namespace linkwright::parallel {
 namespace {

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "linkwright/math/angles.h"
-#include "linkwright/parallel/dexterity_synthesis.h"
-#include "linkwright/parallel/dexterity_synthesis_samples.h"
+#include "linkwright/parallel/dexterity/synthesis.h"
+#include "linkwright/parallel/dexterity/synthesis_samples.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <numbers>
 
-#include "linkwright/parallel/pi_design_synthesis.h"
-#include "linkwright/parallel/pi_samples.h"
+#include "linkwright/parallel/pi_joint/design_synthesis.h"
+#include "linkwright/parallel/pi_joint/samples.h"
 
 namespace linkwright::parallel {
 namespace {

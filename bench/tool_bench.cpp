@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "linkwright/parallel/tool_motion.h"
+#include "linkwright/parallel/tool/motion.h"
 
 namespace linkwright::parallel {
 namespace {

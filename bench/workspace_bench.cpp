@@ -1,6 +1,6 @@
 #include <benchmark/benchmark.h>
 
-#include "linkwright/parallel/workspace.h"
+#include "linkwright/parallel/workspace/workspace.h"
 
 namespace linkwright::parallel {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "linkwright/parallel/tool_layout.h"
-#include "linkwright/parallel/tool_table.h"
+#include "linkwright/parallel/tool/layout.h"
+#include "linkwright/parallel/tool/table.h"
 #include "require.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -2,7 +2,7 @@
 
 #include "linkwright/core/random.h"
 #include "linkwright/math/vector3.h"
-#include "linkwright/parallel/platform_paths.h"
+#include "linkwright/parallel/assembly_modes/platform_paths.h"
 
 /// Platforms on six legs for tests of their polynomials.
 namespace linkwright::parallel {

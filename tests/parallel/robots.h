@@ -1,6 +1,6 @@
 #pragma once
 
-#include "linkwright/parallel/workspace.h"
+#include "linkwright/parallel/workspace/workspace.h"
 #include "support/published.h"
 
 /// Robots of the reference figures, and those figures.

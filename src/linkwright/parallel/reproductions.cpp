@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "linkwright/math/angles.h"
-#include "linkwright/parallel/pi_design_synthesis.h"
-#include "linkwright/parallel/pi_samples.h"
-#include "linkwright/parallel/pi_stiffness_synthesis.h"
+#include "linkwright/parallel/pi_joint/design_synthesis.h"
+#include "linkwright/parallel/pi_joint/samples.h"
+#include "linkwright/parallel/pi_joint/stiffness_synthesis.h"
 
 namespace linkwright::parallel {
 namespace {

@@ -1,9 +1,9 @@
 #include "linkwright/parallel/studies.h"
 
-#include "linkwright/parallel/dexterity_study.h"
-#include "linkwright/parallel/pi_joint_study.h"
-#include "linkwright/parallel/robot_analysis_study.h"
-#include "linkwright/parallel/serial_pi_arm_study.h"
+#include "linkwright/parallel/studies/dexterity.h"
+#include "linkwright/parallel/studies/pi_joint.h"
+#include "linkwright/parallel/studies/robot_analysis.h"
+#include "linkwright/parallel/studies/serial_pi_arm.h"
 
 namespace linkwright::parallel {
 

@@ -1,9 +1,0 @@
-#include "linkwright/parallel/pose_check_kernel.h"
-
-namespace linkwright::parallel {
-
-void pose_check_baseline(const PoseCheckTask& task) {
-  pose_check_with<xsimd::batch<double, xsimd::sse2>>(task);
-}
-
-}  // namespace linkwright::parallel

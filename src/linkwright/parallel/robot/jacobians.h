@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "linkwright/parallel/robot/position.h"
+
+/// First and second order motion, and how far a pose is from singular: Jx t = Jq dalpha/dt (Gosselin and
+/// Angeles 1990).
+namespace linkwright::parallel {
+
+using Matrix6 = std::array<std::array<double, most_legs>, most_legs>;
+using Vector6 = std::array<double, most_legs>;
+
+/// Of a pose; the leading legs() x legs() block of each matrix counts. The twist t is (vx, vy, vz) of the
+/// platform point for a DELTA, (vx, vy) for planar robots, (vx, vy, vz, wx, wy, wz) in base axes for a HEXA.
+struct Jacobians {
+  std::array<Vec3, most_legs> rod{};     ///< s: arm's end to platform joint (m)
+  std::array<Vec3, most_legs> arm{};     ///< u: unit direction of the arm
+  std::array<Vec3, most_legs> normal{};  ///< u' = du/dalpha
+  std::array<Vec3, most_legs> lever{};   ///< R b: platform point to platform joint, base axes (m)
+  Matrix6 platform{};  ///< Jx, a row a leg: s, or its part in the plane, or s with (R b) x s
+  Vector6 drive{};     ///< diagonal of Jq: l s . u' (m2)
+};
+/// Allocates nothing.
+Jacobians jacobians(const Robot& robot, const Pose& pose, std::span<const double> angles);
+
+/// J = Jx^-1 Jq, twist by arm speeds; not finite in a singular pose of type 2.
+Matrix6 jacobian(const Robot& robot, const Jacobians& at);
+/// x of matrix x = right for the leading legs() x legs() block; not finite when it is singular.
+Vector6 solve(const Robot& robot, const Matrix6& matrix, const Vector6& right);
+Matrix6 transposed(const Robot& robot, const Matrix6& matrix);
+/// det Jx: its sign tells the assembly, 0 the singularity of type 2.
+double determinant(const Robot& robot, const Jacobians& at);
+/// det of the leading legs() x legs() block.
+double determinant(const Robot& robot, const Matrix6& matrix);
+
+/// Velocity or acceleration of the platform: of its point, and of its turning, in base axes.
+struct Twist {
+  Vec3 linear{};   ///< m/s or m/s2
+  Vec3 angular{};  ///< rad/s or rad/s2
+};
+
+/// What counts of a twist or a wrench of this robot, in the order of the columns of Jx; the rest is 0.
+Vector6 components(const Robot& robot, const Vec3& linear, const Vec3& angular);
+/// And back.
+Twist twist(const Robot& robot, const Vector6& components);
+
+/// Arm speeds (rad/s) for a velocity of the platform; not finite where arm and rod are aligned (type 1).
+Vector6 arm_speeds(const Robot& robot, const Jacobians& at, const Twist& velocity);
+/// Arm accelerations (rad/s2) for velocity and acceleration.
+Vector6 arm_accelerations(const Robot& robot, const Jacobians& at, const Twist& velocity,
+                          const Twist& acceleration);
+/// Velocity of the platform for arm speeds.
+Twist platform_velocity(const Robot& robot, const Jacobians& at, std::span<const double> arm_speeds);
+
+/// Indices of a pose. Without dimension but for `singular_value` and `manipulability`.
+struct Quality {
+  /// s . u'/L of each leg: 0 in a singularity of type 1; its magnitude is the input transmission index.
+  Vector6 input{};
+  /// Cosine between a rod and the velocity that its leg alone gives to its platform joint: output
+  /// transmission index, 0 in a singularity of type 2.
+  Vector6 output{};
+  double transmission = 0;  ///< least of all input and output indices
+  /// det of the rods' unit vectors (for a HEXA of the rows [s/L, (R b) x s/(L c)], c the characteristic
+  /// length): 0 in a singularity of type 2.
+  double rods = 0;
+  /// det of the unit vectors along t x s, t the arms' axes: 0 where a platform held by parallelograms may
+  /// turn. NaN for robots that turn; for planar robots it is 1.
+  double constraint = 0;
+  /// Least singular value of the rows t x s/L, in [0, 1], see constraint.h; NaN and 1 as above.
+  double constraint_index = 0;
+  Vector6 singular_value{};   ///< of J, descending (m; a HEXA's rows of turning are multiplied by c)
+  double condition = 0;       ///< largest over least singular value, infinite in a singularity
+  double manipulability = 0;  ///< product of the singular values
+};
+/// `characteristic_length` (m) makes the rows of turning of a HEXA comparable with the others; it matters for
+/// no other robot.
+Quality quality(const Robot& robot, const Jacobians& at, double characteristic_length);
+
+/// A length to compare turning with: mean distance of the platform joints from the platform point (m); 1 if
+/// they all are there.
+double platform_size(const Robot& robot);
+
+/// What is singular in a pose.
+enum class Singularity { none, type1, type2, type3, constraint };
+constexpr std::array<EnumName<Singularity>, 5> names(Singularity) {
+  return {
+      {{Singularity::none, "none", "regular"},
+       {Singularity::type1, "type_1",
+        "arm and rod of a leg are aligned: working modes meet, the platform "
+        "cannot be moved along that rod"},
+       {Singularity::type2, "type_2", "the rods do not hold the platform: assembly modes meet"},
+       {Singularity::type3, "type_3", "types 1 and 2 together"},
+       {Singularity::constraint, "constraint", "the parallelograms do not keep the platform from turning"}}};
+}
+/// Which measure of `quality` is at most `limit` in magnitude; of the parallelograms, whose constraint index
+/// is at most constraint_floor (constraint.h).
+Singularity singularity(const Robot& robot, const Quality& quality, double limit = 1e-6);
+
+}  // namespace linkwright::parallel

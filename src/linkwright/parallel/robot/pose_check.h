@@ -1,0 +1,172 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "linkwright/core/field.h"
+#include "linkwright/parallel/robot/drives.h"
+#include "linkwright/parallel/robot/regular_ball.h"
+
+/// What a pose of a robot must meet to count as usable, and its indices, for many poses at a time: the node
+/// test of workspaces.
+namespace linkwright::parallel {
+
+/// What a pose must meet. The defaults ask only that the legs reach.
+struct PoseConditions {
+  Robot robot;
+  Drives drives{};
+  WorkingMode mode = all_positive;
+  int assembly = 0;             ///< sign of det Jx, 1 or -1; 0 = either. See assembly_at.
+  int constraint = 0;           ///< of a DELTA, sign of det C (constraint.h); 0 = either. See marks_at.
+  double least_constraint = 0;  ///< of a DELTA, constraint index
+  double least_elbow = 0;       ///< angle between arm and rod at their joint: 0 = folded (rad)
+  double most_elbow = std::numbers::pi;  ///< pi = stretched (rad)
+  double most_swing =
+      std::numbers::pi / 2;             ///< angle between a rod and the plane in which its arm moves (rad)
+  double least_drive_transmission = 0;  ///< of the drives, sin(mu) of a Pi-joint
+  double least_transmission = 0;        ///< of the legs, LTI
+  double least_conditioning = 0;        ///< LCI, 1 / condition
+  double characteristic_length = 1;     ///< of a HEXA, see `quality` (m)
+};
+
+/// What keeps it from being conditions, with the value; nothing if all is well.
+std::optional<std::string> problem(const PoseConditions& conditions);
+
+/// Sign of det Jx where the legs stand as `mode` says; 0 in a pose that they do not reach or that is
+/// singular.
+int assembly_at(const Robot& robot, const Pose& pose, const WorkingMode& mode = all_positive);
+
+/// ... with the sign of det C of a DELTA; both 0 in a pose that is not reached.
+Marks marks_at(const Robot& robot, const Pose& pose, const WorkingMode& mode = all_positive);
+
+/// The first condition that a pose does not meet, in this order: what passes all up to one is a part of what
+/// passes all up to the one before.
+enum class Hurdle : std::uint8_t {
+  none,
+  leg,
+  assembly,
+  constraint,
+  travel,
+  elbow,
+  swing,
+  drive_transmission,
+  transmission,
+  conditioning,
+  open,
+};
+inline constexpr std::size_t hurdle_count = 11;
+constexpr std::array<EnumName<Hurdle>, hurdle_count> names(Hurdle) {
+  return {{{Hurdle::none, "none", "meets all conditions"},
+           {Hurdle::leg, "leg", "a leg cannot reach"},
+           {Hurdle::assembly, "assembly", "det Jx has the sign of the other assembly"},
+           {Hurdle::constraint, "constraint",
+            "the parallelograms do not keep the platform from turning, or hold it in the other assembly"},
+           {Hurdle::travel, "travel", "a drive is beyond its travel"},
+           {Hurdle::elbow, "elbow", "the angle between arm and rod is beyond its limits"},
+           {Hurdle::swing, "swing", "a rod leans too far out of the plane of its arm"},
+           {Hurdle::drive_transmission, "drive_transmission", "a Pi-joint transmits too badly"},
+           {Hurdle::transmission, "transmission", "transmission index of the legs below its limit"},
+           {Hurdle::conditioning, "conditioning", "1 / condition below its limit"},
+           {Hurdle::open, "open", "not looked at: the computation was stopped"}}};
+}
+
+/// Indices of a pose, NaN where the legs do not reach; see `quality`, `resolution`, `speed_factor`.
+enum class PoseIndex {
+  conditioning,        ///< LCI: least over largest singular value
+  transmission,        ///< LTI
+  input_transmission,  ///< least abs(s . u')/L
+  rods,                ///< det of the rods' directions
+  constraint,          ///< det of unit vectors along t x s, only for robots of space_translation, else 1
+  constraint_index,    ///< chi: least singular value of t x s/L, likewise
+  manipulability,      ///< product of the singular values
+  drive_transmission,  ///< least sin(mu), 1 for motors; NaN where a Pi-joint cannot be, like those below
+  axis_resolution,     ///< largest of the bounds along the axes (m)
+  worst_resolution,    ///< m
+  speed_factor,
+};
+inline constexpr std::size_t pose_index_count = 11;
+constexpr std::array<EnumName<PoseIndex>, pose_index_count> names(PoseIndex) {
+  return {
+      {{PoseIndex::conditioning, "conditioning", "least over largest singular value of the Jacobian (LCI)"},
+       {PoseIndex::transmission, "transmission", "least input or output transmission of the legs (LTI)"},
+       {PoseIndex::input_transmission, "input_transmission", "least input transmission of the legs"},
+       {PoseIndex::rods, "rods", "determinant of the rods' directions"},
+       {PoseIndex::constraint, "constraint", "determinant that keeps the platform from turning"},
+       {PoseIndex::constraint_index, "constraint_index",
+        "how firmly the parallelograms keep the platform from turning"},
+       {PoseIndex::manipulability, "manipulability", "product of the singular values"},
+       {PoseIndex::drive_transmission, "drive_transmission", "least transmission of the drives"},
+       {PoseIndex::axis_resolution, "axis_resolution", "largest bound of a step along an axis"},
+       {PoseIndex::worst_resolution, "worst_resolution", "largest step of the platform point"},
+       {PoseIndex::speed_factor, "speed_factor", "speed along all axes by speed of the drives"}}};
+}
+
+/// Which indices are wanted; what nobody asks for is not computed.
+using WantedIndices = std::array<bool, pose_index_count>;
+constexpr std::size_t slot(PoseIndex index) { return static_cast<std::size_t>(index); }
+inline constexpr WantedIndices no_indices{};
+inline constexpr WantedIndices all_indices{true, true, true, true, true, true, true, true, true, true, true};
+
+/// Where what is found goes: spans as long as the number of poses, or empty.
+struct PoseFindings {
+  std::span<Hurdle> hurdle;
+  std::array<std::span<double>, pose_index_count> index{};
+};
+
+/// Looks at positions of the platform point at one rotation, several at a time as SIMD registers hold, by the
+/// formulas of pose_check_kernel.h. Equal to `inverse`, `jacobians`, `quality` and those of drives.h up to
+/// rounding. Throws ContractError for conditions with a problem. Allocates nothing.
+void check_poses(const PoseConditions& conditions, std::span<const Vec3> positions, const Mat3& rotation,
+                 const PoseFindings& out);
+/// The same for poses that turn.
+void check_poses(const PoseConditions& conditions, std::span<const Pose> poses, const PoseFindings& out);
+/// One pose.
+Hurdle check_pose(const PoseConditions& conditions, const Pose& pose);
+
+/// Name of the instruction set that is used: "avx512", "avx2" or "baseline".
+const char* pose_check_kernel_name();
+
+/// A leg with its drive and limits, for the kernel.
+struct PoseCheckLeg {
+  Leg leg;
+  double sign = 1;  ///< of the working mode
+  bool pi_joint = false;
+  double zero_cosine = 1, zero_sine = 0;  ///< direction of the arm at theta = 0
+  double mirror = 1;
+  double centre_cosine = 1, centre_sine = 0;  ///< direction of theta in the middle of its range
+  double range_cosine = -2;                   ///< cosine of half the range
+  double ratio = 0, quantum = 0;
+  double least_elbow_part = 0, most_elbow_part = 0;  ///< limits of -u . s (m)
+  double most_swing_part = 0;                        ///< limit of abs(s . t) (m)
+};
+
+/// What a kernel gets. Rows of `count` numbers, a multiple of 8.
+struct PoseCheckTask {
+  Freedom freedom = Freedom::space_translation;
+  std::array<PoseCheckLeg, most_legs> leg{};
+  int assembly = 0, constraint = 0;
+  double least_constraint = 0;
+  double least_drive_transmission = 0, least_transmission = 0, least_conditioning = 0;
+  double characteristic_length = 1;
+  double rods_scale = 1;  ///< det Jx to det of the rods' directions
+  WantedIndices wanted{};
+  std::size_t count = 0;
+  std::array<const double*, 3> position{};
+  Mat3 rotation{};
+  std::array<const double*, 9> rotations{};  ///< by rows; null: all have `rotation`
+  double* hurdle = nullptr;
+  std::array<double*, pose_index_count> index{};  ///< of those wanted
+};
+
+/// Implementations, one a translation unit; all but the baseline need the machine to have the instructions.
+void pose_check_baseline(const PoseCheckTask& task);
+void pose_check_avx2(const PoseCheckTask& task);
+void pose_check_avx512(const PoseCheckTask& task);
+
+}  // namespace linkwright::parallel

@@ -1,0 +1,95 @@
+#include "linkwright/parallel/serial_arm/workspace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linkwright/core/check.h"
+#include "linkwright/math/angles.h"
+
+namespace linkwright::parallel {
+namespace {
+
+constexpr std::size_t block = 4096;  // nodes between looks at the context: about a millisecond
+
+std::size_t nodes_along(double low, double high, double step) {
+  LINKWRIGHT_REQUIRE(std::isfinite(low) && std::isfinite(high) && high >= low, "grid from {} to {} m", low,
+                     high);
+  // The end counts when it is missed by rounding alone.
+  const double steps = std::floor((high - low) / step + 1e-6);
+  LINKWRIGHT_REQUIRE(steps < 1e8, "grid from {} to {} m in steps of {} m", low, high, step);
+  return static_cast<std::size_t>(steps) + 1;
+}
+
+SerialHurdle hurdle_of(const SerialConditions& c, const SerialDrives& drives, const Vector2& angles,
+                       const SerialPlace& place) {
+  if (drives.status != Status::done) return SerialHurdle::travel;
+  const double elbow = elbow_angle(angles);
+  if (elbow < c.least_elbow || elbow > c.most_elbow) return SerialHurdle::elbow;
+  if (place[SerialIndex::drive_transmission] < c.least_drive_transmission)
+    return SerialHurdle::drive_transmission;
+  if (place[SerialIndex::conditioning] < c.least_conditioning) return SerialHurdle::conditioning;
+  return SerialHurdle::none;
+}
+
+}  // namespace
+
+double elbow_angle(const Vector2& angles) {
+  return std::numbers::pi - std::abs(math::wrap_angle(angles[1] - angles[0]));
+}
+
+SerialPlace look_at(const SerialConditions& c, const Vector2& point) {
+  SerialPlace out{.hurdle = SerialHurdle::reach};
+  out.index.fill(std::numeric_limits<double>::quiet_NaN());
+  const SerialAngles found = inverse(c.arm, point, c.mode);
+  if (found.status != Status::done) return out;
+  const SerialQuality q = quality(c.arm, found.angle);
+  const SerialDrives drives = drives_at(c.arm, found.angle);
+  out.index = {1 / q.condition, std::abs(q.sine), q.manipulability,
+               std::min(q.transmission[0], q.transmission[1])};
+  if (drives.status == Status::no_assembly) out.index[3] = std::numeric_limits<double>::quiet_NaN();
+  out.hurdle = hurdle_of(c, drives, found.angle, out);
+  return out;
+}
+
+Vector2 SerialMap::position(std::size_t node) const {
+  return {grid.low[0] + grid.step * static_cast<double>(node % nodes[0]),
+          grid.low[1] + grid.step * static_cast<double>(node / nodes[0])};
+}
+
+std::size_t SerialMap::count(SerialHurdle hurdle) const {
+  return static_cast<std::size_t>(std::count_if(
+      place.begin(), place.end(), [hurdle](const SerialPlace& p) { return p.hurdle == hurdle; }));
+}
+
+SerialMap workspace(const SerialConditions& conditions, const SerialGrid& grid, const RunContext& context) {
+  LINKWRIGHT_REQUIRE(grid.step > 0 && std::isfinite(grid.step), "grid step {} m must be positive", grid.step);
+  SerialMap out{.grid = grid};
+  for (std::size_t i = 0; i < 2; ++i) out.nodes[i] = nodes_along(grid.low[i], grid.high[i], grid.step);
+  const double all = static_cast<double>(out.nodes[0]) * static_cast<double>(out.nodes[1]);
+  LINKWRIGHT_REQUIRE(all <= 1e8, "grid of {} nodes", all);
+  out.place.resize(out.nodes[0] * out.nodes[1]);
+  for (std::size_t n = 0; n < out.place.size(); ++n) {
+    if (n % block == 0) {
+      out.status = context.interruption();
+      if (out.status != Status::done) break;
+      context.report({.stage = "workspace", .fraction = static_cast<double>(n) / all});
+    }
+    out.place[n] = look_at(conditions, out.position(n));
+  }
+  return out;
+}
+
+SerialGrid whole_reach(const SerialPiArm& arm, double step) {
+  LINKWRIGHT_REQUIRE(step > 0 && std::isfinite(step), "grid step {} m must be positive", step);
+  const double half = step * std::ceil((arm.arm[0] + arm.arm[1]) / step);
+  SerialGrid out{.step = step};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double middle = arm.base[i] + arm.offset[i];
+    out.low[i] = middle - half;
+    out.high[i] = middle + half;
+  }
+  return out;
+}
+
+}  // namespace linkwright::parallel

@@ -1,0 +1,586 @@
+#include "linkwright/parallel/studies/dexterity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "linkwright/core/units.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/parallel/studies/robot_scene.h"
+#include "linkwright/study/bind_write.h"
+#include "linkwright/study/memory.h"
+#include "linkwright/study/run_seeds.h"
+
+namespace linkwright::parallel {
+namespace {
+
+struct Answer {
+  Status status = Status::infeasible;
+  DexterityDesign best;
+  std::vector<double> between_nodes;
+  double worst_between_nodes = std::nan("");
+  std::int64_t evaluations = 0;
+  int starts = 0, reached_best = 0;
+  std::vector<optimise::GenerationLog> log;
+};
+using Runs = study::SeedRuns<Answer>;
+
+bool larger_is_better(DexterityGoal goal) { return goal != DexterityGoal::size; }
+/// What is minimised.
+double cost_of(DexterityGoal goal, const Answer& a) {
+  if (a.best.x.empty() || a.best.violation > 0) return std::numeric_limits<double>::infinity();
+  return larger_is_better(goal) ? -a.best.objective : a.best.objective;
+}
+
+Answer answer_of(const DexterityStudy& s, std::uint64_t seed, RunContext& context) {
+  Answer out;
+  if (const auto* recommended = std::get_if<RecommendedDexterity>(&s.method)) {
+    DexteritySynthesis found = synthesise(s.task, recommended->options, seed, context);
+    out.status = found.status;
+    out.best = std::move(found.best);
+    out.between_nodes = std::move(found.between_nodes);
+    out.worst_between_nodes = found.worst_between_nodes;
+    out.evaluations = found.evaluations;
+    out.starts = static_cast<int>(found.starts.size());
+    out.reached_best = found.reached_best;
+    return out;
+  }
+  std::visit(
+      [&](const auto& method) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(method)>, RecommendedDexterity>) {
+          const optimise::Problem problem = population_problem(s.task, &context);
+          const auto optimiser = optimise::make_optimiser(problem.variables, method.options, {.seed = seed});
+          optimise::MinimiseOptions minimise = method.minimise;
+          minimise.checkpoint = optimise::seed_name(seed) + "/population";
+          optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
+                                                       choice_word(method).name, minimise, context);
+          if (report.violation < std::numeric_limits<double>::infinity()) out.best = assess(s.task, report.x);
+          out.status = report.status == Status::done ? out.best.status : report.status;
+          out.evaluations = report.evaluations;
+          out.log = std::move(report.log);
+        }
+      },
+      s.method);
+  return out;
+}
+
+/// A seed that came to its end as a checkpoint keeps it: the design variables, not what they achieve.
+Value kept(const Answer& a) {
+  Value out;
+  out["status"] = study::kept_status(a.status);
+  out["x"] = pack_numbers(a.best.x);
+  out["between_nodes"] = pack_numbers(a.between_nodes);
+  out["worst_between_nodes"] = pack_numbers({&a.worst_between_nodes, 1});
+  out["starts"] = a.starts;
+  out["reached_best"] = a.reached_best;
+  out["evaluations"] = a.evaluations;
+  out["log"] = study::kept_log(a.log);
+  return out;
+}
+
+Answer restored(const Value& value, const DexterityStudy& s, std::string_view what) {
+  Answer out;
+  out.status = study::restored_status(value, what);
+  if (!unpack_numbers(kept_member(value, "x", what), what).empty()) {
+    const std::vector<optimise::Variable> variables = design_variables(s.task);
+    const std::vector<double> x = study::restored_numbers(value, "x", variables.size(), what);
+    for (std::size_t j = 0; j < x.size(); ++j)
+      if (!(x[j] >= variables[j].lower && x[j] <= variables[j].upper))
+        throw CheckpointError(fmt::format("{}: {} is {}, out of its range", what, variables[j].name, x[j]));
+    out.best = assess(s.task, x);
+  }
+  // NaN where nothing was looked for between the nodes.
+  out.between_nodes = unpack_numbers(kept_member(value, "between_nodes", what), what);
+  const std::vector<double> worst = unpack_numbers(kept_member(value, "worst_between_nodes", what), what);
+  if (worst.size() != 1 || out.between_nodes.size() > out.best.limits.size())
+    throw CheckpointError(fmt::format("{}: what lies between the nodes is not told", what));
+  out.worst_between_nodes = worst[0];
+  out.starts = static_cast<int>(kept_integer(value, "starts", 0, 1000000, what));
+  out.reached_best = static_cast<int>(kept_integer(value, "reached_best", 0, out.starts, what));
+  out.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
+  out.log = study::restored_log(value, what);
+  return out;
+}
+
+std::array<int, 3> three(const std::vector<int>& v, std::array<int, 3> rest) {
+  for (std::size_t i = 0; i < v.size() && i < 3; ++i) rest[i] = v[i];
+  return rest;
+}
+
+PiTravelTask pi_task(const PiTravelForm& f) {
+  PiTravelTask out;
+  if (f.mounting) out.mounting = {f.mounting->lower, f.mounting->upper};
+  if (f.ratio) out.ratio = {f.ratio->lower, f.ratio->upper};
+  out.mirror = f.mirrored ? -1 : 1;
+  out.limits = requirements_of(f);
+  return out;
+}
+
+Table limits_table(const Answer& a) {
+  Table table{.name = "limits"};
+  std::vector<double> value, bound, between, active, x, y, z;
+  for (std::size_t i = 0; i < a.best.limits.size(); ++i) {
+    const DexterityStand& l = a.best.limits[i];
+    for (const auto& entry : names(DexterityLimit{}))
+      if (entry.value == l.limit)
+        table.names.emplace_back(fmt::format("{}, {}", entry.summary, l.at_least ? "at least" : "at most"));
+    value.push_back(l.value);
+    bound.push_back(l.bound);
+    between.push_back(i < a.between_nodes.size() ? a.between_nodes[i] : std::nan(""));
+    active.push_back(l.active);
+    x.push_back(l.place.x);
+    y.push_back(l.place.y);
+    z.push_back(l.place.z);
+  }
+  table.add("value", "value (SI units)", value);
+  table.add("bound", "limit", bound);
+  table.add("between_nodes", "worst between the nodes", between);
+  table.add("active", "active", active);
+  table.add("x_m", "closest at x (m)", x);
+  table.add("y_m", "closest at y (m)", y);
+  table.add("z_m", "closest at z (m)", z);
+  return table;
+}
+
+Table seeds_table(const DexterityStudy& s, const Runs& runs) {
+  Table table{.name = "seeds"};
+  std::vector<double> seed, objective, evaluations;
+  for (std::size_t i = 0; i < runs.answers.size(); ++i) {
+    const Answer& a = runs.answers[i];
+    seed.push_back(static_cast<double>(runs.seeds[i]));
+    objective.push_back(std::isfinite(cost_of(s.task.goal, a)) ? a.best.objective : std::nan(""));
+    evaluations.push_back(static_cast<double>(a.evaluations));
+    table.status.emplace_back(to_string(a.status));
+  }
+  table.add("seed", "seed", seed);
+  table.add("objective", "objective", objective);
+  table.add("evaluations", "designs looked at", evaluations);
+  return table;
+}
+
+void add_statistics(study::Result& result, const DexterityStudy& s, const Runs& runs, double best) {
+  std::vector<optimise::SeedOutcome> outcomes;
+  result.log = Value::array();
+  for (std::size_t i = 0; i < runs.answers.size(); ++i) {
+    const Answer& a = runs.answers[i];
+    const double cost = cost_of(s.task.goal, a);
+    outcomes.push_back({cost, std::isfinite(cost) ? 0.0 : 1.0, a.evaluations});
+    Value entry;
+    entry["seed"] = static_cast<std::int64_t>(runs.seeds[i]);
+    entry["status"] = to_string(a.status);
+    entry["best"] = cost;
+    entry["evaluations"] = a.evaluations;
+    Value history = Value::array();
+    double last = std::numeric_limits<double>::infinity();
+    for (const optimise::GenerationLog& g : a.log) {
+      if (!(g.best_cost < last)) continue;
+      last = g.best_cost;
+      Value step;
+      step["evaluations"] = g.evaluations;
+      step["best"] = g.best_cost;
+      history.push_back(std::move(step));
+    }
+    entry["history"] = std::move(history);
+    result.log.push_back(std::move(entry));
+  }
+  const optimise::SeedStatistics st = optimise::statistics(outcomes, best + 1e-6 * std::abs(best));
+  result.statistics["method"] = std::visit([](const auto& m) { return choice_word(m).name; }, s.method);
+  result.statistics["seeds"] = st.seeds;
+  result.statistics["success_rate"] = st.success_rate;
+  const double sign = larger_is_better(s.task.goal) ? -1 : 1;
+  result.statistics["best"] = sign * st.best;
+  result.statistics["median"] = sign * st.median;
+  result.statistics["worst"] = sign * st.worst;
+  result.statistics["evaluations"] = st.evaluations;
+  result.statistics["median_evaluations"] = st.median_evaluations;
+}
+
+study::Solution solution_of(const DexterityStudy& s, const Answer& a) {
+  study::Solution out{.label = std::string(name_of(s.task.family))};
+  const auto variables = design_variables(s.task);
+  for (std::size_t i = 0; i < a.best.x.size() && i < variables.size(); ++i)
+    out.parameters.push_back(
+        {variables[i].name, variables[i].name, a.best.x[i], variables[i].lower, variables[i].upper});
+  out.objectives["objective"] = a.best.objective;
+  out.objectives["worst_conditioning"] = a.best.worst;
+  out.objectives["mean_conditioning"] = a.best.mean;
+  out.objectives["size_m"] = a.best.size;
+  out.objectives["violation"] = a.best.violation;
+  out.classification = Value::object();
+  out.defects = Value::array();
+  if (!a.best.reason.empty()) out.defects.push_back(Value(a.best.reason));
+  out.scene = "region";
+  return out;
+}
+
+/// The robot with its tool going round the rim of the region.
+study::Scene scene_of(const DexterityStudy& s, const DexterityDesign& best) {
+  std::vector<Vec3> way;
+  PrescribedRegion whole = s.task.region;
+  whole.symmetric = false;
+  const auto corner = [&](double first, double second, double third) {
+    std::array<double, 3> at{};
+    const std::array<double, 3> part{first, second, third};
+    for (int k = 0; k < coordinates(whole.shape); ++k) {
+      const CoordinateRange r = coordinate_range(whole, k);
+      at[static_cast<std::size_t>(k)] = r.lower + (r.upper - r.lower) * part[static_cast<std::size_t>(k)];
+    }
+    return best.origin + place(whole, at);
+  };
+  constexpr int steps = 60;
+  for (const double depth : {0.0, 1.0})
+    for (int i = 0; i <= steps; ++i) {
+      const double t = static_cast<double>(i) / steps;
+      switch (whole.shape) {
+        case RegionShape::cylinder:
+          way.push_back(corner(1, t, depth));
+          break;
+        case RegionShape::circle:
+          way.push_back(corner(1, t, 0));
+          break;
+        case RegionShape::box:
+        case RegionShape::rectangle: {
+          const double side = 4 * t;
+          const auto ramp = [](double x) { return std::clamp(x, 0.0, 1.0); };
+          const double x = ramp(side) - ramp(side - 2), y = ramp(side - 1) - ramp(side - 3);
+          way.push_back(corner(x, y, depth));
+          break;
+        }
+      }
+    }
+  std::vector<RobotSample> samples;
+  std::vector<double> length;
+  double sum = 0;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    if (i > 0) sum += std::max(1e-9, norm(way[i] - way[i - 1]));
+    const Pose pose{way[i]};
+    const ArmAngles angles = inverse(best.robot, pose, s.task.mode);
+    samples.push_back({angles.status, pose, angles.angle});
+    length.push_back(sum);
+  }
+  return robot_scene(best.robot, best.drives, {"region", "around the region", "way_m", "way along the rim"},
+                     length, samples);
+}
+
+std::string objective_text(DexterityGoal goal, double value) {
+  return goal == DexterityGoal::size   ? fmt::format("arm and rod {:.4g} mm together", 1e3 * value)
+         : goal == DexterityGoal::mean ? fmt::format("mean conditioning index {:.6f}", value)
+                                       : fmt::format("least conditioning index {:.6f}", value);
+}
+
+std::string example_of(RobotFamily family) {
+  std::string out = fmt::format(
+      "# linkwright study: dimensions of a robot for a region; a range is designed, a number is "
+      "fixed\nschema = 1\nkind   = "
+      "\"synthesis\"\ntitle  = \"My {}\"\n\n[mechanism]\ntype = \"parallel.{}\"\n",
+      family == RobotFamily::delta  ? "DELTA"
+      : family == RobotFamily::hexa ? "HEXA"
+                                    : "five-bar",
+      name_of(family));
+  switch (family) {
+    case RobotFamily::delta:
+      out +=
+          R"(radius_difference_mm = { min = 0, max = 600 }     # radius of the base less that of the platform
+arm_mm               = { min = 100, max = 1000 }
+rod_mm               = { min = 200, max = 1600 }
+offset_mm            = { min = 50, max = 1500 }   # of the region below the arms' pivots
+
+[target]
+type      = "region"
+shape     = "cylinder"        # on the robot's axis
+width_mm  = 800
+height_mm = 250
+goal      = "size"            # or worst, mean: conditioning as good as possible
+
+[target.limits]
+conditioning   = 0.4
+constraint     = 0.2          # how firmly the parallelograms hold the platform: 0.2 if left out
+input          = 0.5
+arm_travel_deg = 120
+side_swing_deg = 40
+
+[target.pi_joint]             # leave out for motors at the pivots
+telescoping = 2.0
+)";
+      break;
+    case RobotFamily::hexa:
+      out += R"(base_radius_mm     = { min = 100, max = 400 }
+base_offset_mm     = { min = 20, max = 150 }
+platform_radius_mm = 90
+platform_angle_deg = { min = 20, max = 60 }
+arm_mm             = { min = 100, max = 500 }
+rod_mm             = { min = 200, max = 900 }
+offset_mm          = { min = 100, max = 900 }     # of the region below the arms' pivots
+
+[target]
+type      = "region"
+shape     = "cylinder"
+width_mm  = 300
+height_mm = 100
+nodes     = [3, 13, 3]
+cells     = [3, 6, 2]
+goal      = "worst"
+
+[target.limits]
+size_mm = 800
+)";
+      break;
+    case RobotFamily::five_bar:
+      out += R"(half_base_mm = { min = 0, max = 400 }
+arm_mm       = { min = 100, max = 600 }
+rod_mm       = { min = 100, max = 800 }
+offset_mm    = { min = 50, max = 800 }            # of the region from the line of the pivots
+
+[target]
+type      = "region"
+shape     = "rectangle"
+width_mm  = 400
+height_mm = 200
+nodes     = [21, 11]
+goal      = "worst"
+
+[target.limits]
+size_mm = 900
+)";
+      break;
+  }
+  return out;
+}
+
+study::Kind kind_of(RobotFamily family) {
+  study::Kind kind;
+  kind.kind = "synthesis";
+  kind.mechanism = fmt::format("parallel.{}", name_of(family));
+  kind.target = "region";
+  kind.seeded = true;
+  kind.summary = fmt::format("dimensions of a {} for a region: most dexterous, or smallest within limits",
+                             family == RobotFamily::delta  ? "DELTA robot"
+                             : family == RobotFamily::hexa ? "HEXA robot"
+                                                           : "planar five-bar robot");
+  kind.example = example_of(family);
+  kind.schema = [family](study::SchemaWriter& document) {
+    study::SchemaWriter mechanism;
+    for (const FamilyDimension& d : dimensions(family))
+      mechanism(Field{.key = d.name,
+                      .summary = d.summary,
+                      .dimension = d.is_angle ? Dimension::angle : Dimension::length,
+                      .minimum = 0,
+                      .maximum = 1e6,
+                      .required = true},
+                Range{});
+    document.property(Field{.key = "mechanism", .summary = "dimensions, fixed or designed", .required = true},
+                      std::move(mechanism).finish());
+    document.property(
+        Field{.key = "target", .summary = "the region and what is wanted there", .required = true},
+        study::schema_fields<RegionForm>());
+    document.property(Field{.key = "optimiser", .summary = "how designs are searched"},
+                      study::schema_fields<DexterityOptimiser>());
+  };
+  kind.prepare = [family](study::ObjectReader& document, const study::Common& common) {
+    study::Prepared prepared;
+    if (auto s = read_dexterity_study(document, family, prepared.canonical))
+      prepared.run = [s = *std::move(s), common](RunContext& context) {
+        return run_dexterity_study(s, common, context);
+      };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace
+
+std::optional<DexterityStudy> read_dexterity_study(study::ObjectReader& document, RobotFamily family,
+                                                   Value& canonical) {
+  DexterityStudy out;
+  DexterityTask& task = out.task;
+  task.family = family;
+  task.mode = elbows_out(family);
+  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
+  RegionForm form;
+  if (family == RobotFamily::five_bar) form.shape = RegionShape::rectangle;
+  Value written = Value::object();
+  if (mechanism)
+    for (const FamilyDimension& d : dimensions(family)) {
+      Range range;
+      const Field field{.key = d.name,
+                        .summary = d.summary,
+                        .dimension = d.is_angle ? Dimension::angle : Dimension::length,
+                        .minimum = 0,
+                        .maximum = 1e6,
+                        .required = true};
+      (*mechanism)(field, range);
+      task.dimensions.push_back({range.lower, range.upper});
+      study::ObjectWriter writer(written);
+      writer(field, range);
+    }
+  if (target) target->read(form);
+  DexterityOptimiser optimiser;
+  if (auto table = document.table("optimiser")) table->read(optimiser);
+  if (!mechanism || !target || document.document().has_errors()) return std::nullopt;
+  const auto count = static_cast<std::size_t>(coordinates(form.shape));
+  for (const auto& [key, list] : {std::pair{"nodes", &form.nodes}, std::pair{"cells", &form.cells}})
+    if (list->size() != 3 && list->size() != count) {
+      target->error(key, fmt::format("{} numbers for {} coordinates", list->size(), count));
+      return std::nullopt;
+    }
+  task.region = {form.shape,
+                 form.width,
+                 form.length,
+                 form.height,
+                 form.symmetric && form.shape != RegionShape::box,
+                 three(form.nodes, {5, 61, 5}),
+                 three(form.cells, {8, 12, 5})};
+  task.goal = form.goal;
+  DexterityLimitsForm& l = form.limits;
+  if (family != RobotFamily::delta && l.constraint) {
+    if (auto limits = target->table("limits"))
+      limits->error("constraint", "only the legs of a DELTA are parallelograms", "leave it out");
+    return std::nullopt;
+  }
+  if (family == RobotFamily::delta) {
+    l.constraint = l.constraint.value_or(task.limits.constraint);
+    task.limits.constraint = *l.constraint;
+  }
+  task.limits.conditioning = l.conditioning;
+  task.limits.input = l.input;
+  task.limits.output = l.output;
+  task.limits.transmission = l.transmission;
+  if (task.goal == DexterityGoal::size && !size_is_limited(task.limits)) {
+    constexpr double usual = 0.3;
+    l.transmission = task.limits.transmission = usual;
+    out.transmission_put_in = true;
+  }
+  if (l.arm_travel) task.limits.arm_travel = *l.arm_travel;
+  if (l.side_swing) task.limits.side_swing = *l.side_swing;
+  if (l.size) task.limits.size = *l.size;
+  if (family == RobotFamily::hexa) {
+    const DesignRange& radius = task.dimensions[2];
+    task.length = 0.5 * (radius.lower + radius.upper);
+  }
+  if (form.pi_joint) task.pi_joint = pi_task(*form.pi_joint);
+  if (const auto wrong = problem(task)) {
+    target->error("type", *wrong);
+    return std::nullopt;
+  }
+  // Coordinates, place and weight of a point, copied once, and its place and indices as they are measured.
+  constexpr double bytes_of_point = 2 * sizeof(RegionPoint) + 6 * sizeof(Vec3);
+  for (const auto& [key, counts] :
+       {std::pair{"nodes", &task.region.nodes}, std::pair{"cells", &task.region.cells}}) {
+    double points = 1;
+    for (std::size_t k = 0; k < count; ++k) points *= (*counts)[k];
+    if (!study::require_memory(*target, key, bytes_of_point * points, fmt::format("{:.0f} {}", points, key),
+                               fmt::format("take fewer {}", key)))
+      return std::nullopt;
+  }
+  out.method = optimiser.method;
+  canonical["mechanism"] = written;
+  canonical["target"] = study::write_fields(form);
+  canonical["optimiser"] = study::write_fields(optimiser);
+  return out;
+}
+
+study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& common, RunContext& context) {
+  study::Result result;
+  const Runs runs = study::run_seeds(
+      common.seeds, context, "designs", [&](std::uint64_t seed) { return answer_of(s, seed, context); },
+      [](const Answer& a) { return a.status; }, [&](const Answer& a) { return cost_of(s.task.goal, a); },
+      [](const Answer& a) { return kept(a); },
+      [&](const Value& value, std::string_view what) { return restored(value, s, what); });
+  result.status = runs.status;
+  const auto better = [&](const Answer& a, const Answer& b) {
+    const double first = cost_of(s.task.goal, a), second = cost_of(s.task.goal, b);
+    return first != second ? first < second : a.best.violation < b.best.violation;
+  };
+  const auto found = std::min_element(runs.answers.begin(), runs.answers.end(), better);
+  if (found == runs.answers.end() || found->best.x.empty()) {
+    result.headline = "Interrupted before the first design.";
+    return result;
+  }
+  const Answer& a = *found;
+  if (result.status == Status::done) result.status = a.status;
+  add_statistics(result, s, runs, cost_of(s.task.goal, a));
+  result.solutions.push_back(solution_of(s, a));
+  result.tables.push_back(limits_table(a));
+  result.tables.push_back(seeds_table(s, runs));
+  using Verdict = study::Fact::Verdict;
+  const bool good = a.best.status == Status::done;
+  const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
+    result.facts.push_back({std::move(label), std::move(text), verdict});
+  };
+  const auto variables = design_variables(s.task);
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const bool angle = variables[i].name.ends_with("_rad"), length = variables[i].name.ends_with("_m");
+    std::string label = variables[i].name.substr(0, variables[i].name.size() - (angle ? 4 : length ? 2 : 0));
+    std::replace(label.begin(), label.end(), '_', ' ');
+    fact(std::move(label), angle    ? fmt::format("{:.4f}°", math::degrees(a.best.x[i]))
+                           : length ? fmt::format("{:.3f} mm", 1e3 * a.best.x[i])
+                                    : fmt::format("{:.5f}", a.best.x[i]));
+  }
+  fact("least conditioning index", fmt::format("{:.6f}", a.best.worst));
+  fact("mean conditioning index", fmt::format("{:.6f}", a.best.mean));
+  fact("arm and rod together", fmt::format("{:.3f} mm", 1e3 * a.best.size));
+  fact("arm angles used", fmt::format("{:.2f}° to {:.2f}°", math::degrees(a.best.arm_lowest),
+                                      math::degrees(a.best.arm_highest)));
+  if (s.task.pi_joint)
+    fact("diagonals used", [&] {
+      const Drive& d = a.best.drives[0];
+      const PiJoint joint{a.best.robot.leg[0].arm, d.ratio};
+      return fmt::format("{:.3f} to {:.3f} mm", 1e3 * diagonal(joint, d.lowest),
+                         1e3 * diagonal(joint, d.highest));
+    }());
+  if (s.task.family == RobotFamily::delta)
+    for (const DexterityStand& l : a.best.limits)
+      if (l.limit == DexterityLimit::constraint)
+        fact("least constraint index", fmt::format("{:.6f}", l.value),
+             l.excess <= 0 || l.active ? Verdict::good : Verdict::bad);
+  if (s.transmission_put_in)
+    fact("limit put in",
+         "transmission index at least 0.3: without a limit of conditioning or transmission the "
+         "smallest robot is a singular one");
+  BodyProof proof;
+  if (good) {
+    proof = prove_region(s.task, a.best);
+    fact("whole region free of singularities",
+         proof.proven     ? "proven, between the nodes, too"
+         : proof.violated ? fmt::format("no: at ({:.4g}, {:.4g}, {:.4g}) m the constraint index misses its "
+                                        "limit, or it is singular",
+                                        proof.violated->x, proof.violated->y, proof.violated->z)
+                          : fmt::format("not proven within {} poses; the nodes are", proof.looks),
+         proof.proven     ? Verdict::good
+         : proof.violated ? Verdict::bad
+                          : Verdict::plain);
+    if (proof.violated && result.status == Status::done) result.status = Status::infeasible;
+  }
+  std::string held;
+  for (const DexterityStand& l : a.best.limits)
+    if (l.active) held += fmt::format("{}{}", held.empty() ? "" : ", ", name_of(l.limit));
+  if (!held.empty()) fact("held back by", held);
+  if (a.starts > 0) fact("local searches that came to it", fmt::format("{} of {}", a.reached_best, a.starts));
+  if (runs.answers.size() > 1)
+    fact("seeds that came to it",
+         fmt::format(
+             "{:.0f} of {}",
+             result.statistics.find("success_rate")->as_number() * static_cast<double>(runs.answers.size()),
+             runs.answers.size()),
+         Verdict::plain);
+  result.scenes.push_back(scene_of(s, a.best));
+  result.headline =
+      proof.violated
+          ? fmt::format(
+                "The best design misses the constraint index, or is singular, between the nodes, at "
+                "({:.4g}, {:.4g}, {:.4g}) m: ask for more nodes.",
+                proof.violated->x, proof.violated->y, proof.violated->z)
+      : good ? fmt::format("Best {} found: {}.", name_of(s.task.family),
+                           objective_text(s.task.goal, a.best.objective))
+             : fmt::format("No design meets every limit: {}.", a.best.reason);
+  return result;
+}
+
+std::vector<study::Kind> dexterity_kinds() {
+  return {kind_of(RobotFamily::delta), kind_of(RobotFamily::hexa), kind_of(RobotFamily::five_bar)};
+}
+
+}  // namespace linkwright::parallel

@@ -1,0 +1,44 @@
+#include "linkwright/parallel/studies/masses.h"
+
+#include <fmt/format.h>
+
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::parallel {
+
+std::optional<RobotMasses> read_masses(study::ObjectReader& document, const RobotDescription& d,
+                                       Value& canonical) {
+  auto table = document.table("masses");
+  if (!table) return std::nullopt;
+  MassesForm form;
+  table->read(form);
+  if (document.document().has_errors()) return std::nullopt;
+  if (form.pi) {
+    for (const char* key : {"arm_inertia", "arm_mass", "arm_centre"})
+      if (table->has(key)) {
+        table->error(key, "is given for plain arms, and the masses of the Pi-joints, too",
+                     "keep [masses.pi_joint], or the arm's masses");
+        return std::nullopt;
+      }
+    form.leg.pi = *form.pi;
+  }
+  if (!form.gravity)
+    form.gravity = d.robot.freedom == Freedom::plane_translation ? Coordinates{0, -standard_gravity, 0}
+                                                                 : Coordinates{0, 0, -standard_gravity};
+  RobotMasses out = equal_legs(form.platform, form.leg, vec(*form.gravity));
+  for (int i = 0; i < d.robot.legs(); ++i)
+    if (out.leg[i].pi) out.leg[i].pi->lead = d.motors[i].screw.lead;
+  if (const auto wrong = problem(d.robot, d.drives, out)) {
+    table->error("", *wrong);
+    return std::nullopt;
+  }
+  canonical["masses"] = study::write_fields(form);
+  return out;
+}
+
+void describe_masses(study::SchemaWriter& document) {
+  document.property(Field{.key = "masses", .summary = "of the platform and of each leg"},
+                    study::schema_fields<MassesForm>());
+}
+
+}  // namespace linkwright::parallel

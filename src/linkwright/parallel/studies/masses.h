@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+
+#include "linkwright/parallel/robot/dynamics.h"
+#include "linkwright/parallel/studies/robot.h"
+
+// `[masses]` of studies of parallel robots.
+namespace linkwright::parallel {
+
+struct MassesForm {
+  PlatformMasses platform;
+  LegMasses leg;
+  std::optional<Coordinates> gravity;
+  std::optional<PiMasses> pi;
+};
+template <class Visitor>
+void fields(Visitor&& visit, MassesForm& m) {
+  fields(visit, m.platform);
+  fields(visit, m.leg);
+  visit(
+      Field{
+          .key = "gravity",
+          .summary =
+              "acceleration of gravity, base axes; default: 9.80665 m/s2 downwards, along y of planar robots",
+          .dimension = Dimension::acceleration,
+          .minimum = -1e6,
+          .maximum = 1e6},
+      m.gravity);
+  visit(Field{.key = "pi_joint",
+              .summary = "masses of each Pi-joint, in the place of arm_inertia, arm_mass, arm_centre"},
+        m.pi);
+}
+
+/// Reads `[masses]`, the same for every leg; nothing when it is absent or has problems, which go to the
+/// reader.
+std::optional<RobotMasses> read_masses(study::ObjectReader& document, const RobotDescription& description,
+                                       Value& canonical);
+void describe_masses(study::SchemaWriter& document);
+
+}  // namespace linkwright::parallel

@@ -1,0 +1,371 @@
+#include "linkwright/parallel/studies/motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+
+#include "linkwright/math/angles.h"
+#include "linkwright/parallel/robot/constraint.h"
+#include "linkwright/parallel/robot/path_trouble.h"
+#include "linkwright/parallel/studies/drive_use.h"
+#include "linkwright/parallel/studies/robot_scene.h"
+#include "linkwright/parallel/tool/table.h"
+#include "linkwright/study/beside.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::parallel {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t most_instants = 200000;
+/// A scene is for looking at: so many samples at most.
+constexpr std::size_t most_scene_samples = 1200;
+/// Enough to see that a path leaves the plane of a planar robot.
+constexpr double plane_samples = 1000;
+constexpr double rounding = 1e-12;  // m, of arcs in the plane
+
+/// One instant of the motion.
+struct Instant {
+  double time = 0;
+  ToolState tool;
+  Status status = Status::done;
+  ArmAngles angles;
+  Quality quality;
+  double swing = 0, least_elbow = 0, largest_elbow = 0;  ///< of all legs (rad)
+  DrivesState drives;
+  DynamicLoads loads;  ///< NaN without masses or out of reach
+};
+
+/// What an instant asks for; nothing out of reach.
+void demands_of(const RobotDescription& d, const QualityLimits& limits, const Instant& at,
+                std::vector<Demand>& out) {
+  out.clear();
+  if (at.status != Status::done) return;
+  for (int i = 0; i < d.robot.legs(); ++i) out.push_back(travel_demand(i, d.drives[i], at.drives.drive[i]));
+  out.push_back(index_demand(Asked::transmission, at.quality.transmission, limits.transmission));
+  out.push_back(index_demand(Asked::conditioning, 1 / at.quality.condition, limits.conditioning));
+  // Its limit is judged by bounds.
+  if (d.robot.freedom == Freedom::space_translation)
+    out.push_back(index_demand(Asked::constraint, at.quality.constraint_index, 0));
+  if (limits.rod_swing) out.push_back(angle_demand(Asked::swing, 0, at.swing, 0, *limits.rod_swing));
+  if (limits.least_elbow || limits.largest_elbow)
+    out.push_back(angle_demand(Asked::elbow, at.least_elbow, at.largest_elbow, limits.least_elbow.value_or(0),
+                               limits.largest_elbow.value_or(std::numbers::pi)));
+  for (int i = 0; i < d.robot.legs() && limits.drive_transmission > 0; ++i)
+    out.push_back(index_demand(Asked::drive_transmission, at.drives.drive[i].transmission,
+                               limits.drive_transmission, i));
+  for (int i = 0; i < d.robot.legs() && d.motors_known; ++i)
+    add_drive_demands(out, i, d.motors[i], at.loads.drive_speed[i], at.loads.drive_effort[i]);
+}
+
+void passive_angles(const Robot& robot, const Jacobians& at, Instant& out) {
+  const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
+  out.least_elbow = std::numbers::pi;
+  for (int i = 0; i < robot.legs(); ++i) {
+    const Vec3 axis = cross(robot.leg[i].ahead, robot.leg[i].aside), rod = unit(at.rod[i]);
+    out.swing = std::max(out.swing, std::abs(std::numbers::pi / 2 - angle(dot(rod, axis))));
+    const double elbow = angle(-dot(rod, at.arm[i]));
+    out.least_elbow = std::min(out.least_elbow, elbow);
+    out.largest_elbow = std::max(out.largest_elbow, elbow);
+  }
+}
+
+Instant instant(const RobotDescription& d, const std::optional<RobotMasses>& masses, const MotionStudy& study,
+                double time) {
+  Instant out{.time = time, .tool = study.motion(time)};
+  const Pose pose{out.tool.position, out.tool.rotation};
+  out.angles = inverse(d.robot, pose, d.mode);
+  out.status = out.angles.status;
+  if (out.status != Status::done) return out;
+  const Jacobians at = jacobians(d.robot, pose, out.angles.angle);
+  out.quality = quality(d.robot, at, platform_size(d.robot));
+  passive_angles(d.robot, at, out);
+  out.drives = drives_at(d.robot, d.drives, out.angles.angle);
+  const DynamicState state{pose,
+                           {out.tool.velocity, out.tool.angular_velocity},
+                           {out.tool.acceleration, out.tool.angular_acceleration}};
+  RobotMasses with_load = masses.value_or(RobotMasses{});
+  out.loads = inverse_dynamics(d.robot, d.drives, with_load, d.mode, state,
+                               {vec(study.form.force), vec(study.form.moment)});
+  return out;
+}
+
+/// All instants as a table, out of reach NaN.
+Table motion_table(const RobotDescription& d, const std::vector<Instant>& instants, bool forces) {
+  Table table{.name = "motion"};
+  const auto add = [&](std::string key, std::string label, auto&& value, bool always = false) {
+    std::vector<double> values;
+    for (const Instant& i : instants) values.push_back(always || i.status == Status::done ? value(i) : nan);
+    table.add(std::move(key), std::move(label), std::move(values));
+  };
+  const bool planar = d.robot.freedom == Freedom::plane_translation;
+  add(
+      "time_s", "time (s)", [](const Instant& i) { return i.time; }, true);
+  const auto add_vector = [&](const char* key, const char* label, const char* unit, const char* unit_text,
+                              auto&& get) {
+    for (int k = 0; k < (planar ? 2 : 3); ++k)
+      add(
+          fmt::format("{}{}_{}", key, "xyz"[k], unit), fmt::format("{}{} ({})", label, "xyz"[k], unit_text),
+          [&](const Instant& i) {
+            const Vec3 v = get(i);
+            return k == 0 ? v.x : k == 1 ? v.y : v.z;
+          },
+          true);
+  };
+  add_vector("", "", "m", "m", [](const Instant& i) { return i.tool.position; });
+  if (d.tool_turns())
+    add_vector("rotation_", "rotation vector ", "rad", "rad",
+               [](const Instant& i) { return math::turn_of(i.tool.rotation); });
+  add(
+      "tool_speed_m_per_s", "speed of the tool (m/s)", [](const Instant& i) { return norm(i.tool.velocity); },
+      true);
+  add(
+      "tool_acceleration_m_per_s2", "acceleration of the tool (m/s2)",
+      [](const Instant& i) { return norm(i.tool.acceleration); }, true);
+  std::vector<std::vector<DriveMotion>> drives;
+  for (const Instant& i : instants) {
+    drives.emplace_back();
+    for (int k = 0; k < d.robot.legs() && i.status == Status::done; ++k)
+      drives.back().push_back({i.angles.angle[k], i.loads.arm_speed[k], i.drives.drive[k],
+                               i.loads.drive_speed[k], i.loads.arm_torque[k], i.loads.drive_effort[k],
+                               i.loads.drive_power[k]});
+  }
+  const auto legs = static_cast<std::size_t>(d.robot.legs());
+  add_drive_columns(table, std::span(d.drives).first(legs), std::span(d.motors).first(legs), drives,
+                    d.motors_known, forces);
+  for (int k = 0; forces && k < d.robot.legs(); ++k)
+    add(fmt::format("rod_force_{}_N", k + 1), fmt::format("force in rod {} (N)", k + 1),
+        [k](const Instant& i) { return i.loads.rod_force[k]; });
+  add("transmission", "transmission index", [](const Instant& i) { return i.quality.transmission; });
+  add("local_conditioning", "local conditioning index",
+      [](const Instant& i) { return 1 / i.quality.condition; });
+  if (d.robot.freedom == Freedom::space_translation) {
+    add("constraint_determinant", "determinant of the parallelograms' couples",
+        [](const Instant& i) { return i.quality.constraint; });
+    add("constraint_index", "constraint index", [](const Instant& i) { return i.quality.constraint_index; });
+  }
+  add("rod_swing_rad", "largest angle between a rod and the plane of its arm (rad)",
+      [](const Instant& i) { return i.swing; });
+  add("least_elbow_rad", "least angle between arm and rod (rad)",
+      [](const Instant& i) { return i.least_elbow; });
+  add("largest_elbow_rad", "largest angle between arm and rod (rad)",
+      [](const Instant& i) { return i.largest_elbow; });
+  if (std::any_of(instants.begin(), instants.end(),
+                  [](const Instant& i) { return i.status != Status::done; }))
+    for (const Instant& i : instants) table.status.emplace_back(to_string(i.status));
+  return table;
+}
+
+/// The deepest that a leg is out of reach from `begin` on: "leg 2 is 12.3 mm too short at worst (...)".
+std::string deepest(const RobotDescription& d, const ToolMotion& motion, double begin) {
+  constexpr int steps = 32;
+  ArmAngles worst;
+  double time = begin;
+  const std::vector<double> breaks = motion.breaks();
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
+    for (int n = 0; n <= steps; ++n) {
+      const double t = breaks[k] + (breaks[k + 1] - breaks[k]) * n / steps;
+      if (t < begin) continue;
+      const ToolState tool = motion(t);
+      const ArmAngles arms = inverse(d.robot, {tool.position, tool.rotation}, d.mode);
+      if (arms.status == Status::done || !(std::abs(arms.shortfall) > std::abs(worst.shortfall))) continue;
+      worst = arms;
+      time = t;
+    }
+  if (worst.status == Status::done) return {};
+  return fmt::format("; at worst {} ({})", reason(worst), motion.where(time));
+}
+
+/// How far the robot gets, and what is worth a fact.
+struct WayVerdict {
+  double gets_to = 0;  // s
+  std::string falls;   // "constraint index 0.001 in step 1 ...": before a singularity
+};
+
+/// Judges the way by bounds.
+WayVerdict judge_way(PathJudge& judge, const RobotDescription& d, const QualityLimits& limits,
+                     const ToolMotion& motion, const Pose& home) {
+  auto task = trouble_task(d.robot, home, d.mode, platform_size(d.robot));
+  if (!task) return {};
+  const auto pose = [&](double t) {
+    const ToolState at = motion(t);
+    return Pose{at.position, at.rotation};
+  };
+  const auto between = [&](double a, double b) { return motion.way(a, b); };
+  const PlatformWay way{pose, between};
+  const std::vector<double> breaks = motion.breaks();
+  WayVerdict out{.gets_to = motion.duration()};
+  if (const auto trouble = first_trouble(*task, way, breaks)) {
+    out.gets_to = trouble->begin;
+    // A singularity is where the determinant vanishes; where it does not, where its index is too small.
+    const double place = trouble->zero.value_or(trouble->begin);
+    std::string text = fmt::format("{}: {}", motion.where_exactly(place), cause(*task, way, *trouble));
+    Status status = Status::singular;
+    switch (trouble->kind) {
+      case Trouble::reach:
+        status = Status::no_assembly;
+        text += deepest(d, motion, trouble->begin);
+        break;
+      case Trouble::type1:
+        text += " (singularity type_1)";
+        break;
+      case Trouble::type2:
+        text += trouble->zero ? " (singularity type_2)" : " (close to a singularity type_2)";
+        break;
+      case Trouble::constraint:
+        text += trouble->zero ? " (constraint singularity)" : " (close to a constraint singularity)";
+        out.falls = fmt::format("{:g} in {}", constraint_floor, motion.where_exactly(trouble->begin));
+        break;
+    }
+    judge.fail(Severity::impossible, trouble->begin, status, text);
+  }
+  if (limits.constraint > constraint_floor) {
+    task->least_constraint = limits.constraint;
+    const auto poor = first_trouble(*task, way, breaks);
+    if (poor && poor->kind == Trouble::constraint)
+      judge.fail(Severity::poor, poor->begin, Status::limit_reached,
+                 fmt::format("{}: the constraint index falls below {:.3f}, which is asked for: {}",
+                             motion.where_exactly(poor->begin), limits.constraint, cause(*task, way, *poor)));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<MotionStudy> read_motion(study::ObjectReader& document, const study::Common& common,
+                                       Freedom freedom, const Pose& home, Value& canonical) {
+  auto table = document.table("motion");
+  if (!table) return std::nullopt;
+  MotionForm form;
+  table->read(form);
+  auto steps = table->tables("step");
+  for (std::size_t i = 0; i < form.path.steps.size() && i < steps.size(); ++i) {
+    auto* points = std::get_if<ToolTable>(&form.path.steps[i].form);
+    if (!points || points->file.empty()) continue;
+    const auto text = study::read_beside(steps[i], "file", common.folder, points->file);
+    if (!text) continue;
+    Diagnostics problems;
+    const auto read = read_tool_table(*text, points->file, problems);
+    for (const Diagnostic& one : problems) steps[i].unreadable("file", to_string(one));
+    if (!read) continue;
+    points->times = read->times;
+    points->points = read->points;
+    points->rotations = read->rotations;
+    points->file.clear();  // the canonical study holds the points themselves
+  }
+  if (document.document().has_errors()) return std::nullopt;
+  if (const auto wrong = problem(form.path, form.limits, home)) {
+    const bool of_step = wrong->step >= 0 && wrong->step < static_cast<int>(steps.size());
+    study::ObjectReader& where = of_step ? steps[static_cast<std::size_t>(wrong->step)] : *table;
+    where.error(wrong->key.empty() ? "step" : wrong->key, wrong->message, wrong->hint);
+    return std::nullopt;
+  }
+  MotionStudy out{form, ToolMotion(form.path, form.limits, home)};
+  if (out.motion.duration() / form.interval > static_cast<double>(most_instants)) {
+    table->error("interval",
+                 fmt::format("makes {:.0f} instants of {:.4g} s, at most {} are allowed",
+                             out.motion.duration() / form.interval, out.motion.duration(), most_instants));
+    return std::nullopt;
+  }
+  if (freedom == Freedom::plane_translation && out.motion.duration() > 0)
+    for (const auto& sample : out.motion.samples(out.motion.duration() / plane_samples)) {
+      if (std::abs(sample.state.position.z) <= rounding) continue;
+      const auto step = static_cast<std::size_t>(out.motion.piece_at(sample.time));
+      steps[step].error("to", "leaves the plane z = 0 of the robot",
+                        "write [x, y, 0], and directions in the plane");
+      return std::nullopt;
+    }
+  for (std::size_t i = 0; i < 3; ++i)
+    if (freedom != Freedom::space && form.moment[i] != 0) {
+      table->error("moment", "the platform of this robot does not turn: no drive feels it", "leave it out");
+      return std::nullopt;
+    }
+  canonical["motion"] = study::write_fields(form);
+  return out;
+}
+
+void describe_motion(study::SchemaWriter& document) {
+  document.property(Field{.key = "motion", .summary = "what the tool does, from home"},
+                    study::schema_fields<MotionForm>());
+}
+
+void add_motion(study::Result& result, const RobotDescription& d, const std::optional<RobotMasses>& masses,
+                const QualityLimits& limits, const MotionStudy& study, const Pose& home,
+                RunContext& context) {
+  const auto samples = study.motion.samples(study.form.interval);
+  std::vector<Instant> instants;
+  instants.reserve(samples.size());
+  for (const auto& sample : samples) {
+    if (instants.size() % 256 == 0 && context.interruption() != Status::done) break;
+    instants.push_back(instant(d, masses, study, sample.time));
+  }
+  const auto legs = static_cast<std::size_t>(d.robot.legs());
+  PathJudge judge(study.motion, std::span(d.drives).first(legs));
+  const WayVerdict got = judge_way(judge, d, limits, study.motion, home);
+  const Status judged = judge.judge(
+      [&](double time, std::vector<Demand>& out) {
+        demands_of(d, limits, instant(d, masses, study, time), out);
+      },
+      got.gets_to, context);
+  if (judged != Status::done) result.status = judged;
+  if (instants.size() < samples.size()) result.status = context.interruption();
+  if (instants.empty()) {
+    result.headline = "Interrupted before the first instant.";
+    return;
+  }
+  const auto& f = study.form;
+  const bool forces = masses.has_value() || norm(vec(f.force)) > 0 || norm(vec(f.moment)) > 0;
+  const Table table = motion_table(d, instants, forces);
+  result.tables.push_back(table);
+  const auto uses = judge.uses();
+  if (!uses.empty()) result.tables.push_back(uses_table(uses));
+  result.plots.push_back(motion_plot("tool-speed", "Speed of the tool", {"tool_speed_m_per_s"}));
+  result.plots.push_back(
+      motion_plot("tool-acceleration", "Acceleration of the tool", {"tool_acceleration_m_per_s2"}));
+  add_drive_plots(result, table, std::span(d.drives).first(legs));
+  std::vector<std::string> indices{"transmission", "local_conditioning"};
+  const bool held = d.robot.freedom == Freedom::space_translation;
+  if (held) indices.emplace_back("constraint_index");
+  result.plots.push_back(motion_plot(
+      "transmission", held ? "Transmission, conditioning and constraint" : "Transmission and conditioning",
+      indices));
+
+  const auto fact = [&](std::string label, std::string text) {
+    result.facts.push_back({std::move(label), std::move(text)});
+  };
+  fact("duration of the path", fmt::format("{:.4g} s", study.motion.duration()));
+  const auto least = [&](Asked asked, const char* label) {
+    if (const auto* p = judge.peak(asked))
+      fact(label, fmt::format("{:.3f} ({})", p->demand.value, study.motion.where(p->time)));
+  };
+  least(Asked::transmission, "least transmission index");
+  if (got.falls.empty())
+    least(Asked::constraint, "least constraint index");
+  else
+    fact("constraint index falls to", got.falls);
+  if (got.gets_to < study.motion.duration())
+    fact("judged up to",
+         fmt::format("{}: the robot gets no farther", study.motion.where_exactly(got.gets_to)));
+  add_verdict(result, judge, study.motion, instants.back().time,
+              instants.size() == samples.size() && judged == Status::done);
+  if (!d.motors_known) fact("limits of the drives", "none are known: speeds and forces are not judged");
+  if (!masses) fact("masses", "none are given: forces are those of the process alone");
+
+  std::vector<RobotSample> drawn;
+  std::vector<double> times;
+  const std::size_t stride = (instants.size() + most_scene_samples - 1) / most_scene_samples;
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    if (i % stride != 0 && i + 1 != instants.size()) continue;
+    const Instant& at = instants[i];
+    drawn.push_back({at.status, {at.tool.position, at.tool.rotation}, at.angles.angle, at.tool.velocity});
+    times.push_back(at.time);
+  }
+  result.scenes.push_back(
+      robot_scene(d.robot, d.drives, {"motion", "motion along the path", "time_s", "time"}, times, drawn));
+}
+
+}  // namespace linkwright::parallel

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/parallel/robot/dynamics.h"
+#include "linkwright/parallel/studies/robot.h"
+#include "linkwright/parallel/studies/workspace.h"
+#include "linkwright/parallel/tool/motion.h"
+
+// A tool path in studies of parallel robots: whether the robot can do it, and what its drives have to give.
+namespace linkwright::parallel {
+
+/// `[motion]`: steps that begin at home.
+struct MotionForm {
+  ToolPath path;
+  ToolLimits limits;
+  double interval = 0.001;
+  Coordinates force{}, moment{};
+};
+template <class Visitor>
+void fields(Visitor&& visit, MotionForm& m) {
+  visit(Field{.key = "interval",
+              .summary = "time between the rows of the table; the verdict does not depend on it",
+              .dimension = Dimension::time,
+              .minimum = 1e-6,
+              .maximum = 1e3},
+        m.interval);
+  visit(Field{.key = "limits", .summary = "speed, acceleration and jerk of the tool"}, m.limits);
+  fields(visit, m.path);
+  visit(Field{.key = "force",
+              .summary = "of the process on the platform point, throughout",
+              .dimension = Dimension::force,
+              .minimum = -1e12,
+              .maximum = 1e12},
+        m.force);
+  visit(Field{.key = "moment",
+              .summary = "of the process on the platform (HEXA), throughout",
+              .dimension = Dimension::torque,
+              .minimum = -1e12,
+              .maximum = 1e12},
+        m.moment);
+}
+
+struct MotionStudy {
+  MotionForm form;
+  ToolMotion motion;
+};
+
+/// Reads `[motion]` (and the files of its tables) for a robot of this freedom; nothing when it is absent or
+/// has problems, which go to the reader.
+std::optional<MotionStudy> read_motion(study::ObjectReader& document, const study::Common& common,
+                                       Freedom freedom, const Pose& home, Value& canonical);
+void describe_motion(study::SchemaWriter& document);
+
+/// Tables "motion" and "drive_limits", the verdict with its reasons, diagrams and a scene. Interrupted: the
+/// instants so far.
+void add_motion(study::Result& result, const RobotDescription& description,
+                const std::optional<RobotMasses>& masses, const QualityLimits& limits,
+                const MotionStudy& study, const Pose& home, RunContext& context);
+
+}  // namespace linkwright::parallel

@@ -1,0 +1,524 @@
+#include "linkwright/parallel/studies/pi_joint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "linkwright/math/angles.h"
+#include "linkwright/parallel/pi_joint/singularities.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::parallel {
+namespace {
+
+constexpr double right = std::numbers::pi / 2;
+
+std::string degrees(double radians) { return fmt::format("{:.4g}°", math::degrees(radians)); }
+std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
+
+void fact(study::Result& result, std::string label, std::string text) {
+  result.facts.push_back({std::move(label), std::move(text)});
+}
+
+/// Base, arms, coupler and diagonal over the angle.
+study::Scene scene_of(const PiJoint& joint, std::span<const double> angles) {
+  study::Scene scene;
+  scene.name = "travel";
+  scene.title = "Pi-joint over its angle";
+  scene.input_key = "angle_rad";
+  scene.input_label = "angle of the arms";
+  scene.input.assign(angles.begin(), angles.end());
+  const double b = base_length(joint);
+  study::Scene::Point lower{"C", {}, {}}, upper{"A", {}, {}};
+  for (const double angle : angles) {
+    lower.x.push_back(joint.arm * std::cos(angle));
+    lower.y.push_back(joint.arm * std::sin(angle));
+    upper.x.push_back(lower.x.back());
+    upper.y.push_back(lower.y.back() + b);
+  }
+  scene.points = {{"O", {0}, {0}}, {"B", {0}, {b}}, std::move(lower), std::move(upper)};
+  using Body = study::Scene::BodyStyle;
+  scene.bodies = {{"base", {0, 1}, Body::ground},
+                  {"lower arm", {0, 2}, Body::bar},
+                  {"upper arm", {1, 3}, Body::bar},
+                  {"coupler", {2, 3}, Body::bar},
+                  {"screw", {0, 3}, Body::damper}};
+  using Joint = study::Scene::JointStyle;
+  scene.joints = {{"O", 0, Joint::ground_pivot},
+                  {"B", 1, Joint::ground_pivot},
+                  {"C", 2, Joint::pivot},
+                  {"A", 3, Joint::pivot}};
+  scene.traces = {{3, "path of the coupler", false}};
+  return scene;
+}
+
+Table curves_table(const PiAnalysis& s, const std::vector<PiCurvePoint>& points) {
+  Table table{.name = "curves"};
+  const auto add = [&](const char* key, const char* label, auto&& value) {
+    std::vector<double> values;
+    for (const PiCurvePoint& p : points) values.push_back(value(p));
+    table.add(key, label, std::move(values));
+  };
+  add("angle_rad", "angle of the arms (rad)", [](const PiCurvePoint& p) { return p.angle; });
+  add("diagonal_m", "diagonal (m)", [](const PiCurvePoint& p) { return p.diagonal; });
+  add("jacobian_m", "rate of the diagonal by the angle (m)",
+      [](const PiCurvePoint& p) { return p.jacobian; });
+  add("inverse_jacobian_rad_per_m", "angle by the diagonal (rad/m)",
+      [](const PiCurvePoint& p) { return p.inverse_jacobian; });
+  add("diagonal_direction_rad", "direction of the diagonal (rad)",
+      [](const PiCurvePoint& p) { return p.angles.diagonal_direction; });
+  add("transmission_angle_rad", "angle between diagonal and arm (rad)",
+      [](const PiCurvePoint& p) { return p.angles.transmission; });
+  add("base_angle_rad", "angle between diagonal and base (rad)",
+      [](const PiCurvePoint& p) { return p.angles.base; });
+  if (s.equipment.drive) {
+    add("torque_N_m", "largest torque at the output (N m)",
+        [](const PiCurvePoint& p) { return p.output.torque; });
+    add("speed_rad_per_s", "largest speed of the output (rad/s)",
+        [](const PiCurvePoint& p) { return p.output.speed; });
+    add("resolution_rad", "turn of the output for a step (rad)",
+        [](const PiCurvePoint& p) { return p.output.resolution; });
+  }
+  if (s.equipment.bars)
+    add("stiffness_N_m_per_rad", "stiffness at the output (N m/rad)",
+        [](const PiCurvePoint& p) { return p.stiffness; });
+  if (s.equipment.masses) {
+    add("inertia_kg_m2", "inertia at the output (kg m2)", [](const PiCurvePoint& p) { return p.inertia; });
+    add("holding_torque_N_m", "torque that holds it at rest (N m)",
+        [](const PiCurvePoint& p) { return p.holding_torque; });
+    add("holding_force_N", "force of the diagonal that holds it at rest (N)",
+        [](const PiCurvePoint& p) { return p.holding_force; });
+  }
+  return table;
+}
+
+void add_plots(study::Result& result) {
+  const Table& table = result.tables.front();
+  const auto plot = [&](const char* name, const char* title, std::vector<std::string> y) {
+    std::erase_if(y, [&](const std::string& key) { return !table.find(key); });
+    if (!y.empty())
+      result.plots.push_back({.name = name,
+                              .title = title,
+                              .table = "curves",
+                              .x = "angle_rad",
+                              .y = std::move(y),
+                              .scene = "travel"});
+  };
+  plot("diagonal", "Diagonal", {"diagonal_m"});
+  plot("jacobian", "Rate of the diagonal by the angle", {"jacobian_m"});
+  plot("angles", "Angles of the diagonal",
+       {"diagonal_direction_rad", "transmission_angle_rad", "base_angle_rad"});
+  plot("torque", "Largest torque at the output", {"torque_N_m"});
+  plot("speed", "Largest speed of the output", {"speed_rad_per_s"});
+  plot("resolution", "Turn of the output for a step of the drive", {"resolution_rad"});
+  plot("stiffness", "Stiffness at the output", {"stiffness_N_m_per_rad"});
+  plot("inertia", "Inertia at the output", {"inertia_kg_m2"});
+  plot("holding-force", "Force of the diagonal at rest", {"holding_force_N"});
+}
+
+/// Which bars the samples can tell.
+void add_calibration(study::Result& result, const PiAnalysis& s) {
+  std::vector<PiStiffnessSample> samples;
+  const CalibrationForm& c = *s.calibration;
+  for (std::size_t i = 0; i < c.angles.size(); ++i) samples.push_back({c.angles[i], c.stiffnesses[i]});
+  const double share = s.equipment.share;
+  Table table{.name = "calibration"};
+  std::vector<double> diagonal, arm, coupler, error, condition;
+  const auto finite = [](double k) { return std::isfinite(k) ? k : std::nan(""); };
+  const auto fit = [&](const char* name, const PiBarsSought& sought) {
+    const int count = sought.diagonal + sought.arm + sought.coupler;
+    if (static_cast<int>(samples.size()) < count) return;
+    const PiStiffnessFit found = fit_bars(s.joint, samples, sought, {}, share);
+    table.names.emplace_back(name);
+    table.status.emplace_back(to_string(found.status));
+    diagonal.push_back(finite(found.bars.diagonal));
+    arm.push_back(finite(found.bars.arm));
+    coupler.push_back(finite(found.bars.coupler));
+    error.push_back(100 * found.error);
+    condition.push_back(finite(found.condition));
+  };
+  fit("diagonal alone", {.diagonal = true});
+  fit("diagonal and arms", {.diagonal = true, .arm = true});
+  fit("diagonal, arms and coupler", {.diagonal = true, .arm = true, .coupler = true});
+  table.add("diagonal_N_per_m", "stiffness of the diagonal (N/m), empty: not seen to yield", diagonal);
+  table.add("arm_N_per_m", "stiffness of each arm (N/m)", arm);
+  table.add("coupler_N_per_m", "stiffness of the coupler (N/m)", coupler);
+  table.add("error_percent", "relative error of the compliance, rms (%)", error);
+  table.add("condition", "growth of relative errors", condition);
+  fact(result, "diagonal that fits the measurements",
+       fmt::format("{:.4g} N/m, rms {:.2g} %", diagonal[0], error[0]));
+  result.tables.push_back(std::move(table));
+}
+
+std::optional<PiAnalysis> read_analysis(study::ObjectReader& document, const study::Common& common,
+                                        Value& canonical) {
+  PiAnalysis s;
+  PiJointForm form;
+  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  if (mechanism) mechanism->read(form);
+  PiSweepForm sweep{};
+  auto range = document.table(Field{.key = "sweep", .summary = {}, .required = true});
+  if (range) range->read(sweep);
+  std::optional<PiMasses> masses;
+  document(Field{.key = "masses", .summary = {}}, masses);
+  PiLoadForm load;
+  document(Field{.key = "load", .summary = {}}, load);
+  document(Field{.key = "calibration", .summary = {}}, s.calibration);
+  if (!mechanism || !range || document.document().has_errors()) return std::nullopt;
+  s.joint = {form.arm, form.ratio};
+  if (const auto wrong = problem(s.joint)) {
+    mechanism->error("arm", *wrong);
+    return std::nullopt;
+  }
+  if (!(sweep.from < sweep.to && sweep.from >= -right && sweep.to <= right)) {
+    range->error(sweep.from < sweep.to ? "from" : "to",
+                 "the angle goes from above -90 deg to below 90 deg, upwards");
+    return std::nullopt;
+  }
+  const int samples = common.output.samples;
+  for (int i = 0; i < samples; ++i)
+    s.angles.push_back(sweep.from + (sweep.to - sweep.from) * i / (samples - 1));
+  if (form.drive) {
+    auto table = mechanism->table("drive");
+    PiDrive drive{.screw = {form.drive->lead.value_or(0), form.drive->efficiency}};
+    if (form.drive->force_limit) drive.force_limit = *form.drive->force_limit;
+    if (form.drive->rate_limit) drive.rate_limit = *form.drive->rate_limit;
+    if (form.drive->motor) {
+      auto motor = table->table("motor");
+      const auto read = motor_of(*motor, *form.drive->motor);
+      if (!read) return std::nullopt;
+      drive.motor = *read;
+    }
+    if (const auto wrong = problem(drive)) {
+      table->error("motor", *wrong);
+      return std::nullopt;
+    }
+    s.equipment.drive = drive;
+  }
+  if (form.stiffness) {
+    PiBars bars;
+    if (form.stiffness->arm) bars.arm = *form.stiffness->arm;
+    if (form.stiffness->coupler) bars.coupler = *form.stiffness->coupler;
+    if (form.stiffness->diagonal) bars.diagonal = *form.stiffness->diagonal;
+    s.equipment.bars = bars;
+    s.equipment.share = form.stiffness->share;
+  }
+  if (masses) {
+    s.equipment.masses = *masses;
+    s.equipment.masses->lead = s.equipment.drive ? s.equipment.drive->screw.lead : 0;
+    s.equipment.load = {load.gravity[0], load.gravity[1], load.torque};
+    if (const auto wrong = problem(*s.equipment.masses)) {
+      document.error("masses", *wrong);
+      return std::nullopt;
+    }
+  }
+  if (s.calibration) {
+    auto table = document.table("calibration");
+    if (s.calibration->angles.size() != s.calibration->stiffnesses.size() || s.calibration->angles.empty()) {
+      table->error("stiffnesses",
+                   fmt::format("{} of them for {} angles", s.calibration->stiffnesses.size(),
+                               s.calibration->angles.size()),
+                   "one for each angle");
+      return std::nullopt;
+    }
+    for (const double angle : s.calibration->angles)
+      if (!(std::abs(angle) < right)) {
+        table->error("angles", "must lie between -90 and 90 deg");
+        return std::nullopt;
+      }
+    canonical["calibration"] = study::write_fields(*s.calibration);
+  }
+  canonical["mechanism"] = study::write_fields(form);
+  canonical["sweep"] = study::write_fields(sweep);
+  if (masses) canonical["masses"] = study::write_fields(*masses);
+  if (document.has("load")) canonical["load"] = study::write_fields(load);
+  return s;
+}
+
+std::string limit_text(const PiActiveLimit& active) {
+  return fmt::format("{} (price {:.3g})", name_of(active.limit), active.price);
+}
+
+}  // namespace
+
+PiRequirements requirements_of(const PiLimitsForm& form) {
+  PiRequirements r;
+  const auto take = [](double& to, const std::optional<double>& from) {
+    if (from) to = *from;
+  };
+  take(r.torque, form.torque);
+  take(r.force_limit, form.force_limit);
+  take(r.speed, form.speed);
+  take(r.rate_limit, form.rate_limit);
+  take(r.quantum, form.quantum);
+  take(r.resolution, form.resolution);
+  take(r.transmission, form.transmission);
+  take(r.stroke, form.stroke);
+  take(r.telescoping, form.telescoping);
+  take(r.end_margin, form.end_margin);
+  return r;
+}
+
+study::Result run_pi_analysis(const PiAnalysis& s, RunContext&) {
+  study::Result result;
+  const auto points = pi_curves(s.joint, s.equipment, s.angles);
+  result.tables.push_back(curves_table(s, points));
+  add_plots(result);
+  const auto range = range_values(s.joint, 0.5 * (s.angles.front() + s.angles.back()),
+                                  0.5 * (s.angles.back() - s.angles.front()));
+  fact(result, "base and coupler", millimetres(base_length(s.joint)));
+  fact(result, "diagonal",
+       fmt::format("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
+  fact(result, "stroke", millimetres(range.stroke()));
+  fact(result, "longest to shortest diagonal", fmt::format("{:.4f}", range.telescoping()));
+  fact(result, "least angle between diagonal and arm", degrees(range.least_transmission));
+  const double half = 0.5 * (s.angles.back() - s.angles.front());
+  fact(result, "best centre for this travel", degrees(best_centre(s.joint, half)));
+  const auto least = [&](auto&& value) {
+    double out = value(points.front());
+    for (const PiCurvePoint& p : points) out = std::min(out, value(p));
+    return out;
+  };
+  if (s.equipment.drive) {
+    fact(result, "least torque at the output",
+         fmt::format("{:.4g} N m", least([](const PiCurvePoint& p) { return p.output.torque; })));
+    fact(result, "least top speed",
+         fmt::format("{:.4g} rad/s", least([](const PiCurvePoint& p) { return p.output.speed; })));
+    fact(
+        result, "coarsest resolution",
+        fmt::format("{:.4g} mrad", -1e3 * least([](const PiCurvePoint& p) { return -p.output.resolution; })));
+    fact(result, "screw",
+         self_locking(s.equipment.drive->screw) ? "self-locking" : "can be driven back by the load");
+  }
+  if (s.equipment.bars)
+    fact(result, "least stiffness",
+         fmt::format("{:.4g} N m/rad", least([](const PiCurvePoint& p) { return p.stiffness; })));
+  for (const PiSingularPosition& p : singular_positions(s.joint))
+    fact(result, "singular",
+         fmt::format("{} at {}, diagonal {}", name_of(p.kind), degrees(p.angle), millimetres(p.diagonal)));
+  if (s.calibration) add_calibration(result, s);
+  result.scenes.push_back(scene_of(s.joint, s.angles));
+  result.headline = fmt::format("Pi-joint of {} with k = {:.4g}: the diagonal runs {} over {} to {}.",
+                                millimetres(s.joint.arm), s.joint.ratio, millimetres(range.stroke()),
+                                degrees(s.angles.front()), degrees(s.angles.back()));
+  return result;
+}
+
+study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, RunContext& context) {
+  study::Result result;
+  const PiDesignReport report =
+      design_pi_joint(r, {}, {.seed = static_cast<std::uint64_t>(seeds.first)}, context);
+  result.status = report.status;
+  for (const PiConflict& conflict : report.closed_form.conflicts)
+    fact(result, "conflict", to_string(conflict));
+  const PiDesign& best = report.best;
+  const PiRangeValues range = range_values(best.joint, best.centre, r.half_travel);
+  study::Solution solution{.label = "smallest Pi-joint"};
+  const auto parameter = [&](const char* key, const char* label, double value) {
+    solution.parameters.push_back({key, label, value, 0, std::numeric_limits<double>::infinity()});
+  };
+  parameter("arm_m", "arm (m)", best.joint.arm);
+  parameter("ratio", "ratio of base and arm", best.joint.ratio);
+  solution.parameters.push_back({"centre_rad", "centre of the range (rad)", best.centre, -right, right});
+  parameter("base_m", "base and coupler (m)", base_length(best.joint));
+  solution.objectives["size_m"] = best.size;
+  solution.objectives["violation"] = best.violation;
+  solution.defects = Value::Array{};
+  solution.classification = Value::object();
+  solution.scene = "travel";
+  if (report.status != Status::done)
+    solution.defects = Value::Array{Value(std::string(to_string(report.status)))};
+  result.solutions.push_back(std::move(solution));
+
+  Table limits{.name = "requirements"};
+  std::vector<double> value, least, most, price;
+  const double inf = std::numeric_limits<double>::quiet_NaN();
+  const auto row = [&](const char* name, PiLimit limit, double has, double low, double high) {
+    if (!std::isfinite(low) && !std::isfinite(high)) return;
+    limits.names.emplace_back(name);
+    value.push_back(has);
+    least.push_back(std::isfinite(low) ? low : inf);
+    most.push_back(std::isfinite(high) ? high : inf);
+    const auto found = std::find_if(report.active.begin(), report.active.end(),
+                                    [&](const PiActiveLimit& a) { return a.limit == limit; });
+    price.push_back(found == report.active.end() ? 0 : found->price);
+  };
+  if (r.torque > 0 && std::isfinite(r.force_limit))
+    row("torque (N m)", PiLimit::torque, range.least_jacobian * r.force_limit, r.torque, inf);
+  if (r.quantum > 0 && std::isfinite(r.resolution))
+    row("resolution (rad)", PiLimit::resolution, r.quantum / range.least_jacobian, inf, r.resolution);
+  if (r.speed > 0 && std::isfinite(r.rate_limit))
+    row("rate of the diagonal (m/s)", PiLimit::speed, range.greatest_jacobian * r.speed, inf, r.rate_limit);
+  if (r.transmission > 0)
+    row("transmission angle (rad)", PiLimit::transmission, range.least_transmission, r.transmission, inf);
+  row("stroke (m)", PiLimit::stroke, range.stroke(), inf, r.stroke);
+  row("telescoping ratio", PiLimit::telescoping, range.telescoping(), inf, r.telescoping);
+  row("end of the range (rad)", PiLimit::ends, std::abs(best.centre) + r.half_travel, inf,
+      right - r.end_margin);
+  limits.add("value", "value (SI units)", value);
+  limits.add("at_least", "at least", least);
+  limits.add("at_most", "at most", most);
+  limits.add("price", "size saved by loosening it, share by share", price);
+  result.tables.push_back(std::move(limits));
+
+  fact(result, "arm, base",
+       fmt::format("{}, {}", millimetres(best.joint.arm), millimetres(base_length(best.joint))));
+  fact(result, "range of the angle",
+       fmt::format("{} to {}", degrees(best.centre - r.half_travel), degrees(best.centre + r.half_travel)));
+  fact(result, "diagonal",
+       fmt::format("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
+  for (const PiActiveLimit& active : report.active) fact(result, "held back by", limit_text(active));
+  fact(result, "closed form",
+       report.closed_form.design ? fmt::format("{}{}", millimetres(report.closed_form.design->size),
+                                               report.closed_form_is_best ? ", the best there is" : "")
+                                 : "none: requirements are in conflict");
+  fact(result, "local searches that came to it", fmt::format("{} of {}", report.reached_best, report.starts));
+  result.statistics["evaluations"] = static_cast<std::int64_t>(report.evaluations);
+  result.statistics["starts"] = static_cast<std::int64_t>(report.starts);
+  result.statistics["reached_best"] = static_cast<std::int64_t>(report.reached_best);
+  std::vector<double> angles;
+  for (int i = 0; i <= 180; ++i) angles.push_back(best.centre + r.half_travel * (i / 90.0 - 1));
+  PiAnalysis analysis{.joint = best.joint, .angles = angles};
+  result.tables.push_back(curves_table(analysis, pi_curves(best.joint, {}, angles)));
+  for (const char* y : {"diagonal_m", "jacobian_m"})
+    result.plots.push_back({.name = y,
+                            .title = y[0] == 'd' ? "Diagonal" : "Rate of the diagonal by the angle",
+                            .table = "curves",
+                            .x = "angle_rad",
+                            .y = {y},
+                            .scene = "travel"});
+  result.scenes.push_back(scene_of(best.joint, angles));
+  result.headline =
+      report.status == Status::done
+          ? fmt::format("Smallest Pi-joint: arm {}, k = {:.4f}, centre {} (a + b = {}).",
+                        millimetres(best.joint.arm), best.joint.ratio, degrees(best.centre),
+                        millimetres(best.size))
+      : report.status == Status::infeasible
+          ? fmt::format("No Pi-joint meets all requirements; the nearest misses one by {:.3g} %.",
+                        100 * best.violation)
+          : fmt::format("Interrupted: best so far a + b = {}.", millimetres(best.size));
+  return result;
+}
+
+study::Kind pi_analysis_kind() {
+  study::Kind kind;
+  kind.kind = "analysis";
+  kind.mechanism = "parallel.pi_joint";
+  kind.summary = "active Pi-joint over its angle: diagonal, torque, speed, resolution, stiffness, weight";
+  kind.example =
+      R"(# linkwright study: curves of an active Pi-joint (a parallelogram with a screw as diagonal)
+schema = 1
+kind   = "analysis"
+title  = "Pi-joint with a stepping motor"
+
+[mechanism]
+type   = "parallel.pi_joint"
+arm_mm = 170.0
+ratio  = 0.4                      # base and coupler by arm
+
+[mechanism.drive]
+lead_mm            = 2.54
+efficiency         = 0.6
+force_limit_N      = 130.0
+rate_limit_m_per_s = 0.05
+[mechanism.drive.motor]
+steps_per_turn = 200
+
+[mechanism.stiffness]
+arm_N_per_m      = 5.0e7
+coupler_N_per_m  = 1.2e8
+diagonal_N_per_m = 1.2e7
+
+[masses]
+arm_mass_kg     = 0.2
+arm_inertia_kg_m2 = 0.0021
+arm_centre_mm   = 85.0
+coupler_mass_kg = 0.25
+
+[sweep]
+from_deg = -60.0
+to_deg   = 60.0
+)";
+  kind.schema = [](study::SchemaWriter& document) {
+    document.property(Field{.key = "mechanism", .summary = "the joint", .required = true},
+                      study::schema_fields<PiJointForm>());
+    document.property(Field{.key = "sweep", .summary = "range of the angle", .required = true},
+                      study::schema_fields<PiSweepForm>());
+    document.property(Field{.key = "masses", .summary = "of its parts"}, study::schema_fields<PiMasses>());
+    document.property(Field{.key = "load", .summary = "at the output, and gravity"},
+                      study::schema_fields<PiLoadForm>());
+    document.property(
+        Field{.key = "calibration", .summary = "stiffness that was measured: the bars that fit it"},
+        study::schema_fields<CalibrationForm>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    study::Prepared prepared;
+    if (auto s = read_analysis(document, common, prepared.canonical))
+      prepared.run = [s = *std::move(s)](RunContext& context) { return run_pi_analysis(s, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+study::Kind pi_design_kind() {
+  study::Kind kind;
+  kind.kind = "synthesis";
+  kind.mechanism = "parallel.pi_joint";
+  kind.target = "requirements";
+  kind.seeded = true;
+  kind.summary = "smallest Pi-joint that gives a torque, speed and resolution over a range of its angle";
+  kind.example =
+      R"(# linkwright study: the smallest Pi-joint for given requirements; leave out what does not matter
+schema = 1
+kind   = "synthesis"
+title  = "Pi-joint for my robot"
+
+[mechanism]
+type = "parallel.pi_joint"
+
+[target]
+type               = "requirements"
+half_travel_deg    = 60.0
+torque_N_m         = 4.0          # with
+force_limit_N      = 130.0
+speed_rad_per_s    = 0.7          # with
+rate_limit_m_per_s = 0.05
+quantum_mm         = 0.0127       # a step of the screw, which turns the output by at most
+resolution_rad     = 4.0e-4
+stroke_mm          = 120.0
+telescoping        = 2.0          # longest to shortest diagonal
+transmission_deg   = 8.0
+)";
+  kind.schema = [](study::SchemaWriter& document) {
+    document.property(Field{.key = "mechanism", .summary = "what is designed", .required = true},
+                      study::SchemaWriter().finish());
+    document.property(Field{.key = "target", .summary = "what the joint must do", .required = true},
+                      study::schema_fields<RequirementsForm>());
+    document.property(Field{.key = "optimiser", .summary = "seeds"}, study::SchemaWriter().finish());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    study::Prepared prepared;
+    document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+    document.table("optimiser");
+    RequirementsForm form;
+    auto target = document.table(Field{.key = "target", .summary = {}, .required = true});
+    if (target) target->read(form);
+    if (!target || document.document().has_errors()) return prepared;
+    PiRequirements requirements = requirements_of(form);
+    requirements.half_travel = form.half_travel;
+    if (const auto wrong = problem(requirements)) {
+      target->error("half_travel", *wrong);
+      return prepared;
+    }
+    prepared.canonical["target"] = study::write_fields(form);
+    prepared.run = [requirements, seeds = common.seeds](RunContext& context) {
+      return run_pi_design(requirements, seeds, context);
+    };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::parallel

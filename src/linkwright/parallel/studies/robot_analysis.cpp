@@ -1,0 +1,385 @@
+#include "linkwright/parallel/studies/robot_analysis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "linkwright/parallel/robot/constraint.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::parallel {
+namespace {
+
+constexpr std::string_view planar_example = R"(
+[mechanism.drive]                   # of both arms; one table [[mechanism.drive]] each if they differ
+type             = "revolute"
+gear_ratio       = 10.0
+efficiency       = 0.9
+torque_limit_N_m = 60.0
+[mechanism.drive.motor]
+top_speed_rpm = 3000
+torque_N_m    = 6.0
+
+[masses]
+platform_mass_kg     = 0.6
+payload_kg           = 0.5
+rod_mass_kg          = 0.18
+elbow_mass_kg        = 0.07
+arm_inertia_kg_m2    = 0.0075
+arm_mass_kg          = 0.32
+arm_centre_mm        = 120.0
+gravity_m_per_s2     = [0, -9.80665, 0]
+
+[home]
+position_mm = [-100, 400, 0]
+
+[limits]
+transmission = 0.3
+
+[motion.limits]
+speed_m_per_s         = 2.0
+acceleration_m_per_s2 = 30.0
+jerk_m_per_s3         = 2000.0
+[[motion.step]]
+type  = "line"
+to_mm = [100, 400, 0]
+[[motion.step]]
+type       = "arc"
+through_mm = [0, 500, 0]
+to_mm      = [-100, 400, 0]
+
+[[pose]]
+name        = "middle"
+position_mm = [0, 420, 0]
+force_N     = [0, -20, 0]
+
+[workspace]
+lower_mm = [-600, -100, 0]
+upper_mm = [600, 600, 0]
+step_mm  = 20.0
+[workspace.inscribed]
+shape = "box"
+)";
+
+constexpr std::string_view spatial_example = R"(
+[mechanism.drive]                   # of all arms; one table [[mechanism.drive]] each if they differ
+type          = "pi_joint"          # or "revolute": a motor at the arm's pivot
+ratio         = 0.4                 # base of the parallelogram by its arm
+mounting_deg  = 30.0                # arm angle where the Pi-joint's own angle is 0
+travel_deg    = [-60, 60]
+lead_mm       = 10.0
+efficiency    = 0.9
+force_limit_N = 1500.0
+[mechanism.drive.motor]
+steps_per_turn = 4096
+top_speed_rpm  = 6000
+torque_N_m     = 2.0
+
+[masses]
+platform_mass_kg = 0.9
+payload_kg       = 0.5
+rod_mass_kg      = 0.2
+elbow_mass_kg    = 0.1
+[masses.pi_joint]
+arm_inertia_kg_m2   = 0.0153
+arm_mass_kg         = 0.375
+arm_centre_mm       = 175.0
+coupler_mass_kg     = 0.25
+nut_mass_kg         = 0.3
+nut_centre_mm       = 30.0
+nut_inertia_kg_m2   = 2.0e-4
+rod_mass_kg         = 0.12
+rod_centre_mm       = 220.0
+rod_inertia_kg_m2   = 3.0e-4
+rotor_inertia_kg_m2 = 1.5e-6
+)";
+
+std::string example_of(std::string_view type) {
+  const auto head = [](std::string_view title) {
+    return fmt::format(
+        "# linkwright study: a parallel robot, its poses, a tool path and its workspace\n"
+        "schema = 1\nkind   = \"analysis\"\ntitle  = \"{}\"\n\n[mechanism]\n",
+        title);
+  };
+  if (type == "parallel.delta")
+    return head("My DELTA") +
+           R"(type               = "parallel.delta"     # z up, the platform hangs below the base
+base_radius_mm     = 200.0
+platform_radius_mm = 45.0
+arm_mm             = 350.0
+rod_mm             = 800.0
+)" + std::string(spatial_example) +
+           R"(
+[home]
+position_mm = [-150, 0, -850]
+
+[limits]
+transmission = 0.4
+
+[motion.limits]
+speed_m_per_s         = 2.0
+acceleration_m_per_s2 = 20.0
+jerk_m_per_s3         = 1000.0
+[[motion.step]]
+type      = "pick_and_place"
+to_mm     = [150, 0, -850]
+height_mm = 50.0
+back      = true
+
+[[pose]]
+name        = "corner"
+position_mm = [200, -100, -850]
+force_N     = [10, 5, -30]
+
+[modes]
+
+[workspace]
+lower_mm = [-600, -600, -1100]
+upper_mm = [600, 600, -500]
+step_mm  = 30.0
+boundary = 72
+[workspace.inscribed]               # the largest cylinder about the robot's axis
+axis_mm = [0, 0]
+)";
+  if (type == "parallel.hexa")
+    return head("My HEXA") +
+           R"(type               = "parallel.hexa"      # z up, the platform hangs below the base
+base_radius_mm     = 250.0
+base_offset_mm     = 60.0
+platform_radius_mm = 90.0
+platform_angle_deg = 45.0
+arm_mm             = 250.0
+rod_mm             = 550.0
+)" + std::string(spatial_example) +
+           R"(
+[home]
+position_mm = [-80, 0, -500]
+
+[motion.limits]
+speed_m_per_s                  = 1.0
+acceleration_m_per_s2          = 10.0
+jerk_m_per_s3                  = 500.0
+angular_speed_rad_per_s        = 5.0
+angular_acceleration_rad_per_s2 = 50.0
+angular_jerk_rad_per_s3        = 2000.0
+[[motion.step]]
+type  = "line"
+to_mm = [80, 0, -480]
+[[motion.step]]
+type         = "line"
+to_mm        = [80, 0, -480]
+rotation_deg = [0, 15, 0]
+
+[[pose]]
+name         = "tilted"
+position_mm  = [50, -30, -500]
+rotation_deg = [8.6, -11.5, 14.3]
+
+[modes]
+
+[workspace]
+lower_mm = [-300, -300, -700]
+upper_mm = [300, 300, -300]
+step_mm  = 30.0
+)";
+  if (type == "parallel.five_bar")
+    return head("My five-bar") +
+           R"(type = "parallel.five_bar"        # x right, y up; the rods meet in the platform point
+
+[[mechanism.leg]]
+base_mm = [-150, 0]
+arm_mm  = 250.0
+rod_mm  = 350.0
+
+[[mechanism.leg]]
+base_mm = [150, 0]
+arm_mm  = 250.0
+rod_mm  = 350.0
+)" + std::string(planar_example);
+  return head("My platform") + R"(type = "parallel.constant_orientation"   # the platform does not turn
+
+[[mechanism.leg]]
+base_mm     = [-150, 0]
+arm_mm      = 250.0
+rod_mm      = 350.0
+platform_mm = [-50, 0]
+
+[[mechanism.leg]]
+base_mm     = [150, 0]
+arm_mm      = 250.0
+rod_mm      = 350.0
+platform_mm = [50, 0]
+)" + std::string(planar_example);
+}
+
+std::string summary_of(std::string_view type) {
+  const std::string_view what = type == "parallel.delta"      ? "DELTA robot"
+                                : type == "parallel.hexa"     ? "HEXA robot"
+                                : type == "parallel.five_bar" ? "planar five-bar robot (5R)"
+                                                              : "planar platform of constant orientation";
+  return fmt::format("{}: poses with all modes, a tool path with what its drives must give, workspace", what);
+}
+
+study::Kind kind_of(const char* type) {
+  study::Kind kind;
+  kind.kind = "analysis";
+  kind.mechanism = type;
+  kind.summary = summary_of(type);
+  kind.example = example_of(type);
+  kind.schema = [type](study::SchemaWriter& document) {
+    describe_robot(document, type);
+    document.property(Field{.key = "home", .summary = "where motions begin, and which assembly is meant"},
+                      study::schema_fields<PoseForm>());
+    document.property(Field{.key = "limits", .summary = "what a pose must have to be of use"},
+                      study::schema_fields<QualityLimits>());
+    describe_poses(document);
+    describe_masses(document);
+    describe_motion(document);
+    describe_workspace(document);
+  };
+  kind.prepare = [type](study::ObjectReader& document, const study::Common& common) {
+    study::Prepared prepared;
+    if (auto s = read_robot_analysis(document, common, type, prepared.canonical))
+      prepared.run = [s = *std::move(s)](RunContext& context) { return run_robot_analysis(s, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+double reach(const Robot& robot) {
+  double out = 0;
+  for (int i = 0; i < robot.legs(); ++i) out = std::max(out, robot.leg[i].arm + robot.leg[i].rod);
+  return out;
+}
+
+/// Why a pose cannot be home; empty if it can.
+std::string singular_home(const RobotDescription& d, const Pose& pose) {
+  const RegularAt there = regular_at(d.robot, pose, d.mode, platform_size(d.robot));
+  if (!there.reached) return fmt::format("arm and rod of leg {} are aligned", there.leg + 1);
+  if (there.rods < rods_floor) return "the rods do not hold the platform";
+  if (there.constraint >= constraint_floor) return {};
+  const ArmAngles arms = inverse(d.robot, pose, d.mode);
+  return fmt::format("constraint index {:.2g}, below {:g}: {}", there.constraint, constraint_floor,
+                     free_turn(d.robot, jacobians(d.robot, pose, arms.angle)));
+}
+
+std::optional<Pose> read_home(study::ObjectReader& document, const RobotDescription& d,
+                              const PosesForm& poses, Value& canonical) {
+  PoseForm form;
+  if (auto table = document.table("home")) {
+    table->read(form);
+    if (!d.tool_turns() && table->has("rotation")) {
+      table->error("rotation", "the platform of this robot does not turn", "leave it out");
+      return std::nullopt;
+    }
+    if (d.robot.freedom == Freedom::plane_translation && form.position[2] != 0) {
+      table->error("position", "must have z = 0: the robot is planar", "write [x, y, 0]");
+      return std::nullopt;
+    }
+    const ArmAngles angles = inverse(d.robot, pose_of(form), d.mode);
+    if (angles.status != Status::done) {
+      table->error("position", fmt::format("the robot does not reach its home: {}", reason(angles)));
+      return std::nullopt;
+    }
+    if (const std::string wrong = singular_home(d, pose_of(form)); !wrong.empty()) {
+      table->error("position", "the robot is singular at its home: " + wrong,
+                   "take a place from which it can be led");
+      return std::nullopt;
+    }
+    canonical["home"] = study::write_fields(form);
+    return pose_of(form);
+  }
+  if (document.has("motion")) {
+    document.error("motion", "begins at home, which is not given", "add [home] with position_mm = [x, y, z]");
+    return std::nullopt;
+  }
+  for (const AskedPose& p : poses.poses) {
+    if (!p.position) continue;
+    form.position = *p.position;
+    form.rotation = p.rotation.value_or(Coordinates{});
+    if (inverse(d.robot, pose_of(form), d.mode).status != Status::done) continue;
+    if (!singular_home(d, pose_of(form)).empty()) continue;
+    canonical["home"] = study::write_fields(form);
+    return pose_of(form);
+  }
+  const auto usual = usual_home(d.robot, d.mode);
+  if (!usual)
+    document.error("home", "is not given, and no place on the robot's axis is reached", "add [home]");
+  return usual;
+}
+
+}  // namespace
+
+std::optional<Pose> usual_home(const Robot& robot, const WorkingMode& mode) {
+  const bool planar = robot.freedom == Freedom::plane_translation;
+  const double far = reach(robot);
+  std::optional<Pose> out;
+  double best = 0;
+  constexpr int steps = 400;
+  for (int i = 1; i < steps; ++i) {
+    const double along = far * i / steps;
+    const Vec3 middle = 0.5 * (robot.leg[0].base + robot.leg[1].base);
+    const Pose pose{planar ? Vec3{middle.x, middle.y + along, 0} : Vec3{0, 0, -along}};
+    const ArmAngles angles = inverse(robot, pose, mode);
+    if (angles.status != Status::done) continue;
+    const Quality q = quality(robot, jacobians(robot, pose, angles.angle), platform_size(robot));
+    // A home that is singular in another way is none.
+    const bool held = robot.freedom != Freedom::space_translation || q.constraint_index >= constraint_floor;
+    if (held && q.transmission > best) {
+      best = q.transmission;
+      out = pose;
+    }
+  }
+  return out;
+}
+
+std::optional<RobotAnalysis> read_robot_analysis(study::ObjectReader& document, const study::Common& common,
+                                                 std::string_view type, Value& canonical) {
+  RobotAnalysis s;
+  const auto description = read_robot(document, type, canonical);
+  if (!description) {
+    // What else the file holds is read by the robot that it has not.
+    for (const char* key : {"home", "limits", "pose", "modes", "masses", "motion", "workspace"})
+      document.has(key);
+    return std::nullopt;
+  }
+  s.description = *description;
+  s.poses = read_poses(document, *description, canonical);
+  document(Field{.key = "limits", .summary = {}}, s.limits);
+  if (s.limits.constraint > 0 && description->robot.freedom != Freedom::space_translation)
+    if (auto table = document.table("limits"))
+      table->error("constraint", "only the legs of a DELTA are parallelograms", "leave it out");
+  canonical["limits"] = study::write_fields(s.limits);
+  s.masses = read_masses(document, *description, canonical);
+  const auto home = document.document().has_errors() ? std::optional<Pose>()
+                                                     : read_home(document, *description, s.poses, canonical);
+  if (!home) {
+    for (const char* key : {"home", "motion", "workspace"}) document.has(key);
+    return std::nullopt;
+  }
+  s.home = *home;
+  s.motion = read_motion(document, common, description->robot.freedom, s.home, canonical);
+  s.workspace = read_workspace(document, *description, canonical);
+  if (document.document().has_errors()) return std::nullopt;
+  if (s.poses.poses.empty() && !s.motion && !s.workspace) {
+    document.error("", "nothing is asked for", "add [[pose]], [motion] or [workspace]");
+    return std::nullopt;
+  }
+  return s;
+}
+
+study::Result run_robot_analysis(const RobotAnalysis& s, RunContext& context) {
+  study::Result result;
+  if (s.motion) add_motion(result, s.description, s.masses, s.limits, *s.motion, s.home, context);
+  add_poses(result, s.description, s.poses, s.home, context);
+  if (s.workspace) add_workspace(result, s.description, s.limits, *s.workspace, s.home, context);
+  return result;
+}
+
+std::vector<study::Kind> robot_analysis_kinds() {
+  std::vector<study::Kind> out;
+  for (const char* type : robot_types) out.push_back(kind_of(type));
+  return out;
+}
+
+}  // namespace linkwright::parallel

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "linkwright/parallel/robot/drives.h"
+#include "linkwright/study/scene.h"
+
+namespace linkwright::parallel {
+
+/// A place of a robot to draw.
+struct RobotSample {
+  Status status = Status::done;  ///< not drawn unless done
+  Pose pose;
+  std::array<double, most_legs> angle{};  ///< of the arms (rad)
+  Vec3 velocity{};                        ///< of the platform point (m/s)
+};
+
+/// What the samples are over.
+struct SceneInput {
+  std::string name, title;  ///< "motion", "motion along the path"
+  std::string key, label;   ///< "time_s", "time"
+};
+
+/// A robot over samples: base, arms, rods (those of a DELTA as parallelograms), platform, the path of its
+/// point with its velocity, and of Pi-joints parallelogram and screw. Planar robots give a planar scene.
+study::Scene robot_scene(const Robot& robot, const Drives& drives, const SceneInput& input,
+                         std::span<const double> values, std::span<const RobotSample> samples);
+
+}  // namespace linkwright::parallel

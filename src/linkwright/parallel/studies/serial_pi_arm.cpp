@@ -1,0 +1,426 @@
+#include "linkwright/parallel/studies/serial_pi_arm.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "linkwright/core/units.h"
+#include "linkwright/parallel/studies/serial_pi_arm_motion.h"
+#include "linkwright/parallel/studies/serial_pi_arm_poses.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::parallel {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double most_nodes = 5e5;
+
+constexpr const char* example =
+    R"(# linkwright study: a serial arm of two Pi-joints, its poses, a tool path and its workspace
+schema = 1
+kind   = "analysis"
+title  = "My arm of two Pi-joints"
+
+[mechanism]
+type      = "parallel.serial_pi_arm"   # x right, y up; the second joint stands on the coupler of the first
+base_mm   = [0, 0]
+offset_mm = [60, -20]                  # all that the couplers add between pivots and tool
+arms_mm   = [300, 250]
+mode      = -1                         # 1: the second arm turns to the left of the first
+
+[[mechanism.drive]]                    # one table [mechanism.drive] if both are alike
+type          = "pi_joint"             # or "revolute": a motor beside a passive parallelogram
+ratio         = 0.4                    # base of the parallelogram by its arm
+mounting_deg  = 30.0                   # arm angle where the Pi-joint's own angle is 0
+travel_deg    = [-60, 60]
+lead_mm       = 10.0
+efficiency    = 0.9
+force_limit_N = 1500.0
+[mechanism.drive.motor]
+steps_per_turn = 4096
+top_speed_rpm  = 6000
+torque_N_m     = 1.0
+
+[[mechanism.drive]]
+type          = "pi_joint"
+ratio         = 0.4
+mounting_deg  = 0.0
+mirrored      = true                   # its screw is on the other side
+travel_deg    = [-60, 60]
+lead_mm       = 10.0
+efficiency    = 0.9
+force_limit_N = 1500.0
+[mechanism.drive.motor]
+steps_per_turn = 4096
+top_speed_rpm  = 6000
+torque_N_m     = 1.0
+
+[masses]
+payload_kg       = 0.8
+gravity_m_per_s2 = [0, -9.80665, 0]
+[[masses.joint]]
+arm_inertia_kg_m2 = 0.03
+arm_mass_kg       = 0.9
+arm_centre_mm     = 140.0
+coupler_mass_kg   = 0.5                # with the frame and the motor of the second joint
+[[masses.joint]]
+arm_inertia_kg_m2 = 0.012
+arm_mass_kg       = 0.6
+arm_centre_mm     = 110.0
+coupler_mass_kg   = 0.3
+
+[home]
+position_mm = [330, 180, 0]
+
+[limits]
+conditioning       = 0.2
+drive_transmission = 0.1
+
+[motion.limits]
+speed_m_per_s         = 1.0
+acceleration_m_per_s2 = 10.0
+jerk_m_per_s3         = 500.0
+[[motion.step]]
+type  = "line"
+to_mm = [450, 180, 0]
+[[motion.step]]
+type       = "arc"
+through_mm = [390, 240, 0]
+to_mm      = [330, 180, 0]
+
+[[pose]]
+name        = "reaching out"
+position_mm = [400, 220, 0]
+force_N     = [0, -20, 0]
+
+[modes]
+
+[workspace]
+step_mm = 10.0
+)";
+
+std::string words_of(SerialIndex index) {
+  for (const auto& entry : names(SerialIndex{}))
+    if (entry.value == index) return std::string(entry.summary);
+  return {};
+}
+std::string key_of(SerialIndex index) {
+  return std::string(name_of(index)) + (index == SerialIndex::manipulability ? "_m2" : "");
+}
+
+Table totals_table(const SerialMap& map) {
+  Table table{.name = "workspace_totals"};
+  std::vector<double> nodes, left, area;
+  std::size_t passing = map.place.size();
+  for (const auto& entry : names(SerialHurdle{})) {
+    if (entry.value == SerialHurdle::open || entry.value == SerialHurdle::none) continue;
+    const std::size_t stopped = map.count(entry.value);
+    passing -= stopped;
+    table.names.emplace_back(entry.summary);
+    nodes.push_back(static_cast<double>(stopped));
+    left.push_back(static_cast<double>(passing));
+    area.push_back(static_cast<double>(passing) * map.cell());
+  }
+  table.add("nodes", "nodes that fail by it", nodes);
+  table.add("left", "nodes left", left);
+  table.add("area_left_m2", "area left (m2)", area);
+  return table;
+}
+
+Table node_table(const SerialMap& map, const std::vector<SerialIndex>& indices) {
+  Table table{.name = "workspace"};
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < map.place.size(); ++i) {
+    const Vector2 at = map.position(i);
+    const SerialHurdle hurdle = map.place[i].hurdle;
+    x.push_back(at[0]);
+    y.push_back(at[1]);
+    table.status.emplace_back(hurdle == SerialHurdle::none ? "done" : name_of(hurdle));
+  }
+  table.add("x_m", "x (m)", std::move(x));
+  table.add("y_m", "y (m)", std::move(y));
+  for (const SerialIndex index : indices) {
+    std::vector<double> values;
+    // What does not pass is not coloured.
+    for (const SerialPlace& p : map.place) values.push_back(p.hurdle == SerialHurdle::none ? p[index] : nan);
+    table.add(key_of(index), words_of(index) + (index == SerialIndex::manipulability ? " (m2)" : ""),
+              std::move(values));
+  }
+  return table;
+}
+
+void add_workspace(study::Result& result, const SerialAnalysis& s, RunContext& context) {
+  const SerialMap map = workspace(conditions_of(s.description, s.limits), s.grid, context);
+  if (map.status != Status::done) result.status = map.status;
+  const std::size_t passing = map.count(SerialHurdle::none);
+  const double area = static_cast<double>(passing) * map.cell();
+  const double reach = reachable_area(s.description.arm);
+  double sum = 0, least = std::numeric_limits<double>::infinity();
+  for (const SerialPlace& p : map.place) {
+    if (p.hurdle != SerialHurdle::none) continue;
+    sum += p[SerialIndex::conditioning];
+    least = std::min(least, p[SerialIndex::conditioning]);
+  }
+  const double mean = passing > 0 ? sum / static_cast<double>(passing) : 0;
+  result.tables.push_back(totals_table(map));
+  result.facts.push_back(
+      {"workspace", fmt::format("{:.4g} m2 ({} of {} nodes)", area, passing, map.place.size())});
+  result.facts.push_back({"reach of the arms alone", fmt::format("{:.4g} m2", reach)});
+  if (passing > 0)
+    result.facts.push_back({"global conditioning index", fmt::format("{:.4f} (least {:.4f})", mean, least)});
+  result.tables.push_back(node_table(map, s.workspace->indices));
+  for (const SerialIndex index : s.workspace->indices)
+    result.plots.push_back({.name = fmt::format("workspace-{}", name_of(index)),
+                            .title = fmt::format("Workspace: {}", words_of(index)),
+                            .table = "workspace",
+                            .x = "x_m",
+                            .y = {"y_m", key_of(index)},
+                            .style = study::Plot::Style::map});
+  if (result.headline.empty())
+    result.headline = fmt::format("Workspace {:.4g} m2, mean conditioning {:.3f}.", area, mean);
+}
+
+std::optional<SerialDescription> read_arm(study::ObjectReader& document, Value& canonical) {
+  auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
+  if (!mechanism) return std::nullopt;
+  SerialArmForm form;
+  mechanism->read(form);
+  if (form.mode == 0) mechanism->error("mode", "must be 1 or -1");
+  Value written = study::write_fields(form);
+  const auto drives = read_drives(*mechanism, 2, "joints", written);
+  if (!drives || document.document().has_errors()) return std::nullopt;
+  SerialDescription out{.arm = {.base = form.base, .offset = form.offset, .arm = form.arms},
+                        .mode = form.mode};
+  for (std::size_t k = 0; k < 2; ++k) {
+    out.arm.drive[k] = (*drives)[k].drive;
+    out.motors[k] = (*drives)[k].motor;
+    out.motors_known = out.motors_known || (*drives)[k].known;
+  }
+  if (const auto wrong = problem(out.arm)) {
+    mechanism->error("arms", *wrong);
+    return std::nullopt;
+  }
+  canonical["mechanism"] = written;
+  return out;
+}
+
+std::optional<SerialArmMasses> read_masses(study::ObjectReader& document, const SerialDescription& d,
+                                           Value& canonical) {
+  auto table = document.table("masses");
+  if (!table) return std::nullopt;
+  SerialMassesForm form;
+  table->read(form);
+  if (document.document().has_errors() || !table->has("joint")) return std::nullopt;
+  if (form.joints.size() != 2) {
+    table->error("joint", fmt::format("masses of {} joints, the arm has 2", form.joints.size()),
+                 "write [[masses.joint]] twice");
+    return std::nullopt;
+  }
+  if (!form.gravity) form.gravity = Coordinates{0, -standard_gravity, 0};
+  SerialArmMasses out{.payload = form.payload, .gravity = {(*form.gravity)[0], (*form.gravity)[1]}};
+  const auto joints = table->tables("joint");
+  for (std::size_t k = 0; k < 2; ++k) {
+    study::ObjectReader joint = joints[k];
+    out.joint[k] = form.joints[k].plain;
+    out.joint[k].pi = form.joints[k].pi;
+    if (!out.joint[k].pi) continue;
+    out.joint[k].pi->lead = d.motors[k].screw.lead;
+    for (const char* key : {"arm_inertia", "arm_mass", "arm_centre", "coupler_mass"})
+      if (joint.has(key)) {
+        joint.error(key, "is given for plain arms, and the masses of the Pi-joint, too",
+                    "keep [masses.joint.pi_joint], or the masses of arms and coupler");
+        return std::nullopt;
+      }
+  }
+  if (const auto wrong = problem(d.arm, out)) {
+    table->error("", *wrong);
+    return std::nullopt;
+  }
+  canonical["masses"] = study::write_fields(form);
+  return out;
+}
+
+/// Motions begin there; without one a home is of no use.
+std::optional<Pose> read_home(study::ObjectReader& document, const SerialDescription& d, Value& canonical) {
+  auto table = document.table("home");
+  if (!table) {
+    if (document.has("motion"))
+      document.error("motion", "begins at home, which is not given",
+                     "add [home] with position_mm = [x, y, 0]");
+    return std::nullopt;
+  }
+  PoseForm form;
+  table->read(form);
+  if (table->has("rotation"))
+    table->error("rotation", "the tool of this robot does not turn", "leave it out");
+  if (form.position[2] != 0)
+    table->error("position", "must have z = 0: the robot is planar", "write [x, y, 0]");
+  if (document.document().has_errors()) return std::nullopt;
+  const SerialAngles angles = inverse(d.arm, {form.position[0], form.position[1]}, d.mode);
+  if (angles.status != Status::done) {
+    table->error("position", fmt::format("the arm does not reach its home: {}", reason(angles)));
+    return std::nullopt;
+  }
+  canonical["home"] = study::write_fields(form);
+  return pose_of(form);
+}
+
+std::optional<SerialGrid> grid_of(study::ObjectReader& table, const SerialWorkspaceForm& form,
+                                  const SerialPiArm& arm) {
+  if (form.lower.has_value() != form.upper.has_value()) {
+    table.error(form.lower ? "lower" : "upper", "is given alone", "write lower_mm and upper_mm, or neither");
+    return std::nullopt;
+  }
+  SerialGrid out = whole_reach(arm, form.step);
+  for (std::size_t i = 0; i < 3 && form.lower; ++i) {
+    const double low = (*form.lower)[i], high = (*form.upper)[i];
+    if (i == 2 && (low != 0 || high != 0)) {
+      table.error("lower", "must have z = 0: the robot is planar", "write [x, y, 0]");
+      return std::nullopt;
+    }
+    if (high < low) {
+      table.error("upper", fmt::format("is below lower along {}", "xyz"[i]), "exchange them");
+      return std::nullopt;
+    }
+    if (i < 2) out.low[i] = low, out.high[i] = high;
+  }
+  double nodes = 1;
+  for (std::size_t i = 0; i < 2; ++i) nodes *= std::floor((out.high[i] - out.low[i]) / form.step + 1e-6) + 1;
+  if (nodes > most_nodes) {
+    table.error("step", fmt::format("makes {:.3g} nodes, at most {:.3g} are allowed", nodes, most_nodes),
+                "take a larger step or a smaller box");
+    return std::nullopt;
+  }
+  return out;
+}
+
+std::optional<SerialWorkspaceForm> read_workspace(study::ObjectReader& document, const SerialPiArm& arm,
+                                                  SerialGrid& grid, Value& canonical) {
+  auto table = document.table("workspace");
+  if (!table) return std::nullopt;
+  SerialWorkspaceForm form;
+  table->read(form);
+  if (document.document().has_errors() || !(form.step > 0)) return std::nullopt;
+  const auto found = grid_of(*table, form, arm);
+  if (!found) return std::nullopt;
+  grid = *found;
+  if (form.indices.empty()) {
+    table->error("indices", "name at least one");
+    return std::nullopt;
+  }
+  if (std::set(form.indices.begin(), form.indices.end()).size() < form.indices.size()) {
+    table->error("indices", "one is named twice");
+    return std::nullopt;
+  }
+  canonical["workspace"] = study::write_fields(form);
+  return form;
+}
+
+}  // namespace
+
+std::string reason(const SerialAngles& angles) {
+  if (angles.status == Status::done) return {};
+  if (angles.status == Status::singular)
+    return "the tool is over the pivot of arms of equal length, whose first angle is open";
+  const double size = 1e3 * std::abs(angles.shortfall);
+  return angles.shortfall >= 0
+             ? fmt::format("the arms are {:.4g} mm too short", size)
+             : fmt::format("the place is {:.4g} mm too near for arms that differ so in length", size);
+}
+
+SerialConditions conditions_of(const SerialDescription& d, const SerialLimits& limits) {
+  SerialConditions out{.arm = d.arm, .mode = d.mode};
+  if (limits.least_elbow) out.least_elbow = *limits.least_elbow;
+  if (limits.largest_elbow) out.most_elbow = *limits.largest_elbow;
+  out.least_drive_transmission = limits.drive_transmission;
+  out.least_conditioning = limits.conditioning;
+  return out;
+}
+
+std::optional<SerialAnalysis> read_serial_analysis(study::ObjectReader& document, const study::Common& common,
+                                                   Value& canonical) {
+  SerialAnalysis s;
+  const auto description = read_arm(document, canonical);
+  if (!description) {
+    // What else the file holds is read by the arm that it has not.
+    for (const char* key : {"home", "limits", "pose", "modes", "masses", "motion", "workspace"})
+      document.has(key);
+    return std::nullopt;
+  }
+  s.description = *description;
+  s.poses = read_asked_poses(document, Freedom::plane_translation, 2, "joints", canonical);
+  document(Field{.key = "modes", .summary = {}}, s.modes);
+  if (s.modes && s.poses.empty())
+    document.error("modes", "there is no pose whose modes could be listed", "add [[pose]]");
+  if (s.modes) canonical["modes"] = study::write_fields(*s.modes);
+  document(Field{.key = "limits", .summary = {}}, s.limits);
+  canonical["limits"] = study::write_fields(s.limits);
+  s.masses = read_masses(document, *description, canonical);
+  const auto home = read_home(document, *description, canonical);
+  if (document.document().has_errors()) {
+    for (const char* key : {"motion", "workspace"}) document.has(key);
+    return std::nullopt;
+  }
+  if (home) {
+    s.home = *home;
+    s.motion = read_motion(document, common, Freedom::plane_translation, s.home, canonical);
+  }
+  s.workspace = read_workspace(document, description->arm, s.grid, canonical);
+  if (document.document().has_errors()) return std::nullopt;
+  if (s.poses.empty() && !s.motion && !s.workspace) {
+    document.error("", "nothing is asked for", "add [[pose]], [motion] or [workspace]");
+    return std::nullopt;
+  }
+  return s;
+}
+
+study::Result run_serial_analysis(const SerialAnalysis& s, RunContext& context) {
+  study::Result result;
+  if (s.motion) add_serial_motion(result, s, context);
+  add_serial_poses(result, s);
+  if (s.workspace) add_workspace(result, s, context);
+  return result;
+}
+
+study::Kind serial_pi_arm_kind() {
+  study::Kind kind;
+  kind.kind = "analysis";
+  kind.mechanism = "parallel.serial_pi_arm";
+  kind.summary =
+      "serial arm of two Pi-joints: poses with both modes, a tool path with what its drives must give, "
+      "workspace";
+  kind.example = example;
+  kind.schema = [](study::SchemaWriter& document) {
+    study::SchemaWriter mechanism;
+    SerialArmForm form;
+    fields(mechanism, form);
+    describe_drives(mechanism);
+    document.property(Field{.key = "mechanism", .summary = "the arm", .required = true},
+                      std::move(mechanism).finish());
+    document.property(Field{.key = "home", .summary = "where motions begin"},
+                      study::schema_fields<PoseForm>());
+    document.property(Field{.key = "limits", .summary = "what a pose must have to be of use"},
+                      study::schema_fields<SerialLimits>());
+    document.property(Field{.key = "pose", .summary = "poses to be looked at"},
+                      study::schema_array(study::schema_fields<AskedPose>()));
+    document.property(Field{.key = "modes", .summary = "table of both modes of each pose"},
+                      study::schema_fields<SerialModesForm>());
+    document.property(Field{.key = "masses", .summary = "of the payload and of each joint"},
+                      study::schema_fields<SerialMassesForm>());
+    describe_motion(document);
+    document.property(Field{.key = "workspace", .summary = "grid of places of the tool point"},
+                      study::schema_fields<SerialWorkspaceForm>());
+  };
+  kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
+    study::Prepared prepared;
+    if (auto s = read_serial_analysis(document, common, prepared.canonical))
+      prepared.run = [s = *std::move(s)](RunContext& context) { return run_serial_analysis(s, context); };
+    return prepared;
+  };
+  return kind;
+}
+
+}  // namespace linkwright::parallel

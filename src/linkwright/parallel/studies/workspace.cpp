@@ -1,0 +1,312 @@
+#include "linkwright/parallel/studies/workspace.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "linkwright/core/units.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/parallel/robot/constraint.h"
+#include "linkwright/parallel/workspace/parts.h"
+#include "linkwright/parallel/workspace/rays.h"
+#include "linkwright/study/bind_write.h"
+
+namespace linkwright::parallel {
+namespace {
+
+constexpr double most_nodes = 2e6;
+/// More rows are no table to look at.
+constexpr std::size_t most_rows = 500000;
+
+std::string words_of(PoseIndex index) {
+  for (const auto& entry : names(PoseIndex{}))
+    if (entry.value == index) return std::string(entry.summary);
+  return {};
+}
+std::string key_of(PoseIndex index) {
+  const bool length = index == PoseIndex::axis_resolution || index == PoseIndex::worst_resolution;
+  return std::string(name_of(index)) + (length ? "_m" : "");
+}
+std::string label_of(PoseIndex index) {
+  const bool length = index == PoseIndex::axis_resolution || index == PoseIndex::worst_resolution;
+  return words_of(index) + (length ? " (m)" : "");
+}
+
+/// Nodes of a map as rows.
+Table node_table(const WorkspaceMap& map, const WorkspaceStudy& s, bool planar,
+                 const std::vector<std::size_t>& nodes, std::string name) {
+  Table table{.name = std::move(name)};
+  std::vector<double> x, y, z;
+  for (const std::size_t node : nodes) {
+    const Vec3 at = map.position(node);
+    x.push_back(at.x);
+    y.push_back(at.y);
+    z.push_back(at.z);
+    table.status.emplace_back(map.hurdle[node] == Hurdle::none ? "done" : name_of(map.hurdle[node]));
+  }
+  table.add("x_m", "x (m)", std::move(x));
+  table.add("y_m", "y (m)", std::move(y));
+  if (!planar) table.add("z_m", "z (m)", std::move(z));
+  for (const PoseIndex index : s.form.indices) {
+    const auto& values = map.index[slot(index)];
+    std::vector<double> column;
+    // What does not pass is not coloured.
+    for (const std::size_t node : nodes)
+      column.push_back(map.hurdle[node] == Hurdle::none ? values[node] : std::nan(""));
+    table.add(key_of(index), label_of(index), std::move(column));
+  }
+  return table;
+}
+
+/// Evenly chosen levels out of those that have a node that passes.
+std::vector<std::size_t> levels_of(const WorkspaceMap& map, int wanted) {
+  std::vector<std::size_t> used, out;
+  const std::size_t layer = map.nodes[0] * map.nodes[1];
+  for (std::size_t k = 0; k < map.nodes[2]; ++k)
+    if (std::any_of(map.hurdle.begin() + static_cast<std::ptrdiff_t>(k * layer),
+                    map.hurdle.begin() + static_cast<std::ptrdiff_t>((k + 1) * layer),
+                    [](Hurdle h) { return h == Hurdle::none; }))
+      used.push_back(k);
+  const std::size_t count = std::min(used.size(), static_cast<std::size_t>(wanted));
+  for (std::size_t i = 0; i < count; ++i) out.push_back(used[(2 * i + 1) * used.size() / (2 * count)]);
+  return out;
+}
+
+Table totals_table(const WorkspaceMap& map, const WorkspaceTotals& totals, int axes) {
+  Table table{.name = "workspace_totals"};
+  std::vector<double> nodes, left, measure;
+  std::size_t passing = map.count();
+  for (const auto& entry : names(Hurdle{})) {
+    if (entry.value == Hurdle::open || entry.value == Hurdle::none) continue;
+    const std::size_t stopped = totals.count[static_cast<std::size_t>(entry.value)];
+    passing -= stopped;
+    table.names.emplace_back(entry.summary);
+    nodes.push_back(static_cast<double>(stopped));
+    left.push_back(static_cast<double>(passing));
+    measure.push_back(static_cast<double>(passing) * map.cell);
+  }
+  table.add("nodes", "nodes that fail by it", nodes);
+  table.add("left", "nodes left", left);
+  table.add(axes == 3 ? "volume_left_m3" : "area_left_m2", axes == 3 ? "volume left (m3)" : "area left (m2)",
+            measure);
+  return table;
+}
+
+/// Ends of what passes on rays around home, at each level.
+Table boundary_table(const WorkspaceTask& task, const WorkspaceMap& map,
+                     const std::vector<std::size_t>& levels, const WorkspaceForm& f, const Pose& home,
+                     bool planar, const RunContext& context) {
+  Table table{.name = "workspace_boundary"};
+  std::vector<double> z, angle, from, to;
+  const RaySearch search{.longest = std::hypot(f.upper[0] - f.lower[0], f.upper[1] - f.lower[1]),
+                         .step = f.step,
+                         .tolerance = 1e-7};
+  for (const std::size_t level : levels) {
+    const double height = map.position(level * map.nodes[0] * map.nodes[1]).z;
+    const Pose origin{{home.position.x, home.position.y, height}, task.rotation};
+    const Rays rays = position_rays(task.conditions, origin, directions_around(f.boundary), search, context);
+    for (std::size_t i = 0; i < rays.ray.size(); ++i)
+      for (const RayStretch& stretch : rays.ray[i].stretch) {
+        z.push_back(height);
+        angle.push_back(2 * std::numbers::pi * static_cast<double>(i) / f.boundary);
+        from.push_back(stretch.from);
+        to.push_back(stretch.to);
+        table.names.emplace_back(stretch.after == Hurdle::none ? "end of the ray" : name_of(stretch.after));
+      }
+  }
+  if (!planar) table.add("z_m", "z (m)", z);
+  table.add("direction_rad", "direction from home (rad)", angle);
+  table.add("from_m", "passes from this distance (m)", from);
+  table.add("to_m", "to this one (m)", to);
+  return table;
+}
+
+std::string body_text(const Inscribed& body, const InscribedForm& f, bool planar) {
+  const auto mm = [](double metres) { return fmt::format("{:g}", std::round(1e5 * metres) / 100 + 0.0); };
+  const std::string at = fmt::format("at {}, {}{} mm", mm(body.centre.x), mm(body.centre.y),
+                                     planar ? "" : fmt::format(", {}", mm(body.centre.z)));
+  if (f.shape == InscribedShape::ball) return fmt::format("diameter {} mm {}", mm(2 * body.half.x), at);
+  if (f.shape == InscribedShape::cylinder)
+    return fmt::format("diameter {} mm, height {} mm {}", mm(2 * body.half.x), mm(2 * body.half.z), at);
+  return fmt::format("{} x {}{} mm {}", mm(2 * body.half.x), mm(2 * body.half.y),
+                     planar ? "" : fmt::format(" x {}", mm(2 * body.half.z)), at);
+}
+
+}  // namespace
+
+PoseConditions conditions_of(const RobotDescription& d, const QualityLimits& limits, const Pose& home) {
+  PoseConditions out{.robot = d.robot, .drives = d.drives, .mode = d.mode};
+  const Marks marks = marks_at(d.robot, home, d.mode);
+  out.assembly = marks.assembly;
+  if (d.robot.freedom == Freedom::space_translation) {
+    out.constraint = marks.constraint;
+    out.least_constraint = std::max(limits.constraint, constraint_floor);
+  }
+  if (limits.least_elbow) out.least_elbow = *limits.least_elbow;
+  if (limits.largest_elbow) out.most_elbow = *limits.largest_elbow;
+  if (limits.rod_swing) out.most_swing = *limits.rod_swing;
+  out.least_drive_transmission = limits.drive_transmission;
+  out.least_transmission = limits.transmission;
+  out.least_conditioning = limits.conditioning;
+  out.characteristic_length = platform_size(d.robot);
+  return out;
+}
+
+std::optional<WorkspaceStudy> read_workspace(study::ObjectReader& document, const RobotDescription& d,
+                                             Value& canonical) {
+  auto table = document.table("workspace");
+  if (!table) return std::nullopt;
+  WorkspaceStudy out;
+  WorkspaceForm& form = out.form;
+  table->read(form);
+  if (document.document().has_errors()) return std::nullopt;
+  double nodes = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (form.upper[i] < form.lower[i]) {
+      table->error("upper", fmt::format("is below lower along {}", "xyz"[i]), "exchange them");
+      return std::nullopt;
+    }
+    nodes *= std::floor((form.upper[i] - form.lower[i]) / form.step + 1e-9) + 1;
+  }
+  if (nodes > most_nodes) {
+    table->error("step", fmt::format("makes {:.3g} nodes, at most {:.3g} are allowed", nodes, most_nodes),
+                 "take a larger step or a smaller box");
+    return std::nullopt;
+  }
+  if (d.robot.freedom == Freedom::plane_translation && (form.lower[2] != 0 || form.upper[2] != 0)) {
+    table->error("lower", "must have z = 0: the robot is planar", "write [x, y, 0]");
+    return std::nullopt;
+  }
+  if (!d.tool_turns() && table->has("rotation")) {
+    table->error("rotation", "the platform of this robot does not turn", "leave it out");
+    return std::nullopt;
+  }
+  if (form.indices.empty()) {
+    table->error("indices", "name at least one");
+    return std::nullopt;
+  }
+  if (std::set(form.indices.begin(), form.indices.end()).size() < form.indices.size()) {
+    table->error("indices", "one is named twice");
+    return std::nullopt;
+  }
+  if (form.inscribed) {
+    auto inner = table->table("inscribed");
+    const bool planar = d.robot.freedom == Freedom::plane_translation;
+    if (planar && form.inscribed->shape == InscribedShape::cylinder) {
+      inner->error("shape", "a cylinder needs space", "take ball (a circle) or box (a rectangle)");
+      return std::nullopt;
+    }
+    if (form.inscribed->shape != InscribedShape::cylinder &&
+        (form.inscribed->axis || form.inscribed->height || form.inscribed->ratio)) {
+      inner->error("shape", "axis, height and ratio are those of a cylinder", "leave them out");
+      return std::nullopt;
+    }
+    if (form.inscribed->height && form.inscribed->ratio) {
+      inner->error("ratio", "is given, and the height, too", "keep one of them");
+      return std::nullopt;
+    }
+    for (const std::size_t i : {0u, 1u, 2u})
+      if (!(planar && i == 2) && form.upper[i] - form.lower[i] < form.step) {
+        inner->error("shape",
+                     fmt::format("the box has no extent along {}: nothing can be inscribed", "xyz"[i]));
+        return std::nullopt;
+      }
+  }
+  canonical["workspace"] = study::write_fields(form);
+  return out;
+}
+
+void describe_workspace(study::SchemaWriter& document) {
+  document.property(Field{.key = "workspace", .summary = "grid of places of the platform point"},
+                    study::schema_fields<WorkspaceForm>());
+}
+
+void add_workspace(study::Result& result, const RobotDescription& d, const QualityLimits& limits,
+                   const WorkspaceStudy& s, const Pose& home, RunContext& context) {
+  const WorkspaceForm& f = s.form;
+  WorkspaceTask task{.conditions = conditions_of(d, limits, home),
+                     .grid = {vec(f.lower), vec(f.upper), f.step},
+                     .rotation = math::turn_about(vec(f.rotation))};
+  task.wanted[slot(PoseIndex::conditioning)] = true;
+  for (const PoseIndex index : f.indices) task.wanted[slot(index)] = true;
+  const WorkspaceMap map = workspace(task, context);
+  if (map.status != Status::done) result.status = map.status;
+  const WorkspaceTotals sums = totals(map);
+  const bool planar = d.robot.freedom == Freedom::plane_translation;
+  const int axes = planar ? 2 : 3;
+
+  result.tables.push_back(totals_table(map, sums, axes));
+  const auto fact = [&](std::string label, std::string text) {
+    result.facts.push_back({std::move(label), std::move(text)});
+  };
+  fact("workspace", fmt::format("{:.4g} {} ({} of {} nodes)", sums.measure, planar ? "m2" : "m3",
+                                sums.passing, map.count()));
+  const IndexSummary lci = sums.index[slot(PoseIndex::conditioning)];
+  if (lci.count > 0)
+    fact("global conditioning index", fmt::format("{:.4f} (least {:.4f})", lci.mean, lci.least));
+
+  if (planar) fact("area within reach of the legs", fmt::format("{:.6g} m2", reachable_area(d.robot)));
+  if (f.parts && sums.passing > 0) {
+    const WorkspaceParts parts = workspace_parts(
+        map, passing(map), {.conditions = task.conditions, .rotation = task.rotation, .home = home.position},
+        context);
+    if (parts.status == Status::done)
+      fact("joined to home without a singularity",
+           parts.home < 0 ? std::string("none: home does not pass")
+                          : fmt::format("{} of {} nodes, {} part{}", parts.reachable(), parts.all(),
+                                        parts.size.size(), parts.size.size() == 1 ? "" : "s"));
+  }
+  if (f.inscribed) {
+    InscribedTask inner{
+        .conditions = task.conditions, .rotation = task.rotation, .shape = f.inscribed->shape};
+    if (f.inscribed->axis) inner.axis = Vec3{(*f.inscribed->axis)[0], (*f.inscribed->axis)[1], 0};
+    inner.height = f.inscribed->height.value_or(0);
+    inner.ratio = f.inscribed->ratio.value_or(0);
+    const Inscribed body = inscribed(map, passing(map), inner, context);
+    if (body.status != Status::done && body.status != Status::infeasible) result.status = body.status;
+    fact(fmt::format("largest {}", name_of(f.inscribed->shape)),
+         body.status == Status::infeasible ? std::string("none fits")
+         : body.half.x == 0
+             ? std::string("not found before the run ended")
+             : body_text(body, *f.inscribed, planar) + (body.proven ? ", proven free of singularities" : ""));
+  }
+  if (d.tool_turns()) {
+    const RotationRange range = rotation_range(
+        task.conditions, home, 72, {.longest = std::numbers::pi, .step = 0.02, .tolerance = 1e-6}, context);
+    if (range.status == Status::done) {
+      fact("tilt at home, about any horizontal axis", fmt::format("{:.2f}°", math::degrees(range.tilt)));
+      fact("yaw at home",
+           fmt::format("{:.2f}° to {:.2f}°", math::degrees(range.least_yaw), math::degrees(range.most_yaw)));
+    }
+  }
+  std::vector<std::size_t> reached;
+  for (std::size_t i = 0; i < map.count(); ++i)
+    if (map.hurdle[i] != Hurdle::leg && map.hurdle[i] != Hurdle::open) reached.push_back(i);
+  if (f.nodes && reached.size() <= most_rows)
+    result.tables.push_back(node_table(map, s, planar, reached, "workspace"));
+  if (f.nodes && reached.size() > most_rows)
+    fact("table of nodes", fmt::format("left out: {} nodes are more than {}", reached.size(), most_rows));
+  std::vector<std::size_t> sliced;
+  const std::size_t layer = map.nodes[0] * map.nodes[1];
+  const auto levels = levels_of(map, f.slices);
+  if (f.boundary > 0) result.tables.push_back(boundary_table(task, map, levels, f, home, planar, context));
+  for (const std::size_t level : levels)
+    for (std::size_t i = 0; i < layer; ++i) sliced.push_back(level * layer + i);
+  result.tables.push_back(node_table(map, s, planar, sliced, "workspace_slices"));
+  for (const PoseIndex index : f.indices)
+    result.plots.push_back({.name = fmt::format("workspace-{}", name_of(index)),
+                            .title = fmt::format("Workspace: {}", words_of(index)),
+                            .table = "workspace_slices",
+                            .x = "x_m",
+                            .y = {"y_m", key_of(index)},
+                            .style = study::Plot::Style::map,
+                            .group = planar ? "" : "z_m"});
+  if (result.headline.empty())
+    result.headline = fmt::format("Workspace {:.4g} {}, mean conditioning {:.3f}.", sums.measure,
+                                  planar ? "m2" : "m3", lci.count > 0 ? lci.mean : 0.0);
+}
+
+}  // namespace linkwright::parallel

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/parallel/studies/robot.h"
+#include "linkwright/parallel/workspace/inscribed.h"
+
+// The workspace in studies of parallel robots: a grid of places, how much of it is of use and how good it is.
+namespace linkwright::parallel {
+
+/// `[limits]` of a robot: what a pose must have to be of use, along a path and in the workspace.
+struct QualityLimits {
+  double transmission = 0, conditioning = 0, drive_transmission = 0, constraint = 0;
+  std::optional<double> rod_swing, least_elbow, largest_elbow;
+};
+template <class Visitor>
+void fields(Visitor&& visit, QualityLimits& l) {
+  const auto index = [](std::string_view key, std::string_view summary) {
+    return Field{.key = key, .summary = summary, .minimum = 0, .maximum = 1};
+  };
+  const auto angle = [](std::string_view key, std::string_view summary, double most) {
+    return Field{
+        .key = key, .summary = summary, .dimension = Dimension::angle, .minimum = 0, .maximum = most};
+  };
+  visit(index("transmission", "least transmission index of the legs"), l.transmission);
+  visit(index("conditioning", "least local conditioning index"), l.conditioning);
+  visit(index("drive_transmission", "least sine of the angle between diagonal and arm of a Pi-joint"),
+        l.drive_transmission);
+  visit(index("constraint",
+              "least constraint index of a DELTA: how firmly its parallelograms keep the platform from "
+              "turning; below 0.001 is singular"),
+        l.constraint);
+  visit(angle("rod_swing", "largest angle between a rod and the plane of its arm", 1.5707963267948966),
+        l.rod_swing);
+  visit(angle("least_elbow", "least angle between arm and rod, 0 = folded", 3.1415926535897931),
+        l.least_elbow);
+  visit(angle("largest_elbow", "largest angle between arm and rod, 180 deg = stretched", 3.1415926535897931),
+        l.largest_elbow);
+}
+/// ... with the robot and the assembly that it has at home.
+PoseConditions conditions_of(const RobotDescription& description, const QualityLimits& limits,
+                             const Pose& home);
+
+/// `[workspace.inscribed]`: the largest body of a shape within the workspace.
+struct InscribedForm {
+  InscribedShape shape = InscribedShape::cylinder;
+  std::optional<std::array<double, 2>> axis;
+  std::optional<double> height, ratio;
+};
+template <class Visitor>
+void fields(Visitor&& visit, InscribedForm& f) {
+  visit(Field{.key = "shape", .summary = "of the body"}, f.shape);
+  visit(robot_fields::place("axis", "x and y of the axis of a cylinder; default: anywhere"), f.axis);
+  Field height = robot_fields::length("height", "of a cylinder", false);
+  height.exclusive_minimum = true;
+  visit(height, f.height);
+  visit(Field{.key = "ratio",
+              .summary = "of a cylinder's height and diameter",
+              .minimum = 0,
+              .maximum = 1e6,
+              .exclusive_minimum = true},
+        f.ratio);
+}
+
+/// `[workspace]`: the nodes of a grid.
+struct WorkspaceForm {
+  Coordinates lower{}, upper{}, rotation{};
+  double step = 0;
+  std::vector<PoseIndex> indices{PoseIndex::conditioning, PoseIndex::transmission};
+  bool nodes = true, parts = true;
+  int slices = 4, boundary = 0;
+  std::optional<InscribedForm> inscribed;
+};
+template <class Visitor>
+void fields(Visitor&& visit, WorkspaceForm& w) {
+  visit(robot_fields::place("lower", "corner of the box", true), w.lower);
+  visit(robot_fields::place("upper", "opposite corner", true), w.upper);
+  Field step = robot_fields::length("step", "distance of the nodes");
+  step.exclusive_minimum = true;
+  visit(step, w.step);
+  visit(robot_fields::angle("rotation", "of the platform, a rotation vector (HEXA)"), w.rotation);
+  visit(Field{.key = "indices", .summary = "that are computed at each node and drawn"}, w.indices);
+  visit(Field{.key = "nodes", .summary = "table of all nodes that the legs reach"}, w.nodes);
+  visit(Field{.key = "parts", .summary = "tell how much of it hangs together without a singularity"},
+        w.parts);
+  visit(Field{.key = "slices", .summary = "levels of z that are drawn", .minimum = 1, .maximum = 50},
+        w.slices);
+  visit(Field{.key = "boundary",
+              .summary = "rays around home on which the boundary of each slice is followed; 0 = none",
+              .minimum = 0,
+              .maximum = 10000},
+        w.boundary);
+  visit(Field{.key = "inscribed", .summary = "the largest body of a shape within it"}, w.inscribed);
+}
+
+struct WorkspaceStudy {
+  WorkspaceForm form;
+};
+
+/// Reads `[workspace]`; nothing when it is absent or has problems, which go to the reader.
+std::optional<WorkspaceStudy> read_workspace(study::ObjectReader& document,
+                                             const RobotDescription& description, Value& canonical);
+void describe_workspace(study::SchemaWriter& document);
+
+/// Tables "workspace", "workspace_slices", "workspace_totals", "workspace_boundary", facts and maps.
+void add_workspace(study::Result& result, const RobotDescription& description, const QualityLimits& limits,
+                   const WorkspaceStudy& study, const Pose& home, RunContext& context);
+
+}  // namespace linkwright::parallel

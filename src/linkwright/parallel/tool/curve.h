@@ -1,0 +1,63 @@
+#pragma once
+
+#include "linkwright/math/vector3.h"
+#include "linkwright/parallel/tool/time_law.h"
+
+/// Smooth plane curves that paths of tools are made of, by their length.
+namespace linkwright::parallel {
+
+/// A straight line, an arc of a circle, or the rounding of a corner, whose direction turns with the length s
+/// by the angle times f(s / length). For the circle f(x) = x; for the corner f(x) = 3 x^2 - 2 x^3, so that
+/// the curvature is a parabola from 0 to 0: the acceleration is continuous where the corner joins straight
+/// lines, and its peak is lower (1.5 times the mean) than that of a pair of clothoids (2) or of a quintic f
+/// (1.875).
+struct ToolCurve {
+  enum class Form { straight, circular, corner };
+  Form form = Form::straight;
+  math::Vec3 from{};  ///< m
+  math::Vec3 to{};    ///< m; of corners and straight lines
+  math::Vec3
+      tangent{};  ///< unit direction at the start; zero for a turn on the spot, whose length is an angle
+  math::Vec3 normal{};  ///< unit, across it, to the side that the direction turns to
+  double length = 0;    ///< m
+  double angle = 0;     ///< rad, from the first direction to the last
+};
+
+/// `to` must be another point than `from`.
+ToolCurve straight(const math::Vec3& from, const math::Vec3& to);
+/// Turn of the point `from` about an axis (unit vector) through `centre`, by `angle` > 0 (right-handed); the
+/// point must be off the axis.
+ToolCurve circular(const math::Vec3& from, const math::Vec3& centre, const math::Vec3& axis, double angle);
+/// From `vertex` - reach `in` to `vertex` + reach `out`, where the unit directions differ by an angle in
+/// (0, pi).
+ToolCurve rounded(const math::Vec3& vertex, const math::Vec3& in, const math::Vec3& out, double reach);
+
+/// A curve at one point, and how its direction turns there.
+struct CurvePoint {
+  math::Vec3 position;  ///< m
+  math::Vec3 tangent, normal;
+  double curvature = 0;        ///< 1/m, >= 0
+  double curvature_slope = 0;  ///< its derivative by the length, 1/m2
+};
+/// The point at a length in [0, curve.length]. Corners by Gauss quadrature of the direction, exact to
+/// rounding.
+CurvePoint point_at(const ToolCurve& curve, double length);
+/// How a point moves that is there on its way along the curve.
+struct PointMotion {
+  math::Vec3 velocity, acceleration, jerk;  ///< m/s, m/s2, m/s3
+};
+PointMotion moved(const CurvePoint& at, const Progress& along);
+
+math::Vec3 end_of(const ToolCurve& curve);
+math::Vec3 end_direction(const ToolCurve& curve);
+
+/// Limits for the motion along a curve that keep the limits of the point in space. With s the length, k the
+/// curvature and k' its slope,
+///   acceleration^2 = s''^2 + (k s'^2)^2,  jerk^2 = (s''' - k^2 s'^3)^2 + (3 k s' s'' + k' s'^3)^2.
+/// The speed is bounded such that k s'^2 is at most 0.8 of the acceleration and k^2 s'^3 at most 0.4, k' s'^3
+/// at most 0.3 of the jerk for the largest k and k'; what is left is for s'' and s'''.
+RateLimits limits_along(const ToolCurve& curve, const RateLimits& limits);
+/// The largest constant speed that keeps them; at least that of `limits_along`.
+double steady_speed(const ToolCurve& curve, const RateLimits& limits);
+
+}  // namespace linkwright::parallel

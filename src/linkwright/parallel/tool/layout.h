@@ -1,0 +1,39 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "linkwright/parallel/tool/curve.h"
+#include "linkwright/parallel/tool/path.h"
+
+/// The shape of a tool's path, before it is run in time.
+namespace linkwright::parallel {
+
+/// A smooth piece of a path.
+struct ToolPart {
+  ToolCurve curve;
+  int step = 0;
+  double speed = std::numeric_limits<double>::infinity();  ///< limit of the step, m/s
+};
+
+/// What the tool does between two rests: parts that join, a table, or nothing (a dwell).
+struct ToolRun {
+  int step = 0;  ///< its first one
+  Pose start;
+  std::vector<ToolPart> parts;
+  Vec3 turn{};                       ///< rotation vector from start to end, seen from the base (rad)
+  double dwell = 0;                  ///< s
+  const ToolTable* table = nullptr;  ///< of the path that was laid out
+};
+
+struct ToolLayout {
+  std::vector<ToolRun> runs;
+  Pose end;
+  std::optional<ToolProblem> problem;  ///< the first one; the runs end before it
+};
+
+/// Curves and corners of a path from `start`. The path must outlive the layout.
+ToolLayout lay_out(const ToolPath& path, const Pose& start);
+
+}  // namespace linkwright::parallel

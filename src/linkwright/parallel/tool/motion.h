@@ -1,0 +1,107 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linkwright/math/spline.h"
+#include "linkwright/parallel/robot/regular_ball.h"
+#include "linkwright/parallel/robot/robot.h"
+#include "linkwright/parallel/tool/curve.h"
+#include "linkwright/parallel/tool/path.h"
+#include "linkwright/parallel/tool/time_law.h"
+
+/// Where the tool is at any time, and how it moves there.
+namespace linkwright::parallel {
+
+/// The tool at one instant, seen from the base.
+struct ToolState {
+  Vec3 position{}, velocity{}, acceleration{}, jerk{};  ///< m, m/s, m/s2, m/s3
+  Mat3 rotation{};
+  Vec3 angular_velocity{}, angular_acceleration{};  ///< rad/s, rad/s2
+};
+
+/// What keeps the path from being a motion from `start`; nothing if all is well.
+std::optional<ToolProblem> problem(const ToolPath& path, const ToolLimits& limits, const Pose& start);
+
+/// The motion along a path: from rest to rest, step by step, as fast as the limits and the law allow.
+///
+/// Steps are cut into runs, between which the tool rests; tool_timing.h tells how a run is timed. A turn is
+/// about a fixed axis by the least angle, in proportion to the length run through; the slower of both
+/// decides.
+class ToolMotion {
+ public:
+  /// Throws ContractError with the message of `problem` if there is one.
+  ToolMotion(const ToolPath& path, const ToolLimits& limits, const Pose& start);
+
+  /// s
+  double duration() const { return duration_; }
+
+  /// The state at time t (s): at rest at the ends before 0 and after the duration. At a step of the jerk the
+  /// value to the right counts. Allocates nothing.
+  ToolState operator()(double t) const;
+
+  /// Index of the step that is being done; a rounded corner belongs to the step before it.
+  int piece_at(double t) const;
+  /// "step 3 (arc) at 0.412 s"
+  std::string where(double t) const;
+
+  /// Share of the way of its step that has been gone, in [0, 1]; nothing for a rest and for a table.
+  std::optional<double> share_at(double t) const;
+  /// "step 3 (arc) at 0.412 s, 63.51 % of its way"
+  std::string where_exactly(double t) const;
+
+  /// Times between which the path and its law are smooth, from 0 to the duration, increasing.
+  std::vector<double> breaks() const;
+  /// How far the tool goes, and how far it turns, from time a to time b, between which there is no break:
+  /// along curves the very length, along a table a bound that tends to it. Allocates nothing.
+  Displaced way(double a, double b) const;
+
+  /// States at 0, dt, 2 dt, ... and at the duration. Throws ContractError unless dt > 0 and the samples are
+  /// at most ten millions.
+  struct Sample {
+    double time = 0;  ///< s
+    ToolState state;
+  };
+  std::vector<Sample> samples(double dt) const;
+
+ private:
+  struct Piece {
+    ToolCurve curve;
+    int step = 0;
+    double offset = 0;  // length of the run before it
+  };
+  // Columns of a table: coordinates and rotation vectors by the time since its start.
+  struct Spline {
+    std::array<math::PiecewisePolynomial, 3> position, rotation;
+    bool turns = false;
+  };
+  // Between two rests: pieces, a spline or a dwell.
+  struct Run {
+    int step = 0;
+    double start = 0, duration = 0, length = 0;
+    std::size_t first_piece = 0, end_piece = 0, first_phase = 0, end_phase = 0;
+    int spline = -1;
+    TimeLaw law = TimeLaw::double_s;
+    Vec3 position;  // at the start
+    Mat3 rotation;  // at the start
+    Vec3 turn;      // by the end of the run, rad
+  };
+
+  const Run& run_at(double t) const;
+  const Piece& piece_at(const Run& run, double length) const;
+  Progress progress(const Run& run, double time) const;
+  ToolState along(const Run& run, double time) const;
+  ToolState on(const Spline& spline, const Run& run, double time) const;
+  double length_at(const Run& run, double t) const;
+
+  std::vector<Run> runs_;
+  std::vector<Piece> pieces_;
+  std::vector<JerkPhase> phases_;
+  std::vector<Spline> splines_;
+  std::vector<std::string> names_;  // of the steps
+  ToolState end_;
+  double duration_ = 0;
+};
+
+}  // namespace linkwright::parallel

@@ -1,0 +1,274 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "linkwright/core/field.h"
+#include "linkwright/parallel/robot/robot.h"
+#include "linkwright/parallel/tool/time_law.h"
+
+/// What the tool of a robot is to do, step by step. Plain data in SI units, axes of the base; the motion that
+/// follows from it is in tool_motion.h.
+namespace linkwright::parallel {
+
+using Coordinates = std::array<double, 3>;
+
+/// Straight to a point, or on the spot if only the rotation changes.
+struct ToolLine {
+  Coordinates to{};                     ///< m
+  std::optional<Coordinates> rotation;  ///< at the end: rotation vector (rad), seen from the base
+  std::optional<double> speed;          ///< m/s, at most that of the limits
+};
+
+/// Along the circle through a point to a point.
+struct ToolArc {
+  Coordinates through{}, to{};  ///< m
+  std::optional<Coordinates> rotation;
+  std::optional<double> speed;
+};
+
+/// Along a circle about an axis.
+struct ToolCircle {
+  Coordinates centre{};       ///< m, any point of the axis
+  Coordinates axis{0, 0, 1};  ///< of any length
+  double angle = 0;           ///< rad, right-handed about the axis, also more than a turn
+  std::optional<Coordinates> rotation;
+  std::optional<double> speed;
+};
+
+/// The gate-shaped cycle: up, across and down to a point, the corners rounded. It begins and ends at rest.
+struct PickAndPlace {
+  Coordinates to{};         ///< m
+  Coordinates up{0, 0, 1};  ///< of any length
+  double height = 0;        ///< m, of the way across above the higher of both ends
+  double corner =
+      0.5;  ///< (0, 1], where the rounding begins: share of the lower leg, or of half the way across
+  bool back = false;                    ///< and the same way back
+  double dwell = 0;                     ///< s, rest at `to`
+  double back_dwell = 0;                ///< s, rest after the way back
+  std::optional<Coordinates> rotation;  ///< at `to`
+  std::optional<double> speed;
+};
+
+/// Rest.
+struct ToolDwell {
+  double duration = 0;  ///< s
+};
+
+/// Points in time, joined by a quintic spline (acceleration and jerk continuous) from rest to rest. The
+/// limits do not apply to it. The first point is where the tool is.
+struct ToolTable {
+  std::string file;                    ///< CSV where the rest comes from (tool_table.h); may be empty
+  std::vector<double> times;           ///< s, increasing; the step lasts from the first to the last
+  std::vector<Coordinates> points;     ///< m
+  std::vector<Coordinates> rotations;  ///< rotation vectors (rad); empty = the rotation stays
+};
+
+struct ToolStep {
+  std::variant<ToolLine, ToolArc, ToolCircle, PickAndPlace, ToolDwell, ToolTable> form;
+};
+
+/// Steps that follow each other. The tool rests between two steps unless `blend` or `corner` join them; a
+/// step that turns the tool always begins and ends at rest.
+struct ToolPath {
+  std::vector<ToolStep> steps;
+  TimeLaw law = TimeLaw::double_s;
+  /// Lines, arcs and circles that go on in the same direction (within 1e-6 rad) are run through. Where the
+  /// curvature changes there the acceleration has a step, within its limit; the jerk is limited on either
+  /// side.
+  bool blend = false;
+  /// m: corners between two lines are rounded, beginning this far from them, and run through (acceleration
+  /// continuous); 0 = they are not, nor are reversals of more than 170 deg.
+  double corner = 0;
+};
+
+/// Limits of the tool's motion, each of the whole vector. On each smooth piece of the path |v|, |a| and |j|
+/// stay within them, curved or not, and so do the turns; see tool_curve.h.
+struct ToolLimits {
+  double speed = 1;                   ///< m/s
+  double acceleration = 10;           ///< m/s2
+  double jerk = 1000;                 ///< m/s3
+  double angular_speed = 10;          ///< rad/s
+  double angular_acceleration = 100;  ///< rad/s2
+  double angular_jerk = 10000;        ///< rad/s3
+};
+
+/// What keeps a path from being a motion.
+struct ToolProblem {
+  int step = -1;         ///< from 0; -1 = not of a step
+  std::string_view key;  ///< of the field that is wrong, without unit; empty = of none
+  std::string message;   ///< with the step by number and kind: "step 3 (arc): ..."
+  std::string hint;      ///< how to mend it; may be empty
+};
+
+/// "step 3 (arc)" for the step of index 2.
+std::string step_name(const ToolPath& path, int step);
+
+/// Whatever is wrong with one of the limits.
+std::optional<ToolProblem> problem(const ToolLimits& limits);
+
+// ---------------------------------------------------------------------------------------------------------------
+
+constexpr Word choice_word(const ToolLine&) { return {"line", "straight to a point, or a turn on the spot"}; }
+constexpr Word choice_word(const ToolArc&) { return {"arc", "along the circle through a point to a point"}; }
+constexpr Word choice_word(const ToolCircle&) { return {"circle", "along a circle about an axis"}; }
+constexpr Word choice_word(const PickAndPlace&) {
+  return {"pick_and_place", "up, across and down to a point, corners rounded"};
+}
+constexpr Word choice_word(const ToolDwell&) { return {"dwell", "rest"}; }
+constexpr Word choice_word(const ToolTable&) { return {"table", "smooth curve through points in time"}; }
+
+namespace tool_fields {
+
+// Beyond it the digits of a double no longer tell neighbouring positions apart.
+inline constexpr double most = 1e9;
+
+constexpr Field place(std::string_view key, std::string_view summary, bool required = true) {
+  return {.key = key,
+          .summary = summary,
+          .dimension = Dimension::length,
+          .minimum = -most,
+          .maximum = most,
+          .required = required};
+}
+constexpr Field direction(std::string_view key, std::string_view summary) {
+  return {.key = key, .summary = summary, .minimum = -most, .maximum = most};
+}
+constexpr Field positive(std::string_view key, std::string_view summary, Dimension dimension) {
+  return {.key = key,
+          .summary = summary,
+          .dimension = dimension,
+          .minimum = 0,
+          .maximum = most,
+          .exclusive_minimum = true};
+}
+constexpr Field rest(std::string_view key, std::string_view summary, bool required = false) {
+  return {.key = key,
+          .summary = summary,
+          .dimension = Dimension::time,
+          .minimum = 0,
+          .maximum = most,
+          .required = required};
+}
+
+template <class Visitor, class Step>
+void common(Visitor&& visit, Step& step) {
+  visit(Field{.key = "rotation",
+              .summary = "orientation at the end: rotation vector seen from the base",
+              .dimension = Dimension::angle,
+              .minimum = -most,
+              .maximum = most},
+        step.rotation);
+  visit(positive("speed", "largest speed of this step", Dimension::speed), step.speed);
+}
+
+}  // namespace tool_fields
+
+template <class Visitor>
+void fields(Visitor&& visit, ToolLine& s) {
+  visit(tool_fields::place("to", "end"), s.to);
+  tool_fields::common(visit, s);
+}
+template <class Visitor>
+void fields(Visitor&& visit, ToolArc& s) {
+  visit(tool_fields::place("through", "point on the way"), s.through);
+  visit(tool_fields::place("to", "end"), s.to);
+  tool_fields::common(visit, s);
+}
+template <class Visitor>
+void fields(Visitor&& visit, ToolCircle& s) {
+  visit(tool_fields::place("centre", "point of the axis"), s.centre);
+  visit(tool_fields::direction("axis", "direction of the axis"), s.axis);
+  visit(Field{.key = "angle",
+              .summary = "turn about the axis, right-handed; may be more than 360 deg",
+              .dimension = Dimension::angle,
+              .minimum = -1e6,
+              .maximum = 1e6,
+              .required = true},
+        s.angle);
+  tool_fields::common(visit, s);
+}
+template <class Visitor>
+void fields(Visitor&& visit, PickAndPlace& s) {
+  visit(tool_fields::place("to", "where it places"), s.to);
+  visit(tool_fields::direction("up", "direction in which it lifts"), s.up);
+  visit(Field{.key = "height",
+              .summary = "of the way across above the higher end",
+              .dimension = Dimension::length,
+              .minimum = 0,
+              .maximum = tool_fields::most,
+              .exclusive_minimum = true,
+              .required = true},
+        s.height);
+  visit(Field{.key = "corner",
+              .summary = "rounded part of the lower leg (or of half the way across, if that is shorter)",
+              .minimum = 0,
+              .maximum = 1,
+              .exclusive_minimum = true},
+        s.corner);
+  visit(Field{.key = "back", .summary = "and the same way back"}, s.back);
+  visit(tool_fields::rest("dwell", "rest where it places"), s.dwell);
+  visit(tool_fields::rest("back_dwell", "rest after the way back"), s.back_dwell);
+  tool_fields::common(visit, s);
+}
+template <class Visitor>
+void fields(Visitor&& visit, ToolDwell& s) {
+  visit(tool_fields::rest("duration", "how long it rests", true), s.duration);
+}
+template <class Visitor>
+void fields(Visitor&& visit, ToolTable& s) {
+  visit(Field{.key = "file",
+              .summary = "CSV with time_s, x_mm, y_mm, z_mm and, if the tool turns, rotation_x_deg, ... or "
+                         "roll_deg, pitch_deg, yaw_deg, in place of the lists"},
+        s.file);
+  visit(Field{.key = "times",
+              .summary = "increasing times",
+              .dimension = Dimension::time,
+              .minimum = -tool_fields::most,
+              .maximum = tool_fields::most},
+        s.times);
+  visit(tool_fields::place("points", "place at each time", false), s.points);
+  visit(Field{.key = "rotations",
+              .summary = "rotation vector at each time",
+              .dimension = Dimension::angle,
+              .minimum = -tool_fields::most,
+              .maximum = tool_fields::most},
+        s.rotations);
+}
+template <class Visitor>
+void fields(Visitor&& visit, ToolStep& s) {
+  visit(Field{.key = "type", .summary = "what the tool does", .required = true}, s.form);
+}
+
+template <class Visitor>
+void fields(Visitor&& visit, ToolPath& p) {
+  visit(Field{.key = "law", .summary = "how the steps are run in time"}, p.law);
+  visit(Field{.key = "blend", .summary = "run through where steps go on in the same direction"}, p.blend);
+  visit(Field{.key = "corner",
+              .summary = "corners between lines are rounded, beginning this far from them; 0 = stop there",
+              .dimension = Dimension::length,
+              .minimum = 0,
+              .maximum = tool_fields::most},
+        p.corner);
+  visit(Field{.key = "step", .summary = "what the tool does, in order", .required = true}, p.steps);
+}
+
+template <class Visitor>
+void fields(Visitor&& visit, ToolLimits& l) {
+  using tool_fields::positive;
+  visit(positive("speed", "largest speed", Dimension::speed), l.speed);
+  visit(positive("acceleration", "largest acceleration", Dimension::acceleration), l.acceleration);
+  visit(positive("jerk", "largest jerk", Dimension::jerk), l.jerk);
+  visit(positive("angular_speed", "largest angular speed of turns", Dimension::speed_angular),
+        l.angular_speed);
+  visit(positive("angular_acceleration", "largest angular acceleration of turns",
+                 Dimension::acceleration_angular),
+        l.angular_acceleration);
+  visit(positive("angular_jerk", "largest angular jerk of turns", Dimension::jerk_angular), l.angular_jerk);
+}
+
+}  // namespace linkwright::parallel

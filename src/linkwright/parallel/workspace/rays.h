@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "linkwright/parallel/workspace/workspace.h"
+
+/// Boundary of what passes, to a tolerance, along rays: places of the platform point from an inner point, or
+/// rotations of the platform about one.
+namespace linkwright::parallel {
+
+/// How rays are followed.
+struct RaySearch {
+  double longest = 0;       ///< length of a ray: m, or rad for rotations
+  double step = 0;          ///< of the march: what is thinner than this may be missed
+  double tolerance = 1e-9;  ///< of the ends, by bisection
+};
+
+/// A stretch of a ray on which everything passes.
+struct RayStretch {
+  double from = 0, to = 0;       ///< m or rad
+  Hurdle before = Hurdle::none;  ///< what ends it towards the origin; none: it begins there
+  Hurdle after = Hurdle::none;   ///< what ends it outwards; none: the ray's end
+};
+
+/// What passes of a ray, from the origin outwards.
+struct Ray {
+  Vec3 direction;  ///< unit
+  std::vector<RayStretch> stretch{};
+
+  /// How far one gets from the origin before the first hurdle; 0 where the origin does not pass.
+  double reach() const { return stretch.empty() || stretch[0].before != Hurdle::none ? 0 : stretch[0].to; }
+};
+
+struct Rays {
+  Status status = Status::done;  ///< cancelled or deadline: there are no rays
+  std::vector<Ray> ray;
+};
+
+/// Rays of the platform point from `origin`, whose rotation stays. Directions need not be unit vectors.
+Rays position_rays(const PoseConditions& conditions, const Pose& origin, std::span<const Vec3> directions,
+                   const RaySearch& search, const RunContext& context);
+
+/// Rays of rotation vectors at `origin`: the platform is turned about each direction (base axes), by up to
+/// `search.longest` (at most pi), on top of the rotation of `origin`. Only for robots that turn.
+Rays rotation_rays(const PoseConditions& conditions, const Pose& origin, std::span<const Vec3> directions,
+                   const RaySearch& search, const RunContext& context);
+
+/// Directions around a circle in the plane of the two unit vectors, `count` of them, from `first` on.
+std::vector<Vec3> directions_around(int count, const Vec3& first = {1, 0, 0}, const Vec3& second = {0, 1, 0});
+/// Directions all over a sphere, nearly evenly spread (a Fibonacci spiral).
+std::vector<Vec3> directions_over_sphere(int count);
+
+/// Area (m2) of all stretches of rays around a circle, directions_around, in a plane slice: holes and outer
+/// parts count, too. The error falls with the square of the angle between rays, where a ray touches the
+/// boundary with its power 3/2.
+double area_of(const Rays& rays);
+
+/// How far a platform can be turned at a point.
+struct RotationRange {
+  Status status = Status::done;
+  double tilt = 0;          ///< about every horizontal axis of those tried, at least so far (rad)
+  double tilt_azimuth = 0;  ///< of the axis that gives out first (rad from x)
+  Hurdle tilt_hurdle = Hurdle::none;
+  double least_yaw = 0, most_yaw = 0;  ///< about z, from the rotation of the pose (rad): <= 0, >= 0
+  Hurdle least_yaw_hurdle = Hurdle::none, most_yaw_hurdle = Hurdle::none;
+  std::vector<Ray> tilts;  ///< all around, from the axis x on
+};
+RotationRange rotation_range(const PoseConditions& conditions, const Pose& pose, int axes,
+                             const RaySearch& search, const RunContext& context);
+
+/// Area (m2) that a planar robot reaches with any of its working modes, in closed form: the part that two
+/// rings share, about A - b of each leg, between abs(l - L) and l + L. Throws ContractError for other robots.
+double reachable_area(const Robot& robot);
+
+}  // namespace linkwright::parallel
