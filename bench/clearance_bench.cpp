@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "linkwright/clearance/automatic_contact.h"
-#include "linkwright/clearance/clearance_mass_synthesis.h"
-#include "linkwright/clearance/clearance_sensitivity.h"
 #include "linkwright/clearance/joint_orbit.h"
+#include "linkwright/clearance/mass_synthesis.h"
 #include "linkwright/clearance/published_clearance.h"
+#include "linkwright/clearance/sensitivity.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/dynamics.h"
 #include "linkwright/planar/linkage/samples.h"

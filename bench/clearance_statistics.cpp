@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "linkwright/clearance/clearance_design_study.h"
 #include "linkwright/clearance/published_clearance.h"
+#include "linkwright/clearance/studies/design.h"
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/optimise/statistics.h"
 

@@ -23,7 +23,7 @@ NO_TEST = {
     "parallel/pi_joint/kernel.h": "part of pi_joint, compiled for numbers and for dual numbers; both are tested",
     "parallel/robot/pose_check_kernel.h": "part of pose_check, compiled once per instruction set and compared by its test",
     "parallel/robot/legs_kernel.h": "part of position, compiled for numbers and for batches; both are tested",
-    "clearance/clearance_study_rows.h": "part of clearance_study, tested in clearance_study_test.cpp",
+    "clearance/studies/simulation_rows.h": "part of clearance_study, tested in clearance_study_test.cpp",
     "flexible/joint_kernel.h": "part of chain and chain_equations, tested in both",
     "flexible/vec2.h": "sums and products of pairs, used by every test of the room",
     "suspension/guide/wheel_kernel.h": "part of wheel, likewise",

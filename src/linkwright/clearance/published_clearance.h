@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "linkwright/clearance/clearance_mass_synthesis.h"
-#include "linkwright/clearance/clearance_path_synthesis.h"
 #include "linkwright/clearance/four_bar_clearance_motion.h"
+#include "linkwright/clearance/mass_synthesis.h"
+#include "linkwright/clearance/path_synthesis.h"
 
 // The example of Varedi, Daniali, Dardel and Fathi 2014 (Sharif Journal of Mechanical Engineering 30-3, 2/2).
 // Neither the clearance nor speed, weight, start or target path are printed; the clearance of 1 mm was

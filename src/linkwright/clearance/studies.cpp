@@ -1,8 +1,8 @@
 #include "linkwright/clearance/studies.h"
 
-#include "linkwright/clearance/clearance_design_study.h"
-#include "linkwright/clearance/clearance_study.h"
-#include "linkwright/clearance/tolerance_study.h"
+#include "linkwright/clearance/studies/design.h"
+#include "linkwright/clearance/studies/simulation.h"
+#include "linkwright/clearance/studies/tolerance.h"
 
 namespace linkwright::clearance {
 

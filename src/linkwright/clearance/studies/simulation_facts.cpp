@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linkwright/clearance/clearance_study.h"
+#include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::clearance {

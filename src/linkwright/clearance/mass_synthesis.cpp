@@ -1,4 +1,4 @@
-#include "linkwright/clearance/clearance_mass_synthesis.h"
+#include "linkwright/clearance/mass_synthesis.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "linkwright/clearance/clearance_study.h"
-#include "linkwright/clearance/tolerance_study.h"
+#include "linkwright/clearance/studies/simulation.h"
+#include "linkwright/clearance/studies/tolerance.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"

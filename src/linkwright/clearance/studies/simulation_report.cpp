@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "linkwright/clearance/clearance_study.h"
+#include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::clearance {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "linkwright/clearance/clearance_study.h"
-#include "linkwright/clearance/clearance_study_rows.h"
+#include "linkwright/clearance/studies/simulation.h"
+#include "linkwright/clearance/studies/simulation_rows.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::clearance {

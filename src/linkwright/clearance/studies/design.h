@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "linkwright/clearance/clearance_mass_synthesis.h"
-#include "linkwright/clearance/clearance_path_synthesis.h"
+#include "linkwright/clearance/mass_synthesis.h"
+#include "linkwright/clearance/path_synthesis.h"
 #include "linkwright/optimise/population_methods.h"
 #include "linkwright/planar/studies/four_bar.h"
 #include "linkwright/planar/studies/path_points.h"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <tuple>
 
-#include "linkwright/clearance/tolerance_study.h"
+#include "linkwright/clearance/studies/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/columns.h"
 

@@ -1,4 +1,4 @@
-#include "linkwright/clearance/tolerance_study.h"
+#include "linkwright/clearance/studies/tolerance.h"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "linkwright/clearance/clearance_design_study.h"
+#include "linkwright/clearance/studies/design.h"
 
 namespace linkwright::clearance {
 namespace {

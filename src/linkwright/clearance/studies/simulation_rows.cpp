@@ -1,4 +1,4 @@
-#include "linkwright/clearance/clearance_study_rows.h"
+#include "linkwright/clearance/studies/simulation_rows.h"
 
 #include <algorithm>
 #include <cmath>

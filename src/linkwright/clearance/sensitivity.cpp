@@ -1,4 +1,4 @@
-#include "linkwright/clearance/clearance_sensitivity.h"
+#include "linkwright/clearance/sensitivity.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "linkwright/clearance/clearance_study.h"
+#include "linkwright/clearance/studies/simulation.h"
 
 // Rows of a study out of those of its simulations. Part of clearance_study.
 namespace linkwright::clearance {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "linkwright/clearance/clearance_design_study.h"
-#include "linkwright/clearance/clearance_study.h"
+#include "linkwright/clearance/studies/design.h"
+#include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/planar/linkage/build.h"
 
 namespace linkwright::clearance {

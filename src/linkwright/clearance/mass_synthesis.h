@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "linkwright/clearance/clearance_path_synthesis.h"
 #include "linkwright/clearance/four_bar_clearance_motion.h"
+#include "linkwright/clearance/path_synthesis.h"
 
 // Masses of coupler and rocker that make the clearance link turn as it should: the second stage of Varedi et
 // al. 2014, and both stages at once.

@@ -1,4 +1,4 @@
-#include "linkwright/clearance/clearance_path_synthesis.h"
+#include "linkwright/clearance/path_synthesis.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "linkwright/clearance/clearance_study.h"
 #include "linkwright/clearance/contact_analysis.h"
+#include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::clearance {

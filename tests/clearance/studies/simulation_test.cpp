@@ -1,4 +1,4 @@
-#include "linkwright/clearance/clearance_study.h"
+#include "linkwright/clearance/studies/simulation.h"
 
 #include <gmock/gmock.h>
 

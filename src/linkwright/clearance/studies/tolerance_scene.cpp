@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linkwright/clearance/tolerance_study.h"
+#include "linkwright/clearance/studies/tolerance.h"
 #include "linkwright/planar/linkage/columns.h"
 
 namespace linkwright::clearance {

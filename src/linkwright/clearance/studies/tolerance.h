@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "linkwright/clearance/clearance_sensitivity.h"
+#include "linkwright/clearance/sensitivity.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/study/kind.h"

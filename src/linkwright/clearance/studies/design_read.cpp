@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "linkwright/clearance/clearance_design_study.h"
+#include "linkwright/clearance/studies/design.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::clearance {

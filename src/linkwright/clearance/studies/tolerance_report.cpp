@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-#include "linkwright/clearance/tolerance_study.h"
+#include "linkwright/clearance/studies/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/columns.h"
 

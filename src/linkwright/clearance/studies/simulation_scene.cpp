@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "linkwright/clearance/clearance_study.h"
+#include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/study/drawn_scale.h"
 
 namespace linkwright::clearance {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "linkwright/clearance/clearance_design_study.h"
+#include "linkwright/clearance/studies/design.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/study/run_seeds.h"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <variant>
 
-#include "linkwright/clearance/clearance_study.h"
+#include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/planar/studies/simulation.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"

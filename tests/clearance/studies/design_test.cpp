@@ -1,4 +1,4 @@
-#include "linkwright/clearance/clearance_design_study.h"
+#include "linkwright/clearance/studies/design.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
