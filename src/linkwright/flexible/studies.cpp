@@ -1,8 +1,8 @@
 #include "linkwright/flexible/studies.h"
 
-#include "linkwright/flexible/arm_study.h"
-#include "linkwright/flexible/hub_link_study.h"
-#include "linkwright/flexible/vibration_study.h"
+#include "linkwright/flexible/studies/arm.h"
+#include "linkwright/flexible/studies/hub_link.h"
+#include "linkwright/flexible/studies/vibration.h"
 
 namespace linkwright::flexible {
 

@@ -1,4 +1,4 @@
-#include "linkwright/flexible/chain_study.h"
+#include "linkwright/flexible/studies/chain.h"
 
 #include <gmock/gmock.h>
 

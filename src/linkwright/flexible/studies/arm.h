@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "linkwright/flexible/beam_form.h"
-#include "linkwright/flexible/chain_study.h"
-#include "linkwright/flexible/drive_study.h"
 #include "linkwright/flexible/links.h"
+#include "linkwright/flexible/studies/chain.h"
+#include "linkwright/flexible/studies/drive.h"
 #include "linkwright/study/kind.h"
 
 // The simulation of an arm of elastic links in series: what its file holds, how it is read, run and reported.

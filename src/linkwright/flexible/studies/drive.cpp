@@ -1,4 +1,4 @@
-#include "linkwright/flexible/drive_study.h"
+#include "linkwright/flexible/studies/drive.h"
 
 #include <fmt/format.h>
 

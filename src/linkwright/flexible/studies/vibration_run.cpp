@@ -9,7 +9,7 @@
 #include "linkwright/flexible/modes.h"
 #include "linkwright/flexible/response.h"
 #include "linkwright/flexible/statics.h"
-#include "linkwright/flexible/vibration_study.h"
+#include "linkwright/flexible/studies/vibration.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/zero.h"
 

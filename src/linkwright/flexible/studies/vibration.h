@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "linkwright/flexible/hub_link_study.h"
+#include "linkwright/flexible/studies/hub_link.h"
 
 // Vibrations and deflection of a hub with an elastic link: what its file holds, how it is read, run and
 // reported.

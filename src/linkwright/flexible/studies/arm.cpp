@@ -1,4 +1,4 @@
-#include "linkwright/flexible/arm_study.h"
+#include "linkwright/flexible/studies/arm.h"
 
 #include <fmt/format.h>
 

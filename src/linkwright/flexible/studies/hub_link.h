@@ -4,8 +4,8 @@
 
 #include "linkwright/flexible/beam_form.h"
 #include "linkwright/flexible/chain.h"
-#include "linkwright/flexible/chain_study.h"
-#include "linkwright/flexible/drive_study.h"
+#include "linkwright/flexible/studies/chain.h"
+#include "linkwright/flexible/studies/drive.h"
 #include "linkwright/study/kind.h"
 
 // The simulation of a hub with an elastic link: what its file holds, how it is read, run and reported.

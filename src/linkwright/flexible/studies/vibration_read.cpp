@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "linkwright/flexible/modes.h"
-#include "linkwright/flexible/vibration_study.h"
+#include "linkwright/flexible/studies/vibration.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::flexible {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "linkwright/flexible/arm_study.h"
+#include "linkwright/flexible/studies/arm.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::flexible {

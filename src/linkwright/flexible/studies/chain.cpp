@@ -1,4 +1,4 @@
-#include "linkwright/flexible/chain_study.h"
+#include "linkwright/flexible/studies/chain.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "linkwright/flexible/chain_scene.h"
 #include "linkwright/flexible/statics.h"
+#include "linkwright/flexible/studies/chain_scene.h"
 #include "linkwright/study/memory.h"
 
 namespace linkwright::flexible {

@@ -1,4 +1,4 @@
-#include "linkwright/flexible/vibration_study.h"
+#include "linkwright/flexible/studies/vibration.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

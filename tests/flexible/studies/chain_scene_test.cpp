@@ -1,4 +1,4 @@
-#include "linkwright/flexible/chain_scene.h"
+#include "linkwright/flexible/studies/chain_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "linkwright/flexible/arm.h"
-#include "linkwright/flexible/drive_study.h"
 #include "linkwright/flexible/modes.h"
 #include "linkwright/flexible/simulation.h"
+#include "linkwright/flexible/studies/drive.h"
 #include "linkwright/study/kind.h"
 
 // What the simulations of one link and of arms share: their options, how they run and what they report.

@@ -1,4 +1,4 @@
-#include "linkwright/flexible/hub_link_study.h"
+#include "linkwright/flexible/studies/hub_link.h"
 
 #include <fmt/format.h>
 
