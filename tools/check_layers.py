@@ -27,10 +27,20 @@ DOMAINS = {"planar", "flexible", "suspension", "parallel", "clearance"}
 # What a room may not use although it lies below.
 FORBIDDEN = {"report": {"optimise"}, **{domain: {"report"} for domain in DOMAINS}}
 
-# Inside a domain, only these files use these rooms.
-SYNTHESIS = ["*_synthesis*", "*balancing*", "path_*", "*_path_*", "tolerances*", "workspace*"]
-STUDIES = ["studies*", "*_study*", "scene*", "*_scene*", "reproductions*"]
-DOMAIN_FILES = {"optimise": SYNTHESIS + STUDIES, "study": STUDIES}
+# Inside a domain: its folders, bottom up. A folder uses the ones below its own, never one of the same line. BASE are the
+# files beside the folders; above all stand STUDIES and the DOORS, which are the only ones that use the study room.
+BASE, STUDIES = "", "studies"
+FOLDERS = {
+    "planar": [[BASE], ["linkage", "serial_arm"], ["four_bar"], ["simulation", "path", "balancing"]],
+    "suspension": [["guide"], ["wheel", "indirect"], ["compliance", "direct"]],
+    "parallel": [["pi_joint"], ["robot"], ["tool", "workspace", "assembly_modes", "serial_arm"], ["dexterity"]],
+    "clearance": [[BASE]],
+    "flexible": [[BASE]],
+}
+DOORS = ["studies.*", "reproductions*"]
+
+# Below the studies, what looks for the best uses the optimisers, and so does what works on many cores.
+OPTIMISE = ["*synthesis*", "*balancing*", "planar/path/*", "planar/balancing/*", "*tolerances*", "parallel/workspace/*"]
 
 # Seconds of compile time each: they stay in the sources that need them, away from the headers.
 HEAVY = ["toml++/*", "nlohmann/*", "CLI/*", "httplib.h", "pybind11/*", "Eigen/Dense", "Eigen/QR", "Eigen/SVD",
@@ -58,7 +68,43 @@ def arrow(user, used):
     return None
 
 
-def check_source(path, room, where):
+def folder_of(parts, domain):
+    """The folder of a file of a domain, from its path below the domain; None for what stands above the studies."""
+    if len(parts) > 1:
+        return parts[0]
+    return None if fits(parts[0], DOORS) else BASE
+
+
+def folder_arrow(domain, user, used):
+    """Why a file in folder `user` of a domain may not include one in folder `used`, or None."""
+    level = {folder: floor for floor, folders in enumerate(FOLDERS[domain]) for folder in folders}
+    level[STUDIES], level[None] = len(FOLDERS[domain]), len(FOLDERS[domain]) + 1
+    for folder in (user, used):
+        if folder not in level:
+            return f"folder '{domain}/{folder}' has no place (tools/check_layers.py lists them)"
+    if user == used or level[used] < level[user]:
+        return None
+    name = {None: "what stands above its studies", BASE: f"{domain}/"}
+    return (f"{name.get(user, f'{domain}/{user}')} may not use {name.get(used, f'{domain}/{used}')}: "
+            + ("they share a floor" if level[used] == level[user] else "it lies above"))
+
+
+def domain_problem(parts, include):
+    """Why a file of a domain, at src/linkwright/`parts`, may not include `include` ('room/...'), or None."""
+    domain, *below = parts
+    user, (used, *rest) = folder_of(below, domain), include
+    if used == domain:
+        return folder_arrow(domain, user, folder_of(rest, domain))
+    if used == "study" and user not in (STUDIES, None):
+        return f"only {domain}/{STUDIES}/ and {', '.join(DOORS)} use study"
+    if used == "optimise" and user not in (STUDIES, None) and not fits("/".join(parts), OPTIMISE):
+        return f"below the studies, only {', '.join(OPTIMISE)} use optimise"
+    if used in FOLDERS and rest[0] == STUDIES and user not in (STUDIES, None):
+        return f"only {domain}/{STUDIES}/ uses {used}/{STUDIES}/"
+    return None
+
+
+def check_source(path, room, where, parts):
     for number, bracket, name in repository.includes(path):
         here = f"{where}:{number}: "
         match = re.match(r"linkwright/([^/]+)/", name)
@@ -67,12 +113,13 @@ def check_source(path, room, where):
         if match:
             used = match[1]
             problem = arrow(room, used)
-            if not problem and room in DOMAINS and used in DOMAIN_FILES and not fits(path.name, DOMAIN_FILES[used]):
-                problem = f"only {', '.join(DOMAIN_FILES[used])} of a domain use {used}"
+            if not problem and room in FOLDERS:
+                problem = domain_problem(parts, name.removeprefix("linkwright/").split("/"))
             if problem:
                 yield here + problem
         elif bracket == '"' and (path.parent / name).exists():
-            yield here + f'say "linkwright/{room}/{name}": every include names its room'
+            place = "/".join(parts[:-1])
+            yield here + f'say "linkwright/{place}/{name}": every include names its room'
         shown = SHOWN.get(f"{room}/{path.name}", "")
         if path.suffix == ".h" and fits(name, HEAVY) and not fits(name, [shown]):
             yield here + f"<{name}> is heavy: include it in sources, not in headers"
@@ -89,10 +136,11 @@ def check(root):
         if room not in FLOOR:
             findings.append(f"{where}: {arrow(room, room)}")
         elif path.suffix in (".h", ".cpp"):
-            findings += check_source(path, room, where)
+            findings += check_source(path, room, where, path.relative_to(source).parts)
         elif path.name == "CMakeLists.txt":
             for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
                 for used in re.findall(r"\blinkwright_(\w+)\b", line.split("#")[0]):
+                    used = used.removesuffix("_" + STUDIES)
                     if used in FLOOR and (problem := arrow(room, used)):
                         findings.append(f"{where}:{number}: {problem}")
     return findings

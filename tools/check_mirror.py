@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that every unit has the furniture of a unit: src/linkwright/<room>/x.h has tests/<room>/x_test.cpp, and every
-source and test is listed in the CMakeLists.txt of its room.
+"""Checks that every unit has the furniture of a unit: src/linkwright/<room>/[<folder>/]x.h has
+tests/<room>/[<folder>/]x_test.cpp, and every source and test is listed in the CMakeLists.txt of its room.
 
     tools/check_mirror.py [ROOT]
 """
@@ -73,22 +73,24 @@ def check(root, no_test=None):
     excused = set()
     for path in repository.files(root):
         where = PurePosixPath(path.relative_to(root).as_posix())
-        if where.match("src/linkwright/*/*.h"):
-            room, unit = where.parts[2], where.stem
-            key = f"{room}/{where.name}"
-            test = root / "tests" / room / f"{unit}_test.cpp"
-            if test.is_file():
+        parts = where.parts
+        if where.suffix == ".h" and parts[:2] == ("src", "linkwright") and len(parts) > 3:
+            key = "/".join(parts[2:])
+            test = PurePosixPath("tests", *parts[2:-1], f"{where.stem}_test.cpp")
+            if (root / test).is_file():
                 continue
             if key in no_test:
                 excused.add(key)
             else:
-                findings.append(f"{where}: has no tests/{room}/{unit}_test.cpp")
-        elif where.match("src/linkwright/*/*.cpp") or where.match("tests/*/*_test.cpp"):
-            names = listed(path.parent / "CMakeLists.txt")
+                findings.append(f"{where}: has no {test}")
+        elif (where.suffix == ".cpp" and parts[:2] == ("src", "linkwright") and len(parts) > 3 or
+              where.name.endswith("_test.cpp") and parts[0] == "tests" and len(parts) > 2):
+            room = where.parents[len(parts) - (4 if parts[0] == "src" else 3)]
+            names = listed(root / room / "CMakeLists.txt")
             if names is None:
-                findings.append(f"{where}: its folder has no CMakeLists.txt")
-            elif where.name not in names:
-                findings.append(f"{where}: is not listed in {where.parent}/CMakeLists.txt, so it is not built")
+                findings.append(f"{where}: {room} has no CMakeLists.txt")
+            elif str(where.relative_to(room)) not in names:
+                findings.append(f"{where}: is not listed in {room}/CMakeLists.txt, so it is not built")
     for key in sorted(set(no_test) - excused):
         findings.append(f"tools/check_mirror.py: '{key}' needs no exception (it has a test, or is gone)")
     return findings

@@ -27,19 +27,41 @@ class CheckLayers(ScratchCase):
 
     def test_only_synthesis_optimises(self):
         line = '#include "linkwright/optimise/problem.h"\n'
-        for name in ("function_synthesis.cpp", "balancing.h", "path_objective.h", "path_synthesis.h"):
-            self.assertEqual(self.findings(f"planar/{name}", line), [])
+        for name in ("planar/balancing/search.h", "planar/path/objective.h", "suspension/direct/synthesis.cpp",
+                     "planar/studies/path_read.cpp", "planar/reproductions_paths.cpp"):
+            self.assertEqual(self.findings(name, line), [])
         [finding] = self.findings("planar/four_bar/four_bar.cpp", line)
-        self.assertIn("four_bar.cpp:1: only *_synthesis*", finding)
+        self.assertIn("four_bar.cpp:1: below the studies, only *synthesis*", finding)
 
     def test_only_studies_use_study(self):
         line = '#include "linkwright/study/result.h"\n'
-        self.assertEqual(self.findings("planar/studies_path.cpp", line), [])
-        self.assertEqual(self.findings("planar/studies/path_read.cpp", line), [])
-        self.assertEqual(self.findings("planar/scene.h", line), [])
+        for name in ("planar/studies.cpp", "planar/studies/path_read.cpp", "planar/reproductions_paths.cpp"):
+            self.assertEqual(self.findings(name, line), [])
         self.assertEqual(self.findings("planar/path/synthesis.cpp", line),
-                         ["src/linkwright/planar/path/synthesis.cpp:1: only studies*, *_study*, scene*, *_scene*, "
-                          "reproductions* of a domain use study"])
+                         ["src/linkwright/planar/path/synthesis.cpp:1: only planar/studies/ and studies.*, reproductions* "
+                          "use study"])
+
+    def test_folders_of_a_domain(self):
+        def include(name):
+            return f'#include "linkwright/{name}.h"\n'
+        self.assertEqual(self.findings("planar/linkage/plan.h", include("planar/plane")), [])
+        self.assertEqual(self.findings("planar/path/fit.h", include("planar/four_bar/kernel")), [])
+        self.assertEqual(self.findings("planar/studies.cpp", include("planar/studies/path")), [])
+        self.assertEqual(self.findings("clearance/studies/simulation.h", include("planar/studies/linkage")), [])
+        for name, used, problem in (
+                ("planar/plane.h", "planar/linkage/plan", "planar/ may not use planar/linkage: it lies above"),
+                ("planar/linkage/plan.cpp", "planar/serial_arm/serial_arm",
+                 "planar/linkage may not use planar/serial_arm: they share a floor"),
+                ("planar/path/fit.cpp", "planar/studies/path", "planar/path may not use planar/studies: it lies above"),
+                ("planar/studies/path.h", "planar/studies",
+                 "planar/studies may not use what stands above its studies: it lies above"),
+                ("clearance/open_linkage.cpp", "planar/studies/linkage",
+                 "only clearance/studies/ uses planar/studies/"),
+                ("planar/gears/train.h", "planar/plane",
+                 "folder 'planar/gears' has no place (tools/check_layers.py lists them)")):
+            [finding] = self.findings(name, include(used))
+            self.assertEqual(finding, f"src/linkwright/{name}:1: {problem}")
+            (self.root / "src/linkwright" / name).unlink()
 
     def test_room_without_floor(self):
         [finding] = self.findings("gears/model.h", "")

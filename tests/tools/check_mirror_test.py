@@ -38,13 +38,26 @@ class CheckMirror(ScratchCase):
         self.assertEqual(self.findings(), ["tests/core/table_test.cpp: is not listed in "
                                            "tests/core/CMakeLists.txt, so it is not built"])
 
+    def test_folders_of_a_domain(self):
+        self.write("src/linkwright/planar/CMakeLists.txt", "linkwright_room(planar SOURCES linkage/plan.cpp)\n")
+        self.write("tests/planar/CMakeLists.txt", "linkwright_test(planar SOURCES linkage/plan_test.cpp)\n")
+        for name in ("src/linkwright/planar/linkage/plan.h", "src/linkwright/planar/linkage/plan.cpp",
+                     "tests/planar/linkage/plan_test.cpp"):
+            self.write(name)
+        self.assertEqual(self.findings(), [])
+        self.write("src/linkwright/planar/path/plan.h")
+        self.write("src/linkwright/planar/path/plan.cpp")
+        self.assertEqual(self.findings(), [
+            "src/linkwright/planar/path/plan.cpp: is not listed in src/linkwright/planar/CMakeLists.txt, so it is not built",
+            "src/linkwright/planar/path/plan.h: has no tests/planar/path/plan_test.cpp"])
+
     def test_name_inside_another_name_does_not_count(self):
         self.write("src/linkwright/core/able.cpp")
         self.assertEqual(len(self.findings()), 1)
 
     def test_folder_without_list(self):
         self.write("src/linkwright/math/angles.cpp")
-        self.assertEqual(self.findings(), ["src/linkwright/math/angles.cpp: its folder has no CMakeLists.txt"])
+        self.assertEqual(self.findings(), ["src/linkwright/math/angles.cpp: src/linkwright/math has no CMakeLists.txt"])
 
 
 if __name__ == "__main__":
