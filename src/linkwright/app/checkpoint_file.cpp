@@ -1,6 +1,6 @@
 #include "linkwright/app/checkpoint_file.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <fstream>

@@ -1,6 +1,6 @@
 #include "linkwright/app/overrides.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>

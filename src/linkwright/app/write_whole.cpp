@@ -1,7 +1,7 @@
 #include "linkwright/app/write_whole.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <signal.h>
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 #include "linkwright/clearance/contact_simulation.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "linkwright/clearance/four_bar_clearance_motion.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "linkwright/clearance/joint_clearance.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "linkwright/clearance/open_linkage.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "linkwright/clearance/step_pace.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace linkwright::clearance {
 namespace {

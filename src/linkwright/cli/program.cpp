@@ -1,6 +1,6 @@
 #include "linkwright/cli/program.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <stdexcept>
-#include <string>
 
 namespace linkwright {
 
@@ -14,12 +13,23 @@ class ContractError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
+/// Throws ContractError: "function: message [condition]". Out of line, so that a check costs its place only a
+/// comparison and a call.
+[[noreturn]] void contract_failure(const char* function, const char* condition, fmt::string_view message,
+                                   fmt::format_args values);
+
+/// The same, with the format of the message checked where it is written.
+template <class... T>
+[[noreturn]] void contract_message(const char* function, const char* condition,
+                                   fmt::format_string<T...> message, const T&... values) {
+  contract_failure(function, condition, message, fmt::make_format_args(values...));
+}
+
 }  // namespace linkwright
 
 /// Always-on check at a public entry: LINKWRIGHT_REQUIRE(n >= 3, "needs 3 points, got {}", n).
-#define LINKWRIGHT_REQUIRE(condition, ...)                                                          \
-  do {                                                                                              \
-    if (!(condition)) [[unlikely]]                                                                  \
-      throw ::linkwright::ContractError(std::string(__func__) + ": " + ::fmt::format(__VA_ARGS__) + \
-                                        " [" #condition "]");                                       \
+#define LINKWRIGHT_REQUIRE(condition, ...)                               \
+  do {                                                                   \
+    if (!(condition)) [[unlikely]]                                       \
+      ::linkwright::contract_message(__func__, #condition, __VA_ARGS__); \
   } while (false)

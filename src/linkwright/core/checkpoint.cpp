@@ -1,6 +1,6 @@
 #include "linkwright/core/checkpoint.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <bit>
 #include <charconv>

@@ -1,6 +1,6 @@
 #include "linkwright/core/diagnostic.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "linkwright/flexible/reproductions.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "linkwright/math/motion_law.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/LU>
 #include <algorithm>

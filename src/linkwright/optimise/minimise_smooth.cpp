@@ -1,6 +1,6 @@
 #include "linkwright/optimise/minimise_smooth.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <atomic>

@@ -1,5 +1,7 @@
 #include "linkwright/optimise/optimiser.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "linkwright/optimise/statistics.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <atomic>

@@ -1,6 +1,6 @@
 #include "linkwright/planar/reproductions_paths.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "linkwright/report/view_data.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <cstdlib>

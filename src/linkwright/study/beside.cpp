@@ -1,6 +1,6 @@
 #include "linkwright/study/beside.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <fstream>
 #include <sstream>

@@ -1,6 +1,6 @@
 #include "linkwright/study/bind_schema.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "linkwright/study/designed.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "linkwright/study/memory.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "linkwright/core/memory.h"
 

@@ -1,6 +1,6 @@
 #include "linkwright/study/read.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cerrno>

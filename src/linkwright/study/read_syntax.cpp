@@ -1,6 +1,6 @@
 #include "linkwright/study/read_syntax.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <string>
 

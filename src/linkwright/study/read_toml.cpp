@@ -3,7 +3,7 @@
 #ifndef NDEBUG
 #define NDEBUG
 #endif
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <toml++/toml.h>
 
 #include <algorithm>

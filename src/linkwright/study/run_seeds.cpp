@@ -1,6 +1,6 @@
 #include "linkwright/study/run_seeds.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

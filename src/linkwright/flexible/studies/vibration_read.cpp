@@ -1,4 +1,4 @@
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "linkwright/flexible/modes.h"
 #include "linkwright/flexible/studies/vibration.h"

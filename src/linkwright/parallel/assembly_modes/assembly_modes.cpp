@@ -1,6 +1,6 @@
 #include "linkwright/parallel/assembly_modes/assembly_modes.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

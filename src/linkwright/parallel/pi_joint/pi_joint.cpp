@@ -1,6 +1,6 @@
 #include "linkwright/parallel/pi_joint/pi_joint.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "linkwright/parallel/pi_joint/stiffness.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

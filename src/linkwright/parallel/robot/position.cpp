@@ -1,6 +1,6 @@
 #include "linkwright/parallel/robot/position.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

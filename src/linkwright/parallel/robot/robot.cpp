@@ -1,6 +1,6 @@
 #include "linkwright/parallel/robot/robot.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #include "linkwright/parallel/studies/drive_use.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

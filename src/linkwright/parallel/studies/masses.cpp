@@ -1,6 +1,6 @@
 #include "linkwright/parallel/studies/masses.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "linkwright/study/bind_write.h"
 

@@ -1,6 +1,6 @@
 #include "linkwright/parallel/studies/motion.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

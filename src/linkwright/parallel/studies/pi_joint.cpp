@@ -1,6 +1,6 @@
 #include "linkwright/parallel/studies/pi_joint.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

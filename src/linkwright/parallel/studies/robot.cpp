@@ -1,6 +1,6 @@
 #include "linkwright/parallel/studies/robot.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <numbers>
 

@@ -1,6 +1,6 @@
 #include "linkwright/parallel/studies/robot_scene.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

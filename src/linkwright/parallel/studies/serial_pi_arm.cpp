@@ -1,6 +1,6 @@
 #include "linkwright/parallel/studies/serial_pi_arm.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

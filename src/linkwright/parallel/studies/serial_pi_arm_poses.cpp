@@ -1,6 +1,6 @@
 #include "linkwright/parallel/studies/serial_pi_arm_poses.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #include "linkwright/parallel/studies/serial_pi_arm_scene.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "linkwright/parallel/tool/table.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <vector>

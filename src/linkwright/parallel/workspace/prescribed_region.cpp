@@ -1,6 +1,6 @@
 #include "linkwright/parallel/workspace/prescribed_region.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #include "linkwright/planar/balancing/linear_forces.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

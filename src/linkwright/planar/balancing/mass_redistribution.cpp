@@ -1,6 +1,6 @@
 #include "linkwright/planar/balancing/mass_redistribution.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/QR>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "linkwright/planar/linkage/form.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

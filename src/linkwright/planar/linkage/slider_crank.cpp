@@ -1,6 +1,6 @@
 #include "linkwright/planar/linkage/slider_crank.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "linkwright/planar/linkage/build.h"
 

@@ -1,6 +1,6 @@
 #include "linkwright/planar/path/slider_crank_checkpoint.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

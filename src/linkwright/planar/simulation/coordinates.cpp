@@ -1,6 +1,6 @@
 #include "linkwright/planar/simulation/coordinates.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "linkwright/planar/simulation/elastic_body.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

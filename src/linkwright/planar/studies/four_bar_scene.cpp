@@ -1,6 +1,6 @@
 #include "linkwright/planar/studies/four_bar_scene.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <complex>

@@ -1,6 +1,6 @@
 #include "linkwright/planar/studies/linkage_scene.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "linkwright/planar/studies/mass_balancing.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

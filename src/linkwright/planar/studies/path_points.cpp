@@ -1,6 +1,6 @@
 #include "linkwright/planar/studies/path_points.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "linkwright/suspension/compliance/compliance.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

@@ -1,6 +1,6 @@
 #include "linkwright/suspension/compliance/elasticity.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "linkwright/suspension/direct/synthesis.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 #include "linkwright/suspension/guide/carrier_poses.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #include "linkwright/suspension/guide/constructions.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace linkwright::suspension {
 

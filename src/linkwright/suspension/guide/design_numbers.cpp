@@ -1,6 +1,6 @@
 #include "linkwright/suspension/guide/design_numbers.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/dual.h"

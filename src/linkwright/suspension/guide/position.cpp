@@ -1,6 +1,6 @@
 #include "linkwright/suspension/guide/position.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "linkwright/suspension/guide/structure.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Core>
 #include <Eigen/SVD>

@@ -1,6 +1,6 @@
 #include "linkwright/suspension/guide/suspension.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <set>

@@ -1,7 +1,7 @@
 #include "linkwright/suspension/indirect/guide_errors.h"
 
 #include <ceres/jet.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

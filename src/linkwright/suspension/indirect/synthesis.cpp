@@ -1,6 +1,6 @@
 #include "linkwright/suspension/indirect/synthesis.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "linkwright/suspension/studies/axle.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>

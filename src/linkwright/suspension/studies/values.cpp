@@ -1,6 +1,6 @@
 #include "linkwright/suspension/studies/values.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
