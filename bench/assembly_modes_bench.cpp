@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/parallel/assembly_modes/assembly_modes.h"
 #include "linkwright/parallel/assembly_modes/platform_paths.h"
 
@@ -15,7 +15,7 @@ void hexa_assembly_modes(benchmark::State& state) {
   const Robot robot = hexa({.base_radius = 0.25,
                             .base_offset = 0.06,
                             .platform_radius = 0.09,
-                            .platform_angle = std::numbers::pi / 4,
+                            .platform_angle = pi / 4,
                             .arm = 0.25,
                             .rod = 0.55});
   const std::array<double, 6> angles{0.32103887, 0.36944957, 0.60240363, 0.78082835, 0.57088078, 0.61648700};

@@ -1,16 +1,14 @@
 #include <benchmark/benchmark.h>
 
-#include <numbers>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/balancing/mass_redistribution.h"
 #include "linkwright/planar/balancing/serial_arm.h"
 #include "linkwright/planar/serial_arm/samples.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // The published four-bar at 300 rpm, 201 samples, bounds of Boskovic 2018, Table 2.4: columns, programme and
 // check. Argument 0: nine objectives (case 2), 1: three (case 3); then the measure.

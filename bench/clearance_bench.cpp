@@ -1,7 +1,6 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "linkwright/clearance/automatic_contact.h"
@@ -9,6 +8,7 @@
 #include "linkwright/clearance/mass_synthesis.h"
 #include "linkwright/clearance/published_clearance.h"
 #include "linkwright/clearance/sensitivity.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/dynamics.h"
 #include "linkwright/planar/linkage/samples.h"
@@ -16,7 +16,7 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double turn = 2 * pi;
 
 // Position, rates and forces at one instant.
 void clearance_four_bar_instant(benchmark::State& state) {

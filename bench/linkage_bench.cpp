@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
-#include <numbers>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/general.h"
 #include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/reactions.h"
@@ -95,7 +95,7 @@ void linkage_limits(benchmark::State& state, const char* name) {
   const LinkageSample& sample = linkage_sample(name);
   const LinkagePlan p = plan(sample.linkage).plan;
   for (auto _ : state) {
-    const InputLimits limits = input_limits(p, sample.from, 0, 0, 2 * std::numbers::pi);
+    const InputLimits limits = input_limits(p, sample.from, 0, 0, 2 * pi);
     benchmark::DoNotOptimize(limits.circuits);
   }
 }

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/dynamics.h"
 #include "linkwright/planar/linkage/samples.h"
@@ -104,7 +104,7 @@ BENCHMARK(linkage_simulate_andrews_all)->Arg(7)->Unit(benchmark::kMillisecond);
 void linkage_simulate_chain(benchmark::State& state) {
   const Linkage l = four_bar_chain_sample(40).linkage;
   const LinkagePlan p = plan(l).plan;
-  const InputCourse course{{}, std::numbers::pi / 2, -1};
+  const InputCourse course{{}, pi / 2, -1};
   const std::array<double, 2> times{0, 20};
   SimulationReport report;
   for (auto _ : state)

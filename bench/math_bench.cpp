@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/ode.h"
 
 namespace linkwright::math {
@@ -32,7 +32,7 @@ void ode_overhead(benchmark::State& state, OdeMethod method, bool events) {
   double error = 0;
   for (auto _ : state) {
     std::array y = {1.0, 0.0};
-    const OdeReport report = integrate(f, y, 0, 20 * std::numbers::pi, o, hooks, workspace);
+    const OdeReport report = integrate(f, y, 0, 20 * pi, o, hooks, workspace);
     evaluations += report.evaluations;
     steps = report.steps;
     error = std::hypot(y[0] - 1, y[1]);

@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/parallel/pi_joint/design_synthesis.h"
 #include "linkwright/parallel/pi_joint/samples.h"
 
@@ -13,7 +13,7 @@ namespace {
 constexpr int places = 256;
 std::array<double, places> angles_of_the_prototype() {
   std::array<double, places> out;
-  for (int i = 0; i < places; ++i) out[i] = std::numbers::pi / 3 * (2.0 * i / (places - 1) - 1);
+  for (int i = 0; i < places; ++i) out[i] = pi / 3 * (2.0 * i / (places - 1) - 1);
   return out;
 }
 
@@ -51,7 +51,7 @@ void pi_joint_motion_there_and_back(benchmark::State& state) {
 BENCHMARK(pi_joint_motion_there_and_back);
 
 void pi_joint_design(benchmark::State& state) {
-  const PiRequirements requirements{.half_travel = std::numbers::pi / 3,
+  const PiRequirements requirements{.half_travel = pi / 3,
                                     .torque = 4,
                                     .force_limit = 130,
                                     .speed = 0.7,

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/planar/balancing/four_bar_samples.h"
@@ -27,7 +27,7 @@ PathProblem eighteen_points() {
   p.x = {0.5, 0.4, 0.3, 0.2, 0.1, 0.05, 0.02, 0, 0, 0.03, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.6};
   p.y = {1.1, 1.1, 1.1, 1.0, 0.9, 0.75, 0.6, 0.5, 0.4, 0.3, 0.25, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9, 1.0};
   p.timing = Timing::equal_steps;
-  p.step = std::numbers::pi / 9;
+  p.step = pi / 9;
   p.bounds = derive_bounds(p.x, p.y);
   for (std::size_t j = 0; j < 8; ++j) p.bounds[j] = j < 4 ? Range{0, 50} : Range{-50, 50};
   return p;
@@ -166,7 +166,7 @@ constexpr FourBarWanted directions_only{.rates = false, .forces = false, .shakin
 std::vector<double> full_turn(std::size_t count) {
   std::vector<double> angle(count);
   for (std::size_t i = 0; i < count; ++i)
-    angle[i] = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
+    angle[i] = 2 * pi * static_cast<double>(i) / static_cast<double>(count);
   return angle;
 }
 constexpr FourBarMachine swept{
@@ -288,7 +288,7 @@ void recommended_free_timing(benchmark::State& state) {
   PathProblem problem = eighteen_points();
   problem.timing = Timing::free;
   problem.search_negative = true;
-  problem.min_transmission_angle = std::numbers::pi / 6;
+  problem.min_transmission_angle = pi / 6;
   std::uint64_t seed = 0;
   for (auto _ : state) {
     RunContext context;
@@ -303,7 +303,7 @@ void recommended_free_timing_many_points(benchmark::State& state) {
   PathProblem problem;
   const auto count = static_cast<std::size_t>(state.range(0));
   for (std::size_t k = 0; k < count; ++k) {
-    const double t = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count);
+    const double t = 2 * pi * static_cast<double>(k) / static_cast<double>(count);
     problem.x.push_back(1.5 * std::cos(t) + 0.2 * std::cos(2 * t));
     problem.y.push_back(0.8 * std::sin(t) + 0.1 * std::sin(3 * t));
   }

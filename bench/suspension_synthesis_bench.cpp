@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/suspension/direct/published_targets.h"
 #include "linkwright/suspension/guide/position.h"
@@ -101,7 +101,7 @@ BENCHMARK_CAPTURE(evolution, rear, example_4)->Unit(benchmark::kMicrosecond);
 void unknown_spin(benchmark::State& state) {
   const Example e = example_4();
   CarrierTargets open = e.targets;
-  for (CarrierTarget& pose : open.poses) pose.angles.spin = std::numeric_limits<double>::quiet_NaN();
+  for (CarrierTarget& pose : open.poses) pose.angles.spin = nan;
   RunContext context;
   std::uint64_t seed = 0;
   double rms = 0;

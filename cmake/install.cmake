@@ -21,7 +21,7 @@ if(TARGET linkwright)
   install(TARGETS linkwright RUNTIME)
 endif()
 install(TARGETS ${rooms} ${extras} linkwright_all EXPORT LinkwrightTargets ARCHIVE)
-install(DIRECTORY src/linkwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY src/linkwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE)
 install(EXPORT LinkwrightTargets NAMESPACE Linkwright:: DESTINATION ${package_dir})
 
 get_property(requirements GLOBAL PROPERTY LINKWRIGHT_REQUIREMENTS)
@@ -34,3 +34,23 @@ write_basic_package_version_file(LinkwrightConfigVersion.cmake COMPATIBILITY Sam
 install(FILES ${PROJECT_BINARY_DIR}/LinkwrightConfig.cmake ${PROJECT_BINARY_DIR}/LinkwrightConfigVersion.cmake
               ${PROJECT_SOURCE_DIR}/cmake/FindSundialsSerial.cmake
         DESTINATION ${package_dir})
+
+# pkg-config linkwright: the mechanics, without study files and reports.
+set(pc_libraries)
+foreach(module clearance flexible parallel suspension planar optimise math core)
+  if(TARGET linkwright_${module})
+    string(APPEND pc_libraries " -llinkwright_${module}")
+  endif()
+endforeach()
+string(STRIP "${pc_libraries}" pc_libraries)
+set(pc_requires "fmt, eigen3, tbb")
+set(pc_others "-lsundials_arkode -lsundials_cvode")
+if(LINKWRIGHT_NLOPT)
+  string(APPEND pc_requires ", nlopt")
+endif()
+if(LINKWRIGHT_PAGMO)
+  string(PREPEND pc_others "-lpagmo -lboost_serialization ")
+endif()
+file(RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+configure_file(cmake/linkwright.pc.in linkwright.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/linkwright.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -10,6 +10,7 @@ target_compile_options(linkwright_flags INTERFACE
   -Wno-missing-field-initializers  # designated initialisers name what differs from the defaults
   -fno-math-errno -fno-trapping-math -ffp-contract=off
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 warns about its own std::string operator+ (GCC bug 105651)
+  $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-shadow>  # sources compiled as one see each other's constants
   $<$<BOOL:${LINKWRIGHT_WARNINGS_AS_ERRORS}>:-Werror>)
 if(LINKWRIGHT_SANITIZE)
   target_compile_options(linkwright_flags INTERFACE -fsanitize=${LINKWRIGHT_SANITIZE} -fno-omit-frame-pointer
@@ -47,10 +48,29 @@ function(linkwright_library room)
     target_link_libraries(linkwright_${room} PRIVATE $<BUILD_INTERFACE:linkwright_flags> PUBLIC ${arg_DEPENDS})
   endif()
   set_target_properties(linkwright_${room} PROPERTIES EXPORT_NAME ${room} POSITION_INDEPENDENT_CODE ON)
-  if(LINKWRIGHT_PRECOMPILED_HEADERS)
-    target_precompile_headers(linkwright_${room} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h)
-  endif()
   add_library(Linkwright::${room} ALIAS linkwright_${room})
+endfunction()
+
+# linkwright_kernels(<room> BASELINE <files> AVX2 <files> [AVX512 <files>] [FLAGS <flags>]): kernels, once per instruction
+# set and each in a compilation of its own; core/kernels.h chooses at run time. Each is one huge function: with sanitizers
+# a single file takes many minutes to compile, so they are left out; what the kernels read and write is tested against the
+# plain formulas.
+function(linkwright_kernels room)
+  cmake_parse_arguments(arg "" "" "BASELINE;AVX2;AVX512;FLAGS" ${ARGN})
+  if(LINKWRIGHT_SANITIZE)
+    list(APPEND arg_FLAGS -fno-sanitize=all)
+  endif()
+  set(avx2 -mavx2 -mfma)
+  # g++ 12's own AVX-512 header trips -Wmaybe-uninitialized.
+  set(avx512 -mavx512f -mavx512dq -mfma -mprefer-vector-width=512 $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  target_sources(linkwright_${room} PRIVATE ${arg_BASELINE})
+  set_source_files_properties(${arg_BASELINE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON COMPILE_OPTIONS "${arg_FLAGS}")
+  if(LINKWRIGHT_X86_KERNELS)
+    target_compile_definitions(linkwright_${room} PRIVATE LINKWRIGHT_X86_KERNELS)
+    target_sources(linkwright_${room} PRIVATE ${arg_AVX2} ${arg_AVX512})
+    set_source_files_properties(${arg_AVX2} PROPERTIES COMPILE_OPTIONS "${avx2};${arg_FLAGS}")
+    set_source_files_properties(${arg_AVX512} PROPERTIES COMPILE_OPTIONS "${avx512};${arg_FLAGS}")
+  endif()
 endfunction()
 
 # linkwright_require(<package> [options]): find_package(... REQUIRED) for a library that rooms link; the installed
@@ -61,16 +81,15 @@ macro(linkwright_require)
   set_property(GLOBAL APPEND PROPERTY LINKWRIGHT_REQUIREMENTS "${linkwright_requirement}")
 endmacro()
 
-# linkwright_test(<room> SOURCES <files> [DEPENDS <rooms or libraries>]): one test program a room.
+# linkwright_test(<room> SOURCES <files> [ALONE <files>] [DEPENDS <rooms or libraries>]): one test program a room. Files
+# under ALONE are not compiled together with others: their helpers have names that others use.
 function(linkwright_test room)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS" ${ARGN})
-  add_executable(${room}_test ${arg_SOURCES})
+  cmake_parse_arguments(arg "" "" "SOURCES;ALONE;DEPENDS" ${ARGN})
+  set_source_files_properties(${arg_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  add_executable(${room}_test ${arg_SOURCES} ${arg_ALONE})
   target_include_directories(${room}_test PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_definitions(${room}_test PRIVATE LINKWRIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_compile_options(${room}_test PRIVATE $<$<CONFIG:Release>:-O1>)
   target_link_libraries(${room}_test PRIVATE ${arg_DEPENDS} linkwright_test_support GTest::gmock_main)
-  if(LINKWRIGHT_PRECOMPILED_HEADERS)
-    target_precompile_headers(${room}_test PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h <gmock/gmock.h>)
-  endif()
   gtest_discover_tests(${room}_test DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
 endfunction()

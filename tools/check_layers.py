@@ -113,6 +113,8 @@ def check_source(path, room, where, parts):
         if match:
             used = match[1]
             problem = arrow(room, used)
+            if not problem and used != room and "/detail/" in name:
+                problem = f"only {used} uses what stands in its detail/"
             if not problem and room in FOLDERS:
                 problem = domain_problem(parts, name.removeprefix("linkwright/").split("/"))
             if problem:
@@ -125,6 +127,15 @@ def check_source(path, room, where, parts):
             yield here + f"<{name}> is heavy: include it in sources, not in headers"
 
 
+def check_top(path, where, name):
+    """Headers beside the rooms: the version, and one a room that includes all its headers, for users only."""
+    for number, _, used in repository.includes(path):
+        of = used.removeprefix("linkwright/")
+        if name == "linkwright.h" and "/" in of or name not in ("linkwright.h", "version.h") and not of.startswith(
+                name.removesuffix(".h") + "/") or name == "version.h":
+            yield f"{where}:{number}: {name} may not include {used}"
+
+
 def check(root):
     findings = []
     source = root / "src" / "linkwright"
@@ -133,7 +144,10 @@ def check(root):
             continue
         where = str(path.relative_to(root))
         room = path.relative_to(source).parts[0]
-        if room not in FLOOR:
+        if room == "version.h" or room == "linkwright.h" or room.removesuffix(".h") in FLOOR and path.suffix == ".h" and (
+                path.parent == source):
+            findings += check_top(path, where, room)
+        elif room not in FLOOR:
             findings.append(f"{where}: {arrow(room, room)}")
         elif path.suffix in (".h", ".cpp"):
             findings += check_source(path, room, where, path.relative_to(source).parts)

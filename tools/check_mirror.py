@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Checks that every unit has the furniture of a unit: src/linkwright/<room>/[<folder>/]x.h has
-tests/<room>/[<folder>/]x_test.cpp, and every source and test is listed in the CMakeLists.txt of its room.
+tests/<room>/[<folder>/]x_test.cpp, every source and test is listed in the CMakeLists.txt of its room, and the header of a
+room for its users, src/linkwright/<room>.h, includes all its headers but those of detail/ and studies.
 
     tools/check_mirror.py [ROOT]
 """
@@ -14,25 +15,25 @@ import repository
 # Headers without a test of their own name, and why. An entry that no header needs any more is a finding.
 NO_TEST = {
     "core/field.h": "declarations; read, written and described by study/bind_test.cpp",
+    "core/numbers.h": "named constants",
     "core/tolerance.h": "named constants",
-    "suspension/direct/synthesis_model.h": "part of direct_synthesis, tested in direct_synthesis_test.cpp",
-    "suspension/guide/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",
-    "parallel/dexterity/kernel.h": "part of dexterity, compiled for numbers and for registers, compared by its test",
-    "parallel/dexterity/synthesis_search.h": "part of dexterity_synthesis, tested in dexterity_synthesis_test.cpp",
-    "parallel/robot/legs_kernel.h": "formulas of a leg, run by every test of position and jacobians",
+    "suspension/direct/detail/synthesis_model.h": "part of direct_synthesis, tested in direct_synthesis_test.cpp",
+    "suspension/guide/detail/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",
+    "parallel/dexterity/detail/kernel.h": "part of dexterity, compiled for numbers and for registers, compared by its test",
+    "parallel/dexterity/detail/synthesis_search.h": "part of dexterity_synthesis, tested in dexterity_synthesis_test.cpp",
     "parallel/pi_joint/kernel.h": "part of pi_joint, compiled for numbers and for dual numbers; both are tested",
-    "parallel/robot/pose_check_kernel.h": "part of pose_check, compiled once per instruction set and compared by its test",
-    "parallel/robot/legs_kernel.h": "part of position, compiled for numbers and for batches; both are tested",
+    "parallel/robot/detail/pose_check_kernel.h": "part of pose_check, compiled once per instruction set and compared by its test",
+    "parallel/robot/detail/legs_kernel.h": "part of position, compiled for numbers and for batches; both are tested",
     "clearance/studies/simulation_rows.h": "part of clearance_study, tested in clearance_study_test.cpp",
     "flexible/joint_kernel.h": "part of chain and chain_equations, tested in both",
     "flexible/vec2.h": "sums and products of pairs, used by every test of the room",
-    "suspension/guide/wheel_kernel.h": "part of wheel, likewise",
-    "suspension/wheel/parameters_kernel.h": "part of wheel_parameters, likewise",
-    "math/ode_pairs.h": "coefficients; their orders are measured in ode_test.cpp",
+    "suspension/guide/detail/wheel_kernel.h": "part of wheel, likewise",
+    "suspension/wheel/detail/parameters_kernel.h": "part of wheel_parameters, likewise",
+    "math/detail/ode_pairs.h": "coefficients; their orders are measured in ode_test.cpp",
     "math/ode_stepper.h": "part of ode, tested in ode_test.cpp",
-    "math/ode_vectors.h": "part of ode, used by every step of ode_test.cpp",
-    "report/canvas.h": "part of svg, tested in svg_test.cpp",
-    "report/svg_arrows.h": "part of svg, tested in svg_test.cpp",
+    "math/detail/ode_vectors.h": "part of ode, used by every step of ode_test.cpp",
+    "report/detail/canvas.h": "part of svg, tested in svg_test.cpp",
+    "report/detail/svg_arrows.h": "part of svg, tested in svg_test.cpp",
     "study/kind.h": "plain data; every kind's own test fills and runs it",
     "study/reproduction.h": "plain data; every table is computed in planar/reproductions_test.cpp",
     "study/result.h": "plain data; written by the tests of results and reports",
@@ -41,21 +42,21 @@ NO_TEST = {
     "study/bind_traits.h": "part of bind, tested in bind_test.cpp",
     "study/bind_write.h": "part of bind, tested in bind_test.cpp",
     "study/read_syntax.h": "part of read, tested in read_test.cpp",
-    "optimise/kernels_body.h": "part of kernels, compiled once per instruction set and compared by kernels_test.cpp",
-    "optimise/differential_evolution_base.h": "shared part of both forms, tested through them",
-    "planar/four_bar/sweep_kernel.h": "part of four_bar_sweep, compiled once per instruction set and compared by its test",
+    "optimise/detail/kernels_body.h": "part of kernels, compiled once per instruction set and compared by kernels_test.cpp",
+    "optimise/detail/differential_evolution_base.h": "shared part of both forms, tested through them",
+    "planar/four_bar/detail/sweep_kernel.h": "part of four_bar_sweep, compiled once per instruction set and compared by its test",
     "optimise/population_methods.h": "choices of studies; read and run by the tests of path and balancing studies",
     "planar/four_bar/published.h": "published numbers; compared in planar/reproductions_test.cpp",
-    "optimise/firefly_base.h": "shared part of the forms of the firefly algorithm, tested through them",
-    "optimise/swarm_base.h": "shared part of fireflies and cuckoos, tested through them",
-    "planar/linkage/curve_equations.h": "part of linkage_curve, tested in linkage_curve_test.cpp",
-    "planar/linkage/joint_rows.h": "part of linkage_general and linkage_curve, tested in both",
+    "optimise/detail/firefly_base.h": "shared part of the forms of the firefly algorithm, tested through them",
+    "optimise/detail/swarm_base.h": "shared part of fireflies and cuckoos, tested through them",
+    "planar/linkage/detail/curve_equations.h": "part of linkage_curve, tested in linkage_curve_test.cpp",
+    "planar/linkage/detail/joint_rows.h": "part of linkage_general and linkage_curve, tested in both",
     "planar/serial_arm/samples.h": "published numbers; run by the tests of serial arms and their balancing",
     "planar/sweep_input.h": "plain data; run by the tests of both sweeps",
     "suspension/guide/point_box.h": "plain data; used by the tests of links to be found",
-    "planar/linkage/sweep_kernel.h": "part of linkage_sweep, compiled once per instruction set and compared by its test",
-    "planar/path/objective_kernel.h": "part of path_objective, compiled once per instruction set and compared by its test",
-    "planar/path/slider_crank_objective_kernel.h": "part of slider_crank_path_objective, likewise",
+    "planar/linkage/detail/sweep_kernel.h": "part of linkage_sweep, compiled once per instruction set and compared by its test",
+    "planar/path/detail/objective_kernel.h": "part of path_objective, compiled once per instruction set and compared by its test",
+    "planar/path/detail/slider_crank_objective_kernel.h": "part of slider_crank_path_objective, likewise",
 }
 
 
@@ -67,6 +68,32 @@ def listed(cmake_lists):
     return set(re.findall(r"[\w./-]+\.(?:cpp|h)\b", text))
 
 
+# Rooms whose headers are for users, and headers that they include one by one: they show a heavy library.
+FOR_USERS = ["core", "math", "optimise", "planar", "suspension", "parallel", "flexible", "clearance"]
+ONE_BY_ONE = {"optimise/pagmo_adapters.h"}
+
+
+def public_headers(root, room):
+    """'room/folder/x.h' of every header of a room that its users may include."""
+    folder = root / "src" / "linkwright" / room
+    return sorted(where for path in folder.rglob("*.h")
+                  if (where := path.relative_to(folder.parent).as_posix()) not in ONE_BY_ONE
+                  and not {"detail", "studies"} & set(path.relative_to(folder).parts)
+                  and path.name not in ("studies.h", "reproductions.h"))
+
+
+def check_users_headers(root):
+    for room in FOR_USERS:
+        header = root / "src" / "linkwright" / f"{room}.h"
+        if not (root / "src" / "linkwright" / room).is_dir() or not header.is_file():
+            continue
+        there = [name.removeprefix("linkwright/") for _, _, name in repository.includes(header)]
+        wanted = public_headers(root, room)
+        for name in sorted(set(wanted) ^ set(there)):
+            yield (f"src/linkwright/{room}.h: " + (f"does not include {name}" if name in wanted else f"includes {name}, "
+                   "which is gone or not for users"))
+
+
 def check(root, no_test=None):
     no_test = NO_TEST if no_test is None else no_test
     findings = []
@@ -76,7 +103,7 @@ def check(root, no_test=None):
         parts = where.parts
         if where.suffix == ".h" and parts[:2] == ("src", "linkwright") and len(parts) > 3:
             key = "/".join(parts[2:])
-            test = PurePosixPath("tests", *parts[2:-1], f"{where.stem}_test.cpp")
+            test = PurePosixPath("tests", *(p for p in parts[2:-1] if p != "detail"), f"{where.stem}_test.cpp")
             if (root / test).is_file():
                 continue
             if key in no_test:
@@ -91,6 +118,7 @@ def check(root, no_test=None):
                 findings.append(f"{where}: {room} has no CMakeLists.txt")
             elif str(where.relative_to(room)) not in names:
                 findings.append(f"{where}: is not listed in {room}/CMakeLists.txt, so it is not built")
+    findings += check_users_headers(root)
     for key in sorted(set(no_test) - excused):
         findings.append(f"tools/check_mirror.py: '{key}' needs no exception (it has a test, or is gone)")
     return findings

@@ -12,7 +12,7 @@ nodejs npm"
 case "${1:-}" in
   run) ;;
   test) packages="$packages
-git libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev chromium python3 python3-ezdxf python3-jsonschema" ;;
+git clang-format pkgconf libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev chromium python3 python3-ezdxf python3-jsonschema" ;;
   *) echo "usage: tools/install-packages.sh run|test" >&2; exit 2 ;;
 esac
 

@@ -14,7 +14,7 @@
 
 namespace linkwright::app {
 namespace {
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TEST(Catalogue, FindsKindsByNameAndUnambiguousBeginning) {
   const auto kinds = study::sample::kinds();

@@ -14,12 +14,12 @@
 namespace linkwright::app {
 namespace {
 namespace fs = std::filesystem;
-using testing::EndsWith;
-using testing::HasSubstr;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
 
 const CheckpointOwner owner = {"linkwright 9.8.7", std::string(64, 'a')};
 
-class CheckpointFileTest : public testing::Test {
+class CheckpointFileTest : public ::testing::Test {
  protected:
   CheckpointFileTest()
       : folder_(fs::temp_directory_path() / ("linkwright-checkpoint-" + std::to_string(::getpid()))),

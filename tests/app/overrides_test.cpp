@@ -7,7 +7,7 @@
 
 namespace linkwright::app {
 namespace {
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// The document after an override, or the message that came instead.
 std::string with(std::string_view text) {

@@ -25,9 +25,9 @@ TEST(ResultJson, HoldsWhatItsReadersCountOn) {
   const Value v = result_json(study, outcome.result, outcome.record);
   std::string keys;
   for (const Value::Member& member : v.as_object()) keys += member.key + " ";
-  EXPECT_EQ(
-      keys,
-      "schema tool study study_sha256 status answer checks best solutions comparisons statistics log tables diagnostics run ");
+  EXPECT_EQ(keys,
+            "schema tool study study_sha256 status answer checks best solutions comparisons statistics log "
+            "tables diagnostics run ");
   EXPECT_EQ(v.find("tool")->as_string(), "linkwright 0.1.0");
   EXPECT_EQ(v.find("study_sha256")->as_string(), sha256(study::to_json(study.canonical)));
   EXPECT_EQ(

@@ -11,9 +11,9 @@
 namespace linkwright::app {
 namespace {
 namespace fs = std::filesystem;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class Run : public testing::Test {
+class Run : public ::testing::Test {
  protected:
   Run() : folder_(fs::temp_directory_path() / ("linkwright-run-" + std::to_string(::getpid()))) {
     fs::remove_all(folder_);

@@ -12,7 +12,7 @@ namespace linkwright::app {
 namespace {
 namespace fs = std::filesystem;
 
-class WriteWhole : public testing::Test {
+class WriteWhole : public ::testing::Test {
  protected:
   WriteWhole() : folder_(fs::temp_directory_path() / ("linkwright-write-" + std::to_string(::getpid()))) {
     fs::remove_all(folder_);

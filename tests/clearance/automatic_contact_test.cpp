@@ -4,16 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "clearance/contact_cases.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double turn = 2 * pi;
 
 AutomaticPin steel_pin(const planar::Linkage& l, const char* joint, double angle, double rate) {
   return {.contact = {.joint = planar::joint_index(l, joint),

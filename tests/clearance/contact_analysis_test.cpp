@@ -4,16 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "clearance/contact_cases.h"
+#include "linkwright/core/numbers.h"
 #include "support/message.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double turn = 2 * pi;
 
 TEST(ContactAnalysis, SpectrumFindsAmplitudes) {
   for (const std::size_t n : {360u, 361u, 512u}) {

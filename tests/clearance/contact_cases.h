@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "clearance/clearance_linkages.h"
 #include "clearance/published_four_bar.h"
 #include "linkwright/clearance/contact_simulation.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::clearance {
 
@@ -31,7 +31,7 @@ inline planar::Linkage contact_slider_crank() {
   l.gravity = 0;
   return l;
 }
-inline constexpr double slider_crank_speed = 5000 * 2 * std::numbers::pi / 60;
+inline constexpr double slider_crank_speed = 5000 * 2 * pi / 60;
 inline ContactJoint slider_crank_joint(const planar::Linkage& l, double friction = 0,
                                        const char* joint = "B") {
   return {.joint = planar::joint_index(l, joint),

@@ -15,14 +15,14 @@ namespace linkwright::clearance {
 namespace {
 
 const Value& restitution_case() {
-  return testing::published_case("clearance-joint.json", "contact-restitution");
+  return test::published_case("clearance-joint.json", "contact-restitution");
 }
 
 TEST(ContactLaw, EffectiveRestitutionAsComputedElsewhere) {
   int compared = 0;
   for (const auto& [key, damping] : {std::pair{"LN", ContactDamping::lankarani_nikravesh},
                                      std::pair{"flores2011", ContactDamping::flores_2011}})
-    for (const auto& member : testing::at(restitution_case(), std::string("computed.") + key).as_object()) {
+    for (const auto& member : test::at(restitution_case(), std::string("computed.") + key).as_object()) {
       const ContactLaw law{.stiffness = 1, .restitution = std::stod(member.key), .damping = damping};
       // Found there by impacts integrated to about 1e-7.
       EXPECT_NEAR(effective_restitution(law), member.value.as_number(), 1e-6) << key << member.key;
@@ -63,16 +63,16 @@ Impact impact(const ContactLaw& law, double mass, double speed) {
 }
 
 TEST(ContactLaw, AnImpactAsComputedElsewhere) {
-  const Value& example = testing::at(restitution_case(), "computed.example");
-  const ContactLaw law{.stiffness = testing::number_at(example, "K"),
-                       .restitution = testing::number_at(example, "cr"),
+  const Value& example = test::at(restitution_case(), "computed.example");
+  const ContactLaw law{.stiffness = test::number_at(example, "K"),
+                       .restitution = test::number_at(example, "cr"),
                        .damping = ContactDamping::lankarani_nikravesh};
-  const Impact hit = impact(law, testing::number_at(example, "m_kg"), testing::number_at(example, "v_m_s"));
+  const Impact hit = impact(law, test::number_at(example, "m_kg"), test::number_at(example, "v_m_s"));
   // Steps of 1/20000 of the time see the largest values to 1e-8.
-  EXPECT_NEAR(hit.depth / testing::number_at(example, "delta_max_m"), 1, 1e-7);
-  EXPECT_NEAR(hit.force / testing::number_at(example, "F_max_N"), 1, 1e-7);
-  EXPECT_NEAR(hit.duration / testing::number_at(example, "duration_s"), 1, 1e-6);
-  EXPECT_NEAR(hit.restitution, testing::number_at(example, "e"), 1e-7);
+  EXPECT_NEAR(hit.depth / test::number_at(example, "delta_max_m"), 1, 1e-7);
+  EXPECT_NEAR(hit.force / test::number_at(example, "F_max_N"), 1, 1e-7);
+  EXPECT_NEAR(hit.duration / test::number_at(example, "duration_s"), 1, 1e-6);
+  EXPECT_NEAR(hit.restitution, test::number_at(example, "e"), 1e-7);
 }
 
 TEST(ContactLaw, RestitutionDoesNotDependOnMassSpeedStiffnessOrExponent) {
@@ -132,10 +132,10 @@ TEST(ContactLaw, TimeOfAnElasticImpact) {
 }
 
 TEST(ContactLaw, StiffnessOfAPinInABush) {
-  EXPECT_NEAR(pin_stiffness(0.01, 0.0095),
-              testing::number_at(testing::published_case("clearance-joint.json", "slider-crank-contact"),
-                                 "computed.K"),
-              1);  // of 6.6e10
+  EXPECT_NEAR(
+      pin_stiffness(0.01, 0.0095),
+      test::number_at(test::published_case("clearance-joint.json", "slider-crank-contact"), "computed.K"),
+      1);  // of 6.6e10
   EXPECT_THAT(test::message([] { pin_stiffness(0.01, 0.01); }),
               ::testing::HasSubstr("a pin of radius 0.01 m in a bush of 0.01 m"));
 }

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "clearance/contact_cases.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::clearance {
 namespace {
@@ -82,7 +82,7 @@ TEST(ContactPins, SidesExchangePinAndBush) {
               std::remainder(
                   planar::angle_of(b[1].eccentricity) -
                       planar::angle_of(planar::body_state(second.open.plan, second.motion(0), 0).direction),
-                  2 * std::numbers::pi),
+                  2 * pi),
               1e-14);
 }
 

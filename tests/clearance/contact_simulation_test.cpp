@@ -4,18 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "clearance/contact_cases.h"
 #include "linkwright/clearance/four_bar_clearance_motion.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "support/message.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double turn = 2 * pi;
 
 ContactRun slider_crank(double friction, double to, const ContactOptions& options = {}, int rows = 2,
                         const ContactOutput& output = {}) {
@@ -32,25 +32,25 @@ void compare(const std::vector<ContactEvent>& events, const Value& wanted, std::
     const Value& w = wanted.as_array().at(k);
     // Each contact multiplies what differs before it; the reference stopped its steps at 1e-9 or so.
     const double tolerance = 1e-5;
-    EXPECT_NEAR(events[k].start / testing::number_at(w, "start_s"), 1, tolerance) << k;
-    EXPECT_NEAR(events[k].end / testing::number_at(w, "end_s"), 1, tolerance) << k;
-    EXPECT_NEAR(events[k].approach / testing::number_at(w, "approach_m_s"), 1, tolerance) << k;
-    EXPECT_NEAR(math::angle_difference(events[k].angle, testing::number_at(w, "angle_rad")), 0, 1e-4) << k;
+    EXPECT_NEAR(events[k].start / test::number_at(w, "start_s"), 1, tolerance) << k;
+    EXPECT_NEAR(events[k].end / test::number_at(w, "end_s"), 1, tolerance) << k;
+    EXPECT_NEAR(events[k].approach / test::number_at(w, "approach_m_s"), 1, tolerance) << k;
+    EXPECT_NEAR(math::angle_difference(events[k].angle, test::number_at(w, "angle_rad")), 0, 1e-4) << k;
     // Of the reference the largest at its steps.
-    EXPECT_NEAR(events[k].force / testing::number_at(w, "F_max_N"), 1, 2e-4) << k;
+    EXPECT_NEAR(events[k].force / test::number_at(w, "F_max_N"), 1, 2e-4) << k;
   }
 }
 
 TEST(ContactSimulation, SliderCrankOfTheLiterature) {
   const ContactRun run = slider_crank(0, 1e-3);
   ASSERT_EQ(run.status, Status::done) << run.message;
-  compare(run.events, testing::at(computed("slider-crank-contact"), "contacts"), 3);
+  compare(run.events, test::at(computed("slider-crank-contact"), "contacts"), 3);
 }
 
 TEST(ContactSimulation, SliderCrankWithFriction) {
   const ContactRun run = slider_crank(0.03, 1e-3);
   ASSERT_EQ(run.status, Status::done) << run.message;
-  compare(run.events, testing::at(computed("slider-crank-contact"), "contacts_with_friction.events"), 2);
+  compare(run.events, test::at(computed("slider-crank-contact"), "contacts_with_friction.events"), 2);
 }
 
 // The slider alone, along its guide, against a rod that cannot give way: its speeds before and after tell the
@@ -82,18 +82,18 @@ TEST(ContactSimulation, RestitutionAndFlightOfASlider) {
 
 TEST(ContactSimulation, AnImpactAsComputedElsewhere) {
   const planar::Linkage l = contact_slider_crank();
-  const Value& example = testing::at(computed("contact-restitution"), "example");
+  const Value& example = test::at(computed("contact-restitution"), "example");
   ContactJoint joint = slider_crank_joint(l);
-  joint.law.stiffness = testing::number_at(example, "K");
-  joint.start.rate = -testing::number_at(example, "v_m_s");
+  joint.law.stiffness = test::number_at(example, "K");
+  joint.start.rate = -test::number_at(example, "v_m_s");
   const planar::InputCourse crank{math::ConstantSpeed{0, 0}, 0, 0};
   const ContactRun run =
       simulate_contact(l, std::span(&joint, 1), std::span(&crank, 1), std::vector{0.0, 2e-3});
   ASSERT_GE(run.events.size(), 1u);
-  EXPECT_NEAR(run.events[0].depth / testing::number_at(example, "delta_max_m"), 1, 1e-6);
-  EXPECT_NEAR(run.events[0].force / testing::number_at(example, "F_max_N"), 1, 1e-5);
-  EXPECT_NEAR((run.events[0].end - run.events[0].start) / testing::number_at(example, "duration_s"), 1, 1e-5);
-  EXPECT_NEAR(run.events[0].separation / run.events[0].approach, testing::number_at(example, "e"), 1e-6);
+  EXPECT_NEAR(run.events[0].depth / test::number_at(example, "delta_max_m"), 1, 1e-6);
+  EXPECT_NEAR(run.events[0].force / test::number_at(example, "F_max_N"), 1, 1e-5);
+  EXPECT_NEAR((run.events[0].end - run.events[0].start) / test::number_at(example, "duration_s"), 1, 1e-5);
+  EXPECT_NEAR(run.events[0].separation / run.events[0].approach, test::number_at(example, "e"), 1e-6);
 }
 
 // Rows are looked at, not stepped to.
@@ -165,7 +165,7 @@ TEST(ContactSimulation, PressedContactIsContinuousContact) {
                      .law = {.stiffness = pin_stiffness(0.01, 0.009),
                              .restitution = 0.5,
                              .damping = ContactDamping::lankarani_nikravesh}};
-  EXPECT_NEAR(joint.law.stiffness / testing::number_at(wanted, "K"), 1, 1e-12);
+  EXPECT_NEAR(joint.law.stiffness / test::number_at(wanted, "K"), 1, 1e-12);
   const double angle = 10 * turn / 360;
   // From bush to pin, against the direction of the clearance link.
   joint.start = {-std::polar(1e-3, angle), -std::polar(1e-3 * 10, angle + turn / 4)};
@@ -190,7 +190,7 @@ TEST(ContactSimulation, PressedContactIsContinuousContact) {
   ASSERT_EQ(run.status, Status::done) << run.message;
   EXPECT_EQ(run.events.size(), 1u);  // never apart
   EXPECT_LT(off, 1e-3);              // 4.8e-4 elsewhere
-  EXPECT_NEAR(depth, testing::number_at(wanted, "max_penetration_m"), 5e-9);
+  EXPECT_NEAR(depth, test::number_at(wanted, "max_penetration_m"), 5e-9);
   EXPECT_LT(force, 0.01);
 }
 

@@ -5,17 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "clearance/published_four_bar.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "support/message.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180, turn = 2 * std::numbers::pi;
+constexpr double degree = pi / 180, turn = 2 * pi;
 
 struct Trajectory {
   ClearanceRun run;
@@ -47,30 +47,30 @@ TEST_P(PublishedDesign2, FollowsTheReferenceThroughATurn) {
   const char* id = GetParam();
   const ClearanceFourBar model = published_four_bar(id);
   const double speed = crank_speed(id);
-  const Value& ivp = testing::at(computed(id), "ivp");
-  const auto angles = testing::numbers(testing::at(ivp, "theta2_rad"));
+  const Value& ivp = test::at(computed(id), "ivp");
+  const auto angles = test::numbers(test::at(ivp, "theta2_rad"));
   const LinkState start{10 * degree, speed};
   const Trajectory t = simulated(model, speed, start, angles);
   ASSERT_EQ(t.run.status, Status::done);
-  const auto link = testing::numbers(testing::at(ivp, "gamma_rad"));
-  const auto tension = testing::numbers(testing::at(ivp, "link_tension_N"));
+  const auto link = test::numbers(test::at(ivp, "gamma_rad"));
+  const auto tension = test::numbers(test::at(ivp, "link_tension_N"));
   ASSERT_EQ(t.link.size(), link.size());
   // Both integrations at relative tolerances of 1e-10.
   for (std::size_t k = 0; k < link.size(); ++k) {
     EXPECT_NEAR(t.link[k], link[k], 1e-7) << k;
     EXPECT_NEAR(t.tension[k] / tension[k], 1, 1e-6) << k;
   }
-  EXPECT_NEAR(lead_error(model, {0, speed}, start, 10 * degree, 72), testing::number_at(ivp, "F2_n72"), 1e-7);
+  EXPECT_NEAR(lead_error(model, {0, speed}, start, 10 * degree, 72), test::number_at(ivp, "F2_n72"), 1e-7);
 
   // Ranges of the reference are those of its own samples, which pass by the extremes.
-  const Value& turned = testing::at(computed(id), "one_rev");
+  const Value& turned = test::at(computed(id), "one_rev");
   const Trajectory fine = simulated(model, speed, start, evenly(0, turn, 3601));
   const auto [least, most] = std::minmax_element(fine.lead.begin(), fine.lead.end());
-  EXPECT_NEAR(*least / degree, testing::number_at(turned, "psi_min_deg"), 0.02);
-  EXPECT_NEAR(*most / degree, testing::number_at(turned, "psi_max_deg"), 0.02);
-  EXPECT_NEAR(fine.run.least_tension / testing::number_at(turned, "tension_min_N"), 1, 3e-4);
-  EXPECT_NEAR(fine.run.most_tension / testing::number_at(turned, "tension_max_N"), 1, 3e-4);
-  EXPECT_NEAR(fine.run.fastest_link / speed / testing::number_at(turned, "gammadot_max_over_w2"), 1, 1e-3);
+  EXPECT_NEAR(*least / degree, test::number_at(turned, "psi_min_deg"), 0.02);
+  EXPECT_NEAR(*most / degree, test::number_at(turned, "psi_max_deg"), 0.02);
+  EXPECT_NEAR(fine.run.least_tension / test::number_at(turned, "tension_min_N"), 1, 3e-4);
+  EXPECT_NEAR(fine.run.most_tension / test::number_at(turned, "tension_max_N"), 1, 3e-4);
+  EXPECT_NEAR(fine.run.fastest_link / speed / test::number_at(turned, "gammadot_max_over_w2"), 1, 1e-3);
   EXPECT_TRUE(std::isnan(fine.run.first_separation));
   EXPECT_EQ(fine.run.separated, 0);
   EXPECT_EQ(fine.run.sign_changes, 0);
@@ -80,20 +80,20 @@ TEST_P(PublishedDesign2, HasThePeriodicOrbitOfTheReference) {
   const char* id = GetParam();
   const ClearanceFourBar model = published_four_bar(id);
   const double speed = crank_speed(id);
-  const Value& periodic = testing::at(computed(id), "periodic");
+  const Value& periodic = test::at(computed(id), "periodic");
   const ClearanceOrbit orbit = find_orbit(model, {0, speed}, 0.15, -0.3);
   ASSERT_EQ(orbit.status, Status::done) << orbit.message;
   EXPECT_LT(orbit.residual, 1e-10);
-  EXPECT_NEAR(orbit.lead, testing::number_at(periodic, "psi0_rad"), 1e-7);
-  EXPECT_NEAR(orbit.slope, testing::number_at(periodic, "dpsi_dtheta2_0"), 1e-6);
+  EXPECT_NEAR(orbit.lead, test::number_at(periodic, "psi0_rad"), 1e-7);
+  EXPECT_NEAR(orbit.slope, test::number_at(periodic, "dpsi_dtheta2_0"), 1e-6);
   // Without damping: a pair on the unit circle. Central differences of 1e-5 give it to 1e-6.
-  const auto first = testing::numbers(testing::at(periodic, "floquet").as_array().at(0));
+  const auto first = test::numbers(test::at(periodic, "floquet").as_array().at(0));
   EXPECT_NEAR(std::abs(orbit.multipliers[0]), 1, 1e-6);
   EXPECT_NEAR(orbit.multipliers[0].real(), first[0], 1e-5);
   EXPECT_NEAR(std::abs(orbit.multipliers[0].imag()), std::abs(first[1]), 1e-5);
 
-  const auto angles = testing::numbers(testing::at(periodic, "theta2_rad"));
-  const auto link = testing::numbers(testing::at(periodic, "gamma_rad"));
+  const auto angles = test::numbers(test::at(periodic, "theta2_rad"));
+  const auto link = test::numbers(test::at(periodic, "gamma_rad"));
   const Trajectory t = simulated(model, speed, orbit.start({0, speed}), angles);
   for (std::size_t k = 0; k < link.size(); ++k) EXPECT_NEAR(t.link.at(k), link[k], 1e-6) << k;
   EXPECT_NEAR(t.link.back() - t.link.front(), turn, 1e-9);
@@ -125,13 +125,13 @@ INSTANTIATE_TEST_SUITE_P(Cases, PublishedDesign2,
 TEST(FourBarClearanceMotion, AllTermsOfTheEquationWithDamping) {
   const char* id = "gamma-design2-damped";
   ClearanceFourBar model = published_four_bar(id);
-  const Value& inputs = testing::at(reference(id), "inputs");
-  model.coupler_damping = testing::number_at(inputs, "C_theta3_Nms");
-  model.rocker_damping = testing::number_at(inputs, "C_theta4_Nms");
-  model.link_damping = testing::number_at(inputs, "C_gamma_Nms");
-  const auto angles = testing::numbers(testing::at(computed(id), "theta2_rad"));
-  const auto link = testing::numbers(testing::at(computed(id), "gamma_rad"));
-  const auto tension = testing::numbers(testing::at(computed(id), "link_tension_N"));
+  const Value& inputs = test::at(reference(id), "inputs");
+  model.coupler_damping = test::number_at(inputs, "C_theta3_Nms");
+  model.rocker_damping = test::number_at(inputs, "C_theta4_Nms");
+  model.link_damping = test::number_at(inputs, "C_gamma_Nms");
+  const auto angles = test::numbers(test::at(computed(id), "theta2_rad"));
+  const auto link = test::numbers(test::at(computed(id), "gamma_rad"));
+  const auto tension = test::numbers(test::at(computed(id), "link_tension_N"));
   const Trajectory t = simulated(model, 20, {0, 20}, angles);
   ASSERT_EQ(t.run.status, Status::done);
   for (std::size_t k = 0; k < link.size(); ++k) {
@@ -146,9 +146,9 @@ TEST(FourBarClearanceMotion, Design1LosesContact) {
        {"gamma-design1-table2-g0-w10", "gamma-design1-table2-g9.81-w50", "gamma-design1-table2-g9.81-w20"}) {
     const ClearanceFourBar model = published_four_bar(id);
     const double speed = crank_speed(id);
-    const Value& ivp = testing::at(computed(id), "ivp");
-    const auto angles = testing::numbers(testing::at(ivp, "theta2_rad"));
-    const auto link = testing::numbers(testing::at(ivp, "gamma_rad"));
+    const Value& ivp = test::at(computed(id), "ivp");
+    const auto angles = test::numbers(test::at(ivp, "theta2_rad"));
+    const auto link = test::numbers(test::at(ivp, "gamma_rad"));
     const Trajectory t = simulated(model, speed, {10 * degree, speed}, angles);
     for (std::size_t k = 0; k < link.size() && angles[k] <= 2.1; ++k)
       EXPECT_NEAR(t.link.at(k), link[k], 1e-4) << id << k;

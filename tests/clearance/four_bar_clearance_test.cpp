@@ -5,9 +5,9 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "clearance/published_four_bar.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/rates.h"
@@ -16,7 +16,7 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double degree = pi / 180;
 
 const char* const published[] = {"target-path-design1-ideal", "path-design2-gamma-ideal"};
 
@@ -24,15 +24,15 @@ TEST(FourBarClearance, PositionsAsComputedElsewhere) {
   for (const char* id : published) {
     const ClearanceFourBar model = published_four_bar(id);
     int compared = 0;
-    for (const Value& row : testing::at(computed(id), "points").as_array()) {
-      const double crank = testing::number_at(row, "theta2_rad");
-      const double link = row.find("gamma_rad") ? testing::number_at(row, "gamma_rad") : 0;
+    for (const Value& row : test::at(computed(id), "points").as_array()) {
+      const double crank = test::number_at(row, "theta2_rad");
+      const double link = row.find("gamma_rad") ? test::number_at(row, "gamma_rad") : 0;
       const ClearancePosition p = clearance_position(model, crank, link);
-      const auto point = testing::numbers(testing::at(row, "P_m"));
+      const auto point = test::numbers(test::at(row, "P_m"));
       ASSERT_EQ(p.status, Status::done);
       // Printed to 16 digits by another program: rounding of some ten operations.
-      EXPECT_NEAR(p.coupler_angle, testing::number_at(row, "theta3_rad"), 1e-14);
-      EXPECT_NEAR(p.rocker_angle, testing::number_at(row, "theta4_rad"), 1e-14);
+      EXPECT_NEAR(p.coupler_angle, test::number_at(row, "theta3_rad"), 1e-14);
+      EXPECT_NEAR(p.rocker_angle, test::number_at(row, "theta4_rad"), 1e-14);
       EXPECT_NEAR(p.point.real(), point.at(0), 1e-15);
       EXPECT_NEAR(p.point.imag(), point.at(1), 1e-15);
       ++compared;
@@ -185,7 +185,7 @@ TEST(FourBarClearance, SaysWhereItDoesNotAssembleOrIsSingular) {
   ClearanceFourBar m;
   m.linkage = {.ground = 3, .crank = 1, .coupler = 1, .rocker = 1};
   m.clearance = 0.1;
-  const ClearancePosition apart = clearance_position(m, std::numbers::pi, std::numbers::pi);
+  const ClearancePosition apart = clearance_position(m, pi, pi);
   EXPECT_EQ(apart.status, Status::no_assembly);
   EXPECT_NEAR(apart.gap, 2.1, 1e-15);  // 4.1 m to bridge with 2 m
   EXPECT_TRUE(std::isnan(apart.coupler_angle));

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "clearance/clearance_linkages.h"
 #include "clearance/published_four_bar.h"
 #include "linkwright/clearance/four_bar_clearance_motion.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "linkwright/planar/simulation/coordinates.h"
@@ -18,7 +18,7 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double turn = 2 * pi;
 
 struct Rows {
   JointClearanceRun run;

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "clearance/contact_cases.h"
 #include "linkwright/clearance/four_bar_clearance_motion.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "support/message.h"
 
@@ -16,7 +16,7 @@ namespace linkwright::clearance {
 namespace {
 
 using ::testing::HasSubstr;
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double turn = 2 * pi;
 constexpr planar::SimulationOptions fine{.relative_tolerance = 1e-11, .absolute_tolerance = 1e-12};
 
 JointOrbit orbit_of(const ClearanceFourBar& model, double speed, double lead, double slope) {

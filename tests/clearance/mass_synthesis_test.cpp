@@ -10,6 +10,7 @@
 #include "clearance/published_four_bar.h"
 #include "linkwright/clearance/published_clearance.h"
 #include "linkwright/core/looks.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/minimise.h"
 #include "support/message.h"
 
@@ -25,14 +26,14 @@ TEST(ClearanceMassSynthesis, ObjectiveOfPublishedAndPlainMasses) {
   ClearanceMassProblem p = published_mass_problem();
   const Value& wanted = computed("stage2-pso");
   // Tolerances of 1e-8 here against 1e-10 there.
-  EXPECT_NEAR(transient_lead_error(p, published_masses()), testing::number_at(wanted, "offset_10deg.table3"),
+  EXPECT_NEAR(transient_lead_error(p, published_masses()), test::number_at(wanted, "offset_10deg.table3"),
               1e-6);
-  EXPECT_NEAR(transient_lead_error(p, at_the_pin), testing::number_at(wanted, "offset_10deg.mass_at_A_prime"),
+  EXPECT_NEAR(transient_lead_error(p, at_the_pin), test::number_at(wanted, "offset_10deg.mass_at_A_prime"),
               1e-6);
   p.lead = 0;
-  EXPECT_NEAR(transient_lead_error(p, published_masses()), testing::number_at(wanted, "offset_0deg.table3"),
+  EXPECT_NEAR(transient_lead_error(p, published_masses()), test::number_at(wanted, "offset_0deg.table3"),
               1e-6);
-  EXPECT_NEAR(transient_lead_error(p, at_the_pin), testing::number_at(wanted, "offset_0deg.mass_at_A_prime"),
+  EXPECT_NEAR(transient_lead_error(p, at_the_pin), test::number_at(wanted, "offset_0deg.mass_at_A_prime"),
               1e-6);
 }
 
@@ -78,8 +79,8 @@ TEST(ClearanceMassSynthesis, NoMassesLeadThroughout) {
   const ClearanceMassProblem p = published_mass_problem();
   const ClearanceMassDesign design = clearance_mass_design(p, published_masses());
   ASSERT_EQ(design.status, Status::done);
-  EXPECT_NEAR(design.orbit_error,
-              testing::number_at(computed("gamma-design2-table3-g0-w10"), "periodic.F2_n72"), 1e-6);
+  EXPECT_NEAR(design.orbit_error, test::number_at(computed("gamma-design2-table3-g0-w10"), "periodic.F2_n72"),
+              1e-6);
   EXPECT_GT(design.orbit_error, p.lead / std::sqrt(72.0));
 }
 
@@ -109,7 +110,7 @@ TEST(ClearanceMassSynthesis, InterruptedKeepsTheBestThatATrialHasShown) {
     all = looks.made();
   }
   EXPECT_GT(all, 10000);
-  double before = std::numeric_limits<double>::infinity();
+  double before = infinity;
   for (const std::int64_t share : {2, 50, 99}) {  // per cent of the looks
     const std::int64_t allowed = all * share / 100;
     const LooksAllowed looks(allowed);

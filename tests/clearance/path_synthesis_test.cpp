@@ -21,8 +21,8 @@ TEST(ClearancePathSynthesis, ObjectiveOfThePublishedDesign) {
   const ClearancePathDesign design =
       clearance_path_design(p, path_variables(p, published_design_2().linkage));
   const Value& wanted = computed("path-design2-gamma-ideal");
-  EXPECT_NEAR(design.objective, testing::number_at(wanted, "F1_N36_m"), 1e-15);
-  EXPECT_NEAR(design.rms, testing::number_at(wanted, "rms_m"), 1e-15);
+  EXPECT_NEAR(design.objective, test::number_at(wanted, "F1_N36_m"), 1e-15);
+  EXPECT_NEAR(design.rms, test::number_at(wanted, "rms_m"), 1e-15);
   EXPECT_TRUE(design.violations.empty());
 }
 
@@ -31,14 +31,12 @@ TEST(ClearancePathSynthesis, EvenLeadIsAnotherCrank) {
   const Value& wanted = computed("exact-kinematic-optimum");
   ClearancePathProblem p = published_path_problem();
   const EquivalentCrank crank = equivalent_crank(0.1, p.clearance, p.lead);
-  EXPECT_NEAR(crank.length * 1e3, testing::number_at(wanted, "L2_mm"), 1e-12);
-  EXPECT_NEAR(crank.shift * 180 / std::acos(-1.0), testing::number_at(wanted, "crank_phase_shift_deg"),
-              1e-12);
+  EXPECT_NEAR(crank.length * 1e3, test::number_at(wanted, "L2_mm"), 1e-12);
+  EXPECT_NEAR(crank.shift * 180 / std::acos(-1.0), test::number_at(wanted, "crank_phase_shift_deg"), 1e-12);
   planar::FourBar linkage = published_design_1().linkage;
   linkage.crank = crank.length;
   const std::vector<double> x = path_variables(p, linkage);
-  EXPECT_NEAR(clearance_path_design(p, x).objective, testing::number_at(wanted, "F1_same_timing_N36_m"),
-              1e-15);
+  EXPECT_NEAR(clearance_path_design(p, x).objective, test::number_at(wanted, "F1_same_timing_N36_m"), 1e-15);
   for (double& angle : p.crank_angles) angle -= crank.shift;
   EXPECT_LT(clearance_path_design(p, x).objective, 1e-15);
   EXPECT_TRUE(std::isnan(equivalent_crank(1, 2, 1.5).length));
@@ -64,11 +62,11 @@ TEST(ClearancePathSynthesis, FindsTheGlobalOptimum) {
   const ClearancePathSynthesis found = synthesise_clearance_path(p, 12, {.seed = 3}, context);
   ASSERT_EQ(found.status, Status::done);
   const Value& wanted = computed("stage1-pso");
-  EXPECT_NEAR(found.design.objective * 1e3, testing::number_at(wanted, "global_optimum_F1_mm"), 1e-8);
+  EXPECT_NEAR(found.design.objective * 1e3, test::number_at(wanted, "global_optimum_F1_mm"), 1e-8);
   EXPECT_GE(found.reached, 6);
   // A flat optimum: the lengths agree to the square root of what the objective is known to.
-  EXPECT_NEAR(found.x[0] * 1e3, testing::number_at(wanted, "optimum_x.L1_mm"), 1e-2);
-  EXPECT_NEAR(found.x[1] * 1e3, testing::number_at(wanted, "optimum_x.L2_mm"), 1e-2);
+  EXPECT_NEAR(found.x[0] * 1e3, test::number_at(wanted, "optimum_x.L1_mm"), 1e-2);
+  EXPECT_NEAR(found.x[1] * 1e3, test::number_at(wanted, "optimum_x.L2_mm"), 1e-2);
   std::vector<double> x = path_variables(p, published_design_2().linkage);
   EXPECT_EQ(polish_clearance_path(p, x).status, Status::done);
   EXPECT_NEAR(clearance_path_design(p, x).objective, found.design.objective, 1e-12);

@@ -23,11 +23,11 @@ TEST(PublishedClearance, DesignsAreThoseOfTheReference) {
 }
 
 TEST(PublishedClearance, ClearanceOfTheClosestFit) {
-  const Value& best = testing::at(computed("infer-r"), "ranking").as_array().at(0);
-  EXPECT_EQ(testing::numbers(testing::at(best, "ground_crank_coupler_rocker_from_a")),
+  const Value& best = test::at(computed("infer-r"), "ranking").as_array().at(0);
+  EXPECT_EQ(test::numbers(test::at(best, "ground_crank_coupler_rocker_from_a")),
             (std::vector<double>{1, 2, 3, 4}));
   // 36 points of the path here, another number there.
-  EXPECT_NEAR(inferred_clearance(), testing::number_at(best, "r_fit_m"), 1e-7);
+  EXPECT_NEAR(inferred_clearance(), test::number_at(best, "r_fit_m"), 1e-7);
 }
 
 TEST(PublishedClearance, ComparisonsComeOut) {

@@ -9,16 +9,16 @@
 namespace linkwright::clearance {
 
 inline const Value& reference(std::string_view id) {
-  return testing::published_case("clearance-joint.json", id);
+  return test::published_case("clearance-joint.json", id);
 }
-inline const Value& computed(std::string_view id) { return testing::at(reference(id), "computed"); }
+inline const Value& computed(std::string_view id) { return test::at(reference(id), "computed"); }
 
 /// The linkage that the inputs of a case describe.
 inline ClearanceFourBar published_four_bar(std::string_view id) {
-  const Value& inputs = testing::at(reference(id), "inputs");
-  const Value& design = testing::at(inputs, "design");
-  const auto lengths = testing::numbers(testing::at(design, "L1_L2_L3_L4_m"));
-  const double distance = testing::number_at(design, "AP_m"), angle = testing::number_at(design, "beta_rad");
+  const Value& inputs = test::at(reference(id), "inputs");
+  const Value& design = test::at(inputs, "design");
+  const auto lengths = test::numbers(test::at(design, "L1_L2_L3_L4_m"));
+  const double distance = test::number_at(design, "AP_m"), angle = test::number_at(design, "beta_rad");
   ClearanceFourBar model;
   model.linkage = {.ground = lengths.at(0),
                    .crank = lengths.at(1),
@@ -26,20 +26,20 @@ inline ClearanceFourBar published_four_bar(std::string_view id) {
                    .rocker = lengths.at(3),
                    .coupler_u = distance * std::cos(angle),
                    .coupler_v = distance * std::sin(angle),
-                   .pivot_x = testing::number_at(design, "x0_m"),
-                   .pivot_y = testing::number_at(design, "y0_m"),
-                   .frame_angle = testing::number_at(design, "theta1_rad")};
-  model.clearance = testing::number_at(inputs, "r_m");
+                   .pivot_x = test::number_at(design, "x0_m"),
+                   .pivot_y = test::number_at(design, "y0_m"),
+                   .frame_angle = test::number_at(design, "theta1_rad")};
+  model.clearance = test::number_at(inputs, "r_m");
   if (inputs.find("mass")) {
-    const auto mass = [&](const char* key) { return testing::number_at(inputs, std::string("mass.") + key); };
+    const auto mass = [&](const char* key) { return test::number_at(inputs, std::string("mass.") + key); };
     model.coupler = {mass("m3_kg"), mass("I3_kgm2"), {mass("u3_m"), mass("v3_m")}};
     model.rocker = {mass("m4_kg"), mass("I4_kgm2"), {mass("u4_m"), mass("v4_m")}};
   }
-  model.gravity = {0, inputs.find("g_m_s2") ? -testing::number_at(inputs, "g_m_s2") : 0};
+  model.gravity = {0, inputs.find("g_m_s2") ? -test::number_at(inputs, "g_m_s2") : 0};
   return model;
 }
 inline double crank_speed(std::string_view id) {
-  return testing::number_at(testing::at(reference(id), "inputs"), "crank_speed_rad_s");
+  return test::number_at(test::at(reference(id), "inputs"), "crank_speed_rad_s");
 }
 
 }  // namespace linkwright::clearance

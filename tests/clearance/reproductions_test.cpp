@@ -11,9 +11,9 @@
 namespace linkwright::clearance {
 namespace {
 
-std::vector<study::Comparison> rows(std::string_view id) { return testing::rows_of(reproductions(), id); }
+std::vector<study::Comparison> rows(std::string_view id) { return test::rows_of(reproductions(), id); }
 
-TEST(ClearanceReproductions, HaveIdsTitlesSourcesAndNotes) { testing::expect_complete(reproductions()); }
+TEST(ClearanceReproductions, HaveIdsTitlesSourcesAndNotes) { test::expect_complete(reproductions()); }
 
 TEST(ClearanceReproductions, Tables) {
   const auto table = rows("varedi-2014-tables");

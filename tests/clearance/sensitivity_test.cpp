@@ -5,19 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "clearance/clearance_linkages.h"
 #include "clearance/published_four_bar.h"
 #include "linkwright/core/looks.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "support/message.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double turn = 2 * pi;
 
 std::vector<planar::InputMotion> crank_motions(int samples, double speed = 0) {
   std::vector<planar::InputMotion> out;

@@ -7,24 +7,24 @@
 #include "support/study_text.h"
 
 // Studies of this room as texts.
-namespace linkwright::clearance::testing {
+namespace linkwright::test {}
+namespace linkwright::clearance::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
-using linkwright::testing::fact;
-using linkwright::testing::replaced;
+using linkwright::test::fact;
+using linkwright::test::replaced;
 
 inline const std::vector<study::Kind>& kinds() {
   static const std::vector<study::Kind> all = studies();
   return all;
 }
 inline std::optional<study::Study> prepare(const std::string& text, std::string& messages) {
-  return linkwright::testing::prepare(kinds(), text, messages);
+  return linkwright::test::prepare(kinds(), text, messages);
 }
 inline std::string problems_of(const std::string& text) {
-  return linkwright::testing::problems_of(kinds(), text);
+  return linkwright::test::problems_of(kinds(), text);
 }
-inline study::Result run_text(const std::string& text) {
-  return linkwright::testing::run_text(kinds(), text);
-}
+inline study::Result run_text(const std::string& text) { return linkwright::test::run_text(kinds(), text); }
 
 /// The table of that name; fails the test and is empty if there is none.
 inline const Table& table(const study::Result& r, std::string_view name) {
@@ -43,4 +43,4 @@ inline const std::vector<double>& values(const study::Result& r, std::string_vie
   return none;
 }
 
-}  // namespace linkwright::clearance::testing
+}  // namespace linkwright::clearance::test

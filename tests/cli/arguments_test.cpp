@@ -4,7 +4,7 @@
 
 namespace linkwright::cli {
 namespace {
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using Command = Arguments::Command;
 
 Arguments parse(std::vector<const char*> words) {

@@ -15,10 +15,12 @@
 
 #include "linkwright/study/read.h"
 
+namespace linkwright::test {}
 namespace linkwright::cli::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 /// Runs a built program as users do, in a folder of its own: exit codes and both streams.
-class ProgramFixture : public testing::Test {
+class ProgramFixture : public ::testing::Test {
  protected:
   explicit ProgramFixture(std::string program)
       : folder_(std::filesystem::temp_directory_path() / ("linkwright-cli-" + std::to_string(::getpid()))),

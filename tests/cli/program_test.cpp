@@ -15,8 +15,8 @@
 namespace linkwright::cli {
 namespace {
 namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Program : public test::ProgramFixture {
  protected:

@@ -9,7 +9,7 @@
 namespace linkwright::cli {
 namespace {
 namespace fs = std::filesystem;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class Resume : public test::ProgramFixture {
  protected:

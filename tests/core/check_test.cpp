@@ -10,7 +10,7 @@ void set_length(double length) { LINKWRIGHT_REQUIRE(length > 0, "length {} is no
 TEST(Require, PassesWhatKeepsTheContract) { EXPECT_NO_THROW(set_length(1)); }
 
 TEST(Require, TellsFunctionValuesAndCondition) {
-  EXPECT_THAT([] { set_length(-2.5); }, testing::ThrowsMessage<ContractError>(testing::StrEq(
+  EXPECT_THAT([] { set_length(-2.5); }, ::testing::ThrowsMessage<ContractError>(::testing::StrEq(
                                             "set_length: length -2.5 is not positive [length > 0]")));
 }
 

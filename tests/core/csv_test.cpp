@@ -52,9 +52,10 @@ TEST(ReadCsv, TakesSpreadsheetHabits) {
 TEST(ReadCsv, TellsWhatIsWrongAndWhere) {
   using ::testing::HasSubstr;
   EXPECT_THAT(problems(""), HasSubstr("path.csv:1:1: error: the file is empty"));
-  EXPECT_EQ(problems("0.5,1.1\n1,2\n"),
-            "path.csv:1:1: error: the first line holds numbers ('0.5'): the header line is missing; write the "
-            "column keys with their units above them, for example x_mm,y_mm\n");
+  EXPECT_EQ(
+      problems("0.5,1.1\n1,2\n"),
+      "path.csv:1:1: error: the first line holds numbers ('0.5'): the header line is missing; write the "
+      "column keys with their units above them, for example x_mm,y_mm\n");
   EXPECT_THAT(problems("x_m,0.5\n"), HasSubstr("the header has '0.5' where a column key is expected"));
   EXPECT_THAT(problems("x_m,y_m\n1,2\n3\n"),
               HasSubstr("path.csv:3:1: error: 1 values, the header has 2 columns"));
@@ -81,7 +82,8 @@ std::string contents(std::string_view text) {
   for (std::size_t row = 0; row < table.rows(); ++row)
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       const double value = table.columns[c].values[row];
-      out += (c == 0 ? "|" : ",") + (std::isnan(value) ? std::string("-") : std::to_string(value).substr(0, 4));
+      out +=
+          (c == 0 ? "|" : ",") + (std::isnan(value) ? std::string("-") : std::to_string(value).substr(0, 4));
     }
   return out;
 }
@@ -98,8 +100,14 @@ TEST(ReadCsv, ReadsWhateverSpreadsheetsWrite) {
   EXPECT_EQ(contents("x_mm,y_mm,,\n0.5,1.5,,\n-2,3,,\n,,,\n"), points) << "empty columns and rows";
   EXPECT_EQ(contents("X [mm];Y [mm]\n0,5;1,5\n-2;3\n"), points);
   EXPECT_EQ(contents("x (mm),y(mm)\n0.5,1.5\n-2,3\n"), points);
-  EXPECT_EQ(contents("x_mm,y_mm\n0.5,1.5\n\xE2\x88\x92" "2,3\n"), points) << "minus sign";
-  EXPECT_EQ(contents("x_mm,y_mm\n0.5,\xC2\xA0" "1.5\n-2,3\n"), points) << "hard space";
+  EXPECT_EQ(contents("x_mm,y_mm\n0.5,1.5\n\xE2\x88\x92"
+                     "2,3\n"),
+            points)
+      << "minus sign";
+  EXPECT_EQ(contents("x_mm,y_mm\n0.5,\xC2\xA0"
+                     "1.5\n-2,3\n"),
+            points)
+      << "hard space";
   EXPECT_EQ(contents("Wheel travel [mm],Toe angle [\xC2\xB0],Speed [mm/s]\n1,2,3\n"),
             "wheel_travel_mm,toe_angle_deg,speed_mm_per_s|1.00,2.00,3.00");
   EXPECT_EQ(contents("Toe [\xB0]\n1\n"), "toe_deg|1.00") << "degree sign of Windows-1252";
@@ -123,13 +131,18 @@ TEST(ReadCsv, ReadsUtf16) {
 TEST(ReadCsv, TellsWhatIsNoText) {
   using ::testing::HasSubstr;
   EXPECT_EQ(problems("PK\x03\x04rubbish"),
-            "path.csv:1:1: error: this is an Excel workbook or another packed file; save it as CSV or plain text\n");
+            "path.csv:1:1: error: this is an Excel workbook or another packed file; save it as CSV or plain "
+            "text\n");
   EXPECT_THAT(problems(std::string_view("x_m\n1\0\n", 7)), HasSubstr("zero bytes"));
   EXPECT_EQ(problems("x_mm\n1,000.5\n").find("this"), std::string::npos);
-  EXPECT_THAT(problems("x_mm;y_mm\n1,000.5;2\n"), HasSubstr("write thousands without a separator, like 1000.5"));
-  EXPECT_THAT(problems("x_mm;y_mm\n1,5;2.5\n"), HasSubstr("'2.5' has a decimal point, numbers before it have a decimal comma"));
-  EXPECT_THAT(problems("x_mm,y_mm\n0,5,1,5\n"),
-              HasSubstr("4 values, the header has 2 columns; with decimal commas separate the columns by semicolons"));
+  EXPECT_THAT(problems("x_mm;y_mm\n1,000.5;2\n"),
+              HasSubstr("write thousands without a separator, like 1000.5"));
+  EXPECT_THAT(problems("x_mm;y_mm\n1,5;2.5\n"),
+              HasSubstr("'2.5' has a decimal point, numbers before it have a decimal comma"));
+  EXPECT_THAT(
+      problems("x_mm,y_mm\n0,5,1,5\n"),
+      HasSubstr(
+          "4 values, the header has 2 columns; with decimal commas separate the columns by semicolons"));
   EXPECT_THAT(problems("x_mm\n#DIV/0!\n"), HasSubstr("'#DIV/0!' is not a number"));
 }
 

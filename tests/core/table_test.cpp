@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright {
 namespace {
@@ -12,7 +11,7 @@ namespace {
 TEST(Table, CsvFollowsRfc4180) {
   Table table;
   table.name = "sweep";
-  table.add("angle_rad", "angle (rad)", {0.1, std::numeric_limits<double>::quiet_NaN()});
+  table.add("angle_rad", "angle (rad)", {0.1, nan});
   table.add("odd,key", "odd", {1e-300, 2});
   table.status = {"done", "no \"assembly\""};
   EXPECT_EQ(to_csv(table),

@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright {
 namespace {
@@ -25,11 +26,11 @@ TEST(Units, DecimalUnitsRoundOnce) {
 }
 
 TEST(Units, AnglesAndSpeeds) {
-  EXPECT_EQ(si(Dimension::angle, "deg", 360), 2 * std::numbers::pi);
-  EXPECT_EQ(si(Dimension::speed_angular, "rpm", 300), 10 * std::numbers::pi);
+  EXPECT_EQ(si(Dimension::angle, "deg", 360), 2 * pi);
+  EXPECT_EQ(si(Dimension::speed_angular, "rpm", 300), 10 * pi);
   EXPECT_EQ(si(Dimension::torque, "N_mm", 1500), 1.5);
   EXPECT_EQ(si(Dimension::frequency, "per_min", 90), 1.5);
-  EXPECT_EQ(si(Dimension::jerk_angular, "deg_per_s3", 180), std::numbers::pi);
+  EXPECT_EQ(si(Dimension::jerk_angular, "deg_per_s3", 180), pi);
   EXPECT_EQ(si(Dimension::power, "kW", 0.5), 500);
 }
 

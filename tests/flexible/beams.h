@@ -9,10 +9,10 @@
 namespace linkwright::flexible {
 
 inline const Value& computed(std::string_view id) {
-  return testing::at(testing::published_case("flexible-link.json", id), "computed");
+  return test::at(test::published_case("flexible-link.json", id), "computed");
 }
 inline std::vector<double> figures(std::string_view id, std::string_view path) {
-  return testing::numbers(testing::at(computed(id), path));
+  return test::numbers(test::at(computed(id), path));
 }
 
 /// Short steel beam of rectangular section where shear matters, with a tip mass that has inertia.

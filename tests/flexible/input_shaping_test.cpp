@@ -3,17 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "flexible/beams.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/flexible/modes.h"
 #include "linkwright/flexible/simulation.h"
 #include "support/message.h"
 
 namespace linkwright::flexible {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 TEST(InputShaping, UndampedShapersOfTheLiterature) {
   const ShapedMode mode{.frequency = 2 * pi};

@@ -19,12 +19,12 @@ TEST(Modes, ChainsOfThePublishedBeams) {
       const Beam beam = id == "freq-T31" ? spin_up_beam(theory) : torque_beam(theory);
       const bool shear = theory == Theory::timoshenko;
       const Value& by_n =
-          testing::at(computed(id), shear ? "chain_timoshenko_nu03_k56_rad_s" : "chain_rayleigh_rad_s");
+          test::at(computed(id), shear ? "chain_timoshenko_nu03_k56_rad_s" : "chain_rayleigh_rad_s");
       int compared = 0;
       for (const int n : {1, 2, 3, 4, 8}) {
         const Value* known = by_n.find(std::to_string(n));
         if (!known) continue;
-        const auto expected = testing::numbers(*known);
+        const auto expected = test::numbers(*known);
         for (const Kinematics kinematics : {chord_consistent, hub_axis, source_linearised}) {
           const auto found = modes(discretise(beam, n, kinematics), 3);
           for (int k = 0; k < 3; ++k, ++compared) {
@@ -82,11 +82,11 @@ TEST(Modes, FrequenciesOnATurningHub) {
                  {"HX_n8", hub_axis, 8},          {"CC_n2", chord_consistent, 2},
                  {"CC_n4", chord_consistent, 4},  {"CC_n8", chord_consistent, 8}};
   int unstable = 0;
-  for (const Value& row : testing::at(computed("rotating-frequency"), "table").as_array()) {
-    const double speed = testing::number_at(row, "eta") * scale;
+  for (const Value& row : test::at(computed("rotating-frequency"), "table").as_array()) {
+    const double speed = test::number_at(row, "eta") * scale;
     for (const auto& column : columns) {
       const Mode found = modes(discretise(beam, column.n, column.kinematics), 1, {.speed = speed})[0];
-      const Value& known = testing::at(row, column.key);
+      const Value& known = test::at(row, column.key);
       if (known.is_null()) {
         EXPECT_EQ(found.frequency, 0);
         EXPECT_GT(found.growth, 0);
@@ -99,7 +99,7 @@ TEST(Modes, FrequenciesOnATurningHub) {
     }
     // The chain against the beam itself, as it is to be for four divisions up to 12 w_s.
     const double cc = modes(discretise(beam, 4), 1, {.speed = speed})[0].frequency / scale;
-    EXPECT_NEAR(cc / testing::number_at(row, "reference_inplane"), 1, 1e-3);
+    EXPECT_NEAR(cc / test::number_at(row, "reference_inplane"), 1, 1e-3);
   }
   EXPECT_EQ(unstable, 1);
 }
@@ -109,8 +109,8 @@ TEST(Modes, SpuriousCriticalSpeeds) {
   for (const int n : {2, 3, 4, 8}) {
     const auto found = critical_speed(discretise(beam, n, hub_axis), 100);
     ASSERT_TRUE(found) << n;
-    const double expected = testing::number_at(computed("rotating-frequency"),
-                                               "HX_spurious_critical_speed_T31_rad_s." + std::to_string(n));
+    const double expected = test::number_at(computed("rotating-frequency"),
+                                            "HX_spurious_critical_speed_T31_rad_s." + std::to_string(n));
     EXPECT_NEAR(*found / expected, 1, 1e-8) << n;
   }
   for (const int n : {2, 3, 4, 8, 50})

@@ -24,7 +24,7 @@ const Sample& at_time(const Simulation& run, double t) {
 }
 
 void compare(const Simulation& run, const Value& expected, const Tolerances& t, const std::string& what) {
-  const auto column = [&](const char* key) { return testing::numbers(testing::at(expected, key)); };
+  const auto column = [&](const char* key) { return test::numbers(test::at(expected, key)); };
   const auto times = column("t_s"), theta = column("theta_rad"), xi = column("tip_xi_m"),
              eta = column("tip_eta_m"), rx = column("R_xi_N"), ry = column("R_eta_N"), m = column("M_O1_Nm");
   ASSERT_EQ(times.size(), 8);
@@ -87,12 +87,12 @@ TEST_P(SpinUps, AllColumns) {
     compare(run, *expected, tolerances, id + " " + v.key);
     if (!expected->find("peak_lag")) continue;
     const Extreme peak = smallest(run.samples, &Sample::tip_eta, 0, 20);
-    EXPECT_NEAR(peak.value, testing::number_at(*expected, "peak_lag.tip_eta_m"), fast ? 2e-5 : 1e-5)
+    EXPECT_NEAR(peak.value, test::number_at(*expected, "peak_lag.tip_eta_m"), fast ? 2e-5 : 1e-5)
         << id << v.key;
-    EXPECT_NEAR(peak.time, testing::number_at(*expected, "peak_lag.t_s"), 5e-3) << id << v.key;
+    EXPECT_NEAR(peak.time, test::number_at(*expected, "peak_lag.t_s"), 5e-3) << id << v.key;
     const double residual = std::max(largest(run.samples, &Sample::tip_eta, 15, 20).value,
                                      -smallest(run.samples, &Sample::tip_eta, 15, 20).value);
-    EXPECT_NEAR(residual, testing::number_at(*expected, "residual_amplitude_after_T_m"), 2e-5) << id << v.key;
+    EXPECT_NEAR(residual, test::number_at(*expected, "residual_amplitude_after_T_m"), 2e-5) << id << v.key;
   }
   EXPECT_GE(compared, 4);
 }
@@ -107,12 +107,12 @@ TEST_P(SpinUps, AFineChainAgainstTheContinuum) {
       chain, SpinUp{speed, 15},
       {.end = 20, .output_interval = 0.005, .step = 0.005, .breaks = breaks, .extrapolate = true});
   ASSERT_EQ(run.status, Status::done);
-  const Value& expected = testing::at(computed(id), "continuum");
+  const Value& expected = test::at(computed(id), "continuum");
   const Extreme peak = smallest(run.samples, &Sample::tip_eta, 0, 20);
-  EXPECT_NEAR(peak.value, testing::number_at(expected, "peak_lag.tip_eta_m"), 1e-4);
-  EXPECT_NEAR(peak.time, testing::number_at(expected, "peak_lag.t_s"), 5e-3);
-  const auto times = testing::numbers(testing::at(expected, "t_s")),
-             eta = testing::numbers(testing::at(expected, "tip_eta_m"));
+  EXPECT_NEAR(peak.value, test::number_at(expected, "peak_lag.tip_eta_m"), 1e-4);
+  EXPECT_NEAR(peak.time, test::number_at(expected, "peak_lag.t_s"), 5e-3);
+  const auto times = test::numbers(test::at(expected, "t_s")),
+             eta = test::numbers(test::at(expected, "tip_eta_m"));
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (speed > 10 && times[i] > 10) continue;  // phases of the higher modes
     EXPECT_NEAR(at_time(run, times[i]).tip_eta, eta[i], speed > 10 ? 1e-3 : 1e-4) << times[i];
@@ -122,7 +122,7 @@ TEST_P(SpinUps, AFineChainAgainstTheContinuum) {
   long count = 0;
   for (const Sample& s : run.samples)
     if (s.time > 15) mean += s.reaction_xi, ++count;
-  const double steady = testing::number_at(computed(id), "steady_R_xi_N");
+  const double steady = test::number_at(computed(id), "steady_R_xi_N");
   EXPECT_NEAR(mean / double(count), steady, 2e-3 * std::abs(steady));
 }
 
@@ -172,10 +172,10 @@ TEST_P(Torques, AllColumns) {
     if (!expected->find("peaks")) continue;
     const Extreme first = smallest(run.samples, &Sample::tip_eta, 0, 1),
                   second = largest(run.samples, &Sample::tip_eta, 1, 2.2);
-    EXPECT_NEAR(first.value, testing::number_at(*expected, "peaks.min.tip_eta_m"), 5e-5) << id << v.key;
-    EXPECT_NEAR(first.time, testing::number_at(*expected, "peaks.min.t_s"), 5e-3) << id << v.key;
-    EXPECT_NEAR(second.value, testing::number_at(*expected, "peaks.max.tip_eta_m"), 5e-5) << id << v.key;
-    EXPECT_NEAR(second.time, testing::number_at(*expected, "peaks.max.t_s"), 5e-3) << id << v.key;
+    EXPECT_NEAR(first.value, test::number_at(*expected, "peaks.min.tip_eta_m"), 5e-5) << id << v.key;
+    EXPECT_NEAR(first.time, test::number_at(*expected, "peaks.min.t_s"), 5e-3) << id << v.key;
+    EXPECT_NEAR(second.value, test::number_at(*expected, "peaks.max.tip_eta_m"), 5e-5) << id << v.key;
+    EXPECT_NEAR(second.time, test::number_at(*expected, "peaks.max.t_s"), 5e-3) << id << v.key;
   }
   EXPECT_GE(compared, 4);
 }
@@ -200,10 +200,10 @@ TEST_P(Torques, AFineChainAgainstTheContinuum) {
       discretise(torque_beam(), 12), SinePulse{std::stod(GetParam()), 2},
       {.end = 5, .output_interval = 0.002, .step = 0.002, .breaks = breaks, .extrapolate = true});
   ASSERT_EQ(run.status, Status::done);
-  const Value& expected = testing::at(computed(id), "continuum");
-  const auto times = testing::numbers(testing::at(expected, "t_s")),
-             eta = testing::numbers(testing::at(expected, "tip_eta_m")),
-             theta = testing::numbers(testing::at(expected, "theta_rad"));
+  const Value& expected = test::at(computed(id), "continuum");
+  const auto times = test::numbers(test::at(expected, "t_s")),
+             eta = test::numbers(test::at(expected, "tip_eta_m")),
+             theta = test::numbers(test::at(expected, "theta_rad"));
   for (std::size_t i = 0; i < times.size(); ++i) {
     EXPECT_NEAR(at_time(run, times[i]).tip_eta, eta[i], 1e-4) << times[i];
     EXPECT_NEAR(at_time(run, times[i]).angle, theta[i], 1e-4) << times[i];

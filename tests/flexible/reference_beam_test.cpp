@@ -33,12 +33,12 @@ TEST(ReferenceBeam, FrequenciesOnATurningHub) {
   Beam beam = spin_up_beam();
   beam.tip_mass = 0;
   const double scale = beam.frequency_scale();
-  for (const Value& row : testing::at(computed("rotating-frequency"), "table").as_array()) {
-    const double speed = testing::number_at(row, "eta") * scale;
+  for (const Value& row : test::at(computed("rotating-frequency"), "table").as_array()) {
+    const double speed = test::number_at(row, "eta") * scale;
     const double found = reference_frequencies(beam, 1, speed)[0] / scale;
-    EXPECT_NEAR(found, testing::number_at(row, "reference_inplane"), 1e-6) << speed / scale;
+    EXPECT_NEAR(found, test::number_at(row, "reference_inplane"), 1e-6) << speed / scale;
     // Out of the plane the squares differ by that of the speed (Wright et al. 1982), rotary inertia apart.
-    EXPECT_NEAR(std::hypot(found, speed / scale), testing::number_at(row, "reference_flap"), 1e-5);
+    EXPECT_NEAR(std::hypot(found, speed / scale), test::number_at(row, "reference_flap"), 1e-5);
   }
   const auto found = reference_frequencies(spin_up_beam(), 3, 0),
              exact = continuum_frequencies(spin_up_beam(), 3);
@@ -46,7 +46,7 @@ TEST(ReferenceBeam, FrequenciesOnATurningHub) {
 }
 
 void compare(const std::vector<Sample>& samples, const Value& expected, double tip, double force) {
-  const auto column = [&](const char* key) { return testing::numbers(testing::at(expected, key)); };
+  const auto column = [&](const char* key) { return test::numbers(test::at(expected, key)); };
   const auto times = column("t_s"), theta = column("theta_rad"), xi = column("tip_xi_m"),
              eta = column("tip_eta_m"), rx = column("R_xi_N"), ry = column("R_eta_N"), m = column("M_O1_Nm");
   std::size_t at = 0;
@@ -68,17 +68,17 @@ TEST(ReferenceBeam, SpinUpAsComputedElsewhere) {
       spin_up_beam(), SpinUp{4, 15},
       {.end = 20, .output_interval = 0.02, .tolerance = 1e-7, .breaks = breaks, .beam = coarse});
   ASSERT_EQ(run.status, Status::done) << run.message;
-  const Value& expected = testing::at(computed("spinup-omega0-4"), "continuum");
+  const Value& expected = test::at(computed("spinup-omega0-4"), "continuum");
   compare(run.samples, expected, 5e-6, 5e-3);
   const Extreme peak = smallest(run.samples, &Sample::tip_eta, 0, 20);
-  EXPECT_NEAR(peak.value, testing::number_at(expected, "peak_lag.tip_eta_m"), 1e-6);
+  EXPECT_NEAR(peak.value, test::number_at(expected, "peak_lag.tip_eta_m"), 1e-6);
   // A third formulation: geometrically exact finite elements that stretch and shear, 16 and 32 of them (their
   // errors fall with the square of the length), extrapolated: -0.62089 m at 7.5 s.
-  const Value& elements = testing::at(computed("spinup-omega0-4"), "geometrically_exact_FE_32");
+  const Value& elements = test::at(computed("spinup-omega0-4"), "geometrically_exact_FE_32");
   for (const Sample& s : run.samples)
     if (std::abs(s.time - 7.5) < 1e-9) {
       EXPECT_NEAR(s.tip_eta, -0.62089, 5e-5);
-      EXPECT_NEAR(s.tip_eta, testing::numbers(testing::at(elements, "tip_eta_m"))[2], 4e-4);
+      EXPECT_NEAR(s.tip_eta, test::numbers(test::at(elements, "tip_eta_m"))[2], 4e-4);
     }
   // And the chain.
   const Simulation chain = simulate_motion(

@@ -13,9 +13,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::vector<study::Comparison> rows(std::string_view id) { return testing::rows_of(reproductions(), id); }
+std::vector<study::Comparison> rows(std::string_view id) { return test::rows_of(reproductions(), id); }
 
-TEST(FlexibleReproductions, HaveIdsTitlesSourcesAndNotes) { testing::expect_complete(reproductions()); }
+TEST(FlexibleReproductions, HaveIdsTitlesSourcesAndNotes) { test::expect_complete(reproductions()); }
 
 TEST(FlexibleReproductions, SpinUp) {
   const auto table = rows("boskovic-2018-spin-up");

@@ -8,15 +8,15 @@ namespace linkwright::flexible {
 namespace {
 
 void expect_inputs(const Beam& beam, std::string_view id) {
-  const Value& in = testing::at(testing::published_case("flexible-link.json", id), "inputs.params");
-  EXPECT_EQ(beam.length, testing::number_at(in, "L_m"));
-  EXPECT_EQ(beam.density, testing::number_at(in, "rho_kg_m3"));
-  EXPECT_EQ(beam.area, testing::number_at(in, "A_m2"));
-  EXPECT_EQ(beam.second_moment, testing::number_at(in, "I_m4"));
-  EXPECT_EQ(beam.elastic_modulus, testing::number_at(in, "E_Pa"));
-  EXPECT_EQ(beam.hub_radius, testing::number_at(in, "rH_m"));
-  EXPECT_EQ(beam.hub_inertia, testing::number_at(in, "JH_kgm2"));
-  EXPECT_EQ(beam.tip_mass, testing::number_at(in, "mp_kg"));
+  const Value& in = test::at(test::published_case("flexible-link.json", id), "inputs.params");
+  EXPECT_EQ(beam.length, test::number_at(in, "L_m"));
+  EXPECT_EQ(beam.density, test::number_at(in, "rho_kg_m3"));
+  EXPECT_EQ(beam.area, test::number_at(in, "A_m2"));
+  EXPECT_EQ(beam.second_moment, test::number_at(in, "I_m4"));
+  EXPECT_EQ(beam.elastic_modulus, test::number_at(in, "E_Pa"));
+  EXPECT_EQ(beam.hub_radius, test::number_at(in, "rH_m"));
+  EXPECT_EQ(beam.hub_inertia, test::number_at(in, "JH_kgm2"));
+  EXPECT_EQ(beam.tip_mass, test::number_at(in, "mp_kg"));
 }
 
 TEST(FlexibleSamples, AreThoseOfThePublications) {

@@ -4,9 +4,9 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <numbers>
 
 #include "flexible/beams.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/flexible/chain_equations.h"
 #include "linkwright/flexible/modes.h"
 #include "linkwright/flexible/statics.h"
@@ -169,7 +169,7 @@ TEST(Simulation, FreeVibrationDecaysAsItsDampingSays) {
     start.q[per * s + turn] = 1e-3 * delta;
     start.q[per * s + slide] = 1e-3 * (shape.eta[s + 1] - shape.eta[s] - l * shape.angle[s] - l / 2 * delta);
   }
-  const double damped = w * std::sqrt(1 - ratio * ratio), period = 2 * std::numbers::pi / damped;
+  const double damped = w * std::sqrt(1 - ratio * ratio), period = 2 * pi / damped;
   const Simulation run = simulate_motion(
       chain, [](double) { return HubMotion{}; },
       {.end = 4 * period, .output_interval = period, .step = period / 500, .extrapolate = true}, start);

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "flexible/beams.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/flexible/continuum.h"
 #include "support/message.h"
 
@@ -24,9 +24,9 @@ TEST(Statics, TipDeflectionIsExactForEveryChain) {
       for (const int n : {1, 2, 3, 8, 50})
         for (const Kinematics kinematics : {chord_consistent, hub_axis, source_linearised}) {
           c.beam.theory = theory;
-          const double expected = testing::number_at(
-              computed(c.id), theory == Theory::timoshenko ? "tip_deflection_timoshenko_m"
-                                                           : "tip_deflection_euler_bernoulli_m");
+          const double expected = test::number_at(computed(c.id), theory == Theory::timoshenko
+                                                                      ? "tip_deflection_timoshenko_m"
+                                                                      : "tip_deflection_euler_bernoulli_m");
           EXPECT_NEAR(tip_deflection(c.beam, 1), expected, 1e-12);
           const Deflection found = linear_deflection(discretise(c.beam, n, kinematics), {.force = {0, 1}});
           EXPECT_NEAR(found.eta.back(), expected, 1e-12) << c.id << " n=" << n;
@@ -88,20 +88,20 @@ TEST(Statics, ConvergesToTheElastica) {
 TEST(Statics, ACoupleBendsToACircle) {
   const Beam beam = torque_beam();
   const Chain chain = discretise(beam, 8);
-  const double couple = beam.bending_stiffness() / beam.length * std::numbers::pi;
+  const double couple = beam.bending_stiffness() / beam.length * pi;
   const Equilibrium found = equilibrium(chain, {.couple = couple});
   ASSERT_EQ(found.status, Status::done);
   const ChainShape line = shape(chain, found.state.q);
-  EXPECT_NEAR(line.angle.back(), std::numbers::pi, 1e-9);
+  EXPECT_NEAR(line.angle.back(), pi, 1e-9);
   // Half a circle of radius L / pi; 16 cells of 0.2 rad are off it by 0.2^4 / 720 or so of their length.
-  EXPECT_NEAR(line.node.back().y, 2 * beam.length / std::numbers::pi, 2e-5);
+  EXPECT_NEAR(line.node.back().y, 2 * beam.length / pi, 2e-5);
   EXPECT_NEAR(line.node.back().x, 0.05, 1e-5);
 }
 
 TEST(Statics, BucklingUnderADeadPush) {
   // Euler's load pi^2 E I / (4 L^2): stable below, not above.
   const Beam beam = spin_up_beam();
-  const double euler = std::numbers::pi * std::numbers::pi * beam.bending_stiffness() / (4 * 64);
+  const double euler = pi * pi * beam.bending_stiffness() / (4 * 64);
   const Chain chain = discretise(beam, 8);
   EXPECT_EQ(equilibrium(chain, {.force = {-0.999 * euler, 0}}).unstable, 0);
   EXPECT_EQ(equilibrium(chain, {.force = {-1.001 * euler, 0}}).unstable, 1);
@@ -121,7 +121,7 @@ TEST(Statics, HangsUnderGravity) {
   Beam beam = torque_beam();
   beam.gravity = 9.81;
   const Chain chain = discretise(beam, 4);
-  const Equilibrium found = equilibrium(chain, {}, {.angle = -std::numbers::pi / 2});
+  const Equilibrium found = equilibrium(chain, {}, {.angle = -pi / 2});
   ASSERT_EQ(found.status, Status::done);
   const double weight = (beam.mass() + beam.tip_mass) * 9.81;
   EXPECT_NEAR(found.forces.reaction.x, -weight, 1e-9);  // pulls the link back along xi

@@ -3,15 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 
 namespace linkwright::math {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 TEST(Angles, WrapIsHalfOpenAtMinusPi) {
   EXPECT_EQ(wrap_angle(pi), pi);
@@ -21,7 +19,7 @@ TEST(Angles, WrapIsHalfOpenAtMinusPi) {
   EXPECT_EQ(wrap_angle(0), 0);
   EXPECT_EQ(wrap_angle(2 * pi), 0);
   EXPECT_LT(wrap_angle(std::nextafter(pi, 4)), 0);
-  EXPECT_TRUE(std::isnan(wrap_angle(std::numeric_limits<double>::quiet_NaN())));
+  EXPECT_TRUE(std::isnan(wrap_angle(nan)));
 }
 
 TEST(Angles, WrapAgreesWithTheExactRemainderAndIsIdempotent) {
@@ -56,7 +54,7 @@ TEST(Angles, UnwrapRecoversALongRotation) {
 }
 
 TEST(Angles, UnwrapPassesOverMissingAngles) {
-  const double missing = std::numeric_limits<double>::quiet_NaN();
+  const double missing = nan;
   std::vector<double> angles = {missing, 2, missing, 3.1, -3.1, missing, -2};
   unwrap_angles(angles);
   EXPECT_TRUE(std::isnan(angles[0]) && std::isnan(angles[2]) && std::isnan(angles[5]));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "support/message.h"
 
 namespace linkwright::math {
@@ -153,7 +154,7 @@ TEST(CheckJacobian, FindsAnEntryThatShouldBeZero) {
   const JacobianCheck second = check_jacobian(without_size, 1, x);
   EXPECT_FALSE(second.passed);
   EXPECT_EQ(second.column, 1u);
-  EXPECT_EQ(second.deviation, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(second.deviation, infinity);
 }
 
 TEST(CheckJacobian, ToleranceFollowsTheScale) {

@@ -7,13 +7,12 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "support/allocations.h"
 
 namespace linkwright::math {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Rosenbrock as two residuals; minimum 0 at (1, 1).
 bool rosenbrock(std::span<const double> x, std::span<double> r, std::span<double> j) {
@@ -289,13 +288,13 @@ TEST(LeastSquares, SaysWhatIsWrongWithACall) {
     return std::string("no error");
   };
   EXPECT_THAT(message([&] { minimise_least_squares(rosenbrock, 2, x, one, high, {}, workspace); }),
-              testing::HasSubstr("1 lower and 2 upper bounds for 2 variables"));
+              ::testing::HasSubstr("1 lower and 2 upper bounds for 2 variables"));
   EXPECT_THAT(message([&] { minimise_least_squares(rosenbrock, 2, x, low, high, {}, workspace); }),
-              testing::HasSubstr("bounds of variable 1: 1 > 0"));
+              ::testing::HasSubstr("bounds of variable 1: 1 > 0"));
   EXPECT_THAT(message([&] { minimise_least_squares(rosenbrock, 0, x, {}, workspace); }),
-              testing::HasSubstr("needs residuals and variables, got 0 and 2"));
+              ::testing::HasSubstr("needs residuals and variables, got 0 and 2"));
   EXPECT_THAT(message([&] { minimise_least_squares(rosenbrock, 2, x, {.lambda0 = 0}, workspace); }),
-              testing::HasSubstr("lambda0 0"));
+              ::testing::HasSubstr("lambda0 0"));
 }
 
 }  // namespace

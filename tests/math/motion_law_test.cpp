@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/differences.h"
 #include "support/message.h"
 
@@ -16,8 +16,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-constexpr double pi = std::numbers::pi;
 
 std::vector<MotionLaw> laws() {
   return {ConstantSpeed{0.3, -2},

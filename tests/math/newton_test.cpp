@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/differences.h"
 #include "support/allocations.h"
 #include "support/message.h"
@@ -141,7 +141,7 @@ TEST(Newton, ReportsASingularJacobian) {
   x = {0, 0};
   const auto straight = solve_newton(FourBarLoop{}, x, {}, workspace);
   EXPECT_EQ(straight.status, Status::singular);
-  EXPECT_EQ(straight.condition, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(straight.condition, infinity);
 }
 
 TEST(Newton, ConditionTellsADoubleRoot) {

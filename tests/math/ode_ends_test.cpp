@@ -5,11 +5,11 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/ode.h"
 #include "support/allocations.h"
 #include "support/message.h"
@@ -335,7 +335,7 @@ TEST(OdeEnds, ContractsAreChecked) {
   };
   EXPECT_THAT(test::message([&] { integrate(oscillator, {}, 0, 1, {}, workspace); }),
               HasSubstr("no components"));
-  EXPECT_THAT(text({}, {}, std::numeric_limits<double>::infinity()), HasSubstr("interval from 0 to inf"));
+  EXPECT_THAT(text({}, {}, infinity), HasSubstr("interval from 0 to inf"));
   std::array bad = {1.0, std::nan("")};
   EXPECT_THAT(test::message([&] { integrate(oscillator, bad, 0, 1, {}, workspace); }),
               HasSubstr("y[1] = nan at the start"));

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "support/published.h"
 
 namespace linkwright::math {
@@ -17,19 +17,18 @@ namespace {
 using ::testing::ElementsAre;
 using Span = std::span<const double>;
 
-constexpr double pi = std::numbers::pi;
-constexpr std::array methods = {OdeMethod::explicit_runge_kutta_5, OdeMethod::explicit_runge_kutta_8,
-                                OdeMethod::adams, OdeMethod::bdf};
+constexpr std::array ode_methods = {OdeMethod::explicit_runge_kutta_5, OdeMethod::explicit_runge_kutta_8,
+                                    OdeMethod::adams, OdeMethod::bdf};
 
-bool oscillator(double, Span y, std::span<double> rate) {
+bool ode_oscillator(double, Span y, std::span<double> rate) {
   rate[0] = y[1];
   rate[1] = -y[0];
   return true;
 }
 
-double oscillator_error(double t, Span y) { return std::hypot(y[0] - std::cos(t), y[1] + std::sin(t)); }
+double ode_oscillator_error(double t, Span y) { return std::hypot(y[0] - std::cos(t), y[1] + std::sin(t)); }
 
-OdeOptions with(OdeMethod method, double tolerance) {
+OdeOptions ode_options(OdeMethod method, double tolerance) {
   OdeOptions o;
   o.method = method;
   o.relative_tolerance = o.absolute_tolerance = tolerance;
@@ -38,15 +37,15 @@ OdeOptions with(OdeMethod method, double tolerance) {
 
 TEST(Ode, EveryMethodFollowsTheTolerance) {
   OdeWorkspace workspace;
-  for (const OdeMethod method : methods) {
+  for (const OdeMethod method : ode_methods) {
     double previous = 1;
     for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
       std::array y = {1.0, 0.0};
-      const auto report = integrate(oscillator, y, 0, 20, with(method, tolerance), workspace);
+      const auto report = integrate(ode_oscillator, y, 0, 20, ode_options(method, tolerance), workspace);
       EXPECT_EQ(report.status, Status::done) << name_of(method);
       EXPECT_EQ(report.t, 20);
       EXPECT_GT(report.evaluations, report.steps);
-      const double error = oscillator_error(20, y);
+      const double error = ode_oscillator_error(20, y);
       // Some tens (order 8) to thousands (BDF) of steps, each within the tolerance, on a circle that keeps
       // errors.
       EXPECT_LT(error, 1000 * tolerance) << name_of(method) << ' ' << tolerance;
@@ -63,12 +62,12 @@ TEST(Ode, RungeKuttaPairsHaveTheirOrders) {
        {std::tuple{OdeMethod::explicit_runge_kutta_5, 5, 0.1}, {OdeMethod::explicit_runge_kutta_8, 8, 0.5}}) {
     std::array<double, 2> errors{};
     for (int i = 0; i < 2; ++i) {
-      OdeOptions o = with(method, 1e3);
+      OdeOptions o = ode_options(method, 1e3);
       o.initial_step = o.max_step = i == 0 ? step : step / 2;
       std::array y = {1.0, 0.0};
-      const auto report = integrate(oscillator, y, 0, 10, o, workspace);
+      const auto report = integrate(ode_oscillator, y, 0, 10, o, workspace);
       EXPECT_NEAR(static_cast<double>(report.steps), 10 / o.max_step, 1);
-      errors[static_cast<std::size_t>(i)] = oscillator_error(10, y);
+      errors[static_cast<std::size_t>(i)] = ode_oscillator_error(10, y);
     }
     EXPECT_NEAR(std::log2(errors[0] / errors[1]), order, 0.3) << name_of(method) << ' ' << errors[0];
   }
@@ -76,14 +75,14 @@ TEST(Ode, RungeKuttaPairsHaveTheirOrders) {
 
 TEST(Ode, TimeDependentRightHandSide) {
   OdeWorkspace workspace;
-  for (const OdeMethod method : methods) {
+  for (const OdeMethod method : ode_methods) {
     std::array y = {0.0};
     // y = sin(t^2)
     const auto f = [](double t, Span, std::span<double> rate) {
       rate[0] = 2 * t * std::cos(t * t);
       return true;
     };
-    integrate(f, y, 0, 4, with(method, 1e-9), workspace);
+    integrate(f, y, 0, 4, ode_options(method, 1e-9), workspace);
     EXPECT_NEAR(y[0], std::sin(16.0), 1e-6) << name_of(method);
   }
 }
@@ -97,16 +96,16 @@ TEST(Ode, KeepsTheEnergyOfAnOscillator) {
     worst = std::max(worst, std::abs(at[0] * at[0] + at[1] * at[1] - 1));
     return true;
   };
-  const auto report =
-      integrate(oscillator, y, 0, 200 * pi, with(OdeMethod::explicit_runge_kutta_8, 1e-11), hooks, workspace);
+  const auto report = integrate(ode_oscillator, y, 0, 200 * pi,
+                                ode_options(OdeMethod::explicit_runge_kutta_8, 1e-11), hooks, workspace);
   EXPECT_EQ(report.status, Status::done);
   EXPECT_LT(worst, 1e-8);  // 100 turns of some 30 steps, each within 1e-11 and mostly in phase
-  EXPECT_LT(oscillator_error(200 * pi, y), 1e-8);
+  EXPECT_LT(ode_oscillator_error(200 * pi, y), 1e-8);
 }
 
 TEST(Ode, GoesBackTheWayItCame) {
   OdeWorkspace workspace;
-  for (const OdeMethod method : methods) {
+  for (const OdeMethod method : ode_methods) {
     std::array y = {1.0, 0.0};
     std::vector<double> times;
     const std::array outputs = {5.0, 2.0, -3.0};
@@ -114,26 +113,26 @@ TEST(Ode, GoesBackTheWayItCame) {
     hooks.output_times = outputs;
     hooks.output = [&](double t, Span at) {
       times.push_back(t);
-      EXPECT_LT(oscillator_error(t, at), 2e-6) << name_of(method);
+      EXPECT_LT(ode_oscillator_error(t, at), 2e-6) << name_of(method);
       return true;
     };
-    integrate(oscillator, y, 0, 7, with(method, 1e-9), workspace);
-    integrate(oscillator, y, 7, -3, with(method, 1e-9), hooks, workspace);
-    EXPECT_LT(oscillator_error(-3, y), 2e-6) << name_of(method);
+    integrate(ode_oscillator, y, 0, 7, ode_options(method, 1e-9), workspace);
+    integrate(ode_oscillator, y, 7, -3, ode_options(method, 1e-9), hooks, workspace);
+    EXPECT_LT(ode_oscillator_error(-3, y), 2e-6) << name_of(method);
     EXPECT_THAT(times, ElementsAre(5.0, 2.0, -3.0));
   }
 }
 
 TEST(Ode, AnEmptyIntervalIsDone) {
   OdeWorkspace workspace;
-  for (const OdeMethod method : methods) {
+  for (const OdeMethod method : ode_methods) {
     std::array y = {0.3, -0.2};
     const std::array outputs = {2.0};
     int told = 0;
     OdeHooks hooks;
     hooks.output_times = outputs;
     hooks.output = [&](double, Span) { return ++told, true; };
-    const auto report = integrate(oscillator, y, 2, 2, with(method, 1e-9), hooks, workspace);
+    const auto report = integrate(ode_oscillator, y, 2, 2, ode_options(method, 1e-9), hooks, workspace);
     EXPECT_EQ(report.status, Status::done);
     EXPECT_EQ(report.end, OdeEnd::time);
     EXPECT_EQ(report.steps, 0);
@@ -146,7 +145,7 @@ TEST(Ode, AnEmptyIntervalIsDone) {
 // What is delivered between steps is as accurate as what is delivered at their ends.
 TEST(Ode, OutputsAreAsAccurateAsSteps) {
   OdeWorkspace workspace;
-  for (const OdeMethod method : methods)
+  for (const OdeMethod method : ode_methods)
     for (const double tolerance : {1e-5, 1e-7, 1e-9, 1e-11}) {
       std::vector<double> outputs;
       for (int i = 0; i <= 3000; ++i) outputs.push_back(0.01 * i);
@@ -154,15 +153,16 @@ TEST(Ode, OutputsAreAsAccurateAsSteps) {
       OdeHooks hooks;
       hooks.output_times = outputs;
       hooks.output = [&](double t, Span y) {
-        at_outputs = std::max(at_outputs, oscillator_error(t, y));
+        at_outputs = std::max(at_outputs, ode_oscillator_error(t, y));
         return true;
       };
       hooks.step = [&](double t, Span y) {
-        at_steps = std::max(at_steps, oscillator_error(t, y));
+        at_steps = std::max(at_steps, ode_oscillator_error(t, y));
         return true;
       };
       std::array y = {1.0, 0.0};
-      const auto report = integrate(oscillator, y, 0, 30, with(method, tolerance), hooks, workspace);
+      const auto report =
+          integrate(ode_oscillator, y, 0, 30, ode_options(method, tolerance), hooks, workspace);
       EXPECT_EQ(report.status, Status::done);
       EXPECT_LT(at_outputs, 1.5 * at_steps + tolerance) << name_of(method) << ' ' << tolerance;
     }
@@ -170,7 +170,7 @@ TEST(Ode, OutputsAreAsAccurateAsSteps) {
 
 TEST(Ode, StepsDoNotDependOnOutputs) {
   OdeWorkspace workspace;
-  for (const OdeMethod method : methods) {
+  for (const OdeMethod method : ode_methods) {
     std::array<std::array<double, 2>, 2> ends{};
     for (std::size_t run = 0; run < 2; ++run) {
       std::vector<double> outputs;
@@ -181,7 +181,7 @@ TEST(Ode, StepsDoNotDependOnOutputs) {
         hooks.output = [](double, Span) { return true; };
       }
       ends[run] = {1.0, 0.0};
-      integrate(oscillator, ends[run], 0, 10, with(method, 1e-7), hooks, workspace);
+      integrate(ode_oscillator, ends[run], 0, 10, ode_options(method, 1e-7), hooks, workspace);
     }
     EXPECT_EQ(ends[0], ends[1]) << name_of(method);
   }
@@ -194,36 +194,37 @@ TEST(Ode, HooksEndIt) {
   hooks.output_times = outputs;
   hooks.output = [](double t, Span) { return t < 2; };
   std::array y = {1.0, 0.0};
-  auto report =
-      integrate(oscillator, y, 0, 3, with(OdeMethod::explicit_runge_kutta_8, 1e-9), hooks, workspace);
+  auto report = integrate(ode_oscillator, y, 0, 3, ode_options(OdeMethod::explicit_runge_kutta_8, 1e-9),
+                          hooks, workspace);
   EXPECT_EQ(report.status, Status::done);
   EXPECT_EQ(report.end, OdeEnd::hook);
   EXPECT_EQ(report.t, 2);
-  EXPECT_LT(oscillator_error(2, y), 1e-7);
+  EXPECT_LT(ode_oscillator_error(2, y), 1e-7);
 
   hooks = {};
   hooks.step = [](double t, Span) { return t < 1; };
   y = {1, 0};
-  report = integrate(oscillator, y, 0, 3, with(OdeMethod::explicit_runge_kutta_8, 1e-9), hooks, workspace);
+  report = integrate(ode_oscillator, y, 0, 3, ode_options(OdeMethod::explicit_runge_kutta_8, 1e-9), hooks,
+                     workspace);
   EXPECT_EQ(report.end, OdeEnd::hook);
   EXPECT_GE(report.t, 1);
   EXPECT_LT(report.t, 3);
-  EXPECT_LT(oscillator_error(report.t, y), 1e-7);
+  EXPECT_LT(ode_oscillator_error(report.t, y), 1e-7);
 }
 
 // IFToMM benchmark A01: a pendulum of 1 m, let go horizontally; the published data start at x = -1 m.
 TEST(Ode, PublishedPendulumKeepsItsPhaseFor2000Seconds) {
-  const Value& published = testing::published_case("multibody-benchmarks.json", "A01-simple-pendulum");
-  const Value& samples = testing::at(published, "published.samples_t_x_y_m");
+  const Value& published = test::published_case("multibody-benchmarks.json", "A01-simple-pendulum");
+  const Value& samples = test::at(published, "published.samples_t_x_y_m");
   std::vector<double> times;
   std::vector<std::array<double, 2>> positions;
   for (const Value& sample : samples.as_array()) {
-    const auto row = testing::numbers(sample);
+    const auto row = test::numbers(sample);
     times.push_back(row[0]);
     positions.push_back({row[1], row[2]});
   }
   ASSERT_EQ(times.back(), 2000);
-  const double g = testing::number_at(published, "inputs.g_m_per_s2");
+  const double g = test::number_at(published, "inputs.g_m_per_s2");
   const auto pendulum = [g](double, Span y, std::span<double> rate) {  // angle from the vertical
     rate[0] = y[1];
     rate[1] = -g * std::sin(y[0]);
@@ -244,7 +245,7 @@ TEST(Ode, PublishedPendulumKeepsItsPhaseFor2000Seconds) {
       return true;
     };
     std::array y = {-pi / 2, 0.0};
-    OdeOptions o = with(method, 1e-13);
+    OdeOptions o = ode_options(method, 1e-13);
     o.max_steps = 10'000'000;
     const auto report = integrate(pendulum, y, 0, 2000, o, hooks, workspace);
     EXPECT_EQ(report.status, Status::done) << report.message;
@@ -277,7 +278,7 @@ TEST(Ode, InnerStatesAreAsAccurateAsTheStep) {
       worst = std::max(worst, last);
       return true;
     };
-    OdeOptions o = with(method, 1e3);
+    OdeOptions o = ode_options(method, 1e3);
     o.initial_step = o.max_step = step;
     std::array y = exact(0);
     const auto report = integrate(f, y, 0, step, o, hooks, workspace);
@@ -296,7 +297,7 @@ bool stiff(double t, Span y, std::span<double> rate) {
 
 TEST(Ode, BdfTakesLongStepsThroughStiffEquations) {
   OdeWorkspace workspace;
-  OdeOptions o = with(OdeMethod::bdf, 1e-8);
+  OdeOptions o = ode_options(OdeMethod::bdf, 1e-8);
   const auto error = [](Span y) {
     return std::abs(y[0] - std::cos(10.0)) + std::abs(y[1] - std::exp(-10.0)) +
            std::abs(y[2] - 6 * std::exp(-10.0));
@@ -334,7 +335,7 @@ TEST(Ode, BdfTakesLongStepsThroughStiffEquations) {
 
 TEST(Ode, ToleranceOfEachComponent) {
   OdeWorkspace workspace;
-  for (const OdeMethod method : methods) {
+  for (const OdeMethod method : ode_methods) {
     // Lengths in m and in nm: one absolute tolerance would not do for both.
     const auto f = [](double, Span y, std::span<double> rate) {
       rate[0] = y[1] * 1e-9;
@@ -342,7 +343,7 @@ TEST(Ode, ToleranceOfEachComponent) {
       return true;
     };
     const std::array tolerances = {1e-9, 1.0};
-    OdeOptions o = with(method, 1e-13);
+    OdeOptions o = ode_options(method, 1e-13);
     o.absolute_tolerances = tolerances;
     std::array y = {1.0, 0.0};
     const auto report = integrate(f, y, 0, 10, o, workspace);

@@ -3,17 +3,14 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <numbers>
-
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "support/generators.h"
 
 namespace linkwright::math {
 namespace {
 
-using linkwright::testing::between;
-
-constexpr double pi = std::numbers::pi;
+using linkwright::test::between;
 
 // Coordinates up to 10 and angles of some turns; products of two or three of them are below 100.
 rc::Gen<Pose> any_pose() {

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "linkwright/core/numbers.h"
+
 namespace linkwright::math {
 namespace {
 
 using S = Scalar<double>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Scalar, PositivePartCutsOffBelowZero) {
   EXPECT_EQ(S::positive_part(2.5), 2.5);

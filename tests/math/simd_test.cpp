@@ -4,9 +4,9 @@
 
 #include <bit>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 
 namespace linkwright::math {
@@ -20,18 +20,8 @@ using V = Scalar<Batch>;
 std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
 
 std::vector<double> samples() {
-  std::vector<double> out = {0.0,
-                             -0.0,
-                             1.0,
-                             -1.0,
-                             0.5,
-                             -0.5,
-                             1e300,
-                             -1e300,
-                             1e-310,
-                             -1e-310,
-                             std::numeric_limits<double>::infinity(),
-                             -std::numeric_limits<double>::infinity()};
+  std::vector<double> out = {0.0,   -0.0,   1.0,    -1.0,    0.5,      -0.5,
+                             1e300, -1e300, 1e-310, -1e-310, infinity, -infinity};
   RandomStream random({.seed = 3});
   for (int i = 0; i < 500; ++i) out.push_back(random.normal() * (i % 2 ? 1e3 : 1.0));
   return out;

@@ -5,8 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/simd.h"
 
@@ -34,7 +34,7 @@ TEST(Sincos, KeepsItsBoundWhereQuadrantsMeet) {
   // Multiples of pi / 4 up to the ends of the range; there the reduced angle is smallest or largest.
   for (int k = -2000; k <= 2000; ++k) {
     for (const int stride : {1, 63}) {
-      const double x = k * stride * (std::numbers::pi / 4);
+      const double x = k * stride * (pi / 4);
       if (std::abs(x) > 1e5) continue;
       expect_near_exact(x);
       expect_near_exact(std::nextafter(x, 1e9));

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "support/message.h"
 
 namespace linkwright::math {
@@ -18,7 +17,7 @@ using ::testing::IsEmpty;
 std::vector<double> sines(std::size_t n, double step) {
   std::vector<double> out;
   for (std::size_t i = 0; i < n; ++i) {
-    const double t = 2 * std::numbers::pi * step * static_cast<double>(i);
+    const double t = 2 * pi * step * static_cast<double>(i);
     out.push_back(7 + 3 * std::sin(20 * t + 0.4) + 0.5 * std::cos(45 * t));
   }
   return out;
@@ -40,8 +39,7 @@ TEST(Spectrum, ReadsTheAmplitudesOfSines) {
 TEST(Spectrum, LosesLittleBetweenItsLines) {
   // 20.5 lines in the interval: the worst case reads 8 / (3 pi) of the amplitude.
   const Spectrum s = spectrum(sines(1024, 1.025 / 1024), 1.025 / 1024);
-  EXPECT_NEAR(*std::max_element(s.amplitude.begin(), s.amplitude.end()), 3 * 8 / (3 * std::numbers::pi),
-              0.01);
+  EXPECT_NEAR(*std::max_element(s.amplitude.begin(), s.amplitude.end()), 3 * 8 / (3 * pi), 0.01);
 }
 
 TEST(Spectrum, LeavesValuesOutForTheSakeOfSpeed) {
@@ -54,7 +52,7 @@ TEST(Spectrum, LeavesValuesOutForTheSakeOfSpeed) {
 TEST(Spectrum, IsEmptyWithoutValues) {
   EXPECT_THAT(spectrum(sines(7, 1), 1).frequency, IsEmpty());
   std::vector<double> holed = sines(100, 1);
-  holed[3] = std::numeric_limits<double>::quiet_NaN();
+  holed[3] = nan;
   EXPECT_THAT(spectrum(holed, 1).frequency, IsEmpty());
   EXPECT_THAT(linkwright::test::message([] { spectrum(sines(100, 1), 0); }), HasSubstr("values 0 s apart"));
 }

@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::math {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 TEST(ZeroBetween, FindsZerosToTheLastDigit) {
   // One unit in the last place of the zero, which is where the sign of the function changes.
   const double eps = std::numeric_limits<double>::epsilon();
-  EXPECT_NEAR(zero_between([](double x) { return std::cos(x); }, 1, 2), std::numbers::pi / 2, 2 * eps);
+  EXPECT_NEAR(zero_between([](double x) { return std::cos(x); }, 1, 2), pi / 2, 2 * eps);
   EXPECT_NEAR(zero_between([](double x) { return x * x * x - 2; }, 5, 0), std::cbrt(2.0), 2 * eps);
   EXPECT_NEAR(zero_between([](double x) { return std::exp(x) - 1e-3; }, -50, 50), std::log(1e-3), 16 * eps);
 }

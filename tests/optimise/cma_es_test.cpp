@@ -14,7 +14,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 Report run(const Problem& problem, int generations, std::uint64_t seed = 1, int population = 0,
            int threads = 1) {

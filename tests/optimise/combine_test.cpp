@@ -17,8 +17,8 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 /// Costs x0 and x1, no costs where x0 > 8.
 Problem plain() {

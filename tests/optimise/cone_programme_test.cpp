@@ -17,7 +17,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 Cone at_least(std::size_t variable, double limit) {
   return {.bound = {{variable}, {1}, -limit}, .parts = {}};

@@ -13,7 +13,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const OptimiserOptions cuckoos = {.method = Method::cuckoo_search, .cuckoo_search = {.generations = 101}};
 

@@ -63,8 +63,8 @@ TEST(DifferentialEvolution, DemoFunctionOfTheWheelGuideStudies) {
 // the global minima are not the same.
 TEST(DifferentialEvolution, DemoFunctionWithBothSigns) {
   for (const char* id : {"de-demo-as-printed", "de-demo-sign-corrected"}) {
-    const linkwright::Value& given = linkwright::testing::published_case("suspension.json", id);
-    const double linear = linkwright::testing::number_at(given, "inputs.linear_coefficient");
+    const linkwright::Value& given = linkwright::test::published_case("suspension.json", id);
+    const double linear = linkwright::test::number_at(given, "inputs.linear_coefficient");
     const Problem problem = test::make_problem(2, -5, 5, [linear](std::span<const double> x) {
       return test::Value{std::pow(x[0] * x[0] + x[1] - 11, 2) + std::pow(x[0] + x[1] * x[1] - 7, 2) +
                          linear * (x[0] + x[1])};
@@ -73,13 +73,12 @@ TEST(DifferentialEvolution, DemoFunctionWithBothSigns) {
     method.differential_evolution.population = 40;
     const auto report = run(problem, method, 300, 5, -1e9);
     const Report& best = report.reports[report.best];
-    const auto& minima = linkwright::testing::at(given, "computed.minima").as_array();
-    const auto global =
-        static_cast<std::size_t>(linkwright::testing::number_at(given, "computed.global_index"));
-    const auto x = linkwright::testing::numbers(linkwright::testing::at(minima[global], "x"));
+    const auto& minima = linkwright::test::at(given, "computed.minima").as_array();
+    const auto global = static_cast<std::size_t>(linkwright::test::number_at(given, "computed.global_index"));
+    const auto x = linkwright::test::numbers(linkwright::test::at(minima[global], "x"));
     EXPECT_NEAR(best.x[0], x[0], 1e-6) << id;
     EXPECT_NEAR(best.x[1], x[1], 1e-6) << id;
-    EXPECT_NEAR(best.cost, linkwright::testing::number_at(minima[global], "f"), 1e-12) << id;
+    EXPECT_NEAR(best.cost, linkwright::test::number_at(minima[global], "f"), 1e-12) << id;
   }
 }
 

@@ -14,7 +14,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 OptimiserOptions fireflies(const FireflyMove& move) {
   return {.method = Method::firefly, .firefly = {.generations = 101, .move = move}};

@@ -8,11 +8,14 @@
 #include <span>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/problem.h"
 
 /// Standard functions with known optima; the boxes are not symmetric, so that a pull to the centre does not
 /// help.
+namespace linkwright::test {}
 namespace linkwright::optimise::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 struct Value {
   double cost = 0;
@@ -60,7 +63,7 @@ inline Problem rosenbrock(std::size_t n) {
 inline Problem rastrigin(std::size_t n) {
   return make_problem(n, -4, 5.12, [](std::span<const double> x) {
     double sum = 0;
-    for (const double v : x) sum += v * v + 10 * (1 - std::cos(2 * std::numbers::pi * v));
+    for (const double v : x) sum += v * v + 10 * (1 - std::cos(2 * pi * v));
     return Value{sum};
   });
 }
@@ -71,7 +74,7 @@ inline Problem ackley(std::size_t n) {
     double squares = 0, cosines = 0;
     for (const double v : x) {
       squares += v * v;
-      cosines += std::cos(2 * std::numbers::pi * v);
+      cosines += std::cos(2 * pi * v);
     }
     const auto count = static_cast<double>(x.size());
     return Value{20 * (1 - std::exp(-0.2 * std::sqrt(squares / count))) + std::numbers::e -

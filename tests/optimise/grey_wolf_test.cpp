@@ -14,7 +14,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 SeedsReport run(const Problem& problem, const GreyWolfOptions& wolves, int seeds, double threshold) {
   OptimiserOptions method = {.method = Method::grey_wolf, .grey_wolf = wolves};

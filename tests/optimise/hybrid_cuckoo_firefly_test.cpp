@@ -13,7 +13,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 OptimiserOptions hybrid(const FireflyMove& move) {
   return {.method = Method::hybrid_cuckoo_firefly,

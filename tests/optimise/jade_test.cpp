@@ -14,9 +14,9 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-SeedStatistics run(const Problem& problem, const JadeOptions& jade, double threshold, int seeds = 20) {
+SeedStatistics run_jade(const Problem& problem, const JadeOptions& jade, double threshold, int seeds = 20) {
   const OptimiserOptions method = {.method = Method::jade, .jade = jade};
   MinimiseOptions options;
   options.stop.target_cost = threshold;
@@ -28,7 +28,7 @@ TEST(Jade, FindsTheKnownOptima) {
   // Budgets are about twice what the slowest of the twenty seeds needs.
   for (const bool archive : {true, false}) {
     const auto successes = [&](const Problem& problem, int generations, double threshold) {
-      return run(problem, {.generations = generations, .archive = archive}, threshold).successes;
+      return run_jade(problem, {.generations = generations, .archive = archive}, threshold).successes;
     };
     EXPECT_EQ(successes(test::sphere(10), 300, 1e-10), 20);
     EXPECT_EQ(successes(test::rosenbrock(5), 500, 1e-8), 20);
@@ -48,7 +48,7 @@ TEST(Jade, ReachesThePublishedPrecision) {
     return test::Value{sum};
   });
   // Single runs scatter over ten orders of magnitude, and the worst of 50 makes the printed mean.
-  const double with = run(f1, {}, 0, 2).worst, without = run(f1, {.archive = false}, 0, 2).worst;
+  const double with = run_jade(f1, {}, 0, 2).worst, without = run_jade(f1, {.archive = false}, 0, 2).worst;
   EXPECT_LT(with, 1e-52);
   EXPECT_GT(with, 1e-70);
   EXPECT_LT(without, 1e-57);

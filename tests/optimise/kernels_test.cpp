@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/population.h"
 
@@ -176,7 +176,6 @@ TEST(Kernels, GreyWolfIsTheSameBitsAsItsDefinition) {
 }
 
 TEST(Kernels, SelectFollowsTheFeasibilityRules) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   struct Duel {
     double trial_cost, trial_violation, cost, violation;
     bool taken;

@@ -14,7 +14,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::vector<std::string> keys(OptimiserOptions options) {
   std::vector<std::string> found;

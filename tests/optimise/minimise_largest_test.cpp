@@ -13,7 +13,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using Numbers = std::span<const double>;
 using Out = std::span<double>;
 

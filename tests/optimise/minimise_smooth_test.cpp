@@ -8,6 +8,7 @@
 
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/looks.h"
+#include "linkwright/core/numbers.h"
 #include "optimise/smooth_cases.h"
 #include "support/memory_checkpoint.h"
 #include "support/message.h"
@@ -15,8 +16,8 @@
 namespace linkwright::optimise {
 namespace {
 
+using test::smooth_problem;
 using ::testing::HasSubstr;
-using testing::smooth_problem;
 using Numbers = std::span<const double>;
 using Out = std::span<double>;
 
@@ -32,7 +33,7 @@ const ActiveLimit* find(const SmoothReport& report, LimitKind kind, std::size_t 
 TEST(MinimiseSmooth, FindsTheMeanUnderAConstraint) {
   // The mean is the square of the distance to (1/2, 1), and more; nearest on a + b = 1 is (1/4, 3/4).
   RunContext context;
-  const SmoothReport r = minimise_smooth(testing::two_points(), {.candidates = 64, .starts = 8}, {}, context);
+  const SmoothReport r = minimise_smooth(test::two_points(), {.candidates = 64, .starts = 8}, {}, context);
   EXPECT_EQ(r.status, Status::done);
   EXPECT_EQ(r.stop_reason, "8 searches");
   EXPECT_NEAR(r.x[0], 0.25, 1e-5);
@@ -54,7 +55,7 @@ TEST(MinimiseSmooth, AnInterruptionAmongTheFirstCandidatesKeepsThose) {
   RunContext context;
   const SmoothOptions options{.candidates = 10000, .starts = 8};
   const LooksAllowed looks(99);
-  const SmoothReport r = minimise_smooth(interruptible(testing::two_points(), context), options, {}, context);
+  const SmoothReport r = minimise_smooth(interruptible(test::two_points(), context), options, {}, context);
   EXPECT_EQ(r.status, Status::cancelled);
   // A hundred candidates, and what a search takes at its start.
   EXPECT_GE(r.evaluations, 100);
@@ -69,7 +70,7 @@ TEST(MinimiseSmooth, FindsTheLargest) {
   // sqrt(5) t = sqrt(5) (1 - t), which is (1/2, 1), not allowed; on the line (1/6, 5/6), 25/18.
   RunContext context;
   const SmoothReport r = minimise_smooth(
-      testing::two_points(), {.goal = SmoothGoal::largest, .candidates = 64, .starts = 8}, {}, context);
+      test::two_points(), {.goal = SmoothGoal::largest, .candidates = 64, .starts = 8}, {}, context);
   EXPECT_NEAR(r.cost, 25.0 / 18, close);
   EXPECT_NEAR(r.x[0], 1.0 / 6, 1e-6);
   EXPECT_NEAR(r.objectives[0], r.objectives[1], close);
@@ -85,8 +86,8 @@ TEST(MinimiseSmooth, FindsTheLargest) {
 
 TEST(MinimiseSmooth, KeepsCapsAndTellsTheirPrice) {
   // Without the line: least mean with the first objective at most 1/4.
-  SmoothProblem p = testing::two_points();
-  SmoothOptions o{.candidates = 64, .starts = 8, .caps = {0.25, std::numeric_limits<double>::infinity()}};
+  SmoothProblem p = test::two_points();
+  SmoothOptions o{.candidates = 64, .starts = 8, .caps = {0.25, infinity}};
   p = smooth_problem({{"a", -3, 3}, {"b", -3, 3}}, 2, 0, [](Numbers x, Out out) {
     out[0] = (x[0] - 1) * (x[0] - 1) + x[1] * x[1];
     out[1] = x[0] * x[0] + (x[1] - 2) * (x[1] - 2);
@@ -180,7 +181,7 @@ TEST(MinimiseSmooth, GoesOnFromItsCheckpoint) {
 }
 
 TEST(MinimiseSmooth, EvaluatesNoMoreThanAPartOfItsCandidatesWhenItIsToStop) {
-  SmoothProblem problem = testing::two_points();
+  SmoothProblem problem = test::two_points();
   const auto plain = problem.evaluate;
   std::int64_t evaluated = 0;
   problem.evaluate = [&](const PopulationView& x, std::span<double> values) {
@@ -210,11 +211,11 @@ TEST(MinimiseSmooth, SaysWhenNothingIsFeasible) {
 TEST(MinimiseSmooth, SearchesFromOneStart) {
   RunContext context;
   const std::vector<double> start = {-2, 2}, outside = {2.9, -1};
-  const SmoothReport r = minimise_smooth_from(testing::two_points(), {}, start, context);
+  const SmoothReport r = minimise_smooth_from(test::two_points(), {}, start, context);
   EXPECT_NEAR(r.cost, 1.375, close);
   EXPECT_EQ(r.ends.size(), 1u);
   // It does not exist there, and nothing leads away.
-  EXPECT_EQ(minimise_smooth_from(testing::two_points(), {}, outside, context).status, Status::infeasible);
+  EXPECT_EQ(minimise_smooth_from(test::two_points(), {}, outside, context).status, Status::infeasible);
 }
 
 TEST(MinimiseSmooth, RejectsWhatItCannotUse) {
@@ -222,7 +223,7 @@ TEST(MinimiseSmooth, RejectsWhatItCannotUse) {
     RunContext context;
     return test::message([&] { minimise_smooth(p, o, {}, context); });
   };
-  const SmoothProblem good = testing::two_points();
+  const SmoothProblem good = test::two_points();
   EXPECT_THAT(error(good, {.candidates = 0}),
               HasSubstr("minimise_smooth: candidates must be at least 1, got 0"));
   EXPECT_THAT(error(good, {.weights = {1}}), HasSubstr("1 weights for 2 objectives"));

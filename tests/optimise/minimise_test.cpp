@@ -17,7 +17,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr Method all_methods[] = {Method::differential_evolution,
                                   Method::self_adaptive_differential_evolution,

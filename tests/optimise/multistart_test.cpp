@@ -111,7 +111,7 @@ TEST(Multistart, TellsWhenNoStartCanBeEvaluated) {
   EXPECT_THAT(linkwright::test::message([&] {
                 multistart_least_squares(waves, 1, 1, {}, {}, uniform_start, {.starts = 0}, {}, context);
               }),
-              testing::HasSubstr("starts must be at least 1, got 0"));
+              ::testing::HasSubstr("starts must be at least 1, got 0"));
 }
 
 TEST(Multistart, BoundsHold) {

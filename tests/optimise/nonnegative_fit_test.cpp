@@ -12,19 +12,19 @@
 namespace linkwright::optimise {
 namespace {
 
-using Numbers = std::vector<double>;
+using FitNumbers = std::vector<double>;
 
 TEST(NonnegativeFit, IsTheOrdinaryFitWhereThatIsNotNegative) {
-  const Numbers columns = {1, 0, 0, 1, 1, 0}, b = {3, 2, 0};
-  Numbers x(2);
+  const FitNumbers columns = {1, 0, 0, 1, 1, 0}, b = {3, 2, 0};
+  FitNumbers x(2);
   EXPECT_NEAR(fit_nonnegative(columns, b, x), 0, 1e-14);
   EXPECT_NEAR(x[0], 1, 1e-14);
   EXPECT_NEAR(x[1], 2, 1e-14);
 }
 
 TEST(NonnegativeFit, LeavesOutWhatWouldBeNegative) {
-  const Numbers columns = {1, 0, 0, 1}, b = {3, -2};
-  Numbers x(2);
+  const FitNumbers columns = {1, 0, 0, 1}, b = {3, -2};
+  FitNumbers x(2);
   EXPECT_NEAR(fit_nonnegative(columns, b, x), 2, 1e-14);
   EXPECT_NEAR(x[0], 3, 1e-14);
   EXPECT_EQ(x[1], 0);
@@ -35,11 +35,11 @@ TEST(NonnegativeFit, MeetsItsConditionsOnRandomColumns) {
   const std::size_t m = 9, n = 14;
   for (std::uint32_t trial = 0; trial < 50; ++trial) {
     RandomStream random({.seed = 5, .individual = trial});
-    Numbers columns(m * n), b(m), x(n);
+    FitNumbers columns(m * n), b(m), x(n);
     for (double& v : columns) v = random.normal();
     for (double& v : b) v = random.normal();
     const double norm = fit_nonnegative(columns, b, x);
-    Numbers rest = b;
+    FitNumbers rest = b;
     for (std::size_t k = 0; k < n; ++k)
       for (std::size_t i = 0; i < m; ++i) rest[i] -= columns[k * m + i] * x[k];
     double square = 0;
@@ -57,8 +57,8 @@ TEST(NonnegativeFit, MeetsItsConditionsOnRandomColumns) {
 }
 
 TEST(NonnegativeFit, TakesNothing) {
-  Numbers x;
-  const Numbers b = {3, 4};
+  FitNumbers x;
+  const FitNumbers b = {3, 4};
   EXPECT_EQ(fit_nonnegative({}, b, x), 5);
   EXPECT_THAT(test::message([&] { fit_nonnegative(b, b, x); }),
               ::testing::HasSubstr("2 numbers for 0 columns"));

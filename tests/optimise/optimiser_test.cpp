@@ -17,22 +17,22 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-constexpr Method all_methods[] = {Method::differential_evolution,
-                                  Method::self_adaptive_differential_evolution,
-                                  Method::jade,
-                                  Method::grey_wolf,
-                                  Method::particle_swarm,
-                                  Method::firefly,
-                                  Method::cuckoo_search,
-                                  Method::hybrid_cuckoo_firefly,
-                                  Method::subpopulation_firefly,
-                                  Method::cma_es};
+constexpr Method every_method[] = {Method::differential_evolution,
+                                   Method::self_adaptive_differential_evolution,
+                                   Method::jade,
+                                   Method::grey_wolf,
+                                   Method::particle_swarm,
+                                   Method::firefly,
+                                   Method::cuckoo_search,
+                                   Method::hybrid_cuckoo_firefly,
+                                   Method::subpopulation_firefly,
+                                   Method::cma_es};
 
 TEST(Optimiser, FirstCandidatesAreUniformAndOneOfEachStream) {
   const Problem problem = test::sphere(3);
-  for (const Method method : all_methods) {
+  for (const Method method : every_method) {
     const auto optimiser =
         make_optimiser(problem.variables, OptimiserOptions{.method = method}, {.seed = 9, .run = 2});
     const PopulationView first = optimiser->ask();
@@ -49,7 +49,7 @@ TEST(Optimiser, CandidatesStayInTheBoxAndFixedVariablesFixed) {
   problem.variables[2] = {"thin", 1e6, 1e6 + 1e-9};
   problem.variables[3] = {"huge", -1e300, 1e300};
   for (const bool reset : {false, true})
-    for (const Method method : all_methods) {
+    for (const Method method : every_method) {
       OptimiserOptions options = {.method = method};
       options.grey_wolf.reset_worst_half = reset;
       const auto optimiser = make_optimiser(problem.variables, options, {});
@@ -78,7 +78,7 @@ TEST(Optimiser, BeginsWithGivenMembers) {
     given(0, i) = 0.1 * static_cast<double>(i);
     given(1, i) = -0.5 * static_cast<double>(i);
   }
-  for (const Method method : all_methods) {
+  for (const Method method : every_method) {
     OptimiserOptions options = {.method = method};
     visit_method(options, [](auto& o) { o.population = 20; });
     const auto optimiser = make_optimiser(problem.variables, options, {});
@@ -152,7 +152,7 @@ TEST(Optimiser, SeedsAndRunsAreDifferentCourses) {
 TEST(Optimiser, AGenerationAllocatesNothing) {
   const Problem problem = test::sphere(10);
   for (const bool reset : {false, true})
-    for (const Method method : all_methods) {
+    for (const Method method : every_method) {
       OptimiserOptions options = {.method = method};
       options.grey_wolf.reset_worst_half = reset;
       if (method == Method::cma_es) continue;  // that is pagmo's, which does
@@ -170,7 +170,7 @@ TEST(Optimiser, AGenerationAllocatesNothing) {
 /// Every method, the variant of grey wolf that keeps more, and a hybrid with other options.
 std::vector<OptimiserOptions> all_options() {
   std::vector<OptimiserOptions> all;
-  for (const Method method : all_methods) all.push_back({.method = method});
+  for (const Method method : every_method) all.push_back({.method = method});
   all.push_back({.method = Method::grey_wolf});
   all.back().grey_wolf.reset_worst_half = true;
   all.push_back({.method = Method::particle_swarm});
@@ -319,8 +319,8 @@ TEST(Optimiser, SaysWhatIsWrong) {
 
 // Several objectives.
 
-constexpr Method several_objectives[] = {Method::firefly, Method::cuckoo_search,
-                                         Method::hybrid_cuckoo_firefly, Method::subpopulation_firefly};
+constexpr Method methods_of_several_objectives[] = {
+    Method::firefly, Method::cuckoo_search, Method::hybrid_cuckoo_firefly, Method::subpopulation_firefly};
 
 OptimiserOptions four(Method method) {
   OptimiserOptions options = {.method = method};
@@ -331,7 +331,7 @@ OptimiserOptions four(Method method) {
 
 TEST(Incumbent, GivesWayToWhatDominatesItOnly) {
   const Problem problem = test::schaffer(2);
-  for (const Method method : several_objectives) {
+  for (const Method method : methods_of_several_objectives) {
     const auto optimiser = make_optimiser(problem.variables, four(method), {}, 2);
     const double known[] = {-9, 7};  // outside the bounds
     const double known_costs[] = {1, 1};
@@ -393,7 +393,7 @@ TEST(Incumbent, DominatesAllThatWereBestBefore) {
   };
   for (const auto& [problem, x0, costs0] :
        {Case{test::schaffer(3), {-5, -5, -5}, {25, 49}}, Case{test::binh_korn(), {5, 0}, {100, 25}}})
-    for (const Method method : several_objectives) {
+    for (const Method method : methods_of_several_objectives) {
       const auto optimiser = make_optimiser(problem.variables, OptimiserOptions{.method = method}, {}, 2);
       optimiser->start_from(x0, costs0);
       std::vector<std::vector<double>> incumbents = {costs0};
@@ -427,7 +427,7 @@ TEST(Incumbent, AReferenceOutsideTheBoundsIsPartOfTheState) {
     optimiser->start_from(std::vector<double>{x, 0}, std::vector<double>{1e-9, 1e-9});  // nobody's equal
     return optimiser;
   };
-  for (const Method method : several_objectives) {
+  for (const Method method : methods_of_several_objectives) {
     const auto whole = make(method, 11), restored = make(method, 11), other = make(method, 10);
     for (int k = 0; k < 4; ++k) generation(problem, *whole);
     EXPECT_EQ(whole->best()[0], 11);

@@ -24,7 +24,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TEST(PagmoAdapters, ProblemIsSeenByPagmo) {
   Problem disc = test::make_problem(2, -3, 4, [](std::span<const double> x) {

@@ -16,9 +16,9 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-constexpr PagmoMethod all_methods[] = {PagmoMethod::nsga2, PagmoMethod::moead};
+constexpr PagmoMethod all_pagmo_methods[] = {PagmoMethod::nsga2, PagmoMethod::moead};
 
 /// f writes the costs of two objectives and returns the violation.
 Problem two_objectives(std::size_t n, double lower, double upper,
@@ -99,7 +99,7 @@ TEST(PagmoBridge, FrontOfZdt1FillsItsHypervolume) {
   // about 0.004 of it in steps.
   const double exact = 0.21 + 2.0 / 3;
   const std::vector<double> reference = {1.1, 1.1};
-  for (const PagmoMethod method : all_methods) {
+  for (const PagmoMethod method : all_pagmo_methods) {
     const FrontReport report = run(zdt1(8), short_run(method, 200, 100));
     EXPECT_EQ(report.status, Status::done);
     EXPECT_EQ(report.stop_reason, "200 generations");
@@ -120,7 +120,7 @@ TEST(PagmoBridge, FrontOfZdt1FillsItsHypervolume) {
 
 TEST(PagmoBridge, FrontOfSchaffersProblem) {
   // Below (4, 4): integral of 4 - (2 - sqrt(f))^2 from 0 to 4 = 40/3.
-  for (const PagmoMethod method : all_methods) {
+  for (const PagmoMethod method : all_pagmo_methods) {
     const FrontReport report = run(schaffer(-6), short_run(method, 60, 60));
     const double volume = hypervolume(report.front, std::vector<double>{4, 4});
     EXPECT_LT(volume, 40.0 / 3);
@@ -129,7 +129,7 @@ TEST(PagmoBridge, FrontOfSchaffersProblem) {
 }
 
 TEST(PagmoBridge, FrontEndsAtAConstraint) {
-  for (const PagmoMethod method : all_methods) {
+  for (const PagmoMethod method : all_pagmo_methods) {
     const FrontReport report = run(schaffer(0.5), short_run(method, 60, 60));
     EXPECT_EQ(report.status, Status::done);
     EXPECT_EQ(report.violation, 0);
@@ -147,7 +147,7 @@ TEST(PagmoBridge, TheLeastViolatedWhenNothingIsFeasible) {
     costs[0] = costs[1] = HUGE_VAL;
     return 1 + x[0];
   });
-  for (const PagmoMethod method : all_methods) {
+  for (const PagmoMethod method : all_pagmo_methods) {
     const FrontReport report = run(problem, short_run(method, 60));
     EXPECT_EQ(report.status, Status::infeasible);
     ASSERT_EQ(report.front.size(), 1u);
@@ -160,7 +160,7 @@ TEST(PagmoBridge, TheLeastViolatedWhenNothingIsFeasible) {
 }
 
 TEST(PagmoBridge, CandidatesStayInTheBoxAndFixedVariablesFixed) {
-  for (const PagmoMethod method : all_methods) {
+  for (const PagmoMethod method : all_pagmo_methods) {
     Problem problem = zdt1(4);
     problem.variables[0].lower = 0.25;
     problem.variables[2] = {"fixed", 0.125, 0.125};
@@ -197,7 +197,7 @@ TEST(PagmoBridge, Nsga2EvaluatesWholePopulations) {
 
 TEST(PagmoBridge, TheSeedDecidesAllForAnyNumberOfThreads) {
   const Problem problem = zdt1(5);
-  for (const PagmoMethod method : all_methods) {
+  for (const PagmoMethod method : all_pagmo_methods) {
     const PagmoOptions options = short_run(method, 4, 600);  // evaluated in parts
     std::vector<FrontReport> reports;
     for (const int threads : {1, 2, 0}) {
@@ -213,7 +213,7 @@ TEST(PagmoBridge, TheSeedDecidesAllForAnyNumberOfThreads) {
 
 TEST(PagmoBridge, StopsForEachReason) {
   const Problem problem = zdt1(3);
-  for (const PagmoMethod method : all_methods) {
+  for (const PagmoMethod method : all_pagmo_methods) {
     const FrontReport budget = run(problem, short_run(method, 100), 1, {.evaluations = 150});
     EXPECT_EQ(budget.stop_reason, "another generation could exceed 150 evaluations");
     EXPECT_EQ(budget.evaluations, 120);
@@ -247,7 +247,7 @@ TEST(PagmoBridge, GoesOnFromAnyGenerationWithTheSameBits) {
                                       return 1 + x[0];
                                     });
   for (const Problem* problem : {&half, &never})
-    for (const PagmoMethod method : all_methods) {
+    for (const PagmoMethod method : all_pagmo_methods) {
       const PagmoOptions options = short_run(method, 20);
       const FrontOptions front = {.checkpoint = "here"};
       RunContext plain;

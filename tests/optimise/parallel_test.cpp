@@ -41,7 +41,7 @@ TEST(Parallel, NestedLoopsFinish) {
 
 TEST(Parallel, NegativeThreadsAreAnError) {
   EXPECT_THAT(linkwright::test::message([] { parallel_for(3, -1, [](std::size_t) {}); }),
-              testing::HasSubstr("number of threads must not be negative, got -1"));
+              ::testing::HasSubstr("number of threads must not be negative, got -1"));
 }
 
 }  // namespace

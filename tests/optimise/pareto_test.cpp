@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/minimise.h"
 #include "optimise/functions.h"
@@ -17,8 +17,8 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 bool wins(const std::vector<double>& a, const std::vector<double>& b) { return dominates(a, b); }
 
@@ -29,7 +29,6 @@ TEST(Dominates, NoneMoreAndOneLess) {
   EXPECT_FALSE(wins({1, 2, 4}, {1, 2, 3}));
   EXPECT_FALSE(wins({0, 5}, {1, 2}));
   EXPECT_FALSE(wins({1, 2}, {0, 5}));
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(wins({1, infinity}, {2, infinity}));
   EXPECT_FALSE(wins({infinity, infinity}, {infinity, infinity}));
 }

@@ -14,7 +14,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 SeedStatistics run(const Problem& problem, const ParticleSwarmOptions& swarm, double threshold) {
   const OptimiserOptions method = {.method = Method::particle_swarm, .particle_swarm = swarm};

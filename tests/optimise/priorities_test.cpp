@@ -15,7 +15,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 PriorityKey key(const std::vector<double>& costs, const Priorities& priorities = {}) {
   return priority_key(costs, priorities);

@@ -2,14 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
+
 namespace linkwright::optimise {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Better, PrefersFeasibleToInfeasibleWhateverTheCost) {
   EXPECT_TRUE(better(1e9, 0, 1, 1e-12));

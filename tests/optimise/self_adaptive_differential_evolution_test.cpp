@@ -11,7 +11,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const OptimiserOptions jde = {.method = Method::self_adaptive_differential_evolution};
 

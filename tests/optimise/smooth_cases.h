@@ -1,13 +1,15 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/smooth_problem.h"
 
-namespace linkwright::optimise::testing {
+namespace linkwright::test {}
+namespace linkwright::optimise::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 /// A problem of one candidate at a time: `value(x, out)` writes objectives and constraints.
 template <class Value>
@@ -36,8 +38,8 @@ inline SmoothProblem two_points() {
                           out[0] = (a - 1) * (a - 1) + b * b;
                           out[1] = a * a + (b - 2) * (b - 2);
                           out[2] = a + b - 1;
-                          if (a > 2) out[0] = std::numeric_limits<double>::quiet_NaN();
+                          if (a > 2) out[0] = nan;
                         });
 }
 
-}  // namespace linkwright::optimise::testing
+}  // namespace linkwright::optimise::test

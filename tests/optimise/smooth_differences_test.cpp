@@ -12,11 +12,11 @@ namespace {
 
 // exp(a) sin(c) and a b c over boxes of width 2, 0 and 4.
 SmoothProblem curved() {
-  return testing::smooth_problem({{"a", -1, 1}, {"b", 3, 3}, {"c", 0, 4}}, 1, 1,
-                                 [](std::span<const double> x, std::span<double> out) {
-                                   out[0] = std::exp(x[0]) * std::sin(x[2]);
-                                   out[1] = x[0] * x[1] * x[2];
-                                 });
+  return test::smooth_problem({{"a", -1, 1}, {"b", 3, 3}, {"c", 0, 4}}, 1, 1,
+                              [](std::span<const double> x, std::span<double> out) {
+                                out[0] = std::exp(x[0]) * std::sin(x[2]);
+                                out[1] = x[0] * x[1] * x[2];
+                              });
 }
 
 void expect_derivatives(double u0, double u1) {
@@ -45,7 +45,7 @@ TEST(SmoothDifferences, AreOfSecondOrderInsideAndAtBounds) {
 }
 
 TEST(SmoothDifferences, GoToTheOtherSideOfWhatDoesNotExist) {
-  const SmoothProblem p = testing::two_points();
+  const SmoothProblem p = test::two_points();
   SmoothDifferences at(p);
   std::vector<double> u(2);
   const std::vector<double> edge = {2, 0.5};

@@ -5,6 +5,7 @@
 
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/looks.h"
+#include "linkwright/core/numbers.h"
 #include "optimise/smooth_cases.h"
 #include "support/message.h"
 
@@ -12,7 +13,6 @@ namespace linkwright::optimise {
 namespace {
 
 using ::testing::HasSubstr;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Population candidates() {
   Population out(2, 3);
@@ -24,7 +24,7 @@ Population candidates() {
 }
 
 TEST(SmoothProblem, KeepsItsObjectivesForPopulationMethods) {
-  const Problem p = to_problem(testing::two_points());
+  const Problem p = to_problem(test::two_points());
   EXPECT_EQ(p.objectives, 2u);
   EXPECT_EQ(p.variables.size(), 2u);
   const Population population = candidates();
@@ -47,7 +47,7 @@ TEST(SmoothProblem, ViolationCountsWhatIsPositive) {
 // Three candidates, the run is to stop before the third: two are there, the third is as it was.
 TEST(SmoothProblem, AnInterruptionKeepsTheCandidatesBefore) {
   const RunContext context;
-  const SmoothProblem smooth = interruptible(testing::two_points(), context);
+  const SmoothProblem smooth = interruptible(test::two_points(), context);
   const Problem p = to_problem(smooth);
   const Population population = candidates();
   std::vector<double> cost(6, 77), violation(3, 77);
@@ -67,7 +67,7 @@ TEST(SmoothProblem, AnInterruptionKeepsTheCandidatesBefore) {
 }
 
 TEST(SmoothProblem, NeedsObjectives) {
-  SmoothProblem none = testing::two_points();
+  SmoothProblem none = test::two_points();
   none.objectives = 0;
   EXPECT_THAT(test::message([&] { to_problem(none); }), HasSubstr("a problem needs objectives"));
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "optimise/functions.h"
 #include "support/memory_checkpoint.h"
 #include "support/message.h"
@@ -15,9 +16,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using ::testing::HasSubstr;
 
 TEST(Statistics, QuantilesAreLinearBetweenOrderStatistics) {
   const std::vector<double> v = {1, 2, 4, 8};
@@ -75,8 +74,8 @@ TEST(Statistics, ForEachSeedRunsEachOnceAndReportsProgress) {
       return 1.0;
     });
     EXPECT_EQ(loop.status, Status::done);
-    EXPECT_THAT(calls, testing::Each(1));
-    EXPECT_THAT(loop.ran, testing::Each(true));
+    EXPECT_THAT(calls, ::testing::Each(1));
+    EXPECT_THAT(loop.ran, ::testing::Each(true));
     EXPECT_EQ(seeds[0], 7u);
     EXPECT_EQ(seeds[19], 26u);
     EXPECT_GT(last, 0);
@@ -92,7 +91,7 @@ TEST(Statistics, ForEachSeedLeavesOutSeedsAfterACancel) {
   });
   EXPECT_EQ(loop.status, Status::cancelled);
   EXPECT_THAT(loop.ran,
-              testing::ElementsAre(true, true, true, true, false, false, false, false, false, false));
+              ::testing::ElementsAre(true, true, true, true, false, false, false, false, false, false));
 }
 
 TEST(Statistics, SeedsOfTheCheckpointAreNotRunAgain) {
@@ -125,12 +124,12 @@ TEST(Statistics, SeedsOfTheCheckpointAreNotRunAgain) {
   // The two that ended, and what the interrupted one kept on its way.
   std::vector<std::string> names;
   for (const auto& [name, value] : checkpoint.entries) names.push_back(name);
-  EXPECT_THAT(names, testing::ElementsAre("seed 10", "seed 11", "seed 12/half"));
+  EXPECT_THAT(names, ::testing::ElementsAre("seed 10", "seed 11", "seed 12/half"));
   EXPECT_EQ(run(0, 2), 4);
-  EXPECT_THAT(results, testing::ElementsAre(1.0, 0.1 * 11, 0.1 * 12, 0.1 * 13, 0.1 * 14, 1.5));
+  EXPECT_THAT(results, ::testing::ElementsAre(1.0, 0.1 * 11, 0.1 * 12, 0.1 * 13, 0.1 * 14, 1.5));
   EXPECT_EQ(checkpoint.entries.size(), 6u);
   EXPECT_EQ(run(0, 1), 0);
-  EXPECT_THAT(results, testing::ElementsAre(1.0, 0.1 * 11, 0.1 * 12, 0.1 * 13, 0.1 * 14, 1.5));
+  EXPECT_THAT(results, ::testing::ElementsAre(1.0, 0.1 * 11, 0.1 * 12, 0.1 * 13, 0.1 * 14, 1.5));
 }
 
 TEST(Statistics, ExceptionsOfABodyArrive) {

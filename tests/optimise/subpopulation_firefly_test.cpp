@@ -13,7 +13,7 @@ namespace linkwright::optimise {
 namespace {
 
 using linkwright::test::message;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 OptimiserOptions parts(const FireflyMove& move) {
   return {.method = Method::subpopulation_firefly,

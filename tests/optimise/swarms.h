@@ -11,7 +11,9 @@
 
 /// The test functions and settings with which fireflies and cuckoos were measured: T = 100 iterations, 20
 /// seeds.
+namespace linkwright::test {}
 namespace linkwright::optimise::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 inline Problem sphere10() {
   return make_problem(10, 0, 1, [](std::span<const double> u) {

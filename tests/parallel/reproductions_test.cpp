@@ -9,9 +9,9 @@
 namespace linkwright::parallel {
 namespace {
 
-TEST(PiJointReproductions, HaveIdsTitlesSourcesAndNotes) { testing::expect_complete(reproductions()); }
+TEST(PiJointReproductions, HaveIdsTitlesSourcesAndNotes) { test::expect_complete(reproductions()); }
 
-std::vector<study::Comparison> rows(std::string_view id) { return testing::rows_of(reproductions(), id); }
+std::vector<study::Comparison> rows(std::string_view id) { return test::rows_of(reproductions(), id); }
 
 TEST(PiJointReproductions, Prototype) {
   const auto table = rows("milutinovic-2014-prototype");

@@ -70,20 +70,20 @@ inline Drives mirrored_drives() {
 
 /// A case of tests/published/pi-joint-parallel-robots.json: what it computes, and what went in.
 inline const Value& computed(std::string_view id) {
-  return testing::at(testing::published_case("pi-joint-parallel-robots.json", id), "computed");
+  return test::at(test::published_case("pi-joint-parallel-robots.json", id), "computed");
 }
 inline const Value& inputs(std::string_view id) {
-  return testing::at(testing::published_case("pi-joint-parallel-robots.json", id), "inputs");
+  return test::at(test::published_case("pi-joint-parallel-robots.json", id), "inputs");
 }
 /// A DELTA of the reference figures.
 inline Robot delta_of(const Value& robot) {
-  return delta({.base_radius = testing::number_at(robot, "Rb_m"),
-                .platform_radius = testing::number_at(robot, "rp_m"),
-                .arm = testing::number_at(robot, "La_m"),
-                .rod = testing::number_at(robot, "Lf_m")});
+  return delta({.base_radius = test::number_at(robot, "Rb_m"),
+                .platform_radius = test::number_at(robot, "rp_m"),
+                .arm = test::number_at(robot, "La_m"),
+                .rod = test::number_at(robot, "Lf_m")});
 }
 inline Vec3 point(const Value& array) {
-  const auto at = testing::numbers(array);
+  const auto at = test::numbers(array);
   return {at.at(0), at.at(1), at.size() > 2 ? at[2] : 0};
 }
 

@@ -8,20 +8,22 @@
 #include "support/study_text.h"
 
 // Studies of this room as texts.
-namespace linkwright::parallel::testing {
+namespace linkwright::test {}
+namespace linkwright::parallel::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
-using linkwright::testing::fact;
-using linkwright::testing::replaced;
+using linkwright::test::fact;
+using linkwright::test::replaced;
 
 inline const std::vector<study::Kind>& kinds() {
   static const std::vector<study::Kind> all = studies();
   return all;
 }
 inline std::string problems_of(const std::string& text, const std::filesystem::path& folder = ".") {
-  return linkwright::testing::problems_of(kinds(), text, folder);
+  return linkwright::test::problems_of(kinds(), text, folder);
 }
 inline study::Result run_text(const std::string& text, const std::filesystem::path& folder = ".") {
-  return linkwright::testing::run_text(kinds(), text, folder);
+  return linkwright::test::run_text(kinds(), text, folder);
 }
 
 /// The table of this name; a failure and an empty one if there is none.
@@ -48,4 +50,4 @@ inline const std::string& example(std::string_view name) {
   throw std::logic_error("no such kind");
 }
 
-}  // namespace linkwright::parallel::testing
+}  // namespace linkwright::parallel::test

@@ -21,7 +21,7 @@ TEST(RobotStudies, AreThoseOfRobotsAndPiJoints) {
 TEST(RobotStudies, ExamplesRun) {
   for (const study::Kind& kind : studies()) {
     SCOPED_TRACE(study::name_of(kind));
-    const study::Result result = testing::run_text(kind.example);
+    const study::Result result = test::run_text(kind.example);
     EXPECT_EQ(result.status, Status::done) << result.headline;
     EXPECT_FALSE(result.headline.empty());
     EXPECT_FALSE(result.tables.empty());

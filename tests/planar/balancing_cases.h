@@ -10,7 +10,9 @@
 #include "linkwright/planar/balancing/four_bar.h"
 #include "planar/reactions_cases.h"
 
-namespace linkwright::planar::testing {
+namespace linkwright::test {}
+namespace linkwright::planar::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 /// Keys of the sixteen numbers in the reference file, in the order of FourBarNumber.
 inline constexpr std::array<std::string_view, four_bar_number_count> design_keys = {
@@ -45,4 +47,4 @@ inline FourBarComponent component(std::string_view quantity) {
   throw std::runtime_error(fmt::format("no component {}", quantity));
 }
 
-}  // namespace linkwright::planar::testing
+}  // namespace linkwright::planar::test

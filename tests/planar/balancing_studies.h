@@ -8,7 +8,9 @@
 #include "planar/studies.h"
 
 // Balancing studies as texts, and what is read from them.
-namespace linkwright::planar::testing {
+namespace linkwright::test {}
+namespace linkwright::planar::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 /// A four-bar of which all masses, mass centres and inertias are open.
 inline const std::string four_bar_masses = R"(schema = 1
@@ -225,4 +227,4 @@ inline BalancingTask task_of(const BalancingStudy& s) {
   return task;
 }
 
-}  // namespace linkwright::planar::testing
+}  // namespace linkwright::planar::test

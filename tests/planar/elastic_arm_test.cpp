@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <span>
 
+#include "linkwright/core/numbers.h"
 #include "planar/elastic_bodies.h"
 #include "support/published.h"
 
@@ -12,16 +12,15 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace testing;
-using linkwright::testing::numbers;
-using linkwright::testing::published_case;
-constexpr double pi = std::numbers::pi;
+using namespace test;
+using linkwright::test::numbers;
+using linkwright::test::published_case;
 
 const Value& figure(std::string_view id, std::string_view path) {
-  return linkwright::testing::at(published_case("flexible-link.json", id), path);
+  return linkwright::test::at(published_case("flexible-link.json", id), path);
 }
 double number(const char* key) {
-  return linkwright::testing::number_at(figure("freq-T31", "inputs.params"), key);
+  return linkwright::test::number_at(figure("freq-T31", "inputs.params"), key);
 }
 
 Linkage arm() {

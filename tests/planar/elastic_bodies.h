@@ -10,7 +10,9 @@
 #include "linkwright/planar/linkage/dynamics.h"
 #include "linkwright/planar/simulation/elastic_body.h"
 
-namespace linkwright::planar::testing {
+namespace linkwright::test {}
+namespace linkwright::planar::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 // A steel strip of 20 mm x 4 mm that bends about its thin side.
 constexpr double modulus = 2.1e11, area = 8e-5, second_moment = 0.02 * 4e-3 * 4e-3 * 4e-3 / 12,
@@ -182,4 +184,4 @@ inline std::vector<double> times_to(double end, int rows) {
   return out;
 }
 
-}  // namespace linkwright::planar::testing
+}  // namespace linkwright::planar::test

@@ -19,10 +19,12 @@ inline void showValue(const FourBar& l, std::ostream& out) {
 
 }  // namespace linkwright::planar
 
-namespace linkwright::planar::testing {
+namespace linkwright::test {}
+namespace linkwright::planar::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
-using linkwright::testing::between;
-using linkwright::testing::log_between;
+using linkwright::test::between;
+using linkwright::test::log_between;
 
 inline rc::Gen<double> any_angle() { return between(-7, 7); }
 inline rc::Gen<Branch> any_branch() { return rc::gen::element(Branch::open, Branch::crossed); }
@@ -52,4 +54,4 @@ inline rc::Gen<FourBar> turning_four_bar() {
                       });
 }
 
-}  // namespace linkwright::planar::testing
+}  // namespace linkwright::planar::test

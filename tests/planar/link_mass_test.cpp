@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "support/message.h"
 
 namespace linkwright::planar {
@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double half_turn = std::numbers::pi;
+constexpr double half_turn = pi;
 
 TEST(LinkMass, BaseParametersOfARodWithCounterweight) {
   // Rod 3 kg, 2 m; 4 kg behind the joint, once as negative distance and once as half a turn.

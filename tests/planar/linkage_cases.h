@@ -8,15 +8,12 @@
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/plan.h"
 #include "linkwright/planar/linkage/samples.h"
+#include "tests/planar/linkages.h"
 
 // Linkages that tests of several units use.
 namespace linkwright::planar {
 
-inline LinkagePlan planned(const Linkage& l, PlanRoute route = PlanRoute::along_groups) {
-  PlanResult r = plan(l, route);
-  for (const Diagnostic& d : r.problems) ADD_FAILURE() << to_string(d);
-  return r.plan;
-}
+using test::planned;
 
 inline void add_bar(Linkage& l, const char* name, const char* from, const char* to, double length) {
   add_body(l, name, {{from, {0, 0}}, {to, {length, 0}}});

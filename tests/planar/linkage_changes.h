@@ -8,7 +8,9 @@
 #include "planar/linkages.h"
 
 // The same linkage in another place, and other models as linkages.
-namespace linkwright::planar::testing {
+namespace linkwright::test {}
+namespace linkwright::planar::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 /// Mirrors at the x axis (if so), then turns, then shifts.
 struct Change {
@@ -109,4 +111,4 @@ inline Linkage linkage_of(const FourBar& b) {
   return l;
 }
 
-}  // namespace linkwright::planar::testing
+}  // namespace linkwright::planar::test

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/build.h"
@@ -14,7 +14,9 @@
 
 // Random drawn linkages whose modes have no names, swept beyond the range of the mode that the drawing shows,
 // and what another way of following finds.
-namespace linkwright::planar::testing {
+namespace linkwright::test {}
+namespace linkwright::planar::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 enum class SweptKind { plate_on_legs, cylinder_in_a_loop, inner_drive, floating_shock, raised_arm };
 constexpr int swept_kinds = 5;
@@ -218,7 +220,7 @@ inline void compare_sweep(const SweptLinkage& s, std::uint64_t number, int start
     bool there = false, same = false;
     for (const int turn : {0, 1, -1}) {
       if (turn != 0 && !turns) continue;
-      const double goal = value + turn * 2 * std::numbers::pi;
+      const double goal = value + turn * 2 * pi;
       follower.motion().parts = start;
       follower.solve(drawn);
       const double reached = drawn == goal ? goal : follower.go(drawn, goal, first_step);
@@ -261,4 +263,4 @@ inline void compare_sweep(const SweptLinkage& s, std::uint64_t number, int start
   }
 }
 
-}  // namespace linkwright::planar::testing
+}  // namespace linkwright::planar::test

@@ -12,7 +12,9 @@
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/linkage/samples.h"
 
-namespace linkwright::planar::testing {
+namespace linkwright::test {}
+namespace linkwright::planar::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -161,4 +163,4 @@ inline void go_to(const LinkageSample& s, const LinkagePlan& plan, double from, 
                               << to_string(m.status);
 }
 
-}  // namespace linkwright::planar::testing
+}  // namespace linkwright::planar::test

@@ -6,14 +6,16 @@
 #include "linkwright/planar/path/problem.h"
 #include "support/published.h"
 
-namespace linkwright::planar::testing {
+namespace linkwright::test {}
+namespace linkwright::planar::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
-using linkwright::testing::at;
-using linkwright::testing::number_at;
-using linkwright::testing::numbers;
+using linkwright::test::at;
+using linkwright::test::number_at;
+using linkwright::test::numbers;
 
 inline const Value& path_case(std::string_view id) {
-  return linkwright::testing::published_case("path-synthesis.json", id);
+  return linkwright::test::published_case("path-synthesis.json", id);
 }
 
 inline FourBar four_bar(const Value& design, Branch branch = Branch::open) {
@@ -47,7 +49,7 @@ inline void set_bounds(PathProblem& problem, double link_low, double link_high, 
 }
 
 /// Boskovic 2018, Eqs. (4.28)-(4.30): 18 points, 20 degree steps, published bounds.
-inline PathProblem eighteen_points() {
+inline PathProblem printed_eighteen_points() {
   PathProblem problem;
   set_points(problem, at(path_case("T4.1-Boskovic2018"), "inputs.target_points_m"));
   problem.timing = Timing::equal_steps;
@@ -56,4 +58,4 @@ inline PathProblem eighteen_points() {
   return problem;
 }
 
-}  // namespace linkwright::planar::testing
+}  // namespace linkwright::planar::test

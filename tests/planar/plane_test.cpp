@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::planar {
 namespace {
@@ -22,7 +22,7 @@ TEST(Plane, ProductsAreThoseOfComplexNumbers) {
 }
 TEST(Plane, AnglesAndUnitVectorsGoTogether) {
   EXPECT_EQ(norm(a), 5);
-  EXPECT_EQ(angle_of({-1, 0}), std::numbers::pi);
+  EXPECT_EQ(angle_of({-1, 0}), pi);
   for (double t : {-3.0, -0.1, 0.0, 2.5}) EXPECT_NEAR(angle_of(unit(t)), t, 1e-15);
   EXPECT_EQ(number(vec({1, 2})), std::complex<double>(1, 2));
 }

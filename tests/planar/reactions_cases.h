@@ -11,13 +11,15 @@
 #include "planar/four_bars.h"
 #include "support/published.h"
 
-namespace linkwright::planar::testing {
+namespace linkwright::test {}
+namespace linkwright::planar::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
-using linkwright::testing::at;
-using linkwright::testing::number_at;
+using linkwright::test::at;
+using linkwright::test::number_at;
 
 inline const Value& dynamics_case(std::string_view id) {
-  return linkwright::testing::published_case("planar-dynamics-balancing.json", id);
+  return linkwright::test::published_case("planar-dynamics-balancing.json", id);
 }
 
 /// A four-bar in the notation of the published designs: L1 crank ... L4 ground.
@@ -78,7 +80,7 @@ inline rc::Gen<FourBarMasses> any_masses() {
                                        rc::gen::set(&FourBarMasses::rocker, any_mass()));
 }
 
-}  // namespace linkwright::planar::testing
+}  // namespace linkwright::planar::test
 
 namespace linkwright::planar {
 

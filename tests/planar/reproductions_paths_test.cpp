@@ -13,11 +13,11 @@ using ::testing::HasSubstr;
 
 std::map<std::string, study::Comparison> rows(std::string_view id) {
   std::map<std::string, study::Comparison> out;
-  for (study::Comparison& row : testing::rows_of(path_reproductions(), id)) out[row.item] = row;
+  for (study::Comparison& row : test::rows_of(path_reproductions(), id)) out[row.item] = row;
   return out;
 }
 
-TEST(PathReproductions, HaveIdsTitlesSourcesAndNotes) { testing::expect_complete(path_reproductions()); }
+TEST(PathReproductions, HaveIdsTitlesSourcesAndNotes) { test::expect_complete(path_reproductions()); }
 
 TEST(PathReproductions, FourBarsOfTable41) {
   const auto table = rows("boskovic-2018-table-4.1");

@@ -15,18 +15,20 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::Pair;
 
-std::vector<study::Comparison> rows(std::string_view id) { return testing::rows_of(reproductions(), id); }
+std::vector<study::Comparison> rows_of_table(std::string_view id) {
+  return test::rows_of(reproductions(), id);
+}
 
-std::map<std::string, int> verdicts(const std::vector<study::Comparison>& rows) {
+std::map<std::string, int> verdicts(const std::vector<study::Comparison>& rows_of_table) {
   std::map<std::string, int> out;
-  for (const study::Comparison& r : rows) ++out[r.verdict];
+  for (const study::Comparison& r : rows_of_table) ++out[r.verdict];
   return out;
 }
 
-TEST(Reproductions, HaveIdsTitlesSourcesAndNotes) { testing::expect_complete(reproductions()); }
+TEST(Reproductions, HaveIdsTitlesSourcesAndNotes) { test::expect_complete(reproductions()); }
 
 TEST(Reproductions, TheArmOfTable21) {
-  const auto table = rows("boskovic-2018-table-2.1");
+  const auto table = rows_of_table("boskovic-2018-table-2.1");
   const auto counts = verdicts(table);
   EXPECT_EQ(counts.at("reproduced"), 5);  // three objectives, two reductions
   EXPECT_EQ(counts.count("not reproduced"), 0u);
@@ -45,7 +47,8 @@ TEST(Reproductions, TheArmOfTable21) {
 }
 
 TEST(Reproductions, AllPercentagesOfTables23And27WithTheFourCorrections) {
-  const auto small = rows("boskovic-2018-table-2.3"), large = rows("boskovic-2018-table-2.7");
+  const auto small = rows_of_table("boskovic-2018-table-2.3"),
+             large = rows_of_table("boskovic-2018-table-2.7");
   EXPECT_THAT(verdicts(small), ElementsAre(Pair("reproduced", 8)));
   // Of 120: twelve increases, and the rest of the two designs with a misprint (24 less two of the increases
   // each belongs to case 2, FA one, CS two).
@@ -62,7 +65,7 @@ TEST(Reproductions, AllPercentagesOfTables23And27WithTheFourCorrections) {
 
 TEST(Reproductions, OurPercentagesAreTheComputedOnes) {
   // planar-dynamics-balancing.json, reduction_percent_mean_abs_501: to 5e-4 points.
-  const auto large = rows("boskovic-2018-table-2.7");
+  const auto large = rows_of_table("boskovic-2018-table-2.7");
   std::map<std::string, double> ours;
   for (const study::Comparison& r : large) ours[r.item] = r.ours;
   EXPECT_NEAR(ours.at("case 1, H-CS-FA: Y_O3, reduction in %"), -1.912, 5e-4);
@@ -72,7 +75,7 @@ TEST(Reproductions, OurPercentagesAreTheComputedOnes) {
 }
 
 TEST(Reproductions, SettingsOfTable25AreTheDefaults) {
-  EXPECT_THAT(verdicts(rows("boskovic-2018-table-2.5")), ElementsAre(Pair("reproduced", 8)));
+  EXPECT_THAT(verdicts(rows_of_table("boskovic-2018-table-2.5")), ElementsAre(Pair("reproduced", 8)));
 }
 
 TEST(Reproductions, DesignsOfTables22And26AreImprovedOn) {
@@ -80,7 +83,7 @@ TEST(Reproductions, DesignsOfTables22And26AreImprovedOn) {
   const std::map<std::string, std::pair<double, double>> best = {{"2.2", {0.81410, 0.06512}},
                                                                  {"2.6", {0.52713, 0.06825}}};
   for (const auto& [table, values] : best) {
-    const auto r = rows("boskovic-2018-table-" + table);
+    const auto r = rows_of_table("boskovic-2018-table-" + table);
     ASSERT_EQ(r.size(), 4u);
     EXPECT_EQ(r[0].verdict, "reproduced") << r[0].note;  // within its bounds
     EXPECT_EQ(r[2].verdict, "improved");

@@ -7,7 +7,9 @@
 #include "linkwright/planar/serial_arm/serial_arm.h"
 #include "planar/reactions_cases.h"
 
-namespace linkwright::planar::testing {
+namespace linkwright::test {}
+namespace linkwright::planar::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 /// An arm of n links with mass centres anywhere and up to two masses attached to each.
 inline SerialArm any_arm(std::size_t n) {
@@ -27,4 +29,4 @@ inline std::vector<math::Motion> any_motion(std::size_t n) {
   return out;
 }
 
-}  // namespace linkwright::planar::testing
+}  // namespace linkwright::planar::test

@@ -7,7 +7,9 @@
 #include "linkwright/planar/simulation/simulation.h"
 #include "planar/linkages.h"
 
-namespace linkwright::planar::testing {
+namespace linkwright::test {}
+namespace linkwright::planar::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 /// What a simulation gave, with copies of its rows.
 struct SimulationRun {
@@ -76,4 +78,4 @@ inline Linkage slider() {
   return l;
 }
 
-}  // namespace linkwright::planar::testing
+}  // namespace linkwright::planar::test

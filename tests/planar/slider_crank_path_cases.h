@@ -1,13 +1,15 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <string_view>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/path/slider_crank_problem.h"
 #include "planar/path_cases.h"
 
-namespace linkwright::planar::testing {
+namespace linkwright::test {}
+namespace linkwright::planar::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 /// A design of the reference figures, whose H counts the offset the other way.
 inline SliderCrankMechanism slider_crank(const Value& design) {
@@ -26,13 +28,13 @@ inline SliderCrankMechanism slider_crank(const Value& design) {
 }
 
 /// Boskovic 2018, Eqs. (4.28), (4.29), (4.32): 18 points, 20 degree steps, published bounds.
-inline SliderPathProblem eighteen_slider_points() {
-  const PathProblem points = eighteen_points();
+inline SliderPathProblem printed_eighteen_slider_points() {
+  const PathProblem points = printed_eighteen_points();
   SliderPathProblem p;
   p.x = points.x;
   p.y = points.y;
   for (std::size_t k = 0; k < p.x.size(); ++k) p.offsets.push_back(points.step * static_cast<double>(k));
-  const Range link{0, 50}, place{-50, 50}, turn{0, 2 * std::numbers::pi};
+  const Range link{0, 50}, place{-50, 50}, turn{0, 2 * pi};
   p.bounds = {link, link, link, turn, turn, place, place, place, turn};
   return p;
 }
@@ -44,4 +46,4 @@ inline std::vector<double> angles_of(const SliderPathProblem& p, double start, d
   return out;
 }
 
-}  // namespace linkwright::planar::testing
+}  // namespace linkwright::planar::test

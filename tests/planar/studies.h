@@ -6,10 +6,12 @@
 #include "support/study_text.h"
 
 // Studies of this room as texts.
-namespace linkwright::planar::testing {
+namespace linkwright::test {}
+namespace linkwright::planar::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
-using linkwright::testing::fact;
-using linkwright::testing::replaced;
+using linkwright::test::fact;
+using linkwright::test::replaced;
 
 inline const std::vector<study::Kind>& kinds() {
   static const std::vector<study::Kind> all = studies();
@@ -17,13 +19,13 @@ inline const std::vector<study::Kind>& kinds() {
 }
 inline std::optional<study::Study> prepare(const std::string& text, std::string& messages,
                                            const std::filesystem::path& folder = ".") {
-  return linkwright::testing::prepare(kinds(), text, messages, folder);
+  return linkwright::test::prepare(kinds(), text, messages, folder);
 }
 inline std::string problems_of(const std::string& text, const std::filesystem::path& folder = ".") {
-  return linkwright::testing::problems_of(kinds(), text, folder);
+  return linkwright::test::problems_of(kinds(), text, folder);
 }
 inline study::Result run_text(const std::string& text, const std::filesystem::path& folder = ".") {
-  return linkwright::testing::run_text(kinds(), text, folder);
+  return linkwright::test::run_text(kinds(), text, folder);
 }
 
-}  // namespace linkwright::planar::testing
+}  // namespace linkwright::planar::test

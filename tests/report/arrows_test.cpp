@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::report {
 namespace {
 
 using study::Scene;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // A scene 2 m wide in which one force grows from 100 N to 400 N and another stays.
 Scene pulled() {
@@ -72,9 +71,9 @@ TEST(Arrows, ArcsTellSizeAndSign) {
   EXPECT_EQ(value(scene.moments[0], 1), -4);
   EXPECT_TRUE(std::isnan(value(scene.moments[0], 2)));
   EXPECT_EQ(arc_turn(0), 0);
-  EXPECT_DOUBLE_EQ(arc_turn(1), 2 * std::numbers::pi * 5 / 6);
+  EXPECT_DOUBLE_EQ(arc_turn(1), 2 * pi * 5 / 6);
   EXPECT_DOUBLE_EQ(arc_turn(-1), -arc_turn(1));
-  EXPECT_GT(arc_turn(1e-9), std::numbers::pi / 7);
+  EXPECT_GT(arc_turn(1e-9), pi / 7);
 }
 
 TEST(Arrows, NamesOfQuantities) {

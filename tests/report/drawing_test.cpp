@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "tests/report/sample_result.h"
 
 namespace linkwright::report {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Drawing, BoundsLeaveOutWhatDoesNotExist) {
   study::Scene scene;

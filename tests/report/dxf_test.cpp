@@ -9,8 +9,8 @@
 namespace linkwright::report {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 // What other programs read is tested by check_dxf.py.
 

@@ -2,13 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <numbers>
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::report {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Groups, NamesAndUnitsOfColumns) {
   EXPECT_EQ(label_of({"toe_deg", "toe (deg)", {}}), "toe (deg)");
@@ -39,7 +36,7 @@ TEST(Groups, AreNamedInTheUnitThatIsShown) {
     plot.group = key;
     return groups_of(plot, table).at(0).label;
   };
-  EXPECT_EQ(named("steer_rad", "steer (rad)", std::numbers::pi / 4), "steer 45°");
+  EXPECT_EQ(named("steer_rad", "steer (rad)", pi / 4), "steer 45°");
   EXPECT_EQ(named("reach_m", "reach (m)", 1.5), "reach 1.5 m");
   EXPECT_EQ(named("rack_mm", "", -30), "rack -30 mm");
   EXPECT_EQ(named("run", "run", 3), "run 3");

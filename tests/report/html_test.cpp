@@ -10,8 +10,8 @@
 namespace linkwright::report {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string page(const study::Result& result, const std::string& text) {
   return html({.result = result,

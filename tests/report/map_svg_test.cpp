@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <regex>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/report/colour_scale.h"
 #include "linkwright/report/plot_svg.h"
 #include "tests/report/sample_result.h"
@@ -19,10 +18,8 @@ namespace linkwright::report {
 namespace {
 
 using study::Plot;
-using testing::HasSubstr;
-using testing::Not;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Rectangle {
   std::string colour;
@@ -157,7 +154,7 @@ TEST(MapSvg, LogarithmicColoursFollowDecades) {
 }
 
 TEST(MapSvg, ValuesAndPlacesAreInTheUnitsOfTheViewer) {
-  Table table = grid({0, 0.1, 0.2, 0.3, 0.4, 0.5, std::numbers::pi / 2, 0});
+  Table table = grid({0, 0.1, 0.2, 0.3, 0.4, 0.5, pi / 2, 0});
   table.columns[2].key = "tilt_rad";
   table.columns[2].label = "tilt (rad)";
   for (double& v : table.columns[0].values) v *= 10;  // now up to 3 m, and so both are in metres

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::report {
 namespace {
@@ -24,8 +24,8 @@ TEST(Markup, BytesOutsideUtf8AreReplacedOneByOne) {
 TEST(Markup, NumbersForPeople) {
   EXPECT_EQ(number(0.1 + 0.2), "0.3");
   EXPECT_EQ(number(-0.0), "0");
-  EXPECT_EQ(number(std::numeric_limits<double>::quiet_NaN()), "–");
-  EXPECT_EQ(number(-std::numeric_limits<double>::infinity()), "−∞");
+  EXPECT_EQ(number(nan), "–");
+  EXPECT_EQ(number(-infinity), "−∞");
 }
 
 TEST(Markup, ValuesForPeople) {

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "tests/report/sample_result.h"
 #include "tests/report/well_formed.h"
 
@@ -17,10 +17,8 @@ namespace linkwright::report {
 namespace {
 
 using study::Plot;
-using testing::HasSubstr;
-using testing::Not;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;
@@ -33,7 +31,7 @@ Table turning() {
   Table table{.name = "sweep"};
   std::vector<double> angle, x, y;
   for (int i = 0; i <= 36; ++i) {
-    angle.push_back(i * std::numbers::pi / 18);
+    angle.push_back(i * pi / 18);
     x.push_back(100 + 300 * std::cos(angle.back()));
     y.push_back(300 * std::sin(angle.back()));
   }
@@ -128,7 +126,7 @@ TEST(PlotSvg, AnglesAndShortLengthsAreShownAsInTheViewer) {
   std::vector<double> way, angle;
   for (int i = 0; i <= 36; ++i) {
     way.push_back(0.002 * i);
-    angle.push_back(-i * std::numbers::pi / 36);
+    angle.push_back(-i * pi / 36);
   }
   table.add("way_m", "way (m)", way);
   table.add("lag_rad", "lag (rad)", angle);

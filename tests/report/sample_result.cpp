@@ -5,9 +5,8 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/study/write.h"
 
@@ -15,8 +14,6 @@ namespace linkwright::report::test {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<double, 18> target_x = {0.50, 0.40, 0.30, 0.20, 0.10, 0.05, 0.02, 0.00, 0.00,
                                              0.03, 0.10, 0.15, 0.20, 0.30, 0.40, 0.50, 0.60, 0.60};
 constexpr std::array<double, 18> target_y = {1.10, 1.10, 1.10, 1.00, 0.90, 0.75, 0.60, 0.50, 0.40,
@@ -233,7 +230,7 @@ study::Result sample_simulation() {
   using Body = study::Scene::BodyStyle;
   using Joint = study::Scene::JointStyle;
   using Quantity = study::Scene::Quantity;
-  constexpr double crank = 0.1, rod = 0.3, speed = 2 * std::numbers::pi;  // m, m, rad/s
+  constexpr double crank = 0.1, rod = 0.3, speed = 2 * pi;  // m, m, rad/s
   enum { O, A, B, wall, rim, left, right, block };
   study::Scene scene;
   scene.name = "motion";
@@ -283,7 +280,7 @@ study::Result sample_simulation() {
     study::Scene::Point point{std::to_string(k), {}, {}};
     for (const double t : chain.input) {
       point.x.push_back(k * 0.0125);
-      point.y.push_back(0.1 * std::sin(std::numbers::pi * k / 27) * std::cos(speed * t));
+      point.y.push_back(0.1 * std::sin(pi * k / 27) * std::cos(speed * t));
     }
     chain.points.push_back(point);
     chain.joints.push_back({std::to_string(k), k, Joint::pivot});

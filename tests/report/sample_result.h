@@ -4,7 +4,9 @@
 
 #include "linkwright/study/result.h"
 
+namespace linkwright::test {}
 namespace linkwright::report::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 /// A finished path synthesis as a domain would give it: two crank-rockers through the 18 points of Boskovic
 /// 2018, Eq. (4.27)-(4.30), and a double rocker that assembles on part of the turn only. The mechanisms are

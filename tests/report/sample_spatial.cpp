@@ -3,16 +3,15 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::report::test {
 namespace {
 
 using Vec = Eigen::Vector3d;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double wheel_radius = 0.302, wheel_width = 0.205;
 
 // Place at given distances from three others, on the side to which (b - a) x (c - a) points times `side`.
@@ -34,7 +33,7 @@ struct Wishbones {
   Vec spring_top{0.02, 0.5, 0.36}, spring_foot{0.012, 0.6, -0.112};
 };
 
-struct Pose {
+struct WishbonePose {
   Vec lower, upper, tie_in, tie_out, centre, axis, contact, spring_foot;
   bool assembled() const { return (upper + tie_out).allFinite(); }
 };
@@ -49,8 +48,8 @@ Vec follow(const Vec& a, const Vec& ao, const Vec& b, const Vec& bo, const Vec& 
 }
 
 // The pose for an angle of the lower arm about its hinge.
-Pose pose(const Wishbones& w, double angle, double rack) {
-  Pose p;
+WishbonePose pose(const Wishbones& w, double angle, double rack) {
+  WishbonePose p;
   const Eigen::AngleAxisd turn(angle, (w.lower_front - w.lower_rear).normalized());
   const auto on_arm = [&](const Vec& v) { return Vec(w.lower_rear + turn * (v - w.lower_rear)); };
   p.lower = on_arm(w.lower);
@@ -80,7 +79,7 @@ Pose pose(const Wishbones& w, double angle, double rack) {
 }
 
 // The pose in which the wheel centre has risen by `travel`.
-Pose at_travel(const Wishbones& w, double travel, double rack) {
+WishbonePose at_travel(const Wishbones& w, double travel, double rack) {
   double low = -0.6, high = 0.6;
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2;
@@ -102,7 +101,7 @@ Table table_of(const Wishbones& w, const std::string& name) {
   std::vector<double> travels, racks, toes, cambers, lowest, highest;
   for (const double rack : grid.rack)
     for (const double travel : grid.travel) {
-      const Pose p = at_travel(w, travel, rack);
+      const WishbonePose p = at_travel(w, travel, rack);
       const Vec inward = (p.axis - p.centre).normalized();
       travels.push_back(travel);
       racks.push_back(rack);
@@ -158,7 +157,7 @@ study::Result sample_spatial() {
   std::vector<double> side_force;
   for (const double rack : grid.rack)
     for (const double travel : grid.travel) {
-      const Pose p = at_travel(w, travel, rack);
+      const WishbonePose p = at_travel(w, travel, rack);
       scene.status.push_back(p.assembled() ? "done" : "no_assembly");
       put(L, p.lower);
       put(U, p.upper);

@@ -2,7 +2,9 @@
 
 #include "linkwright/study/result.h"
 
+namespace linkwright::test {}
 namespace linkwright::report::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 /// A double wishbone over wheel travel and rack as a domain would give it: a spatial scene with a second
 /// input, a wheel, a spring with damper, the steering axis, a force and a velocity; a table of toe and camber

@@ -9,8 +9,8 @@
 namespace linkwright::report {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string page(const study::Result& result) {
   return static_page({.result = result,

@@ -3,9 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "tests/report/sample_result.h"
 #include "tests/report/sample_spatial.h"
 #include "tests/report/well_formed.h"
@@ -13,10 +12,8 @@
 namespace linkwright::report {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;

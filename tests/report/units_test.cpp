@@ -2,14 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <numbers>
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::report {
 namespace {
 
 TEST(Units, SuffixesDecide) {
-  EXPECT_DOUBLE_EQ(display_unit("crank_angle_rad").factor * std::numbers::pi, 180);
+  EXPECT_DOUBLE_EQ(display_unit("crank_angle_rad").factor * pi, 180);
   EXPECT_EQ(display_unit("crank_angle_rad").symbol, "°");
   EXPECT_EQ(display_unit("drive_torque_N_m").symbol, "N m");
   // Not the angle, the length or the time that they end with.
@@ -28,8 +27,7 @@ TEST(Units, SizesDecideForLengthsAndStresses) {
   EXPECT_EQ(display_unit("stress_Pa", 1e4).symbol, "MPa");
   EXPECT_EQ(display_unit("stress_Pa", 9e3).symbol, "Pa");
   EXPECT_EQ(display_unit("stress_Pa").symbol, "Pa");
-  const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(largest_size({-3, 2, infinity, std::numeric_limits<double>::quiet_NaN()}), 3);
+  EXPECT_EQ(largest_size({-3, 2, infinity, nan}), 3);
   EXPECT_EQ(largest_size({}), 0);
 }
 
@@ -45,7 +43,7 @@ TEST(Units, LabelsCarryTheUnitThatIsShown) {
 }
 
 TEST(Units, QuantitiesAreWrittenForPeople) {
-  EXPECT_EQ(quantity(std::numbers::pi / 4, display_unit("a_rad")), "45°");
+  EXPECT_EQ(quantity(pi / 4, display_unit("a_rad")), "45°");
   EXPECT_EQ(quantity(-0.0125, display_unit("a_m", 0.02)), "-12.5 mm");
   EXPECT_EQ(quantity(3, {}), "3");
 }

@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
+namespace linkwright::test {}
 namespace linkwright::report::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 /// Empty when tags of an XML text without declarations nest and close properly and no attribute or text holds
 /// a bare < or &; else what is wrong first. Enough for what our writers emit, not an XML parser.

@@ -6,7 +6,7 @@
 
 namespace linkwright::study {
 namespace {
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 TEST(Answer, PassesWhenNothingIsWrong) {
   Result result;

@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include <numbers>
-
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/read.h"
@@ -100,7 +99,7 @@ void fields(V&& visit, Sample& o) {
 namespace {
 using bind_sample::Branch;
 using bind_sample::Sample;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 struct Reading {
   Sample sample;
@@ -143,7 +142,7 @@ TEST(Bind, ReadsEveryKindOfMemberInSiUnits) {
   const auto [s, text] = read_sample(everything);
   EXPECT_EQ(text, "");
   EXPECT_EQ(s.crank, (Range{0.1, 2}));
-  EXPECT_EQ(s.angle, std::numbers::pi);
+  EXPECT_EQ(s.angle, pi);
   EXPECT_EQ(s.limit, 0.25);
   EXPECT_FALSE(s.closed);
   EXPECT_EQ(s.branch, Branch::open);

@@ -3,20 +3,20 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/read.h"
 
 namespace linkwright::study {
 namespace {
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 Result sample() {
   Result result;
   Solution best;
   best.objectives["path_error_sum_sq_m2"] = 0.009;
   best.parameters = {{"crank_m", "crank length", 0.42, 0, 50}};
-  best.classification["transmission_angle_min_rad"] = std::numbers::pi / 4;
+  best.classification["transmission_angle_min_rad"] = pi / 4;
   best.classification["type"] = "crank-rocker";
   result.solutions.push_back(best);
   result.statistics["success_rate"] = 1.0;
@@ -52,12 +52,12 @@ TEST(Checks, StatisticsOfColumnsSkipMissingValues) {
   EXPECT_EQ(check("sweep.toe_rad.last").value, 0.03);
   EXPECT_NEAR(check("sweep.toe_rad.mean").value, 0.04 / 3, 1e-17);
   EXPECT_NEAR(check("sweep.toe_rad.rms").value, std::sqrt(0.0014 / 3), 1e-17);
-  EXPECT_DOUBLE_EQ(check("sweep.toe_deg.max").value, 0.03 * 180 / std::numbers::pi);
+  EXPECT_DOUBLE_EQ(check("sweep.toe_deg.max").value, 0.03 * 180 / pi);
 }
 
 TEST(Checks, RowsAreChosenByColumnsInAnyUnit) {
   const Check c = check("sweep.toe_deg", {{"travel_mm", 50.0}, {"rack_mm", 0.0}});
-  EXPECT_DOUBLE_EQ(c.value, 0.02 * 180 / std::numbers::pi);
+  EXPECT_DOUBLE_EQ(c.value, 0.02 * 180 / pi);
   EXPECT_EQ(c.at, "travel_mm = 50, rack_mm = 0");
   EXPECT_DOUBLE_EQ(check("sweep.toe_rad", {{"travel_m", 0.05}, {"rack_mm", 30.0}}).value, 0.03);
   EXPECT_THAT(check("sweep.toe_deg", {{"travel_mm", 40.0}, {"rack_mm", 0.0}}).message,

@@ -3,14 +3,14 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::study {
 namespace {
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 Value document(std::string_view text) {
   Diagnostics diagnostics;
@@ -37,14 +37,14 @@ label_in = "a text"
   EXPECT_EQ(units.of(Dimension::speed).suffix, "mm_per_s") << "follows the length";
   EXPECT_EQ(units.of(Dimension::mass).suffix, "kg") << "SI where nothing tells";
   EXPECT_EQ(units.text(0.0031, Dimension::length), "3.1 mm");
-  EXPECT_EQ(units.text(std::numbers::pi, Dimension::angle), "180 deg");
+  EXPECT_EQ(units.text(pi, Dimension::angle), "180 deg");
   EXPECT_EQ(units.text(1.23456, Dimension::none), "1.235");
 }
 
 TEST(DisplayUnits, ConvertTablesAndObjects) {
   DisplayUnits units = units_of(document("a_mm = 1\nb_deg = 2\n"));
   Table table{.name = "t"};
-  table.add("crank_angle_rad", "crank angle (rad)", {0, std::numbers::pi, std::nan("")});
+  table.add("crank_angle_rad", "crank angle (rad)", {0, pi, std::nan("")});
   table.add("rod_x_m", "rod x (m)", {0.5, -1, 0});
   table.add("force_N", "force (N)", {1, 2, 3});
   table.add("count", "count", {1, 2, 3});

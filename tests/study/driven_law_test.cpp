@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include <numbers>
 #include <string>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
@@ -14,8 +14,6 @@ namespace linkwright::study {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double pi = std::numbers::pi;
 
 // Tables that hold the motion of one joint.
 struct RotaryEntry {

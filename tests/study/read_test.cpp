@@ -9,7 +9,7 @@
 namespace linkwright::study {
 namespace {
 namespace fs = std::filesystem;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// What a person sees of a text: one line a diagnostic.
 std::string messages(std::string_view text, Syntax syntax = Syntax::toml) {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "support/memory_checkpoint.h"
 
 namespace linkwright::study {
@@ -77,7 +77,7 @@ TEST(RunSeeds, WhatWasKeptIsCheckedLikeAFileOfAStranger) {
     table["status"] = kept_status(end);
     EXPECT_EQ(restored_status(table, "seed 3"), end);
   }
-  const std::vector<double> infinite{1, std::numeric_limits<double>::infinity()};
+  const std::vector<double> infinite{1, infinity};
   table["x"] = pack_numbers(infinite);
   EXPECT_THAT([&] { restored_numbers(table, "x", 2, "seed 3"); },
               ThrowsMessage<CheckpointError>(HasSubstr("seed 3: x is not finite")));
@@ -86,7 +86,6 @@ TEST(RunSeeds, WhatWasKeptIsCheckedLikeAFileOfAStranger) {
 }
 
 TEST(RunSeeds, LogsComeBackToTheBit) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<optimise::GenerationLog> log{
       {.evaluations = 20, .best_cost = 0.1, .best_violation = 0, .median = nan, .mean = 0.3, .violated = 0.5},
       {.evaluations = 40, .best_cost = 0.05, .best_violation = 0, .median = 1, .mean = 2, .violated = 0}};

@@ -11,9 +11,9 @@
 
 namespace linkwright::study {
 namespace {
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Prepare {
   std::vector<Kind> kinds = sample::kinds();
@@ -138,8 +138,10 @@ TEST(Study, UnknownKeysOnEveryLevel) {
             "s.toml:14:2: error: optimizer: unknown key; did you mean 'optimiser'?\n");
   EXPECT_THAT(messages("first = 1", "frst = 1"),
               HasSubstr("optimiser.seeds.frst: unknown key; did you mean 'first'?"));
-  EXPECT_THAT(messages("[optimiser]", "[output]\nfolder = 'x'\n[optimiser]"),
-              HasSubstr("output.folder: unknown key; allowed here: dir, formats, samples, units, digits, quantities"));
+  EXPECT_THAT(
+      messages("[optimiser]", "[output]\nfolder = 'x'\n[optimiser]"),
+      HasSubstr(
+          "output.folder: unknown key; allowed here: dir, formats, samples, units, digits, quantities"));
 }
 
 TEST(Study, OutputWords) {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace linkwright::testing {
+namespace linkwright::test {
 
 /// Uniform on [low, high], whatever the size that rapidcheck has come to; shrinks towards `low`.
 inline rc::Gen<double> between(double low, double high) {
@@ -18,4 +18,4 @@ inline rc::Gen<double> log_between(double low, double high) {
   return rc::gen::map(between(std::log(low), std::log(high)), [](double x) { return std::exp(x); });
 }
 
-}  // namespace linkwright::testing
+}  // namespace linkwright::test

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-namespace linkwright::testing {
+namespace linkwright::test {
 namespace {
 
 Value convert(const nlohmann::ordered_json& json) {
@@ -74,4 +74,4 @@ const Value& at(const Value& value, std::string_view path) {
 
 double number_at(const Value& value, std::string_view path) { return at(value, path).as_number(); }
 
-}  // namespace linkwright::testing
+}  // namespace linkwright::test

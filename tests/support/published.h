@@ -6,7 +6,7 @@
 
 #include "linkwright/core/value.h"
 
-namespace linkwright::testing {
+namespace linkwright::test {
 
 /// Case of tests/published/<file> by its id; throws when there is none.
 const Value& published_case(const std::string& file, std::string_view id);
@@ -18,4 +18,4 @@ std::vector<double> numbers(const Value& array);
 const Value& at(const Value& value, std::string_view path);
 double number_at(const Value& value, std::string_view path);
 
-}  // namespace linkwright::testing
+}  // namespace linkwright::test

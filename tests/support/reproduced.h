@@ -9,7 +9,7 @@
 
 #include "linkwright/study/reproduction.h"
 
-namespace linkwright::testing {
+namespace linkwright::test {
 
 /// The rows of the table with that id, computed anew; fails the test if there is none.
 inline std::vector<study::Comparison> rows_of(const std::vector<study::Reproduction>& tables,
@@ -32,4 +32,4 @@ inline void expect_complete(const std::vector<study::Reproduction>& tables) {
   }
 }
 
-}  // namespace linkwright::testing
+}  // namespace linkwright::test

@@ -12,7 +12,7 @@
 #include "support/study_text.h"
 
 // Studies that go on from a checkpoint.
-namespace linkwright::testing {
+namespace linkwright::test {
 
 /// Everything that a result says, doubles by their bits.
 inline std::string all_of(const study::Result& r) {
@@ -81,4 +81,4 @@ inline void expect_resumed_alike(std::span<const study::Kind> kinds, const std::
   EXPECT_THROW(run(kept), CheckpointError);
 }
 
-}  // namespace linkwright::testing
+}  // namespace linkwright::test

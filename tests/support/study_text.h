@@ -13,7 +13,7 @@
 #include "linkwright/study/study.h"
 
 // Studies as texts: prepared, run, and what is wrong with them. Rooms give their kinds.
-namespace linkwright::testing {
+namespace linkwright::test {
 
 /// The study of a TOML text named "study.toml" in `folder`; its problems are added to `messages`, one a line.
 inline std::optional<study::Study> prepare(std::span<const study::Kind> kinds, const std::string& text,
@@ -58,4 +58,4 @@ inline std::string replaced(std::string text, const std::string& what, const std
   return text;
 }
 
-}  // namespace linkwright::testing
+}  // namespace linkwright::test

@@ -3,7 +3,9 @@
 #include "linkwright/suspension/direct/published_targets.h"
 #include "tests/suspension/guides.h"
 
+namespace linkwright::test {}
 namespace linkwright::suspension::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 /// The guide of example 5 of Poznanovic 2016 with other body points 3, 4 and 5.
 inline WheelGuide with_points(const DirectTask& task, const Value& points) {

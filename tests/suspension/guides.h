@@ -10,41 +10,41 @@
 // references).
 namespace linkwright::suspension {
 
-inline const Value& published(std::string_view id) { return testing::published_case("suspension.json", id); }
+inline const Value& published(std::string_view id) { return test::published_case("suspension.json", id); }
 
 inline Vec3 point(const Value& array) {
-  const auto at = testing::numbers(array);
+  const auto at = test::numbers(array);
   return {at.at(0), at.at(1), at.at(2)};
 }
 
 inline WheelGuide guide_from(const Value& mechanism) {
   WheelGuide out;
-  out.wheel = {point(testing::at(mechanism, "wheel_centre_m")), testing::number_at(mechanism, "toe_rad"),
-               testing::number_at(mechanism, "camber_rad"), testing::number_at(mechanism, "tyre_diameter_m")};
-  for (const Value& from : testing::at(mechanism, "links").as_array()) {
-    const std::string& type = testing::at(from, "type").as_string();
+  out.wheel = {point(test::at(mechanism, "wheel_centre_m")), test::number_at(mechanism, "toe_rad"),
+               test::number_at(mechanism, "camber_rad"), test::number_at(mechanism, "tyre_diameter_m")};
+  for (const Value& from : test::at(mechanism, "links").as_array()) {
+    const std::string& type = test::at(from, "type").as_string();
     if (type == "coupler") {
-      const auto between = testing::numbers(testing::at(from, "between_links"));
-      out.couplers.push_back({"", static_cast<int>(between[0]), testing::number_at(from, "fraction_on_first"),
-                              static_cast<int>(between[1]), point(testing::at(from, "point_on_second_m"))});
+      const auto between = test::numbers(test::at(from, "between_links"));
+      out.couplers.push_back({"", static_cast<int>(between[0]), test::number_at(from, "fraction_on_first"),
+                              static_cast<int>(between[1]), point(test::at(from, "point_on_second_m"))});
       continue;
     }
     GuideLink link;
     for (const auto& entry : names(LinkType{}))
       if (entry.name == type) link.type = entry.value;
-    for (const Value& at : testing::at(from, "body_m").as_array()) link.body.push_back(point(at));
+    for (const Value& at : test::at(from, "body_m").as_array()) link.body.push_back(point(at));
     // A joint without a link stands there with the same points twice.
     if (carrier_points(link.type) > 0)
-      for (const Value& at : testing::at(from, "carrier_m").as_array()) link.carrier.push_back(point(at));
+      for (const Value& at : test::at(from, "carrier_m").as_array()) link.carrier.push_back(point(at));
     out.links.push_back(link);
   }
   if (const Value* steering = mechanism.find("steering")) {
-    out.links.at(testing::at(*steering, "link_index").as_integer()).moved_by_rack = true;
-    out.rack_direction = point(testing::at(*steering, "direction"));
+    out.links.at(test::at(*steering, "link_index").as_integer()).moved_by_rack = true;
+    out.rack_direction = point(test::at(*steering, "direction"));
   }
   if (const Value* spring = mechanism.find("spring")) {
-    const std::string& to = testing::at(*spring, "attached_to").as_string();
-    out.spring = {point(testing::at(*spring, "body_m")), point(testing::at(*spring, "point_m")),
+    const std::string& to = test::at(*spring, "attached_to").as_string();
+    out.spring = {point(test::at(*spring, "body_m")), point(test::at(*spring, "point_m")),
                   to == "carrier" ? -1 : std::stoi(to.substr(5))};
   }
   return out;

@@ -10,7 +10,7 @@
 namespace linkwright::suspension {
 namespace {
 
-std::vector<study::Comparison> rows(std::string_view id) { return testing::rows_of(reproductions(), id); }
+std::vector<study::Comparison> rows(std::string_view id) { return test::rows_of(reproductions(), id); }
 
 /// Verdicts of rows whose item begins so.
 std::map<std::string, int> verdicts(const std::vector<study::Comparison>& rows, std::string_view beginning) {
@@ -22,7 +22,7 @@ std::map<std::string, int> verdicts(const std::vector<study::Comparison>& rows, 
 
 using Counts = std::map<std::string, int>;
 
-TEST(GuideReproductions, HaveIdsTitlesSourcesAndNotes) { testing::expect_complete(reproductions()); }
+TEST(GuideReproductions, HaveIdsTitlesSourcesAndNotes) { test::expect_complete(reproductions()); }
 
 const study::Comparison& row(const std::vector<study::Comparison>& rows, std::string_view item) {
   for (const study::Comparison& r : rows)

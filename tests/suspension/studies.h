@@ -9,10 +9,12 @@
 #include "support/study_text.h"
 
 // Studies of this room as texts.
-namespace linkwright::suspension::testing {
+namespace linkwright::test {}
+namespace linkwright::suspension::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
-using linkwright::testing::fact;
-using linkwright::testing::replaced;
+using linkwright::test::fact;
+using linkwright::test::replaced;
 
 inline const std::vector<study::Kind>& kinds() {
   static const std::vector<study::Kind> all = studies();
@@ -20,13 +22,13 @@ inline const std::vector<study::Kind>& kinds() {
 }
 inline std::optional<study::Study> prepare(const std::string& text, std::string& messages,
                                            const std::filesystem::path& folder = ".") {
-  return linkwright::testing::prepare(kinds(), text, messages, folder);
+  return linkwright::test::prepare(kinds(), text, messages, folder);
 }
 inline std::string problems_of(const std::string& text, const std::filesystem::path& folder = ".") {
-  return linkwright::testing::problems_of(kinds(), text, folder);
+  return linkwright::test::problems_of(kinds(), text, folder);
 }
 inline study::Result run_text(const std::string& text, const std::filesystem::path& folder = ".") {
-  return linkwright::testing::run_text(kinds(), text, folder);
+  return linkwright::test::run_text(kinds(), text, folder);
 }
 
 /// The table of this name; a failure and the first one if there is none.
@@ -68,4 +70,4 @@ inline const std::string& example(std::string_view target) {
   throw std::logic_error("no kind with this target");
 }
 
-}  // namespace linkwright::suspension::testing
+}  // namespace linkwright::suspension::test

@@ -11,7 +11,9 @@
 #include "support/published.h"
 #include "tests/suspension/guides.h"
 
+namespace linkwright::test {}
 namespace linkwright::suspension::test {
+using namespace linkwright::test;  // what the tests of all modules share
 
 /// A mechanism of the published figures, and the positions that its carrier takes.
 struct Example {
@@ -21,7 +23,7 @@ struct Example {
 };
 
 inline Example example(std::string_view id) {
-  using testing::at, testing::number_at;
+  using test::at, test::number_at;
   const Value& given = published(id);
   Example e;
   e.guide = guide_from(at(given, "inputs.mechanism"));

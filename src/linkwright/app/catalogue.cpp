@@ -17,6 +17,7 @@
 #include "linkwright/study/study.h"
 #include "linkwright/suspension/reproductions.h"
 #include "linkwright/suspension/studies.h"
+#include "linkwright/version.h"
 
 namespace linkwright::app {
 namespace {

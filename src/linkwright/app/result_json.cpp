@@ -60,7 +60,8 @@ Value to_value(const study::Comparison& comparison) {
   return v;
 }
 
-/// Column arrays; like in CSV, `status` is the last column. Names of the rows, if they have any, stand beside.
+/// Column arrays; like in CSV, `status` is the last column. Names of the rows, if they have any, stand
+/// beside.
 Value to_value(const Table& table) {
   Value v;
   v["name"] = table.name;

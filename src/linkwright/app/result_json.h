@@ -22,7 +22,8 @@ struct RunRecord {
 /// the digits that `[output]` of the study asks for; what result.json and CSV hold.
 study::Result presented(const study::Study& study, const study::Result& result);
 
-/// The document of result.json, see result_schema.h. All of it but `run` depends on the study and the program alone.
+/// The document of result.json, see result_schema.h. All of it but `run` depends on the study and the program
+/// alone.
 Value result_json(const study::Study& study, const study::Result& result, const RunRecord& run);
 
 /// A published table with its numbers computed anew.

@@ -50,7 +50,8 @@ std::vector<std::filesystem::path> write_results(const study::Study& study, cons
                                                  const std::filesystem::path& folder,
                                                  Diagnostics& diagnostics);
 
-/// The exit code of the program: 0 done, at rest or out of time, 1 a check failed, 3 a numeric failure, 4 cancelled.
+/// The exit code of the program: 0 done, at rest or out of time, 1 a check failed, 3 a numeric failure, 4
+/// cancelled.
 int exit_code(const study::Result& result);
 
 }  // namespace linkwright::app

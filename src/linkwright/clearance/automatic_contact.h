@@ -1,12 +1,12 @@
 #pragma once
 
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "linkwright/clearance/contact_simulation.h"
 #include "linkwright/clearance/joint_clearance.h"
+#include "linkwright/core/numbers.h"
 
 // Pins that stay on their bushes as long as they are pressed on, and from the loss of contact on fly, strike
 // and slide: the model of joint_clearance.h until it leaves its range, that of contact_simulation.h from
@@ -41,7 +41,7 @@ struct AutomaticContactRun {
   JointClearanceRun continuous;  ///< until the switch
   ContactRun contact;            ///< from the switch on; empty when there is none
   /// s: when the tension of a pin is lost for the first time; NaN when continuous contact holds throughout.
-  double switched = std::numeric_limits<double>::quiet_NaN();
+  double switched = nan;
   int pin = -1;                               ///< that parted then
   std::vector<planar::InputMotion> inputs;    ///< of the linkage at the switch
   double energy_step = 0;                     ///< J: energy after the switch less before it

@@ -1,10 +1,10 @@
 #include "linkwright/clearance/contact_analysis.h"
 
 #include <cmath>
-#include <numbers>
 #include <unsupported/Eigen/FFT>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::clearance {
 
@@ -23,7 +23,7 @@ Spectrum amplitude_spectrum(std::span<const double> samples, double interval, bo
   double weight = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(n);
-    const double w = window ? 0.5 - 0.5 * std::cos(2 * std::numbers::pi * share) : 1;
+    const double w = window ? 0.5 - 0.5 * std::cos(2 * pi * share) : 1;
     signal[k] = w * (signal[k] - mean);
     weight += w;
   }

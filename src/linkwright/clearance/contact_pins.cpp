@@ -3,15 +3,12 @@
 #include <cmath>
 #include <utility>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::clearance {
 
 using planar::Vec, planar::dot, planar::cross, planar::left;
-
-namespace {
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-}  // namespace
 
 ContactPins::ContactPins(OpenLinkage& open, std::span<const ContactJoint> joints)
     : open_(open),

@@ -8,14 +8,13 @@
 
 #include "linkwright/clearance/step_pace.h"
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/dynamics.h"
 
 namespace linkwright::clearance {
 namespace {
 
 using planar::InputMotion, planar::Vec, planar::dot;
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Largest value of a cubic through values and slopes at the ends of a step, if there is one inside.
 std::optional<double> summit(double f0, double s0, double f1, double s1, double h) {
@@ -27,11 +26,11 @@ std::optional<double> summit(double f0, double s0, double f1, double s1, double 
   return f0 + x * (s0 + x * (b + x * a));
 }
 
-class Simulation {
+class ContactMotion {
  public:
-  Simulation(OpenLinkage& open, std::span<const ContactJoint> joints,
-             std::span<const planar::InputCourse> courses, const ContactOptions& options,
-             const ContactOutput& output)
+  ContactMotion(OpenLinkage& open, std::span<const ContactJoint> joints,
+                std::span<const planar::InputCourse> courses, const ContactOptions& options,
+                const ContactOutput& output)
       : open_(open),
         joints_(joints),
         options_(options),
@@ -134,7 +133,7 @@ class Simulation {
     return y;
   }
   std::vector<double> absolute_tolerances() const {
-    double clearance = std::numeric_limits<double>::infinity(), energy = 1e-300;
+    double clearance = infinity, energy = 1e-300;
     for (const ContactJoint& j : joints_) clearance = std::min(clearance, j.clearance);
     for (const planar::PartMass& m : open_.plan.masses)
       energy += m.mass * std::abs(open_.linkage.gravity) * open_.plan.size;
@@ -497,7 +496,7 @@ ContactRun simulate_contact(const planar::Linkage& linkage, std::span<const Cont
     values.push_back(c.law ? math::MotionCurve(*c.law)(times.front()).value : c.value);
   OpenLinkage open = open_linkage(linkage, numbers, values);
   if (open.status != Status::done) return {.status = open.status, .message = open.message};
-  return Simulation(open, joints, courses, options, output).run(times, context);
+  return ContactMotion(open, joints, courses, options, output).run(times, context);
 }
 
 }  // namespace linkwright::clearance

@@ -2,12 +2,12 @@
 
 #include <complex>
 #include <functional>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "linkwright/clearance/contact_pins.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/planar/simulation/simulation.h"
 
@@ -32,7 +32,6 @@ struct ContactOptions {
 
 /// One contact, from the touch to the separation.
 struct ContactEvent {
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   int joint = 0;            ///< index into the contact joints
   double start = 0;         ///< s
   double approach = 0;      ///< m/s, rate of the depth then

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/four_bar/kernel.h"
+#include "linkwright/planar/loop_gap.h"
 
 namespace linkwright::clearance {
 namespace {
@@ -170,8 +172,7 @@ double force_direction(const ClearanceFourBar& model, double crank_angle, double
   ClearanceFourBar ideal = model;
   ideal.clearance = 0;
   const ClearanceInstant now = clearance_instant(ideal, crank_angle, crank_rate, crank_acceleration, {});
-  if (now.status != Status::done || now.pin_force == Complex{0, 0})
-    return std::numeric_limits<double>::quiet_NaN();
+  if (now.status != Status::done || now.pin_force == Complex{0, 0}) return nan;
   return std::arg(-now.pin_force);
 }
 

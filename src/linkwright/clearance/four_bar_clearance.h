@@ -1,8 +1,8 @@
 #pragma once
 
 #include <complex>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/linkage/linkage.h"
@@ -38,7 +38,6 @@ inline constexpr double singular_sine = 1e-9;
 
 /// Where everything is. NaN where it is not known.
 struct ClearancePosition {
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Status status = Status::done;                    ///< no_assembly; singular: coupler and rocker in line
   std::complex<double> pin, bush;                  ///< A, A'
   std::complex<double> joint{nan, nan};            ///< B
@@ -67,7 +66,6 @@ struct LinkState {
 
 /// Motion and forces at one instant.
 struct ClearanceInstant {
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Status status = Status::done;  ///< that of the position; singular also when the link moves no mass
   ClearancePosition position;
   double link_acceleration = nan;  ///< rad/s2, from M a + h = 0 (Eq. (28))

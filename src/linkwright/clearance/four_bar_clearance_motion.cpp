@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/ode.h"
 
 namespace linkwright::clearance {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 std::string failure(const ClearanceInstant& now, double time, double crank) {
   const std::string place =
@@ -43,9 +41,9 @@ std::string caught_message(double time, double crank) {
       time, math::degrees(math::wrap_angle(crank)));
 }
 
-class Simulation {
+class FourBarMotion {
  public:
-  Simulation(const ClearanceFourBar& model, const math::MotionLaw& law, const ClearanceOutput& output)
+  FourBarMotion(const ClearanceFourBar& model, const math::MotionLaw& law, const ClearanceOutput& output)
       : model_(model), law_(law), output_(output) {}
 
   ClearanceRun run(const LinkState& start, std::span<const double> times,
@@ -178,7 +176,7 @@ class TurnMap {
   /// (lead, slope) after a turn; false, with status and message, when the linkage does not go round. `rows`
   /// receive the lead at `samples` points of the turn, the first at its start.
   bool operator()(std::array<double, 2>& x, std::span<double> rows = {}) {
-    const double way = crank_.speed > 0 ? turn : -turn;
+    const double way = crank_.speed > 0 ? full_turn : -full_turn;
     std::array<double, 2> y = x;
     std::vector<double> times;
     for (std::size_t k = 0; k < rows.size(); ++k)
@@ -258,7 +256,7 @@ ClearanceRun simulate_clearance(const ClearanceFourBar& model, const math::Motio
                                 const ClearanceTolerances& tolerances, const ClearanceOutput& output,
                                 const RunContext* context) {
   require_valid(model);
-  return Simulation(model, crank, output).run(start, times, tolerances, context);
+  return FourBarMotion(model, crank, output).run(start, times, tolerances, context);
 }
 
 ClearanceOrbit find_orbit(const ClearanceFourBar& model, const EvenCrank& crank, double lead, double slope,
@@ -358,7 +356,7 @@ double lead_error(const ClearanceFourBar& model, const EvenCrank& crank, const L
   TurnMap map(model, crank, tolerances, context);
   std::vector<double> rows(static_cast<std::size_t>(samples));
   std::array<double, 2> x{start.angle - crank.angle, start.rate / crank.speed - 1};
-  if (!map(x, rows)) return std::numeric_limits<double>::infinity();
+  if (!map(x, rows)) return infinity;
   double sum = 0;
   for (const double psi : rows) sum += (psi - lead) * (psi - lead);
   return std::sqrt(sum) / samples;

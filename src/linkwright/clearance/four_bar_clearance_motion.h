@@ -3,11 +3,11 @@
 #include <array>
 #include <complex>
 #include <functional>
-#include <limits>
 #include <span>
 #include <string>
 
 #include "linkwright/clearance/four_bar_clearance.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/math/motion_law.h"
 
@@ -39,11 +39,11 @@ struct ClearanceRun {
   LinkState link;       ///< then
   /// s: when the tension first is zero or less, so that pin and bush would part; NaN when it never is. What
   /// follows is outside of the model.
-  double first_separation = std::numeric_limits<double>::quiet_NaN();
-  double separated = 0;  ///< share of the time during which the tension is zero or less, 0 to 1
-  int sign_changes = 0;  ///< of the tension
-  double least_tension = std::numeric_limits<double>::infinity();  ///< N, over steps and rows
-  double most_tension = -std::numeric_limits<double>::infinity();
+  double first_separation = nan;
+  double separated = 0;             ///< share of the time during which the tension is zero or less, 0 to 1
+  int sign_changes = 0;             ///< of the tension
+  double least_tension = infinity;  ///< N, over steps and rows
+  double most_tension = -infinity;
   double fastest_link = 0;  ///< rad/s: largest |rate| of the clearance link, over steps and rows
   long steps = 0, evaluations = 0;
 };
@@ -70,7 +70,7 @@ struct ClearanceOrbit {
   Status status = Status::done;
   std::string message;  ///< why it is not `done`; else empty
   double lead = 0, slope = 0;
-  double residual = std::numeric_limits<double>::infinity();  ///< largest change of either over one turn
+  double residual = infinity;  ///< largest change of either over one turn
   /// Floquet multipliers: what becomes of small departures over one turn. On the unit circle for a stable
   /// orbit without damping, within it with damping.
   std::array<std::complex<double>, 2> multipliers{};

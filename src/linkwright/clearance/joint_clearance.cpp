@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/dynamics.h"
 #include "linkwright/planar/linkage/limits.h"
@@ -16,8 +17,6 @@ namespace linkwright::clearance {
 namespace {
 
 using planar::Linkage, planar::LinkageJoint, planar::LinkageMotion, planar::LinkagePlan, planar::InputMotion;
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void require_free_pins(const Linkage& l, std::span<const JointClearance> clearances) {
   const double size = planar::size_of(l);

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "linkwright/clearance/step_pace.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/planar/linkage/plan.h"
 #include "linkwright/planar/simulation/simulation.h"
@@ -70,10 +70,10 @@ using JointClearanceOutput = std::function<bool(const JointClearanceRow&)>;
 
 /// Where contact ends. Found within the steps of the integration: rows have no influence.
 struct ContactValidity {
-  double first_separation = std::numeric_limits<double>::quiet_NaN();  ///< s: first tension <= 0; NaN: never
-  double separated = 0;                                            ///< share of the time with tension <= 0
-  int sign_changes = 0;                                            ///< of the tension
-  double least_tension = std::numeric_limits<double>::infinity();  ///< N, over steps and rows
+  double first_separation = nan;    ///< s: first tension <= 0; NaN: never
+  double separated = 0;             ///< share of the time with tension <= 0
+  int sign_changes = 0;             ///< of the tension
+  double least_tension = infinity;  ///< N, over steps and rows
 };
 
 struct JointClearanceRun {

@@ -5,16 +5,15 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr double same_ratio = 1e-9;  // periods whose ratio is that near to a whole number fit
 constexpr double on_circle = 1e-5;   // what differences leave of a multiplier
 
@@ -25,7 +24,7 @@ struct PeriodOf {
   bool rotary;
   std::optional<double> operator()(const math::ConstantSpeed& law) const {
     if (law.rate == 0) return 0;
-    return rotary ? std::optional(turn / std::abs(law.rate)) : std::nullopt;
+    return rotary ? std::optional(full_turn / std::abs(law.rate)) : std::nullopt;
   }
   std::optional<double> operator()(const math::HarmonicMotion& law) const {
     return law.amplitude == 0 || law.frequency == 0 ? 0 : 1 / law.frequency;
@@ -33,7 +32,7 @@ struct PeriodOf {
   std::optional<double> operator()(const math::MotionTable& law) const {
     if (law.ends != math::TableEnds::periodic) return std::nullopt;
     const double grown = law.values.back() - law.values.front();
-    const bool comes_back = rotary ? std::abs(std::remainder(grown, turn)) <= 1e-9 : grown == 0;
+    const bool comes_back = rotary ? std::abs(std::remainder(grown, full_turn)) <= 1e-9 : grown == 0;
     if (!comes_back) return std::nullopt;
     return law.times.back() - law.times.front();
   }
@@ -88,7 +87,7 @@ JointOrbit find_joint_orbit(const planar::Linkage& linkage, std::span<const Join
   for (const planar::InputCourse& c : courses)
     LINKWRIGHT_REQUIRE(c.law.has_value(), "{} inputs: each must follow a law", courses.size());
   const std::vector<double> times{start, start + period};
-  const double pace = turn / period;
+  const double pace = full_turn / period;
   const auto n = static_cast<Eigen::Index>(2 * clearances.size());
   JointOrbit orbit;
 

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <complex>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "linkwright/clearance/joint_clearance.h"
+#include "linkwright/core/numbers.h"
 
 // Motion in continuous contact that repeats itself with every period of the drives: any pins of any linkage.
 namespace linkwright::clearance {
@@ -39,7 +39,7 @@ struct JointOrbit {
   std::string message;                ///< why it is not `done`; else empty
   std::vector<ClearanceState> start;  ///< of the clearance links: angle and rate
   /// Largest change over a period, of angles (rad) and of rates as shares of one turn a period.
-  double residual = std::numeric_limits<double>::infinity();
+  double residual = infinity;
   /// Floquet multipliers, two a clearance, largest first.
   std::vector<std::complex<double>> multipliers;
   OrbitStability stability = OrbitStability::neutral;

@@ -2,23 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/differences.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
 using Complex = std::complex<double>;
 
 void limits(const ClearanceMassProblem& p, std::vector<double>& lower, std::vector<double>& upper) {
   for (const Range& r : p.bounds) lower.push_back(r.lower), upper.push_back(r.upper);
 }
 double sample_angle(const ClearanceMassProblem& p, std::size_t k) {
-  return p.crank.angle + std::copysign(turn, p.crank.speed) * static_cast<double>(k) / p.samples;
+  return p.crank.angle + std::copysign(full_turn, p.crank.speed) * static_cast<double>(k) / p.samples;
 }
 
 // Forces of the ideal pin over a turn against the wanted directions: components across, over the mean of
@@ -49,7 +47,7 @@ class OrbitFollower {
   bool begin(const ClearanceFourBar& model) {
     const double direction = force_direction(model, crank_.angle, crank_.speed, 0);
     if (!std::isfinite(direction)) return false;
-    const double lead = std::remainder(direction - crank_.angle, turn);
+    const double lead = std::remainder(direction - crank_.angle, full_turn);
     return find(model, lead, 0) || find(model, 0, 0);
   }
   bool follow(const ClearanceFourBar& model) {
@@ -82,14 +80,14 @@ ClearanceRun over_a_turn(const ClearanceFourBar& model, const EvenCrank& crank, 
   const double sense = std::copysign(1.0, crank.speed);
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < crank_angles.size(); ++k) {
-    double way = std::fmod(sense * (crank_angles[k] - crank.angle), turn);
-    if (way < 0) way += turn;
+    double way = std::fmod(sense * (crank_angles[k] - crank.angle), full_turn);
+    if (way < 0) way += full_turn;
     order.push_back({way / std::abs(crank.speed), k});
   }
   std::sort(order.begin(), order.end());
   std::vector<double> times{0};
   for (const auto& [time, k] : order) times.push_back(time);
-  times.push_back(turn / std::abs(crank.speed));  // the whole turn, for the tension
+  times.push_back(full_turn / std::abs(crank.speed));  // the whole turn, for the tension
   std::size_t next = 0;
   return simulate_clearance(
       model, math::ConstantSpeed{crank.angle, crank.speed}, start, times, tolerances,
@@ -104,7 +102,7 @@ ClearanceRun over_a_turn(const ClearanceFourBar& model, const EvenCrank& crank, 
 std::vector<double> even_angles(const EvenCrank& crank, int samples) {
   std::vector<double> out;
   for (int k = 0; k < samples; ++k)
-    out.push_back(crank.angle + std::copysign(turn, crank.speed) * k / samples);
+    out.push_back(crank.angle + std::copysign(full_turn, crank.speed) * k / samples);
   return out;
 }
 
@@ -217,7 +215,8 @@ std::vector<double> force_lead_errors(const ClearanceMassProblem& p, std::span<c
   std::vector<double> out;
   for (std::size_t k = 0; k < static_cast<std::size_t>(p.samples); ++k) {
     const double angle = sample_angle(p, k);
-    out.push_back(std::remainder(force_direction(model, angle, p.crank.speed, 0) - angle - p.lead, turn));
+    out.push_back(
+        std::remainder(force_direction(model, angle, p.crank.speed, 0) - angle - p.lead, full_turn));
   }
   return out;
 }
@@ -238,12 +237,12 @@ ClearanceMassDesign clearance_mass_design(const ClearanceMassProblem& p, std::ve
   out.orbit = follower.orbit();
   double sum = 0;
   const std::vector<double> angles = even_angles(p.crank, p.samples);
-  const ClearanceRun run = over_a_turn(model, p.crank, out.orbit.start(p.crank), angles, p.tolerances,
-                                       context, [&](std::size_t, const ClearanceRow& row) {
-                                         const double off =
-                                             std::remainder(row.link.angle - row.crank.value - p.lead, turn);
-                                         sum += off * off;
-                                       });
+  const ClearanceRun run =
+      over_a_turn(model, p.crank, out.orbit.start(p.crank), angles, p.tolerances, context,
+                  [&](std::size_t, const ClearanceRow& row) {
+                    const double off = std::remainder(row.link.angle - row.crank.value - p.lead, full_turn);
+                    sum += off * off;
+                  });
   out.least_tension = run.least_tension;
   out.orbit_error = run.status == Status::done ? std::sqrt(sum) / p.samples : infinity;
   return out;
@@ -288,7 +287,7 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
       if (!follower.follow(model)) return false;
       return over_a_turn(model, p.crank, follower.orbit().start(p.crank), angles, p.tolerances, &context,
                          [&](std::size_t k, const ClearanceRow& row) {
-                           r[k] = std::remainder(row.link.angle - row.crank.value - p.lead, turn);
+                           r[k] = std::remainder(row.link.angle - row.crank.value - p.lead, full_turn);
                          })
                  .status == Status::done;
     };

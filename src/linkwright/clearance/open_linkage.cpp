@@ -4,11 +4,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/limits.h"
 
@@ -17,8 +17,6 @@ namespace {
 
 using planar::InputMotion, planar::JointType, planar::Linkage, planar::LinkageJoint, planar::LinkageMotion,
     planar::LinkagePlan, planar::PartState;
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void require_free_pins(const Linkage& l, std::span<const int> joints) {
   for (std::size_t k = 0; k < joints.size(); ++k) {
@@ -91,8 +89,8 @@ void guide(Linkage& l, int body, const math::Pose& pose) {
         .type = JointType::prismatic,
         .first = {along, 0},
         .second = {across, 0},
-        .slide_first = std::numbers::pi / 2,
-        .slide_second = std::numbers::pi / 2});
+        .slide_first = pi / 2,
+        .slide_second = pi / 2});
   join({.name = "angle of " + label, .first = {across, 0}, .second = {body, own}});
 }
 

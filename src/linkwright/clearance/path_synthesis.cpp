@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/dual.h"
 #include "linkwright/planar/four_bar/kernel.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 using Jet = math::Dual<clearance_length_count + 1>;
 
 // Tracing point for the nine lengths and a crank angle; false where the loop does not close.

@@ -1,16 +1,15 @@
 #include "linkwright/clearance/published_clearance.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/differences.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-constexpr double clearance = 1e-3, lead = 10 * turn / 360;
+constexpr double clearance = 1e-3, lead = 10 * full_turn / 360;
 
 planar::FourBar linkage(double ground, double crank, double coupler, double rocker, double distance,
                         double angle_degrees, double pivot_x, double pivot_y, double frame_degrees) {
@@ -49,7 +48,7 @@ ClearancePathProblem published_path_problem() {
   ClearanceFourBar ideal = published_design_1();
   ideal.clearance = 0;
   for (int k = 0; k < 36; ++k) {
-    const double angle = turn * k / 36;
+    const double angle = full_turn * k / 36;
     const std::complex<double> point = clearance_position(ideal, angle, 0).point;
     p.x.push_back(point.real());
     p.y.push_back(point.imag());
@@ -126,7 +125,7 @@ std::vector<ClearanceComparison> compare_with_published_clearance() {
 
   const EvenCrank crank{0, 10};
   const LinkState start{lead, 10};
-  const std::vector<double> times{0, turn / 10};
+  const std::vector<double> times{0, full_turn / 10};
   const ClearanceRun calm =
       simulate_clearance(published_design_2(), math::ConstantSpeed{0, 10}, start, times);
   const ClearanceRun wild =

@@ -1,17 +1,14 @@
 #include "linkwright/clearance/reproductions.h"
 
 #include <cmath>
-#include <limits>
 
 #include "linkwright/clearance/published_clearance.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::clearance {
 namespace {
 
-using Rows = std::vector<study::Comparison>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-Rows tables(RunContext&) {
+study::Comparisons tables(RunContext&) {
   const ClearanceFourBar first = published_design_1(), second = published_design_2();
   ClearancePathProblem path = published_path_problem();
   const std::vector<double> x = path_variables(path, second.linkage);
@@ -47,8 +44,8 @@ Rows tables(RunContext&) {
   };
 }
 
-Rows claims(RunContext&) {
-  Rows out;
+study::Comparisons claims(RunContext&) {
+  study::Comparisons out;
   for (const ClearanceComparison& c : compare_with_published_clearance())
     out.push_back({c.quantity, "Varedi et al. 2014", nan, c.ours, c.verdict,
                    c.published + (c.note.empty() ? "" : "; " + c.note)});

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/differences.h"
@@ -16,7 +15,6 @@ namespace linkwright::clearance {
 namespace {
 
 using planar::InputMotion, planar::JointType, planar::Linkage, planar::LinkageMotion, planar::LinkagePlan;
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void require_valid(const Linkage& l, const LinkageTolerances& t, const ToleranceOutputs& o,
                    std::size_t samples, std::size_t times) {
@@ -217,7 +215,7 @@ void worst_error(const LinkageTolerances& t, const double* rows, std::size_t par
   if (size == 2) {
     constexpr int directions = 32;  // of half a turn: the other half is the same
     for (int i = 1; i < directions; ++i) {
-      const planar::Vec<double> n = planar::unit(std::numbers::pi * i / directions), s = extreme(n);
+      const planar::Vec<double> n = planar::unit(pi * i / directions), s = extreme(n);
       if (dot(n, s) > dot(best, extreme(best))) best = n, sum = s;
     }
     for (int i = 0; i < 100 && norm(sum) > 0; ++i) {
@@ -266,8 +264,8 @@ std::vector<SensitivitySample> clearance_sensitivity(const Linkage& l, const Lin
   for (std::size_t s = 0; s < out.size(); ++s) {
     out[s].status = solver.status(s);
     out[s].values = solver.values(s);
-    out[s].values.resize(values, std::numeric_limits<double>::quiet_NaN());
-    out[s].derivatives.assign(values * parameters, std::numeric_limits<double>::quiet_NaN());
+    out[s].values.resize(values, nan);
+    out[s].derivatives.assign(values * parameters, nan);
   }
   const double h = math::difference_step(solver.size());
   std::vector<double> by(parameters, 0.0);
@@ -358,7 +356,6 @@ MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances
   const Solver solver(l, o, samples, times, &context);
   const std::size_t pins = t.pins.size(), values = value_count(l, o);
   const std::vector<std::size_t> sizes = quantity_sizes(l, o);
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   MonteCarloResult out;
   out.samples.resize(samples.size() / l.driven.size());
   for (MonteCarloSample& s : out.samples) {
@@ -374,7 +371,7 @@ MonteCarloResult clearance_monte_carlo(const Linkage& l, const LinkageTolerances
     if (out.draws % 64 == 0) context.report({.stage = "monte_carlo", .fraction = double(out.draws) / draws});
     RandomStream random({.seed = seed, .individual = static_cast<std::uint32_t>(out.draws)});
     for (std::size_t k = 0; k < pins; ++k) {
-      const double angle = random.uniform(0, 2 * std::numbers::pi);
+      const double angle = random.uniform(0, 2 * pi);
       by[2 * k] = t.pins[k].clearance * std::cos(angle);
       by[2 * k + 1] = t.pins[k].clearance * std::sin(angle);
     }

@@ -66,7 +66,8 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   make->add_option("KIND", arguments.kind, "see `linkwright catalogue`")->required();
   make->add_option("FILE", arguments.file,
                    "file to make (default: named after the kind; - = standard output)");
-  CLI::App* schema = app.add_subcommand("schema", "print the JSON Schema of studies, or of result.json (`schema result`)");
+  CLI::App* schema =
+      app.add_subcommand("schema", "print the JSON Schema of studies, or of result.json (`schema result`)");
   schema->add_option("KIND", arguments.kind, "one kind only, see `linkwright catalogue`; or: result");
   CLI::App* catalogue = app.add_subcommand("catalogue", "list the kinds of studies");
   CLI::App* reproduce =

@@ -257,7 +257,9 @@ int reproduce(const Arguments& arguments, std::span<const study::Reproduction> a
   if (arguments.table.empty()) {
     for (const study::Reproduction& r : all) fmt::print("{}\n    {}\n", r.id, r.title);
     if (!all.empty())
-      fmt::print("\nWhich table of which source each one is, and why a few are not here: docs/published-tables.md\n");
+      fmt::print(
+          "\nWhich table of which source each one is, and why a few are not here: "
+          "docs/published-tables.md\n");
     return 0;
   }
   Diagnostics diagnostics;

@@ -7,8 +7,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
 
 namespace linkwright {
@@ -204,11 +204,11 @@ std::string key_of(std::string_view heading) {
   if (open == std::string_view::npos || open == 0) return std::string(text);
   std::string unit(trimmed(text.substr(open + 1, text.size() - open - 2)));
   constexpr std::array<std::pair<std::string_view, std::string_view>, 9> spellings{
-      {{"\xC2\xB0", "deg"},      // degree sign
-       {"\xC2\xB5", "u"},        // micro sign
-       {"\xCE\xBC", "u"},        // Greek mu
-       {"\xC2\xB2", "2"},        // superscript two
-       {"\xC2\xB7", "_"},        // middle dot
+      {{"\xC2\xB0", "deg"},  // degree sign
+       {"\xC2\xB5", "u"},    // micro sign
+       {"\xCE\xBC", "u"},    // Greek mu
+       {"\xC2\xB2", "2"},    // superscript two
+       {"\xC2\xB7", "_"},    // middle dot
        {"^", ""},
        {"/", "_per_"},
        {" ", "_"},
@@ -262,7 +262,7 @@ char separator_of(std::string_view line) {
 
 /// One cell as a number; a message if it is none.
 struct Number {
-  double value = std::numeric_limits<double>::quiet_NaN();
+  double value = nan;
   std::string message = {}, hint = {};
 };
 
@@ -288,7 +288,7 @@ class NumberReader {
                              separator_ == ';'    ? "semicolons"
                              : separator_ == '\t' ? "tabs"
                                                   : "commas");
-      out.value = std::numeric_limits<double>::quiet_NaN();
+      out.value = nan;
       return out;
     }
     if (!std::isfinite(out.value)) {
@@ -318,8 +318,8 @@ std::optional<std::string> to_utf8(std::string_view bytes, std::string& problem)
   const bool little = bytes.starts_with("\xFF\xFE"), big = bytes.starts_with("\xFE\xFF");
   std::optional<std::string> text;
   if (little || big || is_plain_utf16(bytes, false) || is_plain_utf16(bytes, true)) {
-    text = from_utf16(little || big ? bytes.substr(2) : bytes,
-                      big || (!little && is_plain_utf16(bytes, true)));
+    text =
+        from_utf16(little || big ? bytes.substr(2) : bytes, big || (!little && is_plain_utf16(bytes, true)));
     if (!text) problem = "this is UTF-16 text that breaks off or is damaged; save it as UTF-8";
   } else {
     text = is_utf8(bytes) ? std::string(bytes) : from_windows_1252(bytes);
@@ -357,7 +357,8 @@ std::optional<Table> read_csv(std::string_view bytes, const std::string& file, D
     scanner.skip_line();
   }
   if (scanner.done()) {
-    problem({1, 1}, {}, "the file is empty", "give a header line with the column keys, for example x_mm,y_mm");
+    problem({1, 1}, {}, "the file is empty",
+            "give a header line with the column keys, for example x_mm,y_mm");
     return std::nullopt;
   }
   if (!separator) separator = separator_of(scanner.line());

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <limits>
 #include <span>
 #include <string_view>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright {
 
@@ -50,8 +51,8 @@ struct Field {
   std::string_view key;      ///< without unit; the unit suffix comes from the dimension
   std::string_view summary;  ///< one phrase for help and schema
   Dimension dimension = Dimension::none;
-  double minimum = -std::numeric_limits<double>::infinity();
-  double maximum = std::numeric_limits<double>::infinity();
+  double minimum = -infinity;
+  double maximum = infinity;
   bool exclusive_minimum = false;  ///< the value must be larger than `minimum`
   bool required = false;
   /// The key carries no suffix because the key of the table around it does: `near` in `body_m = { near = [0,

@@ -3,9 +3,9 @@
 #include <Random123/philox.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright {
 
@@ -48,12 +48,12 @@ double RandomStream::normal() {
     return spare_normal_;
   }
   const double radius = std::sqrt(-2 * std::log1p(-uniform()));  // 1 - u is in (0, 1]
-  const double angle = 2 * std::numbers::pi * uniform();
+  const double angle = 2 * pi * uniform();
   spare_normal_ = radius * std::sin(angle);
   has_spare_normal_ = true;
   return radius * std::cos(angle);
 }
 
-double RandomStream::cauchy() { return std::tan(std::numbers::pi * (uniform() - 0.5)); }
+double RandomStream::cauchy() { return std::tan(pi * (uniform() - 0.5)); }
 
 }  // namespace linkwright

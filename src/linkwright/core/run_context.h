@@ -3,9 +3,9 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
-#include <limits>
 #include <string_view>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 
 namespace linkwright {
@@ -14,9 +14,9 @@ class Checkpoint;
 
 /// What a long computation tells while it runs. Sent from any thread, but never by two threads at once.
 struct Progress {
-  std::string_view stage;                                  ///< what is being done, for example "grey_wolf"
-  double fraction = 0;                                     ///< of this stage, 0 to 1
-  double best = std::numeric_limits<double>::quiet_NaN();  ///< best cost so far, NaN if there is none
+  std::string_view stage;  ///< what is being done, for example "grey_wolf"
+  double fraction = 0;     ///< of this stage, 0 to 1
+  double best = nan;       ///< best cost so far, NaN if there is none
 };
 
 /// Progress, cancellation, deadline and checkpoint of one run; shared by reference, usable from any thread.

@@ -1,12 +1,11 @@
 #include "linkwright/core/units.h"
 
 #include <array>
-#include <numbers>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 constexpr std::array length_units{Unit{"m"}, Unit{"mm", 1, 1e3}, Unit{"cm", 1, 1e2}, Unit{"um", 1, 1e6},
                                   Unit{"in", 254, 1e4}};

@@ -8,8 +8,6 @@ namespace linkwright::flexible {
 
 namespace {
 
-constexpr std::size_t per = coordinates_per_cell;
-
 Vec2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 // Force of the inner part on the outer one at the cut in the joint of a cell, axes of the hub.
@@ -40,12 +38,12 @@ ArmChain arm_chain(std::span<const ArmLink> links, Kinematics kinematics) {
 }
 
 std::vector<double> bent(const Chain& chain, std::span<const double> q, double share) {
-  LINKWRIGHT_REQUIRE(q.size() == per * chain.cells.size(), "{} coordinates for {} cells", q.size(),
-                     chain.cells.size());
+  LINKWRIGHT_REQUIRE(q.size() == coordinates_per_cell * chain.cells.size(), "{} coordinates for {} cells",
+                     q.size(), chain.cells.size());
   std::vector<double> out(q.begin(), q.end());
   for (std::size_t s = 0; s < chain.cells.size(); ++s)
     if (!chain.cells[s].hinge)
-      for (std::size_t i = 0; i < per; ++i) out[per * s + i] *= share;
+      for (std::size_t i = 0; i < coordinates_per_cell; ++i) out[coordinates_per_cell * s + i] *= share;
   return out;
 }
 

@@ -3,13 +3,13 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <limits>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::flexible {
 
 double Beam::shear_stiffness() const {
-  return theory == Theory::timoshenko ? shear_modulus * area * shear_coefficient
-                                      : std::numeric_limits<double>::infinity();
+  return theory == Theory::timoshenko ? shear_modulus * area * shear_coefficient : infinity;
 }
 
 double Beam::rotary_inertia() const {

@@ -9,8 +9,6 @@ namespace linkwright::flexible {
 
 namespace {
 
-constexpr std::size_t per = coordinates_per_cell;
-
 double stiffness(const Chain& chain, const Cell& cell, std::size_t coordinate) {
   if (cell.hinge && coordinate != turn) return 0;
   if (coordinate == slide) return cell.shear;
@@ -27,7 +25,7 @@ ChainEquations::ChainEquations(const Chain& chain)
       joint_(chain.cells.size()),
       motor_(chain.cells.size()),
       locked_(chain.cells.size()),
-      residual_(per * chain.cells.size()),
+      residual_(coordinates_per_cell * chain.cells.size()),
       border_column_(residual_.size()),
       border_row_(residual_.size()),
       border_change_(residual_.size()) {
@@ -55,9 +53,9 @@ void ChainEquations::move(const ChainState& state) {
     const Node& in = node_[s];
     Node& out = node_[s + 1];
     Joint& j = joint_[s];
-    const double* v = &state.v[per * s];
-    const double* a = &state.a[per * s];
-    j.step = joint_step(chain_->kinematics, chain_->cells[s], &state.q[per * s]);
+    const double* v = &state.v[coordinates_per_cell * s];
+    const double* a = &state.a[coordinates_per_cell * s];
+    j.step = joint_step(chain_->kinematics, chain_->cells[s], &state.q[coordinates_per_cell * s]);
     const JointStep& step = j.step;
     j.mean = turned(step.half, direction);
     direction = turned(step.half, j.mean);
@@ -105,14 +103,14 @@ void ChainEquations::move_linearised(const ChainState& state) {
     const auto sum = [&](Vec2 before, const double* x, double angle) {
       return before + Vec2{x[slide], x[slide] + l * angle + l / 2 * x[turn]};
     };
-    j.step = joint_step(chain_->kinematics, chain_->cells[s], &state.q[per * s]);
+    j.step = joint_step(chain_->kinematics, chain_->cells[s], &state.q[coordinates_per_cell * s]);
     j.mean = {1, 0};
-    out.z = sum(in.z, &state.q[per * s], in.angle);
-    out.drift = out.v = sum(in.v, &state.v[per * s], in.rate - state.rate);
-    out.a = sum(in.a, &state.a[per * s], in.acceleration - state.acceleration);
+    out.z = sum(in.z, &state.q[coordinates_per_cell * s], in.angle);
+    out.drift = out.v = sum(in.v, &state.v[coordinates_per_cell * s], in.rate - state.rate);
+    out.a = sum(in.a, &state.a[coordinates_per_cell * s], in.acceleration - state.acceleration);
     out.angle = in.angle + j.step.turn_by;
-    out.rate = in.rate + state.v[per * s + turn];
-    out.acceleration = in.acceleration + state.a[per * s + turn];
+    out.rate = in.rate + state.v[coordinates_per_cell * s + turn];
+    out.acceleration = in.acceleration + state.a[coordinates_per_cell * s + turn];
     j.by_angle = {0, l};
     j.by = {Vec2{1, 1}, Vec2{0, l / 2}, Vec2{}};
   }
@@ -128,9 +126,9 @@ void ChainEquations::project(const ChainState& state) {
     outer += j.force;
     couple += j.couple;
     j.outer = outer;
-    const double* q = &state.q[per * s];
-    const double* v = &state.v[per * s];
-    double* r = &residual_[per * s];
+    const double* q = &state.q[coordinates_per_cell * s];
+    const double* v = &state.v[coordinates_per_cell * s];
+    double* r = &residual_[coordinates_per_cell * s];
     const double damped = chain_->stiffness_damping;
     const double elastic = cell.hinge ? 0 : cell.shear * (q[slide] + damped * v[slide]);
     const double bending = cell.hinge ? cell.bending * q[turn] + cell.damping * v[turn]
@@ -230,7 +228,7 @@ const ChainForces& ChainEquations::evaluate(const ChainState& state, const TipLo
 double ChainEquations::relative_residual() const {
   double force = 0, couple = 0;
   for (std::size_t i = 0; i < residual_.size(); ++i) {
-    double& most = i % per == turn ? couple : force;
+    double& most = i % coordinates_per_cell == turn ? couple : force;
     most = std::isnan(residual_[i]) ? INFINITY : std::max(most, std::abs(residual_[i]));
   }
   return std::max(force / force_scale_, couple / moment_scale_);
@@ -266,8 +264,9 @@ ChainEnergy ChainEquations::energy(const ChainState& state) const {
     const double relative = node.rate - hub;
     out.loss +=
         c.mass_damping * (cell.mass * dot(node.drift, node.drift) + cell.inertia * relative * relative);
-    for (std::size_t i = 0; i < per; ++i) {
-      const double k = stiffness(c, cell, i), q = state.q[per * s + i], v = state.v[per * s + i];
+    for (std::size_t i = 0; i < coordinates_per_cell; ++i) {
+      const double k = stiffness(c, cell, i), q = state.q[coordinates_per_cell * s + i],
+                   v = state.v[coordinates_per_cell * s + i];
       out.potential += k * q * q / 2;
       if (!cell.hinge) out.loss += c.stiffness_damping * k * v * v;
       if (i == turn) out.loss += cell.damping * v * v;

@@ -1,15 +1,13 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/flexible/chain_equations.h"
 
 namespace linkwright::flexible {
 
 namespace {
-
-constexpr std::size_t per = coordinates_per_cell;
 
 // Second derivatives of force . displacement by the angle of the inner bar (0) and slide, turn, extension
 // (1, 2, 3): the stiffness of a loaded joint.
@@ -75,7 +73,7 @@ bool ChainEquations::eliminate(const TangentScale& scale) {
       state[c][2] = sx * a0 + sy * a1 + sa + geo.angle_by[c];
     }
     // What a joint does not do is held by an infinite stiffness, whose inverse is 0.
-    constexpr double held = std::numeric_limits<double>::infinity();
+    constexpr double held = infinity;
     block[0][0] += cell.hinge ? held : damped * cell.shear;
     block[1][1] += locked_[s] ? held : (cell.hinge ? 1 : damped) * cell.bending + scale.rate * cell.damping;
     if constexpr (C == 3) block[2][2] += cell.hinge ? held : damped * cell.axial;
@@ -139,8 +137,9 @@ void ChainEquations::project_only(std::span<double> out) {
     const Joint& j = joint_[s];
     outer += j.force;
     couple += j.couple;
-    for (std::size_t i = 0; i < per; ++i) out[per * s + i] = dot(outer, j.by[i]) + (i == turn ? couple : 0);
-    if (!chain_->extensible) out[per * s + extension] = 0;
+    for (std::size_t i = 0; i < coordinates_per_cell; ++i)
+      out[coordinates_per_cell * s + i] = dot(outer, j.by[i]) + (i == turn ? couple : 0);
+    if (!chain_->extensible) out[coordinates_per_cell * s + extension] = 0;
     couple += dot(outer, j.by_angle);
   }
 }
@@ -189,7 +188,7 @@ void ChainEquations::substitute(std::span<const double> residual, std::span<doub
     const Eliminated& e = eliminated_[s];
     double g[3] = {};
     for (int c = 0; c < C; ++c) {
-      g[c] = residual[per * s + c] + e.by[c].x * x + e.by[c].y * y;
+      g[c] = residual[coordinates_per_cell * s + c] + e.by[c].x * x + e.by[c].y * y;
       if (c == int(turn)) g[c] += angle;
     }
     angle += e.by_angle.x * x + e.by_angle.y * y;
@@ -206,12 +205,12 @@ void ChainEquations::substitute(std::span<const double> residual, std::span<doub
       g[0] -= e.lower[1] * g[2];
     }
     g[0] -= e.lower[0] * g[1];
-    for (int c = 0; c < 3; ++c) change[per * s + c] = c < C ? g[c] : 0;
+    for (int c = 0; c < 3; ++c) change[coordinates_per_cell * s + c] = c < C ? g[c] : 0;
   }
   x = y = angle = 0;
   for (std::size_t s = 0; s < joint_.size(); ++s) {
     const Eliminated& e = eliminated_[s];
-    double* u = &change[per * s];
+    double* u = &change[coordinates_per_cell * s];
     for (int c = 0; c < C; ++c) u[c] = -u[c] - e.gain[c][0] * x - e.gain[c][1] * y - e.gain[c][2] * angle;
     x += e.by_angle.x * angle;
     y += e.by_angle.y * angle;

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/zero.h"
 
 namespace linkwright::flexible {
@@ -131,7 +131,7 @@ std::vector<double> axial_frequencies(const Beam& beam, int count) {
   std::vector<double> out;
   for (int k = 0; k < count; ++k) {
     // One zero in each of these quarters, without a tip mass at its end: a little more has no other.
-    const double from = k * std::numbers::pi, to = from + std::numbers::pi / 2 + 0.1;
+    const double from = k * pi, to = from + pi / 2 + 0.1;
     out.push_back(
         unit * math::zero_between([&](double z) { return std::cos(z) - z * tip * std::sin(z); }, from, to));
   }

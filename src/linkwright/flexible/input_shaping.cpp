@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::flexible {
 
@@ -21,8 +21,8 @@ void require(const ShapedMode& mode) {
 std::vector<Impulse> impulses(Shaper shaper, const ShapedMode& mode, double remaining) {
   require(mode);
   const double root = std::sqrt(1 - mode.damping * mode.damping);
-  const double half = std::numbers::pi / (mode.frequency * root);  // half a damped period
-  const double decay = std::exp(-mode.damping * std::numbers::pi / root);
+  const double half = pi / (mode.frequency * root);  // half a damped period
+  const double decay = std::exp(-mode.damping * pi / root);
   std::vector<double> shares;
   switch (shaper) {
     case Shaper::zv:

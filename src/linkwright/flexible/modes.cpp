@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/flexible/chain_equations.h"
 #include "linkwright/flexible/links.h"
 
 namespace linkwright::flexible {
 
 namespace {
-
-constexpr std::size_t per = coordinates_per_cell;
 
 Chain without_gravity(Chain chain) {
   chain.gravity = 0;
@@ -48,7 +46,7 @@ class Straight {
     }
     for (std::size_t k = 0; k < about.turns.size(); ++k) {
       LINKWRIGHT_REQUIRE(about.turns[k] == 0 || !turns, "bent hinges on a hub that turns at {} rad/s", speed);
-      state.q[per * joints[k] + turn] = about.turns[k];
+      state.q[coordinates_per_cell * joints[k] + turn] = about.turns[k];
     }
     state.rate = speed;
     equations_.evaluate(state);
@@ -139,8 +137,9 @@ ModeShape mode_shape(const Chain& chain, int k, const Vibration& about) {
   // Beside the eigenvalue by more than the rounding of the elimination, by less than the distance to the
   // next.
   straight.factor(square == 0 ? 1e-9 * chain.cells.front().bending : square * (1 + 1e-9));
-  std::vector<double> x(per * straight.chain().cells.size(), 0.0), change(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = i % per == extension ? 0 : 1 + double(i % 7);
+  std::vector<double> x(coordinates_per_cell * straight.chain().cells.size(), 0.0), change(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] = i % coordinates_per_cell == extension ? 0 : 1 + double(i % 7);
   double hub = free_hub ? 1 : 0;
   for (int i = 0; i < 4; ++i) {
     hub = straight.equations().solve(x, hub, change);
@@ -182,8 +181,7 @@ Table campbell(const Chain& chain, std::span<const double> speeds, int count, Hu
     for (int k = 0; k < count; ++k) {
       const bool vibrates = found[k].growth == 0;
       stable = stable && vibrates;
-      out.columns[k + 1].values.push_back(vibrates ? found[k].frequency
-                                                   : std::numeric_limits<double>::quiet_NaN());
+      out.columns[k + 1].values.push_back(vibrates ? found[k].frequency : nan);
     }
     out.status.emplace_back(to_string(stable ? Status::done : Status::singular));
   }

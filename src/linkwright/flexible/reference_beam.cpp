@@ -5,10 +5,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/ode.h"
 
 namespace linkwright::flexible {
@@ -60,7 +59,7 @@ Grid grid(const Beam& beam, const ReferenceOptions& o) {
   Matrix values(n, n), sums(n + 1, n);
   Vector x(n);
   for (int i = 0; i < n; ++i) {
-    double at = -std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 0;
+    double at = -std::cos(pi * (i + 0.75) / (n + 0.5)), slope = 0;
     for (int k = 0; k < 8; ++k) {  // Newton's method from a start that is good to 1e-3
       const Vector p = legendre(n, at);
       slope = n * (at * p[n] - p[n - 1]) / (at * at - 1);

@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/flexible/modes.h"
 #include "linkwright/flexible/samples.h"
 #include "linkwright/flexible/simulation.h"
@@ -13,8 +13,6 @@
 namespace linkwright::flexible {
 namespace {
 
-using Rows = std::vector<study::Comparison>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* source = "Boskovic 2018, ";
 /// Divisions of the source, and such that the lag is right to 1e-4 of itself.
 constexpr int printed_divisions = 2, enough_divisions = 8;
@@ -37,8 +35,8 @@ double largest_lag(const Simulation& run, double from, double to) {
   return -smallest(run.samples, &Sample::tip_eta, from, to).value;
 }
 
-Rows spin_up(RunContext& context) {
-  Rows rows;
+study::Comparisons spin_up(RunContext& context) {
+  study::Comparisons rows;
   for (const double speed : {0.6, 2.0, 4.0, 8.0, 12.0, 16.0}) {
     const double lag =
         largest_lag(spun_up(speed, enough_divisions, Kinematics::chord_consistent, context), 0, 15);
@@ -85,8 +83,8 @@ Rows spin_up(RunContext& context) {
   return rows;
 }
 
-Rows torque(RunContext& context) {
-  Rows rows;
+study::Comparisons torque(RunContext& context) {
+  study::Comparisons rows;
   for (const double torque : {1.0, 2.0, 4.0, 6.0}) {
     const double lag =
         largest_lag(driven_by_torque(torque, enough_divisions, Kinematics::chord_consistent, context), 0, 1);

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/flexible/chain_equations.h"
 #include "linkwright/flexible/links.h"
@@ -17,7 +16,6 @@ namespace linkwright::flexible {
 
 namespace {
 
-constexpr std::size_t per = coordinates_per_cell;
 constexpr int most_refinements = 12, most_halvings = 6;
 
 // The drive: exactly one of both laws.
@@ -102,7 +100,7 @@ class Run {
   void take_hinges(double t, ChainState& state) {
     for (std::size_t k = 0; k < motors_.size(); ++k) {
       const HingeDrive& d = options_.hinges[k];
-      const std::size_t i = per * motors_[k] + turn;
+      const std::size_t i = coordinates_per_cell * motors_[k] + turn;
       if (d.torque) {
         equations_.set_motor(motors_[k], (*d.torque)(t));
       } else {
@@ -115,7 +113,8 @@ class Run {
   }
   double motor_power() const {
     double out = 0;
-    for (const std::size_t s : motors_) out += equations_.motor_torque(s) * now_.v[per * s + turn];
+    for (const std::size_t s : motors_)
+      out += equations_.motor_torque(s) * now_.v[coordinates_per_cell * s + turn];
     return out;
   }
 
@@ -177,7 +176,7 @@ class Run {
       if (options_.context && out_.steps % 128 == 0) look(t);
     }
     if (jump && going()) {
-      const double after = std::nextafter(to, std::numeric_limits<double>::infinity());
+      const double after = std::nextafter(to, infinity);
       take_hub(after);
       settle(after);
     }
@@ -232,7 +231,7 @@ class Run {
       next_.acceleration = now_.acceleration;
     }
 
-    double before = std::numeric_limits<double>::infinity();
+    double before = infinity;
     bool met = false;
     for (int i = 0;; ++i) {
       equations_.evaluate(next_);
@@ -254,7 +253,7 @@ class Run {
         next_.q[k] += dq;
         next_.v[k] += scale.rate * dq;
         next_.a[k] += scale.acceleration * dq;
-        most = std::max(most, std::abs(dq) / (k % per == turn ? 1 : chain_length_));
+        most = std::max(most, std::abs(dq) / (k % coordinates_per_cell == turn ? 1 : chain_length_));
       }
       next_.angle += turned_by;
       next_.rate += scale.rate * turned_by;
@@ -284,8 +283,7 @@ class Run {
     out_.fastest = std::max(out_.fastest, std::abs(now_.rate));
     if (kink > fold_limit) {
       out_.status = Status::limit_reached;
-      out_.message = fmt::format("two bars at {:.1f} deg at {:.6g} s: the chain folded",
-                                 kink * 180 / std::numbers::pi, t);
+      out_.message = fmt::format("two bars at {:.1f} deg at {:.6g} s: the chain folded", kink * 180 / pi, t);
     }
     return true;
   }
@@ -294,7 +292,7 @@ class Run {
     const ChainForces& f = equations_.evaluate(now_);
     const ChainEnergy e = equations_.energy(now_);
     const Vec2 tip = equations_.tip();
-    double bending = std::numeric_limits<double>::quiet_NaN();
+    double bending = nan;
     if (chain_.kinematics != Kinematics::source_linearised) {
       bending = 0;
       for (const SectionForce& cut : equations_.sections()) bending = std::max(bending, std::abs(cut.moment));
@@ -403,7 +401,7 @@ Simulation simulate(const Chain& chain, const Drive& drive, const SimulationOpti
                      o.spectral_radius);
   LINKWRIGHT_REQUIRE(o.newton_tolerance > 0 && o.max_iterations > 0, "tolerance {}, {} iterations",
                      o.newton_tolerance, o.max_iterations);
-  const std::size_t n = per * chain.cells.size();
+  const std::size_t n = coordinates_per_cell * chain.cells.size();
   LINKWRIGHT_REQUIRE((start.q.empty() || start.q.size() == n) && (start.v.empty() || start.v.size() == n),
                      "a start of {} coordinates and {} rates for {}", start.q.size(), start.v.size(), n);
   const std::size_t joints = hinges(chain).size();
@@ -428,7 +426,7 @@ Simulation simulate(const Chain& chain, const Drive& drive, const SimulationOpti
         coarse.status = out.status;
         coarse.message = fmt::format(
             "the run with half the step was {}; what is told is that of the whole step", out.message);
-        coarse.error = std::numeric_limits<double>::quiet_NaN();
+        coarse.error = nan;
         coarse.steps = out.steps;
         coarse.iterations = out.iterations;
         coarse.factorisations = out.factorisations;
@@ -439,7 +437,7 @@ Simulation simulate(const Chain& chain, const Drive& drive, const SimulationOpti
       if (coarse.status == Status::done) {
         limit.error = extrapolate(coarse, limit);
       } else {
-        limit.error = std::numeric_limits<double>::quiet_NaN();
+        limit.error = nan;
         limit.warnings.push_back(
             "the run with twice the step failed, so there is no estimate of the error: " + coarse.message);
       }

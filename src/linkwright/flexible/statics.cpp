@@ -10,8 +10,6 @@ namespace linkwright::flexible {
 
 namespace {
 
-constexpr std::size_t per = coordinates_per_cell;
-
 // Beyond this turn in one joint a step of Newton's method has left the place where it holds.
 constexpr double longest_turn = 1;
 
@@ -28,7 +26,7 @@ Equilibrium equilibrium(const Chain& chain, const TipLoad& load, const Equilibri
                      options.turns.size(), joints.size());
   for (std::size_t k = 0; k < options.turns.size(); ++k) {
     equations.lock_turn(joints[k]);
-    out.state.q[per * joints[k] + turn] = options.turns[k];
+    out.state.q[coordinates_per_cell * joints[k] + turn] = options.turns[k];
   }
   std::vector<double> change(out.state.q.size());
   const auto evaluate = [&](ChainState& state, double share) {
@@ -49,7 +47,8 @@ Equilibrium equilibrium(const Chain& chain, const TipLoad& load, const Equilibri
       equations.solve(equations.residual(), 0, change);
       ++out.iterations;
       double most = 0;
-      for (std::size_t s = turn; s < change.size(); s += per) most = std::max(most, std::abs(change[s]));
+      for (std::size_t s = turn; s < change.size(); s += coordinates_per_cell)
+        most = std::max(most, std::abs(change[s]));
       if (most > longest_turn) break;
       for (std::size_t k = 0; k < change.size(); ++k) trial.q[k] += change[k];
     }
@@ -69,12 +68,13 @@ Equilibrium equilibrium(const Chain& chain, const TipLoad& load, const Equilibri
 }
 
 Deflection deflection_of(const Chain& chain, std::span<const double> change) {
-  LINKWRIGHT_REQUIRE(change.size() == per * chain.cells.size(), "{} changes for {} cells", change.size(),
-                     chain.cells.size());
+  LINKWRIGHT_REQUIRE(change.size() == coordinates_per_cell * chain.cells.size(), "{} changes for {} cells",
+                     change.size(), chain.cells.size());
   Deflection out{.eta = {0}, .angle = {0}};
   for (std::size_t s = 0; s < chain.cells.size(); ++s) {
-    const double l = chain.cells[s].length, angle = out.angle.back(), delta = change[per * s + turn];
-    out.eta.push_back(out.eta.back() + change[per * s + slide] + l * angle + l / 2 * delta);
+    const double l = chain.cells[s].length, angle = out.angle.back(),
+                 delta = change[coordinates_per_cell * s + turn];
+    out.eta.push_back(out.eta.back() + change[coordinates_per_cell * s + slide] + l * angle + l / 2 * delta);
     out.angle.push_back(angle + delta);
   }
   return out;

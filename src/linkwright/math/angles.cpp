@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
+
 namespace linkwright::math {
-namespace {
-constexpr double pi = std::numbers::pi;
-}
+namespace {}
 
 double wrap_angle(double angle) {
   if (angle > -pi && angle <= pi) return angle;

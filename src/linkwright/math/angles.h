@@ -1,12 +1,13 @@
 #pragma once
 
-#include <numbers>
 #include <span>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::math {
 
-constexpr double degrees(double radians) { return radians * (180 / std::numbers::pi); }
-constexpr double radians(double degrees) { return degrees * (std::numbers::pi / 180); }
+constexpr double degrees(double radians) { return radians * (180 / pi); }
+constexpr double radians(double degrees) { return degrees * (pi / 180); }
 
 /// The angle in (-pi, pi] that differs from `angle` (rad) by whole turns. Exact for the double nearest to 2
 /// pi, so wrapping twice changes nothing.

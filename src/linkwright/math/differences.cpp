@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::math {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double scale_of(std::span<const double> x, std::span<const double> scale, std::size_t j) {
   return scale.empty() ? std::max(std::abs(x[j]), 1.0) : scale[j];

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <span>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/math/function_ref.h"
 #include "linkwright/math/least_squares.h"
@@ -47,10 +47,10 @@ struct JacobianCheck {
   bool passed = false;        ///< status is done and no entry deviates by more than its tolerance
   std::size_t unchecked = 0;  ///< columns not compared; all of them when x itself cannot be evaluated
   std::size_t row = 0, column = 0;
-  double analytic = std::numeric_limits<double>::quiet_NaN();  ///< entry of the function's own Jacobian
-  double numeric = std::numeric_limits<double>::quiet_NaN();   ///< the same by central differences
-  double deviation = 0;  ///< |analytic - numeric| relative to size_ij, see check_jacobian
-  double tolerance = 0;  ///< on the deviation, derived for this entry
+  double analytic = nan;  ///< entry of the function's own Jacobian
+  double numeric = nan;   ///< the same by central differences
+  double deviation = 0;   ///< |analytic - numeric| relative to size_ij, see check_jacobian
+  double tolerance = 0;   ///< on the deviation, derived for this entry
 };
 
 /// Compares the Jacobian that `function` returns with central differences of its residuals; for a gradient,

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::math {
 namespace {
@@ -70,12 +71,8 @@ LeastSquaresReport minimise_least_squares(ResidualFunction function, std::size_t
   LINKWRIGHT_REQUIRE(o.lambda0 > 0 && o.lambda_success > 0 && o.lambda_success <= 1 && o.lambda_failure > 1,
                      "lambda0 {}, factors {} and {}", o.lambda0, o.lambda_success, o.lambda_failure);
   LINKWRIGHT_REQUIRE(o.step_clip > 0, "step_clip {}", o.step_clip);
-  const auto low = [&](std::size_t j) {
-    return lower.empty() ? -std::numeric_limits<double>::infinity() : lower[j];
-  };
-  const auto high = [&](std::size_t j) {
-    return upper.empty() ? std::numeric_limits<double>::infinity() : upper[j];
-  };
+  const auto low = [&](std::size_t j) { return lower.empty() ? -infinity : lower[j]; };
+  const auto high = [&](std::size_t j) { return upper.empty() ? infinity : upper[j]; };
   for (std::size_t j = 0; j < n; ++j)
     LINKWRIGHT_REQUIRE(low(j) <= high(j), "bounds of variable {}: {} > {}", j, low(j), high(j));
   w.resize(m, n);
@@ -84,12 +81,12 @@ LeastSquaresReport minimise_least_squares(ResidualFunction function, std::size_t
   report.lambda = o.lambda0;
   const auto evaluate = [&](std::span<const double> at, std::vector<double>& r, std::span<double> jacobian) {
     ++report.evaluations;
-    if (!function(at, r, jacobian)) return std::numeric_limits<double>::infinity();
+    if (!function(at, r, jacobian)) return infinity;
     double cost = half_sum_of_squares(r);
     // One infinite or NaN entry makes the sum so, without a test of each.
     double sum = 0;
     for (const double v : jacobian) sum += v * 0;
-    if (!std::isfinite(cost) || sum != 0) cost = std::numeric_limits<double>::infinity();
+    if (!std::isfinite(cost) || sum != 0) cost = infinity;
     return cost;
   };
   const auto end = [&](LeastSquaresEnd why, Status status = Status::done) {

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/math/function_ref.h"
 
@@ -31,7 +31,7 @@ struct LeastSquaresOptions {
   double lambda_failure = 4;    ///< factor after one that does not
   double lambda_max = 1e8;      ///< ends the search: no step lowers the cost any more
   int max_iterations = 60;      ///< steps tried, successful or not
-  double step_clip = std::numeric_limits<double>::infinity();  ///< largest change of a variable in one step
+  double step_clip = infinity;  ///< largest change of a variable in one step
   /// Adds the second-order correction of Transtrum & Sethna 2012 to each step: it follows curved narrow
   /// valleys, where plain steps shorten to a crawl, for one more evaluation of the residuals a step.
   bool geodesic_acceleration = false;
@@ -55,9 +55,8 @@ struct LeastSquaresReport {
   /// cannot be evaluated (x is left as it was).
   Status status = Status::done;
   LeastSquaresEnd end = LeastSquaresEnd::decrease;
-  double cost = std::numeric_limits<double>::infinity();  ///< half the sum of squared residuals at x
-  double gradient =
-      std::numeric_limits<double>::infinity();  ///< max |J'r| over variables not held by a bound
+  double cost = infinity;      ///< half the sum of squared residuals at x
+  double gradient = infinity;  ///< max |J'r| over variables not held by a bound
   double lambda = 0;
   int iterations = 0;   ///< steps tried
   int evaluations = 0;  ///< calls of the residual function

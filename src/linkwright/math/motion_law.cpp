@@ -5,17 +5,14 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <span>
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::math {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // One condition of EndConditions: derivative of an order at an end x = 0, 1.
 struct Condition {
@@ -192,7 +189,7 @@ std::vector<double> knots(const Law& law, double, double) {
   return {law.start, law.start + law.duration};
 }
 
-constexpr double always = -std::numeric_limits<double>::infinity();
+constexpr double always = -infinity;
 std::optional<double> settled(const ConstantSpeed&) { return always; }
 std::optional<double> settled(const HarmonicMotion& law) {
   return law.amplitude == 0 || law.frequency == 0 ? std::optional(always) : std::nullopt;

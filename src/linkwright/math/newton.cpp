@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::math {
 namespace {
 
 using Vector = Eigen::Map<Eigen::VectorXd>;
 using Matrix = Eigen::Map<Eigen::MatrixXd>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double largest(std::span<const double> values) {
   double out = 0;

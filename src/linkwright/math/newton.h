@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/math/function_ref.h"
 #include "linkwright/math/least_squares.h"
@@ -25,13 +25,13 @@ struct NewtonReport {
   /// determined; not_converged: iterations used up, or no part of a step lowers |F|; infeasible: the start
   /// cannot be evaluated (x is left as it was).
   Status status = Status::done;
-  int iterations = 0;                                         ///< steps taken, whole or halved
-  int evaluations = 0;                                        ///< calls of the function
-  double residual = std::numeric_limits<double>::infinity();  ///< max |F_i| at x
-  double step = 0;  ///< max |step_j| / (1 + |x_j|) of the last step, as far as it was taken
+  int iterations = 0;          ///< steps taken, whole or halved
+  int evaluations = 0;         ///< calls of the function
+  double residual = infinity;  ///< max |F_i| at x
+  double step = 0;             ///< max |step_j| / (1 + |x_j|) of the last step, as far as it was taken
   /// |J|_1 |J^-1|_1 at x: about how many times a relative error of J or F is felt in the step. Depends on the
   /// units of rows and variables. Infinite where J is singular to the last digit.
-  double condition = std::numeric_limits<double>::infinity();
+  double condition = infinity;
 };
 
 /// Memory of a search; use one again and again (per thread) and nothing is allocated after the first call of

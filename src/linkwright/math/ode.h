@@ -3,12 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/math/function_ref.h"
@@ -38,7 +38,7 @@ struct OdeOptions {
   double absolute_tolerance = 1e-10;
   std::span<const double> absolute_tolerances = {};  ///< one a component, instead of the one above
   double initial_step = 0;                           ///< length; 0 = chosen from f
-  double max_step = std::numeric_limits<double>::infinity();
+  double max_step = infinity;
   long max_steps = 100'000;
   /// Times of events are known to this (in units of t), or to four roundings of t where that is more.
   double event_tolerance = 1e-12;

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::math {
 namespace {
 
 // After a crossing, and from a start on zero, signs count again when this many tolerances have passed: far
 // enough to outweigh what the tolerance leaves of the value, and no farther.
-constexpr double settled = 100;
+constexpr double settled_tolerances = 100;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double none = nan;
 
 int sign(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
@@ -37,14 +38,14 @@ void OdeEventFinder::begin(double t, std::span<const double> y, std::span<const 
   direction_ = direction;
   const std::span<double> here = std::span(grid_).first(sides_.size());
   hooks_->event_values(t, y, here);
-  const double ahead = direction * settled * tolerance_;
+  const double ahead = direction * settled_tolerances * tolerance_;
   for (std::size_t j = 0; j < y.size(); ++j) y_[j] = y[j] + ahead * rate[j];
   hooks_->event_values(t + ahead, y_, values_);
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     sides_[i] = sign(here[i]);
     quiet_[i] = t;
     const bool has_fired = std::find(fired.begin(), fired.end(), i) != fired.end();
-    const bool zero = settled * std::abs(here[i]) <= std::abs(values_[i] - here[i]);
+    const bool zero = settled_tolerances * std::abs(here[i]) <= std::abs(values_[i] - here[i]);
     if (!has_fired && !zero) continue;
     sides_[i] = sign(values_[i]);
     quiet_[i] = t + ahead;
@@ -216,7 +217,7 @@ bool OdeEventFinder::find(OdeStepper& stepper, double from, double& t) {
     if (watched == OdeCrossing::either || (watched == OdeCrossing::rising) == (sides_[i] < 0))
       which_.push_back(i);
     sides_[i] = -sides_[i];
-    quiet_[i] = t + direction * settled * tolerance_;
+    quiet_[i] = t + direction * settled_tolerances * tolerance_;
   }
   values_at(stepper, t, false, std::span(grid_).first(count));
   return true;

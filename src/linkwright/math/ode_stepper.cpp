@@ -17,8 +17,8 @@
 #include <cmath>
 #include <new>
 
-#include "linkwright/math/ode_pairs.h"
-#include "linkwright/math/ode_vectors.h"
+#include "linkwright/math/detail/ode_pairs.h"
+#include "linkwright/math/detail/ode_vectors.h"
 
 namespace linkwright::math {
 namespace {

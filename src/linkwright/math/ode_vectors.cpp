@@ -1,4 +1,4 @@
-#include "linkwright/math/ode_vectors.h"
+#include "linkwright/math/detail/ode_vectors.h"
 
 #include <nvector/nvector_serial.h>
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <unsupported/Eigen/FFT>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::math {
 namespace {
@@ -34,7 +34,7 @@ Spectrum spectrum(std::span<const double> values, double step) {
   for (std::size_t i = 0; i < n; ++i) mean += values[i] / count;
   if (!std::isfinite(mean)) return out;
   for (std::size_t i = 0; i < n; ++i)
-    windowed[i] = (values[i] - mean) * (1 - std::cos(2 * std::numbers::pi * static_cast<double>(i) / count));
+    windowed[i] = (values[i] - mean) * (1 - std::cos(2 * pi * static_cast<double>(i) / count));
   Eigen::FFT<double> transform;
   std::vector<std::complex<double>> lines;
   transform.fwd(lines, windowed);

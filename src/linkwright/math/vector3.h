@@ -19,6 +19,13 @@ struct Vector3 {
 };
 using Vec3 = Vector3<double>;
 
+/// x, y, z by number.
+template <class T>
+constexpr const T& component(const Vector3<T>& a, int k) {
+  return k == 0 ? a.x : k == 1 ? a.y : a.z;
+}
+inline bool finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+
 template <class A, class B>
 constexpr auto operator+(const Vector3<A>& a, const Vector3<B>& b) -> Vector3<decltype(a.x + b.x)> {
   return {a.x + b.x, a.y + b.y, a.z + b.z};

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/cone_scaling.h"
 
 namespace linkwright::optimise {
@@ -320,7 +321,7 @@ ConeReport Solver::answer(ConeEnd end) const {
     report.multipliers.push_back(std::move(multiplier));
   }
   if (end == ConeEnd::infeasible || end == ConeEnd::unbounded) {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
+    constexpr double infinite = infinity;
     report.cost = report.lower_bound = end == ConeEnd::infeasible ? infinite : -infinite;
     if (end == ConeEnd::infeasible) {
       report.x.clear();
@@ -340,7 +341,7 @@ ConeReport Solver::run(RunContext& context) {
   start();
   Vector rx(n_), rz(m_), x1, z1, x2, z2, ds(m_), dz(m_), scaled_s(m_), scaled_z(m_), right(m_), t(m_), u(m_);
   Vector best_x, best_s, best_z;
-  double best_tau = 1, best_kappa = 1, best = std::numeric_limits<double>::infinity();
+  double best_tau = 1, best_kappa = 1, best = infinity;
   ConeEnd end = ConeEnd::iterations;
   Status interruption = Status::done;
   int iteration = 0;

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 
@@ -69,12 +69,12 @@ struct ConeReport {
   /// iterations, rounding; deadline, cancelled.
   Status status = Status::not_converged;
   ConeEnd end = ConeEnd::iterations;
-  std::vector<double> x;  ///< empty when infeasible; when unbounded a direction along which the cost falls
-  double cost = std::numeric_limits<double>::infinity();  ///< at x; -infinity when unbounded
-  double lower_bound = -std::numeric_limits<double>::infinity();
-  double gap = std::numeric_limits<double>::infinity();            ///< of both, relative, see `solve`
-  double dual_residual = std::numeric_limits<double>::infinity();  ///< of the equilibrated equations
-  double violation = std::numeric_limits<double>::infinity();      ///< largest |parts| - bound at x, >= 0
+  std::vector<double> x;   ///< empty when infeasible; when unbounded a direction along which the cost falls
+  double cost = infinity;  ///< at x; -infinity when unbounded
+  double lower_bound = -infinity;
+  double gap = infinity;            ///< of both, relative, see `solve`
+  double dual_residual = infinity;  ///< of the equilibrated equations
+  double violation = infinity;      ///< largest |parts| - bound at x, >= 0
   /// One a cone. When infeasible: their weighted sum of the cones is 0 and that of the constants -1, which no
   /// x can meet. Empty when unbounded.
   std::vector<ConeMultiplier> multipliers;

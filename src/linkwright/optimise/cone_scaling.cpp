@@ -3,7 +3,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::optimise {
 namespace {
@@ -88,7 +89,7 @@ double ConeScaling::longest_step(std::span<const double> direction) const {
     const double r1 = (d1 - (r0 + d0) / (l0 + 1) / norm * l1).norm();
     most = std::max(most, (r1 - r0) / norm);
   }
-  return most > 0 ? 1 / most : std::numeric_limits<double>::infinity();
+  return most > 0 ? 1 / most : infinity;
 }
 
 void ConeScaling::divide(std::span<const double> d, std::span<double> out) const {
@@ -114,7 +115,7 @@ void ConeScaling::product(std::span<const double> a, std::span<const double> b, 
 }
 
 double ConeScaling::outside(std::span<const double> v) const {
-  double most = -std::numeric_limits<double>::infinity();
+  double most = -infinity;
   for (const ConeBlock& b : blocks) most = std::max(most, tail(v, b).norm() - v[b.first]);
   return most;
 }

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "linkwright/optimise/swarm_base.h"
+#include "linkwright/optimise/detail/swarm_base.h"
 
 namespace linkwright::optimise {
 namespace {

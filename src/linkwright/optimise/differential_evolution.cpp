@@ -4,7 +4,7 @@
 #include <array>
 
 #include "linkwright/core/random.h"
-#include "linkwright/optimise/differential_evolution_base.h"
+#include "linkwright/optimise/detail/differential_evolution_base.h"
 
 namespace linkwright::optimise {
 namespace {

@@ -1,9 +1,9 @@
 #include "linkwright/optimise/evaluate.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "linkwright/core/interruption.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/parallel.h"
 
 namespace linkwright::optimise {
@@ -26,7 +26,6 @@ void evaluate(const Problem& problem, const PopulationView& candidates, std::spa
 
 void evaluate(const Problem& problem, const PopulationView& candidates, std::span<double> cost,
               std::span<double> violation, const RunContext& context) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   std::fill(cost.begin(), cost.end(), nan);
   std::fill(violation.begin(), violation.end(), nan);
   const std::size_t m = problem.objectives, blocks = (candidates.size + block_size - 1) / block_size;

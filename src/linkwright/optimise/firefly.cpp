@@ -1,6 +1,6 @@
 #include "linkwright/optimise/firefly.h"
 
-#include "linkwright/optimise/firefly_base.h"
+#include "linkwright/optimise/detail/firefly_base.h"
 
 namespace linkwright::optimise {
 namespace {

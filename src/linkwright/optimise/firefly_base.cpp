@@ -1,4 +1,4 @@
-#include "linkwright/optimise/firefly_base.h"
+#include "linkwright/optimise/detail/firefly_base.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "linkwright/optimise/firefly_base.h"
+#include "linkwright/optimise/detail/firefly_base.h"
 
 namespace linkwright::optimise {
 namespace {

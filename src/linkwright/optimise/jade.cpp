@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "linkwright/core/random.h"
-#include "linkwright/optimise/differential_evolution_base.h"
+#include "linkwright/optimise/detail/differential_evolution_base.h"
 
 namespace linkwright::optimise {
 namespace {

@@ -1,11 +1,13 @@
 #include "linkwright/optimise/kernels.h"
 
+#include "linkwright/core/kernels.h"
+
 namespace linkwright::optimise {
 
 namespace baseline {
 extern const Kernels table;
 }
-#if defined(__x86_64__)
+#ifdef LINKWRIGHT_X86_KERNELS
 namespace avx2 {
 extern const Kernels table;
 }
@@ -18,12 +20,11 @@ const Kernels* kernels(InstructionSet set) {
   switch (set) {
     case InstructionSet::baseline:
       return &baseline::table;
-#if defined(__x86_64__)
+#ifdef LINKWRIGHT_X86_KERNELS
     case InstructionSet::avx2:
-      return __builtin_cpu_supports("avx2") ? &avx2::table : nullptr;
+      return has_avx2() ? &avx2::table : nullptr;
     case InstructionSet::avx512:
-      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") ? &avx512::table
-                                                                                     : nullptr;
+      return has_avx512() ? &avx512::table : nullptr;
 #endif
     default:
       return nullptr;

@@ -1,3 +1,3 @@
 #define LINKWRIGHT_KERNELS avx2
 #define LINKWRIGHT_LANES 4
-#include "linkwright/optimise/kernels_body.h"
+#include "linkwright/optimise/detail/kernels_body.h"

@@ -1,3 +1,3 @@
 #define LINKWRIGHT_KERNELS baseline
 #define LINKWRIGHT_LANES 2
-#include "linkwright/optimise/kernels_body.h"
+#include "linkwright/optimise/detail/kernels_body.h"

@@ -1,12 +1,13 @@
 #include "linkwright/optimise/levy_flight.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::optimise {
 
 double levy_scale(double exponent) {
-  const double numerator = std::tgamma(1 + exponent) * std::sin(std::numbers::pi * exponent / 2);
+  const double numerator = std::tgamma(1 + exponent) * std::sin(pi * exponent / 2);
   const double denominator = std::tgamma((1 + exponent) / 2) * exponent * std::exp2((exponent - 1) / 2);
   return std::pow(numerator / denominator, 1 / exponent);
 }

@@ -9,6 +9,7 @@
 
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/interruption.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/combine.h"
 #include "linkwright/optimise/evaluate.h"
 
@@ -16,7 +17,6 @@ namespace linkwright::optimise {
 namespace {
 
 constexpr std::size_t longest_reserved_log = 1 << 16, longest_reserved_generation = 1 << 16;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::chrono::milliseconds between_looks(50);
 
 /// The one number that several objectives are reported by.
@@ -112,7 +112,6 @@ void tell_front(ParetoArchive& front, const PopulationView& candidates, std::spa
 /// where there is nothing else, so that there is a candidate in any case.
 void take_evaluated(const PopulationView& candidates, const Combination* combination, std::size_t m,
                     std::span<const double> costs, std::span<const double> violations, Report& report) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::size_t of_parts = report.costs.size();
   const auto take = [&](std::size_t i) {
     for (std::size_t j = 0; j < report.x.size(); ++j) report.x[j] = candidates(j, i);
@@ -336,7 +335,7 @@ Report minimise(const Problem& problem, Optimiser& optimiser, int generations, s
         std::min(std::max(n, optimiser.largest_generation()), longest_reserved_generation));
   Report report;
   report.x.resize(optimiser.dimension());
-  report.costs.assign(of_parts, std::numeric_limits<double>::infinity());
+  report.costs.assign(of_parts, infinity);
   if (const Incumbent& known = options.incumbent; !known.x.empty() || !known.costs.empty()) {
     LINKWRIGHT_REQUIRE(known.costs.size() == of_parts, "an incumbent of {} costs for {} objectives",
                        known.costs.size(), of_parts);

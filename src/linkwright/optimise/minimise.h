@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/optimise/methods.h"
@@ -21,8 +21,8 @@ struct StopCriteria {
   std::int64_t evaluations =
       0;                ///< no generation begins that could exceed this; 0 = no limit; the first always runs
   int generations = 0;  ///< 0 = as the options of the method say
-  double target_cost = -std::numeric_limits<double>::infinity();  ///< a feasible candidate costs at most this
-  int stagnation = 0;  ///< generations in a row without a new best candidate; 0 = no limit
+  double target_cost = -infinity;  ///< a feasible candidate costs at most this
+  int stagnation = 0;              ///< generations in a row without a new best candidate; 0 = no limit
   /// The best was improved or equalled in this generation and no member is further than this from it
   /// (Euclidean, in the units of the variables); 0 = never. The criterion of the wheel-guide studies.
   double spread = 0;
@@ -112,10 +112,10 @@ struct Report {
   std::string stop_reason;  ///< for people: "target cost 1e-08 reached"
   std::vector<double> x;    ///< best candidate, also when the run was interrupted
   /// Of the problem, without penalty: its objective, or the mean of all when there are several.
-  double cost = std::numeric_limits<double>::infinity();
+  double cost = infinity;
   /// All objectives of the best candidate; with a problem that is combined of several (combine.h) those.
   std::vector<double> costs;
-  double violation = std::numeric_limits<double>::infinity();
+  double violation = infinity;
   std::int64_t evaluations = 0;
   int generations = 0;
   std::vector<GenerationLog> log;

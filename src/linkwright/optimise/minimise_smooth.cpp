@@ -10,6 +10,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/interruption.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/minimise_largest.h"
 #include "linkwright/optimise/nonnegative_fit.h"
@@ -19,7 +20,6 @@
 namespace linkwright::optimise {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t round_size = 8;          // starts searched together
 constexpr std::size_t evaluation_block = 256;  // candidates, a multiple of 8
 constexpr double on_bound = 1e-10;             // nearer it is rounding
@@ -431,7 +431,7 @@ SmoothReport minimise_smooth(const SmoothProblem& problem, const SmoothOptions& 
     if (!cut) keeper.keep(report.ends);
     context.report({.stage = "minimise_smooth",
                     .fraction = static_cast<double>(report.ends.size()) / static_cast<double>(starts.size()),
-                    .best = best < infinity ? best : std::numeric_limits<double>::quiet_NaN()});
+                    .best = best < infinity ? best : nan});
     if (cut) {
       interruption = context.interruption();
       break;

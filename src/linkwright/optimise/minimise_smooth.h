@@ -3,11 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/optimise/nlopt_bridge.h"
@@ -60,7 +60,7 @@ void fields(Visitor&& visit, SmoothOptions& o) {
 
 /// How one start ended.
 struct SmoothEnd {
-  double cost = std::numeric_limits<double>::infinity();
+  double cost = infinity;
   double violation = 0;  ///< largest of the constraints and caps at x; 0 when each holds
   LocalEnd end = LocalEnd::success;
   std::int64_t evaluations = 0;
@@ -95,15 +95,15 @@ struct SmoothReport {
   std::vector<double> x;            ///< the best design
   std::vector<double> objectives;   ///< at x
   std::vector<double> constraints;  ///< at x
-  double cost = std::numeric_limits<double>::infinity();
-  double violation = std::numeric_limits<double>::infinity();  ///< as in SmoothEnd
-  std::int64_t evaluations = 0;                                ///< candidates, those of derivatives included
-  std::vector<SmoothEnd> ends;                                 ///< of all starts made, in order
-  int reached_best = 0;                                        ///< of them, see same_cost
-  std::vector<ActiveLimit> active;                             ///< at x, largest price per cent first
+  double cost = infinity;
+  double violation = infinity;      ///< as in SmoothEnd
+  std::int64_t evaluations = 0;     ///< candidates, those of derivatives included
+  std::vector<SmoothEnd> ends;      ///< of all starts made, in order
+  int reached_best = 0;             ///< of them, see same_cost
+  std::vector<ActiveLimit> active;  ///< at x, largest price per cent first
   /// What is left of the gradient of the cost at x when the active limits are taken into account, relative to
   /// that gradient, variables in parts of the widths of their bounds: 0 at a minimum.
-  double stationarity = std::numeric_limits<double>::quiet_NaN();
+  double stationarity = nan;
 };
 
 /// Minimises several smooth objectives with caps and constraints from many starts: the recommended method

@@ -4,6 +4,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/interruption.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::optimise {
 namespace {
@@ -16,9 +17,9 @@ math::LeastSquaresReport cut_short(math::ResidualFunction function, std::size_t 
   double sum = 0;
   try {
     ++evaluations;
-    if (!function(x, residuals, {})) sum = std::numeric_limits<double>::infinity();
+    if (!function(x, residuals, {})) sum = infinity;
   } catch (const Interrupted&) {
-    sum = std::numeric_limits<double>::infinity();
+    sum = infinity;
   }
   for (const double r : residuals) sum += r * r;
   out.evaluations = static_cast<int>(evaluations);
@@ -39,7 +40,7 @@ MultistartReport multistart_least_squares(math::ResidualFunction function, std::
   MultistartReport report;
   math::LeastSquaresWorkspace workspace;
   std::vector<double> x(n);
-  double best = std::numeric_limits<double>::infinity();
+  double best = infinity;
   for (std::size_t start = 0; start < static_cast<std::size_t>(options.starts); ++start) {
     RandomStream random({seed.seed, seed.run, 0, static_cast<std::uint32_t>(start)});
     if (!generate(start, random, x)) continue;

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/math/function_ref.h"
@@ -22,8 +22,7 @@ struct MultistartOptions {
   int starts = 100;
   std::int64_t evaluations =
       0;  ///< no start begins after so many; 0 = no limit. They do not cut a local search short
-  double target_cost =
-      -std::numeric_limits<double>::infinity();  ///< end when half the sum of squares is at most this
+  double target_cost = -infinity;  ///< end when half the sum of squares is at most this
   double same_cost =
       1e-6;  ///< relative: ends that cost at most this much more than the best count as having reached it
   math::LeastSquaresOptions local = {};
@@ -37,10 +36,10 @@ struct MultistartEnd {
 };
 
 struct MultistartReport {
-  Status status = Status::done;  ///< done, infeasible (no start could be evaluated), deadline or cancelled
-  std::vector<MultistartEnd> ends;    ///< of all starts made, in order
-  std::size_t best = 0;          ///< index of the cheapest end; the first of equals
-  int reached_best = 0;          ///< ends that cost as much as the best, see same_cost
+  Status status = Status::done;     ///< done, infeasible (no start could be evaluated), deadline or cancelled
+  std::vector<MultistartEnd> ends;  ///< of all starts made, in order
+  std::size_t best = 0;             ///< index of the cheapest end; the first of equals
+  int reached_best = 0;             ///< ends that cost as much as the best, see same_cost
   std::int64_t evaluations = 0;
 };
 

@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <string_view>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/math/function_ref.h"
@@ -79,9 +79,9 @@ struct LocalReport {
   /// a value that was not finite, or no way on; else done.
   Status status = Status::done;
   LocalEnd end = LocalEnd::success;
-  double cost = std::numeric_limits<double>::infinity();  ///< at x; infinite: not finite at the start
-  double violation = 0;  ///< largest constraint at x, 0 when every one holds within its tolerance
-  int evaluations = 0;   ///< calls of the cost
+  double cost = infinity;  ///< at x; infinite: not finite at the start
+  double violation = 0;    ///< largest constraint at x, 0 when every one holds within its tolerance
+  int evaluations = 0;     ///< calls of the cost
 };
 
 /// The status that goes with an end: `interruption` (deadline or cancelled) where it was interrupted.

@@ -4,7 +4,6 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -14,6 +13,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/function_ref.h"
 #include "linkwright/optimise/kernels.h"
 #include "linkwright/optimise/population.h"
@@ -133,8 +133,6 @@ class Optimiser {
   /// Whether the generation goes on after the answers taken in.
   virtual bool goes_on() const { return false; }
 
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   /// What costs are divided by to compare them with a reference one: its size, or 1 if that is 0.
   static double unit_of(double reference) { return reference == 0 ? 1 : std::abs(reference); }
 
@@ -155,7 +153,7 @@ class Optimiser {
   std::vector<double> best_, best_costs_;
   std::vector<double> best_lower_, best_upper_;  ///< the bounds, and the design of start_from
   std::vector<double> column_, sums_;            ///< scratch of choose_first
-  double best_violation_ = std::numeric_limits<double>::infinity();
+  double best_violation_ = infinity;
   std::size_t best_candidate_ = 0;
   std::uint32_t generation_ = 0;
   std::size_t round_ = 0;  ///< candidates asked for

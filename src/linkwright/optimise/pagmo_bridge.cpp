@@ -18,14 +18,14 @@
 
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/interruption.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/evaluate.h"
 
 namespace linkwright::optimise {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double largest_cost = 1e75, violation_unit = 1e100, least_violated_cost = 1e79;
+constexpr double least_violated_cost = 1e79;  // of cost_by_feasibility_rules
 
 /// Evaluates what pagmo asks for: designs of the free variables only, as pagmo takes none without a range.
 class Evaluator {
@@ -348,14 +348,6 @@ FrontReport minimise_with_pagmo(const Problem& problem, const PagmoOptions& meth
     if (interruption == Status::done) report.status = Status::infeasible;
   }
   return report;
-}
-
-double cost_by_feasibility_rules(double cost, double violation) {
-  if (!(violation > 0)) return std::clamp(cost, -largest_cost, largest_cost);
-  // Square roots are rounded correctly and thus keep the order.
-  const double root =
-      std::sqrt(std::sqrt(std::sqrt(std::sqrt(std::min(violation, std::numeric_limits<double>::max())))));
-  return violation_unit * root;
 }
 
 double hypervolume(std::span<const double> costs, std::span<const double> reference) {

@@ -152,11 +152,6 @@ struct FrontReport {
 FrontReport minimise_with_pagmo(const Problem& problem, const PagmoOptions& method,
                                 const FrontOptions& options, const Seed& seed, RunContext& context);
 
-/// A number that ranks candidates as `better` does, for methods that know costs only: the cost of a feasible
-/// candidate, limited to +-1e75, and more than 1e79 for an infeasible one, the more the larger its violation
-/// (1e100 times its 16th root: violations that differ by rounding only may tie).
-double cost_by_feasibility_rules(double cost, double violation);
-
 /// Volume that is dominated by some of the points and dominates the reference point: the larger, the better
 /// the front. costs[i m + k] is objective k of point i, m = reference.size() >= 2, as Problem::evaluate gives
 /// them. Points that are not better than the reference in every objective count nothing. The time rises fast

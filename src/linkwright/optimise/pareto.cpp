@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::optimise {
 
@@ -110,7 +110,7 @@ std::size_t ParetoArchive::most_crowded() {
       return cost_a != cost_b ? cost_a < cost_b : a < b;
     });
     const double range = cost(capacity_) - cost(0);
-    distance_[order_[0]] = distance_[order_[capacity_]] = std::numeric_limits<double>::infinity();
+    distance_[order_[0]] = distance_[order_[capacity_]] = infinity;
     for (std::size_t place = 1; place < capacity_ && range > 0; ++place)
       distance_[order_[place]] += (cost(place + 1) - cost(place - 1)) / range;
   }
@@ -127,6 +127,16 @@ std::vector<ParetoPoint> ParetoArchive::points() const {
   std::sort(all.begin(), all.end(),
             [](const ParetoPoint& a, const ParetoPoint& b) { return a.costs < b.costs; });
   return all;
+}
+
+constexpr double largest_cost = 1e75, violation_unit = 1e100;
+
+double cost_by_feasibility_rules(double cost, double violation) {
+  if (!(violation > 0)) return std::clamp(cost, -largest_cost, largest_cost);
+  // Square roots are rounded correctly and thus keep the order.
+  const double root =
+      std::sqrt(std::sqrt(std::sqrt(std::sqrt(std::min(violation, std::numeric_limits<double>::max())))));
+  return violation_unit * root;
 }
 
 }  // namespace linkwright::optimise

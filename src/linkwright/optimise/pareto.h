@@ -61,4 +61,9 @@ class ParetoArchive {
   std::vector<std::uint32_t> order_;
 };
 
+/// A number that ranks candidates as `better` does, for methods that know costs only: the cost of a feasible
+/// candidate, limited to +-1e75, and more than 1e79 for an infeasible one, the more the larger its violation
+/// (1e100 times its 16th root: violations that differ by rounding only may tie).
+double cost_by_feasibility_rules(double cost, double violation);
+
 }  // namespace linkwright::optimise

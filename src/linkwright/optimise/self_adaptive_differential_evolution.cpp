@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "linkwright/optimise/differential_evolution_base.h"
+#include "linkwright/optimise/detail/differential_evolution_base.h"
 
 namespace linkwright::optimise {
 namespace {

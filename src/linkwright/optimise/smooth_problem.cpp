@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/interruption.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::optimise {
 
@@ -56,8 +56,7 @@ Problem to_problem(const SmoothProblem& problem) {
       violation[i] = violation_of(of, objectives);
       bool exists = true;
       for (std::size_t k = 0; k < objectives; ++k) exists &= std::isfinite(of[k]);
-      for (std::size_t k = 0; k < objectives; ++k)
-        cost[i * objectives + k] = exists ? of[k] : std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < objectives; ++k) cost[i * objectives + k] = exists ? of[k] : infinity;
     };
     std::fill(values.begin(), values.end(), untouched);
     try {

@@ -2,10 +2,10 @@
 
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/optimise/problem.h"
 
@@ -32,7 +32,7 @@ struct SmoothProblem {
 
 /// What an evaluation that may be interrupted finds in `values`, and whether it has written those of one
 /// candidate: no objective of a candidate is minus infinity.
-inline constexpr double untouched = -std::numeric_limits<double>::infinity();
+inline constexpr double untouched = -infinity;
 bool is_touched(std::span<const double> values);
 
 /// How far one candidate is from feasible: the sum of the positive parts of its constraints, and 1 more when

@@ -7,13 +7,14 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/parallel.h"
 
 namespace linkwright::optimise {
 
 double quantile(std::span<const double> sorted, double p) {
   LINKWRIGHT_REQUIRE(p >= 0 && p <= 1, "quantile {}", p);
-  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (sorted.empty()) return nan;
   const double place = p * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
   const double part = place - static_cast<double>(below);
@@ -30,7 +31,7 @@ SeedStatistics statistics(std::span<const SeedOutcome> outcomes, double threshol
   double sum = 0;
   for (const SeedOutcome& outcome : outcomes) {
     const bool feasible = outcome.violation == 0;
-    costs.push_back(feasible ? outcome.cost : std::numeric_limits<double>::infinity());
+    costs.push_back(feasible ? outcome.cost : infinity);
     sum += costs.back();
     evaluations.push_back(static_cast<double>(outcome.evaluations));
     s.feasible += feasible;
@@ -67,7 +68,7 @@ SeedLoop run_seeds(const SeedRange& seeds, RunContext& context, std::string_view
   const auto count = static_cast<std::size_t>(seeds.count);
   std::vector<char> ran(count, 0);  // not bits: written by several threads
   std::atomic<std::size_t> finished{0};
-  std::atomic<double> best{std::numeric_limits<double>::infinity()};
+  std::atomic<double> best{infinity};
   if (checkpoint)
     for (std::size_t i = 0; i < count; ++i) {
       const Value value = checkpoint->find(seed_name(seeds.first + i));
@@ -88,7 +89,7 @@ SeedLoop run_seeds(const SeedRange& seeds, RunContext& context, std::string_view
     const double now = best.load();
     context.report({.stage = stage,
                     .fraction = static_cast<double>(++finished) / static_cast<double>(count),
-                    .best = std::isfinite(now) ? now : std::numeric_limits<double>::quiet_NaN()});
+                    .best = std::isfinite(now) ? now : nan});
   });
   return {context.interruption(), std::vector<bool>(ran.begin(), ran.end())};
 }
@@ -118,7 +119,7 @@ SeedsReport minimise_seeds(const Problem& problem, const OptimiserOptions& metho
         MinimiseOptions own = quiet;
         if (!own.checkpoint.empty()) own.checkpoint += "/" + seed_name(seed);
         all[i] = minimise(problem, method, own, {.seed = seed}, context);
-        return all[i].violation == 0 ? all[i].cost : std::numeric_limits<double>::infinity();
+        return all[i].violation == 0 ? all[i].cost : infinity;
       });
 
   SeedsReport report;

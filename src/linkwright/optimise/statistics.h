@@ -2,13 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/math/function_ref.h"
 #include "linkwright/optimise/minimise.h"
@@ -22,7 +22,7 @@ struct SeedRange {
 };
 /// What one seed came to.
 struct SeedOutcome {
-  double cost = std::numeric_limits<double>::infinity();
+  double cost = infinity;
   double violation = 0;
   std::int64_t evaluations = 0;
 };
@@ -31,17 +31,17 @@ struct SeedOutcome {
 struct SeedStatistics {
   int seeds = 0;
   int feasible = 0;
-  double best = std::numeric_limits<double>::quiet_NaN();  ///< costs; NaN when there are no seeds
+  double best = nan;  ///< costs; NaN when there are no seeds
   double quantile10 = best, quantile25 = best, median = best, quantile75 = best, quantile90 = best,
          worst = best;
   double mean = best;
   double threshold = 0;  ///< a seed succeeds when it is feasible and costs at most this
   int successes = 0;
-  double success_rate = std::numeric_limits<double>::quiet_NaN();
+  double success_rate = nan;
   std::int64_t evaluations = 0;  ///< of all seeds
   double median_evaluations = best;
   /// Evaluations spent, failures included, for one success; infinite without success.
-  double evaluations_per_success = std::numeric_limits<double>::infinity();
+  double evaluations_per_success = infinity;
 };
 
 /// Linear between order statistics (type 7 of Hyndman and Fan 1996), p in [0, 1]; of nothing NaN. Infinite

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "linkwright/optimise/firefly_base.h"
+#include "linkwright/optimise/detail/firefly_base.h"
 
 namespace linkwright::optimise {
 namespace {

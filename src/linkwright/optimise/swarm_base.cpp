@@ -1,4 +1,4 @@
-#include "linkwright/optimise/swarm_base.h"
+#include "linkwright/optimise/detail/swarm_base.h"
 
 #include <algorithm>
 #include <cmath>

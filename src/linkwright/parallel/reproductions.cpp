@@ -1,8 +1,8 @@
 #include "linkwright/parallel/reproductions.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/pi_joint/design_synthesis.h"
 #include "linkwright/parallel/pi_joint/samples.h"
@@ -11,16 +11,14 @@
 namespace linkwright::parallel {
 namespace {
 
-using Rows = std::vector<study::Comparison>;
-
 constexpr const char* source = "Milutinovic et al. 2014";
-constexpr double travel = std::numbers::pi / 3;  // to both sides
+constexpr double travel = pi / 3;  // to both sides
 
-Rows prototype_rows(RunContext&) {
+study::Comparisons prototype_rows(RunContext&) {
   const PiJoint joint = pi_prototype();
   const PiDrive drive = pi_prototype_drive();
   const PiRangeValues range = range_values(joint, 0, travel);
-  Rows out;
+  study::Comparisons out;
   const auto row = [&](const char* item, const char* where, double published, double ours,
                        const char* verdict, const char* note = "") {
     out.push_back({item, std::string(source) + ", " + where, published, ours, verdict, note});
@@ -32,15 +30,14 @@ Rows prototype_rows(RunContext&) {
       "rounding up would explain it");
   row("stroke over +-60 deg, mm", "section 4.2", 115, 1e3 * range.stroke(), "reproduced");
   row("linear resolution, mm/step", "Table 1", 0.0127, 1e3 * quantum(drive), "reproduced");
-  row("linear speed at 1200 1/min, mm/s", "Table 1", 50,
-      1e3 * rate_of(drive.screw, 1200.0 / 60 * 2 * std::numbers::pi), "reproduced",
-      "one digit; the figures use 50 mm/s");
+  row("linear speed at 1200 1/min, mm/s", "Table 1", 50, 1e3 * rate_of(drive.screw, 1200.0 / 60 * 2 * pi),
+      "reproduced", "one digit; the figures use 50 mm/s");
   row("linear speed at 4000 steps/s, mm/s", "Table 1", 50, 4000 * 1e3 * quantum(drive), "reproduced",
       "one digit; likewise");
   return out;
 }
 
-Rows acceleration_rows(RunContext&) {
+study::Comparisons acceleration_rows(RunContext&) {
   // The pose of the proof: theta = 25 deg at 1.3 rad/s and -4 rad/s2.
   const PiJoint joint = pi_prototype();
   const double angle = math::radians(25), rate = 1.3, by = -4;
@@ -52,11 +49,11 @@ Rows acceleration_rows(RunContext&) {
            "belongs"}};
 }
 
-Rows stiffness_rows(RunContext&) {
+study::Comparisons stiffness_rows(RunContext&) {
   const PiJoint joint = pi_prototype();
-  const PiRange range{-travel, travel};
+  const AngleRange range{-travel, travel};
   constexpr double measured = 3.5e4;
-  Rows out;
+  study::Comparisons out;
   const auto row = [&](const char* item, StiffnessMean mean) {
     const auto k = diagonal_for_mean(joint, {}, range, mean, measured);
     PiBars bars;

@@ -1,13 +1,13 @@
 #include "linkwright/planar/link_mass.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::planar {
 
-double drawn_radius(double mass) { return std::sqrt(mass / (7850 * 0.02 * std::numbers::pi)); }
+double drawn_radius(double mass) { return std::sqrt(mass / (7850 * 0.02 * pi)); }
 
 BaseParameters base_parameters(const LinkMass& link, std::span<const PointMass> attached) {
   const auto good = [](double v) { return std::isfinite(v) && v >= 0; };

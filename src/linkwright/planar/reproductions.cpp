@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/optimise/cuckoo_search.h"
 #include "linkwright/optimise/firefly.h"
@@ -26,10 +25,6 @@
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-using Rows = std::vector<study::Comparison>;
 
 // ---- Table 2.1: the arm ---------------------------------------------------------------------------------
 
@@ -49,7 +44,7 @@ ArmTask published_arm(bool polynomials) {
   return task;
 }
 
-Rows arm_table(RunContext& context) {
+study::Comparisons arm_table(RunContext& context) {
   const std::string source = "Boskovic 2018, Table 2.1";
   const ArmTask first = published_arm(false), polynomial = published_arm(true);
   const std::vector<Counterweight> weights = {{"first", 0, {0, 24}, {0.5, 0.5}, pi},
@@ -60,7 +55,7 @@ Rows arm_table(RunContext& context) {
                    arm_cost(first, {.degree = 5, .counterweights = weights}, std::vector<double>{0, 0, 0}),
                by_law = arm_cost(polynomial, law, published_law),
                by_weights = arm_cost(first, counterweights, published_weights);
-  Rows rows;
+  study::Comparisons rows;
   const auto add = [&](std::string item, double published, double ours, double unit, std::string note) {
     const bool same = std::abs(ours - published) <= unit;
     rows.push_back({std::move(item), source, published, ours,
@@ -138,8 +133,8 @@ std::optional<std::array<double, 12>> mean_loads(const FourBarMachine& machine, 
   return out;
 }
 
-Rows change_table(std::string_view table) {
-  Rows rows;
+study::Comparisons change_table(std::string_view table) {
+  study::Comparisons rows;
   for (const PublishedFourBar& design : published_four_bars()) {
     if (design.change_table != table) continue;
     const bool forces_only = table == "2.3";
@@ -169,8 +164,8 @@ Rows change_table(std::string_view table) {
 }
 
 // What the published search reached, and what there is: both questions of one published problem.
-void add_best(Rows& rows, std::string_view name, std::string_view label, const std::string& source,
-              RunContext& context) {
+void add_best(study::Comparisons& rows, std::string_view name, std::string_view label,
+              const std::string& source, RunContext& context) {
   const PublishedBalancing original = published_balancing(name);
   const std::vector<double> first = balancing_measures(original.problem, balancing_original()),
                             found = balancing_measures(original.problem, original.published);
@@ -195,9 +190,9 @@ void add_best(Rows& rows, std::string_view name, std::string_view label, const s
 }
 
 // Designs: whether they are what the table says they are, and how good they are.
-Rows design_table(std::string_view table, RunContext& context) {
+study::Comparisons design_table(std::string_view table, RunContext& context) {
   const std::string source = fmt::format("Boskovic 2018, Table {}", table);
-  Rows rows;
+  study::Comparisons rows;
   for (const PublishedFourBar& design : published_four_bars()) {
     if (design.design_table != table) continue;
     const std::string name = table == "2.2"   ? "sp-fa"
@@ -231,12 +226,12 @@ Rows design_table(std::string_view table, RunContext& context) {
 }
 
 // What the methods are set to, beside what the program takes when a study says nothing.
-Rows settings_table(RunContext&) {
+study::Comparisons settings_table(RunContext&) {
   const std::string source = "Boskovic 2018, Table 2.5";
   const optimise::CuckooSearchOptions cuckoo;
   const optimise::FireflyOptions firefly;
   const optimise::HybridCuckooFireflyOptions hybrid;
-  Rows rows;
+  study::Comparisons rows;
   const auto add = [&](std::string item, double published, double ours, std::string note = {}) {
     rows.push_back({std::move(item), source, published, ours,
                     published == ours ? "reproduced" : "not reproduced", std::move(note)});

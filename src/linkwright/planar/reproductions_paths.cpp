@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/optimise/statistics.h"
 #include "linkwright/planar/path/eighteen_points.h"
@@ -17,14 +17,11 @@
 namespace linkwright::planar {
 namespace {
 
-using Rows = std::vector<study::Comparison>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int wolf_seeds = 60;
 
 // What the published setting of the grey wolf comes to: 30 wolves, 50 generations, the published bounds.
-void add_grey_wolf(Rows& rows, const optimise::Problem& problem, double published, const std::string& source,
-                   RunContext& context) {
+void add_grey_wolf(study::Comparisons& rows, const optimise::Problem& problem, double published,
+                   const std::string& source, RunContext& context) {
   const optimise::OptimiserOptions wolves{.method = optimise::Method::grey_wolf,
                                           .grey_wolf = {.population = 30, .generations = 50}};
   optimise::MinimiseOptions options;
@@ -43,8 +40,8 @@ void add_grey_wolf(Rows& rows, const optimise::Problem& problem, double publishe
   add("median", report.statistics.median);
 }
 
-Rows four_bars(const std::string& source, RunContext& context) {
-  Rows rows;
+study::Comparisons four_bars(const std::string& source, RunContext& context) {
+  study::Comparisons rows;
   const PathProblem p = eighteen_points();
   for (const PublishedPathDesign& published : eighteen_point_designs()) {
     std::vector<double> angles;
@@ -63,9 +60,9 @@ Rows four_bars(const std::string& source, RunContext& context) {
   return rows;
 }
 
-Rows slider_cranks(std::span<const PublishedSliderCrank> designs, const std::string& source, bool with_front,
-                   RunContext& context) {
-  Rows rows;
+study::Comparisons slider_cranks(std::span<const PublishedSliderCrank> designs, const std::string& source,
+                                 bool with_front, RunContext& context) {
+  study::Comparisons rows;
   const SliderPathProblem p = eighteen_slider_points();
   const auto measured = [&](const PublishedSliderCrank& d) {
     std::vector<double> angles;
@@ -136,11 +133,11 @@ Rows slider_cranks(std::span<const PublishedSliderCrank> designs, const std::str
   return rows;
 }
 
-Rows single(const std::string& source, RunContext& context) {
+study::Comparisons single(const std::string& source, RunContext& context) {
   const auto all = published_slider_cranks();
   return slider_cranks(std::span(all).first(1), source, false, context);
 }
-Rows several(const std::string& source, RunContext& context) {
+study::Comparisons several(const std::string& source, RunContext& context) {
   const auto all = published_slider_cranks();
   return slider_cranks(std::span(all).subspan(1), source, true, context);
 }
@@ -172,7 +169,7 @@ std::vector<study::Reproduction> path_reproductions() {
                                                           "grey wolf for closed paths, Table ";
   const auto entry = [](std::string id, std::string title, std::string source,
                         const std::vector<std::string>& notes,
-                        Rows (*table)(const std::string&, RunContext&)) {
+                        study::Comparisons (*table)(const std::string&, RunContext&)) {
     return study::Reproduction{std::move(id), std::move(title), source, notes,
                                [table, source](RunContext& context) { return table(source, context); }};
   };

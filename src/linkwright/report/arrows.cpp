@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <vector>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::report {
 namespace {
 
 using study::Scene;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double share_of_scene = 0.25;
 constexpr double outstanding = 3;  // times the median
 
@@ -51,7 +50,7 @@ double largest_moment(const Scene& scene) {
 }
 
 double arc_turn(double share) {
-  constexpr double turn = 2 * std::numbers::pi;
+  constexpr double turn = 2 * pi;
   return share == 0 ? 0 : std::copysign(turn / 12 + turn * 3 / 4 * std::min(1.0, std::abs(share)), share);
 }
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::report {
 namespace {
@@ -26,7 +27,7 @@ std::size_t middle_sample(const study::Scene& scene) {
     return *high > *low ? std::abs(values[i]) / (*high - *low) : 0.0;
   };
   std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   for (std::size_t i = 0; i < scene.samples(); ++i) {
     const double far =
         share(scene.input, i % scene.input.size()) + share(scene.second, i / scene.input.size());
@@ -96,7 +97,6 @@ double extent(const study::Scene& scene) {
 bool Place::finite() const { return std::isfinite(x) && std::isfinite(y) && std::isfinite(z); }
 
 Place place(const study::Scene& scene, int point, std::size_t sample) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   if (point < 0 || static_cast<std::size_t>(point) >= scene.points.size()) return {nan, nan};
   const auto& p = scene.points[static_cast<std::size_t>(point)];
   const auto at = [sample](const std::vector<double>& values) {

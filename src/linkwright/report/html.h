@@ -21,11 +21,12 @@ struct ReportInput {
 /// One HTML file that needs nothing else: it loads nothing, opens from disk, prints, and without scripts
 /// still shows the drawings and the tables. Text of the study is never read as markup.
 ///
-/// Of each entry of `result.log` (one a seed) the viewer uses: `seed`; `evaluations`; `status`; the final cost, which
-/// is the first number named `best`, `error` or `cost`, or else with one of these words in its key
-/// ("path_error_sum_sq_m2"); and the convergence, which is the first array among `history`, `convergence`, `trace`:
-/// numbers, or objects with `evaluations` and a cost. Plots without a scene stand beside them; a histogram among them
-/// takes the place of the distribution over the seeds.
+/// Of each entry of `result.log` (one a seed) the viewer uses: `seed`; `evaluations`; `status`; the final
+/// cost, which is the first number named `best`, `error` or `cost`, or else with one of these words in its
+/// key
+/// ("path_error_sum_sq_m2"); and the convergence, which is the first array among `history`, `convergence`,
+/// `trace`: numbers, or objects with `evaluations` and a cost. Plots without a scene stand beside them; a
+/// histogram among them takes the place of the distribution over the seeds.
 std::string html(const ReportInput& input);
 
 }  // namespace linkwright::report

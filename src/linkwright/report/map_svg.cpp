@@ -6,11 +6,12 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/report/colour_scale.h"
+#include "linkwright/report/detail/canvas.h"
 #include "linkwright/report/drawing.h"
 #include "linkwright/report/groups.h"
 #include "linkwright/report/markup.h"
@@ -25,11 +26,6 @@ constexpr double most_height = 420;                                          // 
 constexpr std::size_t most_maps = 12, most_columns = 3;
 constexpr double same = 1e-6;  // of the range: coordinates that are closer differ by rounding
 constexpr std::string_view no_value = "#e9edf0";
-
-template <class... Args>
-void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
-}
 
 struct Cell {
   double i = 0, j = 0;  // along x and y, whole numbers
@@ -63,7 +59,7 @@ Axis axis_of(std::vector<double> values) {
 struct Maps {
   Axis x, y;
   std::vector<Map> maps;
-  double low = std::numeric_limits<double>::infinity();  // of all values; above `high` when there is none
+  double low = infinity;  // of all values; above `high` when there is none
   double high = -low;
   bool missing = false;    // whether a place has no value
   std::size_t groups = 0;  // of which `maps` may be a choice
@@ -100,7 +96,7 @@ Maps maps_of(const study::Plot& plot, const Table& table) {
   const auto value_at = [&](std::size_t row) {
     const double shown = values->values[row] * out.value_unit.factor;
     const double v = plot.logarithmic_y ? std::log10(shown) : shown;
-    return std::isfinite(v) ? v : std::numeric_limits<double>::quiet_NaN();
+    return std::isfinite(v) ? v : nan;
   };
   const std::vector<Group> groups = groups_of(plot, table);
   out.groups = groups.size();

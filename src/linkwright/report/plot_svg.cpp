@@ -7,11 +7,12 @@
 #include <cmath>
 #include <initializer_list>
 #include <iterator>
-#include <limits>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
+#include "linkwright/report/detail/canvas.h"
 #include "linkwright/report/drawing.h"
 #include "linkwright/report/groups.h"
 #include "linkwright/report/map_svg.h"
@@ -26,7 +27,7 @@ using Style = study::Plot::Style;
 constexpr double width = 640, left = 74, right = 16, top = 14, foot = 46;  // px
 constexpr double line_height = 20;                                         // px, of the legend
 constexpr std::size_t most_points = 3000;                                  // a curve; more cannot be seen
-constexpr std::size_t most_named = 7;                                      // more curves are one bundle
+constexpr std::size_t most_named_curves = 7;                               // more curves are one bundle
 constexpr double rounding = 1e-16;  // of the largest: less than this is zero on a logarithmic axis
 // Okabe and Ito's colours; dashes tell the curves apart without them, and those of one colour, too.
 constexpr std::array<std::string_view, 6> colours = {"#0072B2", "#D55E00", "#009E73",
@@ -47,11 +48,6 @@ struct Curve {
   std::string label;
   std::vector<Place> points;
 };
-
-template <class... Args>
-void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
-}
 
 // "O1 x, ground on crank (N)" names the pair "O1, ground on crank".
 std::string name_of_pair(const Column& column) {
@@ -123,7 +119,7 @@ bool take_logarithms(std::initializer_list<std::vector<Curve>*> drawn) {
   for (auto* curves : drawn)
     for (auto& curve : *curves)
       for (Place& p : curve.points) {
-        const double power = p.y > 0 ? std::log10(p.y) : std::numeric_limits<double>::quiet_NaN();
+        const double power = p.y > 0 ? std::log10(p.y) : nan;
         raised = raised || power < floor;
         p.y = power < floor ? floor : power;
       }
@@ -321,7 +317,7 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
   if (baseline && !counts) before = curves_of(plot, *baseline, shown);
   const bool raised = plot.logarithmic_y && !polar && !counts && take_logarithms({&curves, &bands, &before});
   const Axes axes = axes_of({&curves, &bands, &before}, plot.style);
-  const bool bundle = curves.size() > most_named, empty = axes.box.empty();
+  const bool bundle = curves.size() > most_named_curves, empty = axes.box.empty();
   const bool named = !bundle && !counts && (polar || curves.size() > 1);
   struct Sign {
     std::string look, text;

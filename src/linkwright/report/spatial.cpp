@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::report {
 namespace {
@@ -51,7 +51,7 @@ void turn(std::vector<double>& x, std::vector<double>& y, std::vector<double>& z
   const auto at = [](const std::vector<double>& values, std::size_t i) {
     if (values.empty()) return 0.0;
     if (values.size() == 1) return values.front();
-    return i < values.size() ? values[i] : std::numeric_limits<double>::quiet_NaN();
+    return i < values.size() ? values[i] : nan;
   };
   std::vector<double> right(count), up(count), back(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -113,7 +113,7 @@ std::vector<Place> wheel_circle(const Scene& scene, const Scene::Disc& disc, std
   const Place middle = sum(centre, axis, aside);
   std::vector<Place> out;
   for (int i = 0; i < count; ++i) {
-    const double angle = 2 * std::numbers::pi * i / count, r = share * disc.radius;
+    const double angle = 2 * pi * i / count, r = share * disc.radius;
     out.push_back(sum(sum(middle, u, r * std::cos(angle)), v, r * std::sin(angle)));
   }
   return out;
@@ -153,7 +153,7 @@ std::vector<Place> helix(const Place& a, const Place& b, double width) {
   constexpr int turns = 7, pieces = 24;  // a turn
   std::vector<Place> out = {a};
   for (int i = 0; i <= turns * pieces; ++i) {
-    const double angle = 2 * std::numbers::pi * i / pieces, share = static_cast<double>(i) / (turns * pieces);
+    const double angle = 2 * pi * i / pieces, share = static_cast<double>(i) / (turns * pieces);
     out.push_back(
         sum(sum(sum(a, way, share), u, width / 2 * std::cos(angle)), v, width / 2 * std::sin(angle)));
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "linkwright/core/status.h"
+#include "linkwright/report/detail/canvas.h"
 #include "linkwright/report/drawing.h"
 #include "linkwright/report/markup.h"
 #include "linkwright/report/plot_svg.h"
@@ -22,12 +23,7 @@ namespace linkwright::report {
 namespace {
 
 constexpr std::size_t longest_table = 40;
-constexpr std::size_t most_named = 24;  // more joints than this have no room for their names
-
-template <class... Args>
-void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
-}
+constexpr std::size_t most_named_joints = 24;  // more joints than this have no room for their names
 
 // A table of texts; every cell is escaped here and nowhere else.
 class Sheet {
@@ -106,7 +102,7 @@ void write_drawings(std::string& out, const study::Result& result) {
     SvgOptions options;
     // Poses and arrows, or poses in three views, are too much.
     options.ghosts = scene.vectors.empty() && scene.moments.empty() && !spatial ? 8 : 0;
-    options.labels = scene.joints.size() <= most_named;
+    options.labels = scene.joints.size() <= most_named_joints;
     // The viewer takes the drawing of a spatial scene for print, and for browsers that cannot draw in space.
     put(out, "<figure class=\"drawing\"{}>{}<figcaption>{}</figcaption></figure>\n",
         spatial ? fmt::format(" data-scene=\"{}\"", i) : "", svg(scene, options),

@@ -6,19 +6,19 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/report/arrows.h"
-#include "linkwright/report/canvas.h"
+#include "linkwright/report/detail/canvas.h"
+#include "linkwright/report/detail/svg_arrows.h"
 #include "linkwright/report/drawing.h"
 #include "linkwright/report/markup.h"
 #include "linkwright/report/spatial.h"
-#include "linkwright/report/svg_arrows.h"
 
 namespace linkwright::report {
 namespace {
@@ -193,7 +193,7 @@ double usual_length(const Scene& scene, std::size_t sample) {
     const Place a = place(scene, body.points[0], sample), b = place(scene, body.points[1], sample);
     if (a.finite() && b.finite()) lengths.push_back(std::hypot(b.x - a.x, b.y - a.y, b.z - a.z));
   }
-  if (lengths.empty()) return std::numeric_limits<double>::infinity();
+  if (lengths.empty()) return infinity;
   std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2),
                    lengths.end());
   return lengths[lengths.size() / 2];

@@ -26,9 +26,10 @@ struct SvgOptions {
 
 /// The scene as a complete SVG 1.1 document (UTF-8, no scripts, nothing loaded), drawn to scale. A spatial
 /// scene is seen from behind, from the left and from above (see viewpoints), in one scale and up to one and a
-/// half times `max_height` high; of a scene with a second input, the samples with that of `sample` are drawn. Points that
-/// do not exist at the sample are left out with the bodies and joints that need them; a scene without any
-/// finite point gives a picture that says so. Throws ContractError when `sample` is not one of the scene.
+/// half times `max_height` high; of a scene with a second input, the samples with that of `sample` are drawn.
+/// Points that do not exist at the sample are left out with the bodies and joints that need them; a scene
+/// without any finite point gives a picture that says so. Throws ContractError when `sample` is not one of
+/// the scene.
 std::string svg(const study::Scene& scene, const SvgOptions& options = {});
 
 }  // namespace linkwright::report

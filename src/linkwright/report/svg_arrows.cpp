@@ -1,14 +1,14 @@
-#include "linkwright/report/svg_arrows.h"
+#include "linkwright/report/detail/svg_arrows.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
-#include "linkwright/report/canvas.h"
+#include "linkwright/core/numbers.h"
+#include "linkwright/report/detail/canvas.h"
 #include "linkwright/report/markup.h"
 
 namespace linkwright::report {
@@ -88,12 +88,11 @@ void draw_arrow(std::string& out, Scene::Quantity quantity, double x, double y, 
 void draw_arc(std::string& out, double x, double y, double r, double turn) {
   const std::string_view colour = look(Scene::Quantity::force).colour;
   // In the picture y points down: counter-clockwise is a falling angle.
-  const double start = -std::numbers::pi / 2, end = start - turn;
+  const double start = -pi / 2, end = start - turn;
   const double end_x = x + r * std::cos(end), end_y = y + r * std::sin(end);
-  const double direction = end - std::copysign(std::numbers::pi / 2, turn);
-  const std::string arc =
-      fmt::format("M{:.2f} {:.2f}A{:.2f} {:.2f} 0 {} {} {:.2f} {:.2f}", x, y - r, r, r,
-                  std::abs(turn) > std::numbers::pi ? 1 : 0, turn > 0 ? 0 : 1, end_x, end_y);
+  const double direction = end - std::copysign(pi / 2, turn);
+  const std::string arc = fmt::format("M{:.2f} {:.2f}A{:.2f} {:.2f} 0 {} {} {:.2f} {:.2f}", x, y - r, r, r,
+                                      std::abs(turn) > pi ? 1 : 0, turn > 0 ? 0 : 1, end_x, end_y);
   put(out, "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"6\"/>", arc, paper);
   put(out, "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2.6\"/>", arc, colour);
   put(out, "<path d=\"{}\" fill=\"{}\"/>",

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/report/markup.h"
 
 namespace linkwright::report {
@@ -16,7 +16,7 @@ struct Suffix {
   std::string_view symbol;
 };
 
-constexpr double degree = 180 / std::numbers::pi;
+constexpr double degree = 180 / pi;
 
 // Longer ones first: each ends with units of its own.
 constexpr std::array<Suffix, 28> suffixes = {{

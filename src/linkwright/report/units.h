@@ -1,10 +1,10 @@
 #pragma once
 
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/table.h"
 
 /// Units in which numbers are shown: SI in the data, degrees and millimetres in diagrams. The viewer shows
@@ -20,7 +20,7 @@ struct DisplayUnit {
 /// Unit of a key by its suffix: degrees for `_rad`; millimetres for lengths (`_m`) when `largest`, the
 /// largest size of the numbers that are shown together, is below a metre; megapascals for stresses from 10
 /// kPa on.
-DisplayUnit display_unit(std::string_view key, double largest = std::numeric_limits<double>::infinity());
+DisplayUnit display_unit(std::string_view key, double largest = infinity);
 
 /// Size of the largest finite one of the values; 0 when there is none.
 double largest_size(const std::vector<double>& values);

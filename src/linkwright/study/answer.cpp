@@ -45,11 +45,11 @@ Answer answer_of(const Result& result) {
   Answer out;
   for (const Check& check : result.checks)
     if (!check.passed)
-      out.reasons.push_back(
-          check.message.empty()
-              ? fmt::format("check failed: {}{} = {:.9g} ({})", check.quantity,
-                            check.at.empty() ? "" : " at " + check.at, check.value, check.limit)
-              : fmt::format("check failed: {}: {}", check.quantity, check.message));
+      out.reasons.push_back(check.message.empty()
+                                ? fmt::format("check failed: {}{} = {:.9g} ({})", check.quantity,
+                                              check.at.empty() ? "" : " at " + check.at, check.value,
+                                              check.limit)
+                                : fmt::format("check failed: {}: {}", check.quantity, check.message));
   const bool failed_check = !out.reasons.empty();
   for (const Fact& fact : result.facts)
     if (fact.verdict == Fact::Verdict::bad) out.reasons.push_back(fact.label + ": " + fact.text);
@@ -88,8 +88,8 @@ Answer answer_of(const Result& result) {
     const std::vector<Trouble> troubles = troubles_of(table, sizes);
     if (troubles.empty()) continue;
     out.first = troubles.front();
-    out.worst = troubles[static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) -
-                                                  sizes.begin())];
+    out.worst =
+        troubles[static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin())];
     break;
   }
   return out;

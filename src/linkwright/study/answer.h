@@ -13,7 +13,8 @@ namespace linkwright::study {
 enum class Verdict { passed, doubtful, incomplete, failed };
 constexpr std::array<EnumName<Verdict>, 4> names(Verdict) {
   return {{{Verdict::passed, "passed", "done, every check holds and nothing is marked as bad"},
-           {Verdict::doubtful, "doubtful", "done and every check holds, but some facts or the best solution have defects"},
+           {Verdict::doubtful, "doubtful",
+            "done and every check holds, but some facts or the best solution have defects"},
            {Verdict::incomplete, "incomplete", "stopped by the time limit or on request: best so far"},
            {Verdict::failed, "failed", "a check does not hold, or there is no answer (see status)"}}};
 }

@@ -17,7 +17,7 @@ std::optional<std::string> read_beside(ObjectReader& reader, std::string_view ke
   const auto size = std::filesystem::file_size(path, failed);
   if (failed || !std::filesystem::is_regular_file(path, failed)) {
     reader.unreadable(key, fmt::format("cannot read '{}'", path.string()),
-                 "file names are relative to the folder of the study");
+                      "file names are relative to the folder of the study");
     return std::nullopt;
   }
   if (size > largest) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "linkwright/study/bind_schema.h"
+
 namespace linkwright::study {
 namespace {
 
@@ -74,10 +76,6 @@ bool names_field(std::string_view key, std::string_view base, Dimension dimensio
   if (dimension == Dimension::none) return key == base;
   return key.size() > base.size() + 1 && key.starts_with(base) && key[base.size()] == '_' &&
          find_unit(dimension, key.substr(base.size() + 1));
-}
-
-Dimension key_dimension(const Field& field) {
-  return field.inherits_unit ? Dimension::none : field.dimension;
 }
 
 /// A JSON Schema and what it is composed of: every schema that may describe the same value.

@@ -41,8 +41,8 @@ class ObjectReader;
 /// tell the unknown ones. Values that cannot be read keep what the member held before.
 ///
 /// One mistake, one message: what could not be read is remembered, and `finish` drops the errors of meaning
-/// (ObjectReader::error) that may only follow from it, those in the same top-level table and, if the mechanism
-/// could not be read, those of all tables that build on it.
+/// (ObjectReader::error) that may only follow from it, those in the same top-level table and, if the
+/// mechanism could not be read, those of all tables that build on it.
 class DocumentReader {
  public:
   /// `document` must outlive this; problems are appended to `diagnostics` under the name `file`.
@@ -53,8 +53,8 @@ class DocumentReader {
   ObjectReader root();
 
   /// Reports unknown and missing keys and puts all problems into the order of the file. Call once, when
-  /// everything has been read. Where a reader gave up because of an error, it has not asked for all keys: then
-  /// those that `schema` (JSON Schema of the document) allows are not unknown.
+  /// everything has been read. Where a reader gave up because of an error, it has not asked for all keys:
+  /// then those that `schema` (JSON Schema of the document) allows are not unknown.
   void finish(const std::function<Value()>& schema = nullptr);
 
   void report(Diagnostic::Severity severity, Position position, std::string key, std::string message,
@@ -86,7 +86,7 @@ class DocumentReader {
   Diagnostics& diagnostics_;
   std::size_t first_;
   std::map<const Value*, Record> records_;
-  std::vector<std::size_t> meaning_;   // which of the diagnostics may follow from others
+  std::vector<std::size_t> meaning_;     // which of the diagnostics may follow from others
   std::vector<std::string> unreadable_;  // top-level tables in which something could not be read
   std::vector<std::string> misspelt_;    // paths of the keys that unknown ones were probably meant to be
   std::size_t unknown_ = 0;

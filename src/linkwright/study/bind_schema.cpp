@@ -7,10 +7,6 @@
 namespace linkwright::study {
 namespace {
 
-Dimension key_dimension(const Field& field) {
-  return field.inherits_unit ? Dimension::none : field.dimension;
-}
-
 /// A table of which only these members are known yet.
 Value with(std::string_view key, Value value) {
   Value object;
@@ -19,6 +15,10 @@ Value with(std::string_view key, Value value) {
 }
 
 }  // namespace
+
+Dimension key_dimension(const Field& field) {
+  return field.inherits_unit ? Dimension::none : field.dimension;
+}
 
 Value SchemaWriter::number(const Field& field, std::string_view type) {
   Value schema = with("type", type);

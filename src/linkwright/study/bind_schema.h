@@ -15,6 +15,9 @@
 // JSON Schema (2020-12) of structs, by the field lists that bind.h reads them with.
 namespace linkwright::study {
 
+/// What the unit in the key of a field measures: nothing where an outer field holds the unit.
+Dimension key_dimension(const Field& field);
+
 /// The visitor that describes the members of a table. Members hold their defaults while they are visited.
 class SchemaWriter {
  public:
@@ -124,8 +127,7 @@ void SchemaWriter::choice(const Field& field, const std::variant<Options...>& me
     SchemaWriter writer;
     const Word word = choice_word(options);
     fields(writer, options);
-    const bool chosen =
-        has_default && !field.required && std::holds_alternative<decltype(options)>(member);
+    const bool chosen = has_default && !field.required && std::holds_alternative<decltype(options)>(member);
     alternative(field, word, std::move(writer), chosen, alternatives);
   };
   (add(Options{}), ...);

@@ -4,23 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::study {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// A number that was looked for, or why it was not found.
-struct Answer {
+struct Resolved {
   double value = nan;
   std::string message;
 };
 
-Answer unknown(std::string_view what, std::string_view name, const std::vector<std::string_view>& allowed) {
+Resolved unknown(std::string_view what, std::string_view name, const std::vector<std::string_view>& allowed) {
   std::string message = fmt::format("there is no {} '{}'", what, name);
   if (const std::string_view nearest = nearest_word(name, allowed); !nearest.empty())
     message += fmt::format("; did you mean '{}'?", nearest);
@@ -54,7 +52,7 @@ std::vector<std::string_view> column_keys(const Table& table) {
   return keys;
 }
 
-Answer member(const Value& object, std::string_view what, std::string_view key) {
+Resolved member(const Value& object, std::string_view what, std::string_view key) {
   std::vector<std::string_view> keys;
   if (object.is_object()) {
     for (const Value::Member& m : object.as_object()) {
@@ -69,7 +67,7 @@ Answer member(const Value& object, std::string_view what, std::string_view key) 
   return unknown(what, key, keys);
 }
 
-Answer of_best(const Result& result, std::string_view key) {
+Resolved of_best(const Result& result, std::string_view key) {
   if (result.solutions.empty()) return {nan, "the study found no solution"};
   const Solution& best = result.solutions.front();
   Value all = Value::object();
@@ -81,7 +79,7 @@ Answer of_best(const Result& result, std::string_view key) {
   return member(all, "number of the best solution", key);
 }
 
-Answer of_row(const Table& table, const Column& column, const CheckRequest& request) {
+Resolved of_row(const Table& table, const Column& column, const CheckRequest& request) {
   const std::size_t rows = table.rows();
   std::vector<double> distance(rows, 0.0);
   std::string nearest_values;
@@ -100,7 +98,7 @@ Answer of_row(const Table& table, const Column& column, const CheckRequest& requ
     const double span = high > low ? high - low : std::max(1.0, std::abs(high));
     for (std::size_t i = 0; i < rows; ++i) {
       const double away = std::abs(where->values[i] - value / factor) / span;
-      distance[i] = std::isnan(away) ? std::numeric_limits<double>::infinity() : std::max(distance[i], away);
+      distance[i] = std::isnan(away) ? infinity : std::max(distance[i], away);
     }
   }
   const auto nearest = std::min_element(distance.begin(), distance.end());
@@ -119,7 +117,7 @@ Answer of_row(const Table& table, const Column& column, const CheckRequest& requ
   return {column.values[row], {}};
 }
 
-Answer statistic(const Column& column, std::string_view what) {
+Resolved statistic(const Column& column, std::string_view what) {
   constexpr std::array<std::string_view, 7> all{"max", "min", "max_abs", "mean", "rms", "first", "last"};
   if (std::find(all.begin(), all.end(), what) == all.end())
     return unknown("statistic", what, {all.begin(), all.end()});
@@ -142,13 +140,13 @@ Answer statistic(const Column& column, std::string_view what) {
   return {what == "mean" ? sum / n : std::sqrt(squares / n), {}};
 }
 
-Answer of_table(const Table& table, std::string_view rest, const CheckRequest& request) {
+Resolved of_table(const Table& table, std::string_view rest, const CheckRequest& request) {
   const std::size_t dot = rest.find('.');
   const std::string_view key = rest.substr(0, dot);
   double factor = 1;
   const Column* column = find_column(table, key, factor);
   if (!column) return unknown("column of '" + table.name + "'", key, column_keys(table));
-  Answer answer;
+  Resolved answer;
   if (!request.at.empty() && dot == std::string_view::npos)
     answer = of_row(table, *column, request);
   else if (request.at.empty() && dot != std::string_view::npos)
@@ -163,7 +161,7 @@ Answer of_table(const Table& table, std::string_view rest, const CheckRequest& r
   return answer;
 }
 
-Answer resolve(const CheckRequest& request, const Result& result) {
+Resolved resolve(const CheckRequest& request, const Result& result) {
   const std::string_view quantity = request.quantity;
   const std::size_t dot = quantity.find('.');
   const std::string_view first = quantity.substr(0, dot);
@@ -234,7 +232,7 @@ Check evaluate(const CheckRequest& request, const Result& result) {
   if (request.at_most)
     check.limit += fmt::format("{}at_most {}", check.limit.empty() ? "" : ", ", *request.at_most);
 
-  Answer answer = resolve(request, result);
+  Resolved answer = resolve(request, result);
   check.value = answer.value;
   check.message = std::move(answer.message);
   // NaN fails every one of these.

@@ -179,9 +179,9 @@ bool read_value(ObjectReader& reader, const ObjectReader::Found& found, const Fi
     }
     const auto [earlier, fresh] = given.try_emplace(unit->dimension, element.as_string());
     if (!fresh) {
-      reader.problem(at, fmt::format("is a second unit of {}, after '{}'", describe(unit->dimension),
-                                     earlier->second),
-                     "keep one of them");
+      reader.problem(
+          at, fmt::format("is a second unit of {}, after '{}'", describe(unit->dimension), earlier->second),
+          "keep one of them");
       good = false;
     }
     read.list.push_back(element.as_string());

@@ -37,8 +37,8 @@ constexpr std::array<EnumName<Digits>, 2> names(Digits) {
 struct Output {
   std::string dir;  ///< folder, relative to the current one; empty = "out/" and the name of the study file
   std::vector<Format> formats{Format::json, Format::csv, Format::html};
-  int samples = 361;                    ///< of curves and animations
-  OutputUnits units;                    ///< of tables, parameters and objectives in result.json and CSV
+  int samples = 361;  ///< of curves and animations
+  OutputUnits units;  ///< of tables, parameters and objectives in result.json and CSV
   Digits digits = Digits::full;
   std::vector<std::string> quantities;  ///< out of Kind::quantities; empty = all
 };

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/core/table.h"
 #include "linkwright/core/value.h"
@@ -42,9 +42,9 @@ struct Plot {
   /// polar: y lists columns in pairs (x, y), each pair a curve such as the hodograph of a force or the path
   /// of a point; the axes are equal and the origin is marked.
   ///
-  /// map: y lists two columns, the second coordinate and a value; each row is a place (x, y) of a regular grid
-  /// that is coloured by its value. Axes are equal; a group column gives one map for each of its values, all
-  /// with one scale of colours.
+  /// map: y lists two columns, the second coordinate and a value; each row is a place (x, y) of a regular
+  /// grid that is coloured by its value. Axes are equal; a group column gives one map for each of its values,
+  /// all with one scale of colours.
   enum class Style { line, points, histogram, polar, map };
   std::string name;   ///< "transmission"
   std::string title;  ///< "Transmission angle over the turn"
@@ -76,6 +76,7 @@ struct Comparison {
   std::string verdict;  ///< "reproduced", "corrected", "not reproduced", "improved"
   std::string note;
 };
+using Comparisons = std::vector<Comparison>;
 
 /// One row "before and after" of a change of design.
 struct Change {
@@ -85,9 +86,7 @@ struct Change {
   double before = 0, after = 0;
   bool wanted = false;  ///< whether it was to become small
   /// Signed change in per cent of before; NaN when that is 0.
-  double percent() const {
-    return before != 0 ? 100 * (after / before - 1) : std::numeric_limits<double>::quiet_NaN();
-  }
+  double percent() const { return before != 0 ? 100 * (after / before - 1) : nan; }
 };
 
 /// One of the distinct answers of a synthesis.
@@ -110,7 +109,7 @@ struct Trouble {
   std::vector<Place> where;  ///< input, time and place, as far as they are known
   /// How much of the limit is used: 1.96 for 96 % more than allowed. +infinity = it cannot be passed at
   /// all, as where a drive would need a force without bound. NaN = cannot be compared.
-  double share = std::numeric_limits<double>::quiet_NaN();
+  double share = nan;
   std::string why;  ///< one sentence
 };
 
@@ -131,7 +130,7 @@ struct Result {
   std::vector<Change> changes;
   std::vector<Check> checks;
   std::vector<Trouble> troubles;  ///< in the order in which they occur; see study/answer.h
-  Diagnostics diagnostics;  ///< remarks and warnings about the answer
+  Diagnostics diagnostics;        ///< remarks and warnings about the answer
 };
 
 }  // namespace linkwright::study

@@ -149,11 +149,11 @@ void make_unique(Table& table, Diagnostics& diagnostics) {
     int number = 2;
     while (!names.insert(fmt::format("{}_{}{}", base, number, unit)).second) ++number;
     const std::string key = fmt::format("{}_{}{}", base, number, unit);
-    diagnostics.push_back({.severity = Diagnostic::Severity::warning,
-                           .key = table.name + "." + column.key,
-                           .message = fmt::format("two columns have this name; that of '{}' is now {}",
-                                                  column.label, key),
-                           .hint = "give bodies, joints and points names that differ in letters and digits"});
+    diagnostics.push_back(
+        {.severity = Diagnostic::Severity::warning,
+         .key = table.name + "." + column.key,
+         .message = fmt::format("two columns have this name; that of '{}' is now {}", column.label, key),
+         .hint = "give bodies, joints and points names that differ in letters and digits"});
     column.key = key;
   }
 }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/suspension/direct/published_targets.h"
 #include "linkwright/suspension/guide/position.h"
@@ -17,8 +17,6 @@
 
 namespace linkwright::suspension {
 namespace {
-
-using Rows = std::vector<study::Comparison>;
 
 constexpr double last_place = 5.01e-6;  // five decimals, and the rounding of the tables' own numbers
 constexpr int boxes = 1000;             // of each link
@@ -32,7 +30,6 @@ std::array<double, 5> found_at(const GuidePlan& plan, const PublishedPosition& r
   const GuidePosition at =
       solve_position(plan, Driver::wheel_centre_z, {row.travel, row.rack}, reference_position(plan));
   if (at.status != Status::done) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     return {nan, nan, nan, nan, nan};
   }
   const WheelAngles angles = wheel_angles(plan.side, plan.wheel, at.place.carrier.rotation);
@@ -41,7 +38,7 @@ std::array<double, 5> found_at(const GuidePlan& plan, const PublishedPosition& r
 }
 
 // Every number of the table of positions.
-void add_positions(Rows& rows, const PublishedGuide& published) {
+void add_positions(study::Comparisons& rows, const PublishedGuide& published) {
   const GuidePlan plan = prepare(guide_sample(published.sample).guide);
   const GuidePlan as_printed = published.example == 2 ? prepare(strut_as_printed()) : plan;
   for (std::size_t i = 0; i < published.positions.size(); ++i) {
@@ -123,7 +120,7 @@ std::string better(double published, double ours) {
   return ours <= published ? "improved" : ours <= 3 * published ? "reproduced" : "not reproduced";
 }
 
-void add_deviations(Rows& rows, const std::string& what, const std::string& source,
+void add_deviations(study::Comparisons& rows, const std::string& what, const std::string& source,
                     const PublishedDeviations& printed, const Means& means) {
   const std::array all{printed.x, printed.y, printed.toe, printed.camber, printed.spin};
   const auto ours = means.per_repeat();
@@ -144,7 +141,7 @@ constexpr std::array<Tables, 4> tables = {{{"Tab. 6-2", "Tab. 6-3", "Tab. 6-4"},
                                            {"Tab. 6-10", "Tab. 6-11", "Tab. 6-12"},
                                            {"Tab. 6-14", "Tab. 6-15", "Tab. 6-16"}}};
 
-void add_synthesis(Rows& rows, const PublishedGuide& published, RunContext& context) {
+void add_synthesis(study::Comparisons& rows, const PublishedGuide& published, RunContext& context) {
   const Tables& at = tables[static_cast<std::size_t>(published.example - 1)];
   const auto source = [](std::string_view table) { return fmt::format("Poznanovic 2016, {}", table); };
   const PublishedEvolution& printed = published.evolution;
@@ -187,7 +184,7 @@ void add_synthesis(Rows& rows, const PublishedGuide& published, RunContext& cont
                     "the vendor's method is not known"});
 }
 
-void add_run_of_the_appendix(Rows& rows) {
+void add_run_of_the_appendix(study::Comparisons& rows) {
   const PublishedGuide& published = published_guides()[0];
   const CarrierTargets targets = published_targets(published);
   WheelGuide guide = guide_sample(published.sample).guide;
@@ -221,7 +218,7 @@ void add_run_of_the_appendix(Rows& rows) {
                   "the point that is listed has 4.19e-4"});
 }
 
-void add_open_spin(Rows& rows, RunContext& context) {
+void add_open_spin(study::Comparisons& rows, RunContext& context) {
   const PublishedGuide& published = published_guides()[3];
   for (const SpinTechnique technique : {SpinTechnique::quadratic, SpinTechnique::dyad}) {
     const PublishedEvolution& printed =
@@ -241,9 +238,9 @@ void add_open_spin(Rows& rows, RunContext& context) {
   }
 }
 
-Rows example(std::size_t number, RunContext& context) {
+study::Comparisons example(std::size_t number, RunContext& context) {
   const PublishedGuide& published = published_guides()[number - 1];
-  Rows rows;
+  study::Comparisons rows;
   add_positions(rows, published);
   if (number == 1) add_run_of_the_appendix(rows);
   add_synthesis(rows, published, context);
@@ -252,11 +249,11 @@ Rows example(std::size_t number, RunContext& context) {
 }
 
 /// Direct synthesis: twenty boxes placed at random, each searched once.
-Rows direct_example(RunContext& context) {
+study::Comparisons direct_example(RunContext& context) {
   constexpr int repeats = 20;
   constexpr std::array names{"toe", "camber", "relative track"};
   const std::string source = "Poznanovic 2016, section 6.6, Tab. 6-19";
-  Rows rows;
+  study::Comparisons rows;
   int reached = 0, ran = 0;
   DirectSynthesis best;
   for (int i = 1; i <= repeats && !context.interrupted(); ++i, ++ran) {

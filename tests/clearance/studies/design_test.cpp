@@ -7,28 +7,28 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <sstream>
 #include <string>
 
 #include "clearance/studies.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/write.h"
 #include "support/resumed.h"
 
 namespace linkwright::clearance {
 namespace {
 
-using testing::fact;
+using test::fact;
+using test::prepare;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
+using test::table;
+using test::values;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::prepare;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
-using testing::table;
-using testing::values;
 
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double turn = 2 * pi;
 
 std::string example(const std::string& name) {
   std::ifstream file(LINKWRIGHT_SOURCE_DIR "/examples/studies/" + name + ".toml");
@@ -246,10 +246,10 @@ TEST(ClearanceDesignStudy, KeepsTheBestWhenItIsInterrupted) {
 
 TEST(ClearanceDesignStudy, GoesOnFromACheckpointWithTheSameBits) {
   for (const DesignTarget target : {DesignTarget::lengths, DesignTarget::masses, DesignTarget::both})
-    ::linkwright::testing::expect_resumed_alike(std::vector<study::Kind>(clearance_design_kinds()),
-                                                kind_example(target), 2);
+    ::linkwright::test::expect_resumed_alike(std::vector<study::Kind>(clearance_design_kinds()),
+                                             kind_example(target), 2);
   std::string swarm = replaced(example("loose-four-bar-lengths-swarm"), "count = 10", "count = 2");
-  ::linkwright::testing::expect_resumed_alike(std::vector<study::Kind>(clearance_design_kinds()), swarm, 2);
+  ::linkwright::test::expect_resumed_alike(std::vector<study::Kind>(clearance_design_kinds()), swarm, 2);
 }
 
 TEST(ClearanceDesignStudy, WritesWhatItReads) {

@@ -16,18 +16,18 @@
 namespace linkwright::clearance {
 namespace {
 
+using test::fact;
+using test::prepare;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
+using test::table;
+using test::values;
 using ::testing::AllOf;
 using ::testing::Each;
-using testing::fact;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-using testing::prepare;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
-using testing::table;
-using testing::values;
 
 std::string messages(const study::Result& r) {
   std::string out;

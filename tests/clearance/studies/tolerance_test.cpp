@@ -5,29 +5,29 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <sstream>
 #include <string>
 
 #include "clearance/studies.h"
 #include "linkwright/core/looks.h"
 #include "linkwright/core/memory.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/write.h"
 
 namespace linkwright::clearance {
 namespace {
 
+using test::fact;
+using test::prepare;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
+using test::table;
+using test::values;
 using ::testing::Each;
 using ::testing::ElementsAre;
-using testing::fact;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::prepare;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
-using testing::table;
-using testing::values;
 
 double largest(const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); }
 std::string messages(const study::Result& r) {
@@ -37,7 +37,7 @@ std::string messages(const study::Result& r) {
 }
 
 std::string four_bar() { return tolerance_kind().example; }
-std::string example(const std::string& name) {
+std::string tolerance_example(const std::string& name) {
   std::ifstream file(LINKWRIGHT_SOURCE_DIR "/examples/studies/" + name + ".toml");
   std::ostringstream text;
   text << file.rdbuf();
@@ -48,7 +48,7 @@ std::string example(const std::string& name) {
 // Errors of rod and pins reach the slider by one over the cosine of the rod's angle, those of the crank along
 // the rod; the drive stays.
 TEST(ToleranceStudy, WayOfASliderInClosedForm) {
-  const study::Result r = run_text(example("tolerances-slider-crank"));
+  const study::Result r = run_text(tolerance_example("tolerances-slider-crank"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   const std::vector<double>&crank = values(r, "errors", "O_angle_rad"),
         &worst = values(r, "errors", "guide_way_worst_m"), &rms = values(r, "errors", "guide_way_rms_m"),
@@ -138,7 +138,7 @@ TEST(ToleranceStudy, YieldOfALimit) {
       replaced(four_bar(), "point    = \"coupler.P\"\nerror_mm = 0.15", "joint = \"B0\"\nerror_deg = 0.07"));
   const std::vector<double>& all = values(r, "draws", "B0_angle_rad");
   ASSERT_EQ(all.size(), 2000u);
-  const double limit = 0.07 * std::numbers::pi / 180;
+  const double limit = 0.07 * pi / 180;
   const auto within =
       static_cast<double>(std::count_if(all.begin(), all.end(), [&](double e) { return e <= limit; }));
   const double share = r.statistics.find("B0_angle_yield")->as_number(),
@@ -160,7 +160,7 @@ TEST(ToleranceStudy, YieldOfALimit) {
 
 // Over time, with forces that loads make then.
 TEST(ToleranceStudy, OverTimeWithForces) {
-  std::string text = example("tolerances-slider-crank");
+  std::string text = tolerance_example("tolerances-slider-crank");
   text = replaced(text, "speed_rpm = 1500.0", "law = \"constant_speed\"\nspeed_rpm = 1500.0");
   text = replaced(text,
                   "type = \"grid\"\n\n[[sweep.input]]\njoint    = \"O\"\nfrom_deg = 0.0\nto_deg   = "
@@ -171,7 +171,7 @@ TEST(ToleranceStudy, OverTimeWithForces) {
                   "= \"time\"\nargument = [0.0, "
                   "0.04]\nfactor = [0.0, 1.0]\n\n[[mechanism.assembly]]");
   text.erase(text.find("# In the dead centres"));
-  const study::Result grid = run_text(example("tolerances-slider-crank")), r = run_text(text);
+  const study::Result grid = run_text(tolerance_example("tolerances-slider-crank")), r = run_text(text);
   ASSERT_EQ(r.status, Status::done) << r.headline;
   EXPECT_EQ(values(r, "errors", "time_s").back(), 0.04);
   // At 0.02 s, half a turn, the load is 500 N: it goes through the rod.
@@ -186,8 +186,7 @@ TEST(ToleranceStudy, WarnsNearDeadPoints) {
   // The rocker drives; coupler and crank come into line at the outer end of its swing, where
   // cos(rocker) = -(L1^2 + L4^2 - (L2 + L3)^2) / (2 L1 L4) of the angle at B0.
   std::string text = replaced(four_bar(), "joint     = \"O\"\nspeed", "joint = \"B0\"\nspeed");
-  const double dead =
-      180 - std::acos((200.0 * 200 + 120 * 120 - 210 * 210) / (2.0 * 200 * 120)) * 180 / std::numbers::pi;
+  const double dead = 180 - std::acos((200.0 * 200 + 120 * 120 - 210 * 210) / (2.0 * 200 * 120)) * 180 / pi;
   text = replaced(text, "bodies = [\"coupler\", \"rocker\"]\nmode   = \"plus\"",
                   "bodies = [\"crank\", \"coupler\"]\nmode   = \"plus\"");
   text = replaced(text, "coordinates = [\"B0\"]", "coordinates = [\"O\"]");
@@ -306,7 +305,7 @@ draws = 100
 }
 
 TEST(ToleranceStudy, WritesWhatItReads) {
-  for (const std::string& text : {four_bar(), example("tolerances-slider-crank")}) {
+  for (const std::string& text : {four_bar(), tolerance_example("tolerances-slider-crank")}) {
     std::string problems;
     const auto first = prepare(text, problems);
     ASSERT_TRUE(first) << problems;
@@ -359,7 +358,7 @@ TEST(ToleranceStudy, NamesWhatIsWrong) {
               HasSubstr("a linkage whose lengths err has no change points"));
   EXPECT_THAT(problem("[monte_carlo]", "[quality]\noutput_joint = \"B0\"\n[monte_carlo]"),
               HasSubstr("quality: belongs to the analysis of planar.linkage"));
-  const std::string slider = example("tolerances-slider-crank");
+  const std::string slider = tolerance_example("tolerances-slider-crank");
   EXPECT_THAT(problems_of(replaced(slider, "joint        = \"B\"", "joint = \"guide\"")),
               HasSubstr("joint 'guide' is prismatic; only revolute joints have clearance"));
   // Nothing errs, nothing is looked at.

@@ -4,23 +4,20 @@
 
 #include <cmath>
 
-#include "linkwright/flexible/studies.h"
-#include "support/study_text.h"
+#include "tests/flexible/studies.h"
 
 namespace linkwright::flexible {
 namespace {
 
-using linkwright::testing::fact;
-using linkwright::testing::replaced;
+using test::kinds;
+using test::problems;
+using test::run;
+
+using linkwright::test::fact;
+using linkwright::test::replaced;
 using ::testing::HasSubstr;
 
-const std::vector<study::Kind>& kinds() {
-  static const auto all = studies();
-  return all;
-}
 const std::string& example() { return kinds()[0].example; }
-study::Result run(const std::string& text) { return linkwright::testing::run_text(kinds(), text); }
-std::string problems(const std::string& text) { return linkwright::testing::problems_of(kinds(), text); }
 const std::vector<double>& column(const study::Result& result, std::string_view key) {
   const Column* found = result.tables.at(0).find(key);
   EXPECT_NE(found, nullptr) << key;

@@ -4,22 +4,17 @@
 
 #include <cmath>
 
-#include "linkwright/flexible/studies.h"
-#include "support/study_text.h"
+#include "tests/flexible/studies.h"
 
 namespace linkwright::flexible {
 namespace {
 
-using linkwright::testing::fact;
-using linkwright::testing::replaced;
-using ::testing::HasSubstr;
+using test::problems;
+using test::run;
 
-const std::vector<study::Kind>& kinds() {
-  static const auto all = studies();
-  return all;
-}
-study::Result run(const std::string& text) { return linkwright::testing::run_text(kinds(), text); }
-std::string problems(const std::string& text) { return linkwright::testing::problems_of(kinds(), text); }
+using linkwright::test::fact;
+using linkwright::test::replaced;
+using ::testing::HasSubstr;
 
 // A steel link held level in gravity: m = 0.78 kg/m, E I = 1749 N m2.
 const std::string level =

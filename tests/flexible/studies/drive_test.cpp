@@ -4,21 +4,17 @@
 
 #include <cmath>
 
-#include "linkwright/flexible/studies.h"
-#include "support/study_text.h"
+#include "tests/flexible/studies.h"
 
 namespace linkwright::flexible {
 namespace {
 
-using linkwright::testing::fact;
-using linkwright::testing::replaced;
+using test::kinds;
+
+using linkwright::test::fact;
+using linkwright::test::replaced;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-const std::vector<study::Kind>& kinds() {
-  static const auto all = studies();
-  return all;
-}
 
 std::string study_with(const std::string& law, bool shaped = false) {
   return "schema = 1\nkind = \"simulation\"\n[mechanism]\ntype = \"flexible.hub_link\"\nlength_m = "
@@ -47,7 +43,7 @@ const std::vector<std::string> laws = {
 TEST(DriveStudy, EveryLawDrivesAndIsShaped) {
   for (const std::string& law : laws)
     for (const bool shaped : {false, true}) {
-      const auto result = linkwright::testing::run_text(kinds(), study_with(law, shaped));
+      const auto result = linkwright::test::run_text(kinds(), study_with(law, shaped));
       ASSERT_EQ(result.status, Status::done) << law << result.headline;
       const Table& motion = result.tables.front();
       const auto &balance = motion.find("energy_balance_J")->values,
@@ -66,7 +62,7 @@ TEST(DriveStudy, EveryLawDrivesAndIsShaped) {
 TEST(DriveStudy, ShapingQuietensWhatMovesFromRestToRest) {
   for (const std::size_t i : {1u, 2u, 4u}) {
     const auto left = [&](bool shaped) {
-      return std::stod(fact(linkwright::testing::run_text(kinds(), study_with(laws[i], shaped)),
+      return std::stod(fact(linkwright::test::run_text(kinds(), study_with(laws[i], shaped)),
                             "vibration of the tip after the drive"));
     };
     EXPECT_LT(left(true), 0.25 * left(false)) << laws[i];
@@ -98,7 +94,7 @@ TEST(DriveStudy, KnowsBreaksEndsAndStarts) {
 
 TEST(DriveStudy, TellsWhatIsWrongWithALaw) {
   const auto problems = [](const std::string& law) {
-    return linkwright::testing::problems_of(kinds(), study_with(law));
+    return linkwright::test::problems_of(kinds(), study_with(law));
   };
   EXPECT_THAT(problems("law = \"turn\"\n"), HasSubstr("polynomial_345"));
   EXPECT_THAT(problems(""), HasSubstr("law"));

@@ -5,24 +5,21 @@
 #include <cmath>
 
 #include "linkwright/core/memory.h"
-#include "linkwright/flexible/studies.h"
 #include "support/published.h"
-#include "support/study_text.h"
+#include "tests/flexible/studies.h"
 
 namespace linkwright::flexible {
 namespace {
 
-using linkwright::testing::fact;
-using linkwright::testing::replaced;
+using test::kinds;
+using test::problems;
+using test::run;
+
+using linkwright::test::fact;
+using linkwright::test::replaced;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::vector<study::Kind>& kinds() {
-  static const auto all = studies();
-  return all;
-}
-study::Result run(const std::string& text) { return linkwright::testing::run_text(kinds(), text); }
-std::string problems(const std::string& text) { return linkwright::testing::problems_of(kinds(), text); }
 const std::vector<double>& column(const study::Result& result, std::string_view key) {
   const Column* found = result.tables.at(0).find(key);
   EXPECT_NE(found, nullptr) << key;
@@ -130,7 +127,7 @@ TEST(HubLinkStudy, RefusesMoreCellsAndSamplesThanThereIsMemoryFor) {
               ::testing::AllOf(HasSubstr("output.samples: 100000 samples of 1000 cells would take "),
                                HasSubstr("at most 1 GB may be taken; take fewer samples or divisions")));
   std::string messages;
-  EXPECT_TRUE(linkwright::testing::prepare(kinds(), fine, messages)) << messages;
+  EXPECT_TRUE(linkwright::test::prepare(kinds(), fine, messages)) << messages;
 }
 
 TEST(HubLinkStudy, TellsWhatIsWrong) {

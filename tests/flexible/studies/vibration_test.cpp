@@ -4,29 +4,26 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "flexible/beams.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/flexible/continuum.h"
 #include "linkwright/flexible/modes.h"
-#include "linkwright/flexible/studies.h"
 #include "linkwright/study/write.h"
-#include "support/study_text.h"
+#include "tests/flexible/studies.h"
 
 namespace linkwright::flexible {
 namespace {
 
-using linkwright::testing::fact;
-using linkwright::testing::replaced;
+using test::kinds;
+using test::problems;
+using test::run;
+
+using linkwright::test::fact;
+using linkwright::test::replaced;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const std::vector<study::Kind>& kinds() {
-  static const auto all = studies();
-  return all;
-}
-study::Result run(const std::string& text) { return linkwright::testing::run_text(kinds(), text); }
-std::string problems(const std::string& text) { return linkwright::testing::problems_of(kinds(), text); }
 const std::vector<double>& column(const study::Result& result, std::string_view table, std::string_view key) {
   for (const Table& t : result.tables)
     if (t.name == table)
@@ -61,12 +58,11 @@ TEST(VibrationStudy, CampbellDiagramOfThePublishedBeam) {
   const auto& first = column(result, "campbell", "mode_1_rad_per_s");
   ASSERT_EQ(first.size(), 9u);
   int compared = 0;
-  for (const Value& row : testing::at(computed("rotating-frequency"), "table").as_array()) {
-    const double eta = testing::number_at(row, "eta");
+  for (const Value& row : test::at(computed("rotating-frequency"), "table").as_array()) {
+    const double eta = test::number_at(row, "eta");
     if (eta > 8) continue;
     // The speed is written to 1e-6 rad/s.
-    EXPECT_NEAR(first[static_cast<std::size_t>(eta)] / scale(), testing::number_at(row, "CC_n4"), 1e-6)
-        << eta;
+    EXPECT_NEAR(first[static_cast<std::size_t>(eta)] / scale(), test::number_at(row, "CC_n4"), 1e-6) << eta;
     ++compared;
   }
   EXPECT_GE(compared, 7);
@@ -98,7 +94,7 @@ TEST(VibrationStudy, FrequenciesAgainstTheContinuum) {
   }();
   const auto exact = continuum_frequencies(beam, 2);
   for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_NEAR(column(result, "frequencies", "continuum_Hz")[k] * 2 * std::numbers::pi, exact[k], 1e-9);
+    EXPECT_NEAR(column(result, "frequencies", "continuum_Hz")[k] * 2 * pi, exact[k], 1e-9);
     EXPECT_NEAR(column(result, "frequencies", "continuum_error")[k], 0, 1e-3);
     EXPECT_LT(std::abs(column(result, "frequencies", "finer_change")[k]),
               1.1 * std::abs(column(result, "frequencies", "continuum_error")[k]) + 1e-9);
@@ -123,7 +119,7 @@ TEST(VibrationStudy, FrequenciesAgainstTheContinuum) {
 
 TEST(VibrationStudy, WarnsWhereTheChainLosesItsStability) {
   const double known =
-      testing::number_at(computed("rotating-frequency"), "HX_spurious_critical_speed_T31_rad_s.2");
+      test::number_at(computed("rotating-frequency"), "HX_spurious_critical_speed_T31_rad_s.2");
   const auto result = run(replaced(bare, "modes = 2\ndivisions = 4",
                                    "modes = 2\ndivisions = 2\nkinematics = "
                                    "\"hub_axis\"") +
@@ -219,10 +215,10 @@ TEST(VibrationStudy, FreeHubsAndLinksThatStretch) {
 TEST(VibrationStudy, WritesWhatItReads) {
   for (const std::string& text : {vibration_kind().example, bare}) {
     std::string problem;
-    const auto first = linkwright::testing::prepare(kinds(), text, problem);
+    const auto first = linkwright::test::prepare(kinds(), text, problem);
     ASSERT_TRUE(first) << problem;
     const std::string written = study::to_toml(first->canonical);
-    const auto again = linkwright::testing::prepare(kinds(), written, problem);
+    const auto again = linkwright::test::prepare(kinds(), written, problem);
     ASSERT_TRUE(again) << problem << written;
     EXPECT_EQ(study::to_toml(again->canonical), written);
   }

@@ -46,29 +46,29 @@ Mat3 rotation_of(const std::vector<double>& q) {
 }
 
 TEST(AssemblyModes, AreThoseOfTheReferenceAndProvedToBeAll) {
-  const auto angles = testing::numbers(testing::at(inputs("hexa-assembly-modes"), "alpha_rad"));
+  const auto angles = test::numbers(test::at(inputs("hexa-assembly-modes"), "alpha_rad"));
   const AssemblyModes found = assembly_modes(reference_hexa(), angles);
   EXPECT_EQ(found.status, Status::done);
   EXPECT_EQ(found.note, "");
   EXPECT_EQ(found.paths, 40);
-  EXPECT_EQ(found.finite, testing::number_at(computed("hexa-assembly-modes"), "generic_complex"));
-  EXPECT_EQ(found.real, testing::number_at(computed("hexa-assembly-modes"), "count_real"));
+  EXPECT_EQ(found.finite, test::number_at(computed("hexa-assembly-modes"), "generic_complex"));
+  EXPECT_EQ(found.real, test::number_at(computed("hexa-assembly-modes"), "count_real"));
   EXPECT_EQ(found.certified, 40);
   EXPECT_TRUE(found.conjugate_closed);
   EXPECT_TRUE(found.complete);
-  const Value& poses = testing::at(computed("hexa-assembly-modes"), "poses");
+  const Value& poses = test::at(computed("hexa-assembly-modes"), "poses");
   ASSERT_EQ(found.modes.size(), 12u);
   ASSERT_EQ(poses.as_array().size(), 12u);
   for (const Value& reference : poses.as_array()) {
-    const Pose pose{point(testing::at(reference, "p_m")),
-                    rotation_of(testing::numbers(testing::at(reference, "quaternion_wxyz")))};
+    const Pose pose{point(test::at(reference, "p_m")),
+                    rotation_of(test::numbers(test::at(reference, "quaternion_wxyz")))};
     const auto mode = std::min_element(found.modes.begin(), found.modes.end(),
                                        [&](const AssemblyMode& a, const AssemblyMode& b) {
                                          return between(a.pose, pose) < between(b.pose, pose);
                                        });
     // The reference is good to about 1e-15 times a condition of 1e2.
     EXPECT_LT(between(mode->pose, pose), 1e-12);
-    const double determinant = testing::number_at(reference, "det_Jx");
+    const double determinant = test::number_at(reference, "det_Jx");
     EXPECT_NEAR(mode->determinant, determinant, 1e-10 * std::abs(determinant));
     EXPECT_TRUE(mode->certified);
   }
@@ -162,7 +162,7 @@ TEST(AssemblyModes, AreNotCalledDoneAfterOneWayThatMissesSome) {
 
 TEST(AssemblyModes, AtATypeTwoSingularityTwoOfThemMeet) {
   const Robot robot = reference_hexa();
-  const double yaw = testing::numbers(testing::at(computed("hexa-singular-yaw"), "yaw_rad")).back();
+  const double yaw = test::numbers(test::at(computed("hexa-singular-yaw"), "yaw_rad")).back();
   const Pose pose{{0, 0, -0.5}, math::turn_z(yaw)};
   const AssemblyModes found = assembly_modes(robot, inverse(robot, pose).angle);
   EXPECT_EQ(found.status, Status::singular);

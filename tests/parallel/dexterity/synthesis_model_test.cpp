@@ -1,4 +1,4 @@
-#include "linkwright/parallel/dexterity/synthesis_model.h"
+#include "linkwright/parallel/dexterity/detail/synthesis_model.h"
 
 #include <gtest/gtest.h>
 

@@ -11,9 +11,9 @@ namespace linkwright::parallel {
 namespace {
 
 std::vector<double> published_design(std::string_view id) {
-  return testing::numbers(testing::at(computed(id), "x_R_La_Lf_zt"));
+  return test::numbers(test::at(computed(id), "x_R_La_Lf_zt"));
 }
-double published(std::string_view id, std::string_view key) { return testing::number_at(computed(id), key); }
+double published(std::string_view id, std::string_view key) { return test::number_at(computed(id), key); }
 
 const DexterityStand* stand_of(const DexterityDesign& design, DexterityLimit limit) {
   for (const DexterityStand& stand : design.limits)

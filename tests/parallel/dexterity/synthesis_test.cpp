@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/dexterity/synthesis_samples.h"
 #include "parallel/robots.h"
@@ -13,9 +14,11 @@
 namespace linkwright::parallel {
 namespace {
 
-double published(std::string_view id, std::string_view key) { return testing::number_at(computed(id), key); }
+double published_region(std::string_view id, std::string_view key) {
+  return test::number_at(computed(id), key);
+}
 
-const DexterityStand* stand_of(const DexterityDesign& design, DexterityLimit limit) {
+const DexterityStand* stand_of_limit(const DexterityDesign& design, DexterityLimit limit) {
   for (const DexterityStand& stand : design.limits)
     if (stand.limit == limit) return &stand;
   return nullptr;
@@ -54,30 +57,30 @@ TEST(DexteritySynthesis, LooksBetweenTheNodes) {
 // With the transmission angle that the joint has when it is designed after the robot, both together find the
 // same: B3 and its Pi-joints of the reference. With less they find a smaller robot.
 TEST(DexteritySynthesis, DesignsRobotAndPiJointsTogether) {
-  const Value& joint = testing::at(computed("synth-B3"), "pi_joint");
-  const double sequential = published("synth-B3", "best_La_plus_Lf_m");
+  const Value& joint = test::at(computed("synth-B3"), "pi_joint");
+  const double sequential = published_region("synth-B3", "best_La_plus_Lf_m");
   RunContext context;
   const DexteritySynthesis same =
-      synthesise(dexterity_benchmark_with_pi_joints(testing::number_at(joint, "mu_min_rad")), {}, 1, context);
+      synthesise(dexterity_benchmark_with_pi_joints(test::number_at(joint, "mu_min_rad")), {}, 1, context);
   ASSERT_EQ(same.status, Status::done) << same.reason;
   EXPECT_NEAR(same.best.size, sequential, 1e-8);
   // A vertex: all of it is determined as well as the limits are kept to.
-  EXPECT_NEAR(same.best.x[4], testing::number_at(joint, "eps_rad"), 1e-6);
-  EXPECT_NEAR(same.best.x[5], testing::number_at(joint, "k"), 1e-6);
+  EXPECT_NEAR(same.best.x[4], test::number_at(joint, "eps_rad"), 1e-6);
+  EXPECT_NEAR(same.best.x[5], test::number_at(joint, "k"), 1e-6);
   const Drive& drive = same.best.drives[0];
   EXPECT_EQ(drive.type, DriveType::pi_joint);
-  EXPECT_NEAR(drive.lowest, testing::number_at(joint, "theta_lo_rad"), 1e-6);
-  EXPECT_NEAR(drive.highest, testing::number_at(joint, "theta_hi_rad"), 1e-6);
+  EXPECT_NEAR(drive.lowest, test::number_at(joint, "theta_lo_rad"), 1e-6);
+  EXPECT_NEAR(drive.highest, test::number_at(joint, "theta_hi_rad"), 1e-6);
   const PiJoint pi_joint{same.best.robot.leg[0].arm, drive.ratio};
-  EXPECT_NEAR(diagonal(pi_joint, drive.lowest), testing::number_at(joint, "d_min_m"), 1e-6);
-  EXPECT_NEAR(diagonal(pi_joint, drive.highest), testing::number_at(joint, "d_max_m"), 1e-6);
+  EXPECT_NEAR(diagonal(pi_joint, drive.lowest), test::number_at(joint, "d_min_m"), 1e-6);
+  EXPECT_NEAR(diagonal(pi_joint, drive.highest), test::number_at(joint, "d_max_m"), 1e-6);
 
   const DexteritySynthesis smaller =
       synthesise(dexterity_benchmark_with_pi_joints(math::radians(6)), {}, 1, context);
   EXPECT_EQ(smaller.status, Status::done);
   EXPECT_LT(smaller.best.size, 0.975 * sequential);
-  EXPECT_TRUE(stand_of(smaller.best, DexterityLimit::telescoping)->active);
-  EXPECT_TRUE(stand_of(smaller.best, DexterityLimit::pi_transmission)->active);
+  EXPECT_TRUE(stand_of_limit(smaller.best, DexterityLimit::telescoping)->active);
+  EXPECT_TRUE(stand_of_limit(smaller.best, DexterityLimit::pi_transmission)->active);
 }
 
 // The mirror image of a joint serves as well: theta runs the other way round.
@@ -101,16 +104,16 @@ TEST(DexteritySynthesis, RefusesDesignsWhosePlatformTurns) {
   for (const auto& [goal, id] : {std::pair{DexterityGoal::worst, "synth-B1"},
                                  {DexterityGoal::mean, "synth-B2"},
                                  {DexterityGoal::size, "synth-B3"}}) {
-    const Value& former = testing::at(computed(id), "without_constraint");
+    const Value& former = test::at(computed(id), "without_constraint");
     DexterityTask task = dexterity_benchmark(goal);
     for (const double least : {0.2, 0.0}) {
       task.limits.constraint = least;
-      const DexterityDesign found = assess(task, testing::numbers(testing::at(former, "x_R_La_Lf_zt")));
+      const DexterityDesign found = assess(task, test::numbers(test::at(former, "x_R_La_Lf_zt")));
       EXPECT_EQ(found.status, Status::infeasible);
       EXPECT_NE(found.reason.find("constraint is -0."), std::string::npos) << found.reason;
-      const DexterityStand* stand = stand_of(found, DexterityLimit::constraint);
+      const DexterityStand* stand = stand_of_limit(found, DexterityLimit::constraint);
       ASSERT_NE(stand, nullptr);
-      EXPECT_NEAR(stand->value, testing::number_at(former, "index_signed_min_on_E"), 1e-7) << id;
+      EXPECT_NEAR(stand->value, test::number_at(former, "index_signed_min_on_E"), 1e-7) << id;
       EXPECT_FALSE(prove_region(task, found).proven);
     }
   }
@@ -125,13 +128,13 @@ TEST(DexteritySynthesis, TheLeastIndexCostsDexterity) {
     for (const auto& [asked, least] : {std::pair{"0.1", 0.1}, {"0.3", 0.3}}) {
       DexterityTask task = dexterity_benchmark(goal);
       task.limits.constraint = least;
-      const Value& row = *testing::at(computed(id), "by_least_index").find(asked);
-      const double best = testing::number_at(row, key);
-      EXPECT_NEAR(assess(task, testing::numbers(testing::at(row, "x_R_La_Lf_zt"))).objective, best, 1e-9);
+      const Value& row = *test::at(computed(id), "by_least_index").find(asked);
+      const double best = test::number_at(row, key);
+      EXPECT_NEAR(assess(task, test::numbers(test::at(row, "x_R_La_Lf_zt"))).objective, best, 1e-9);
       const DexteritySynthesis found = synthesise(task, {}, 1, context);
       ASSERT_EQ(found.status, Status::done) << found.reason;
       EXPECT_NEAR(found.best.objective, best, 2e-8) << id << asked;
-      EXPECT_TRUE(stand_of(found.best, DexterityLimit::constraint)->active);
+      EXPECT_TRUE(stand_of_limit(found.best, DexterityLimit::constraint)->active);
     }
 }
 
@@ -212,7 +215,7 @@ TEST(DexteritySynthesis, TellsWhatIsMissed) {
   EXPECT_EQ(found.status, Status::infeasible);
   EXPECT_GT(found.best.violation, 0);
   EXPECT_FALSE(found.reason.empty());
-  task.limits.size = std::numeric_limits<double>::infinity();
+  task.limits.size = infinity;
   const DexterityDesign short_arms = assess(task, std::vector{0.1, 0.2, 0.3, 0.3});
   EXPECT_EQ(short_arms.status, Status::infeasible);
   EXPECT_NE(short_arms.reason.find("is asked for"), std::string::npos) << short_arms.reason;

@@ -14,12 +14,12 @@ namespace {
 
 TEST(PiCurves, AreThoseOfTheFigures) {
   const Value& expected = *computed("pi-curves").find("prototype");
-  auto at = testing::numbers(testing::at(expected, "theta_deg"));
+  auto at = test::numbers(test::at(expected, "theta_deg"));
   for (double& angle : at) angle = math::radians(angle);
   const auto curves = pi_curves(pi_prototype(), {.drive = pi_prototype_drive()}, at);
   ASSERT_EQ(curves.size(), at.size());
   const auto column = [&](const char* key, auto&& of) {
-    const auto values = testing::numbers(testing::at(expected, key));
+    const auto values = test::numbers(test::at(expected, key));
     for (std::size_t i = 0; i < values.size(); ++i) expect_same(of(curves[i]), values[i]);
   };
   column("d_m", [](const PiCurvePoint& p) { return p.diagonal; });

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/pi_joint/samples.h"
@@ -16,8 +17,7 @@ namespace linkwright::parallel {
 namespace {
 
 using math::radians;
-using std::numbers::pi;
-using testing::number_at;
+using test::number_at;
 
 PiDesignReport designed(const PiRequirements& requirements, int starts = 12) {
   RunContext context;

@@ -5,8 +5,8 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/pi_joint/samples.h"
 #include "linkwright/parallel/pi_joint/screw.h"
@@ -17,10 +17,9 @@
 namespace linkwright::parallel {
 namespace {
 
-using std::numbers::pi;
-using testing::between;
-using testing::number_at;
-using testing::numbers;
+using test::between;
+using test::number_at;
+using test::numbers;
 
 PiMasses reference_masses() {
   const Value& given = inputs("pi-dynamics");
@@ -41,7 +40,7 @@ PiMasses reference_masses() {
 
 TEST(PiDynamics, EffortOfTheReference) {
   const Value &given = inputs("pi-dynamics"), &expected = computed("pi-dynamics");
-  const auto gravity = numbers(testing::at(given, "g_frame_m_s2"));
+  const auto gravity = numbers(test::at(given, "g_frame_m_s2"));
   const PiMotion angle{math::radians(number_at(given, "theta_deg")), number_at(given, "theta_dot_rad_s"),
                        number_at(given, "theta_ddot_rad_s2")};
   const PiMasses masses = reference_masses();

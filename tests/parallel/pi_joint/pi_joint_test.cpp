@@ -4,8 +4,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/dual.h"
@@ -19,11 +19,10 @@ namespace linkwright::parallel {
 namespace {
 
 using math::radians;
-using std::numbers::pi;
-using testing::between;
-using testing::log_between;
-using testing::number_at;
-using testing::numbers;
+using test::between;
+using test::log_between;
+using test::number_at;
+using test::numbers;
 
 const PiJoint prototype = pi_prototype();
 

@@ -12,9 +12,9 @@ TEST(PiSamples, PrototypeIsSoundAndAsPublished) {
   EXPECT_EQ(problem(pi_prototype()), std::nullopt);
   EXPECT_EQ(problem(pi_prototype_drive()), std::nullopt);
   const Value& given = inputs("pi-prototype-stroke");
-  EXPECT_EQ(pi_prototype().arm, testing::number_at(given, "a_m"));
-  EXPECT_EQ(pi_prototype().ratio, testing::number_at(given, "k"));
-  expect_same(quantum(pi_prototype_drive()), testing::number_at(inputs("pi-prototype-actuator"), "step_m"));
+  EXPECT_EQ(pi_prototype().arm, test::number_at(given, "a_m"));
+  EXPECT_EQ(pi_prototype().ratio, test::number_at(given, "k"));
+  expect_same(quantum(pi_prototype_drive()), test::number_at(inputs("pi-prototype-actuator"), "step_m"));
 }
 
 }  // namespace

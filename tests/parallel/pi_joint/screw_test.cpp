@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/pi_joint/samples.h"
 #include "parallel/pi_joints.h"
@@ -14,9 +14,8 @@ namespace linkwright::parallel {
 namespace {
 
 using math::radians;
-using std::numbers::pi;
-using testing::number_at;
-using testing::numbers;
+using test::number_at;
+using test::numbers;
 
 TEST(PiScrew, ActuatorOfThePrototype) {
   const Value &given = inputs("pi-prototype-actuator"), &expected = computed("pi-prototype-actuator");
@@ -34,10 +33,10 @@ TEST(PiScrew, ActuatorOfThePrototype) {
 
 TEST(PiScrew, OutputOfThePrototype) {
   const Value& expected = computed("pi-prototype-output");
-  const auto at = numbers(testing::at(inputs("pi-prototype-output"), "theta_deg"));
-  const auto torque = numbers(testing::at(expected, "torque_Nm"));
-  const auto speed = numbers(testing::at(expected, "speed_rad_s"));
-  const auto resolution = numbers(testing::at(expected, "resolution_rad"));
+  const auto at = numbers(test::at(inputs("pi-prototype-output"), "theta_deg"));
+  const auto torque = numbers(test::at(expected, "torque_Nm"));
+  const auto speed = numbers(test::at(expected, "speed_rad_s"));
+  const auto resolution = numbers(test::at(expected, "resolution_rad"));
   ASSERT_EQ(at.size(), 5u);
   for (std::size_t i = 0; i < at.size(); ++i) {
     const PiOutput found = output(pi_prototype(), pi_prototype_drive(), radians(at[i]));
@@ -51,10 +50,9 @@ TEST(PiScrew, OutputOfThePrototype) {
 
 TEST(PiScrew, CurvesOfFigures15To17) {
   const Value& curves = *computed("pi-curves").find("prototype");
-  const auto at = numbers(testing::at(curves, "theta_deg")),
-             torque = numbers(testing::at(curves, "torque_Nm"));
-  const auto speed = numbers(testing::at(curves, "speed_rad_s"));
-  const auto resolution = numbers(testing::at(curves, "resolution_rad"));
+  const auto at = numbers(test::at(curves, "theta_deg")), torque = numbers(test::at(curves, "torque_Nm"));
+  const auto speed = numbers(test::at(curves, "speed_rad_s"));
+  const auto resolution = numbers(test::at(curves, "resolution_rad"));
   ASSERT_EQ(at.size(), 25u);
   for (std::size_t i = 0; i < at.size(); ++i) {
     const PiOutput found = output(pi_prototype(), pi_prototype_drive(), radians(at[i]));

@@ -3,14 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/parallel/pi_joint/samples.h"
 
 namespace linkwright::parallel {
 namespace {
-
-using std::numbers::pi;
 
 TEST(PiSingularities, EndsOfTheRangeByName) {
   for (double ratio : {0.4, 0.999, 1.5}) {

@@ -17,9 +17,9 @@ namespace linkwright::parallel {
 namespace {
 
 using math::radians;
-using testing::number_at;
+using test::number_at;
 
-const PiRange whole{radians(-60), radians(60)};
+const AngleRange whole{radians(-60), radians(60)};
 
 // What the published mean, 3.5e4 N m/rad, says of the diagonal depends on what else is assumed.
 TEST(PiStiffnessSynthesis, DiagonalOfThePrototypeByItsPublishedMean) {
@@ -29,7 +29,7 @@ TEST(PiStiffnessSynthesis, DiagonalOfThePrototypeByItsPublishedMean) {
               1e-9);
   expect_same(mean_stiffness(pi_prototype(), {.diagonal = 1}, whole, StiffnessMean::of_compliance),
               number_at(computed("pi-stiffness"), "harmonic_mean_J2_m2"), 1e-9);
-  const double published = number_at(testing::published_case("pi-joint-parallel-robots.json", "pi-stiffness"),
+  const double published = number_at(test::published_case("pi-joint-parallel-robots.json", "pi-stiffness"),
                                      "published.K_mean_Nm_rad");
   const auto implied = [&](StiffnessMean kind, const PiBars& others = {}, double share = 1) {
     return diagonal_for_mean(pi_prototype(), others, whole, kind, published, share).value_or(0);
@@ -40,7 +40,7 @@ TEST(PiStiffnessSynthesis, DiagonalOfThePrototypeByItsPublishedMean) {
   expect_same(implied(StiffnessMean::at_zero), number_at(expected, "k_d_if_at_zero_N_m"), 1e-9);
   // Elastic arms, and a coupler of the same section, stiffer by a / b. These figures belong to the plain mean
   // over 241 angles, both ends included, which is some 0.3 % below that over the range; 0.7 % in k_d at most.
-  const Value& elastic = testing::at(expected, "implied_k_d_with_elastic_arms_N_m");
+  const Value& elastic = test::at(expected, "implied_k_d_with_elastic_arms_N_m");
   int compared = 0;
   for (const auto& [share, word] : {std::pair{1.0, "wA=1.0"}, {0.5, "wA=0.5"}, {0.0, "wA=0.0"}})
     for (const auto& [arm, name] : {std::pair{3e7, "k_arm=3e+07"}, {1e8, "k_arm=1e+08"}}) {

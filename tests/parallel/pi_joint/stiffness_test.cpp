@@ -5,8 +5,8 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/pi_joint/samples.h"
 #include "parallel/pi_joints.h"
@@ -17,11 +17,10 @@ namespace linkwright::parallel {
 namespace {
 
 using math::radians;
-using std::numbers::pi;
-using testing::between;
-using testing::log_between;
-using testing::number_at;
-using testing::numbers;
+using test::between;
+using test::log_between;
+using test::number_at;
+using test::numbers;
 
 TEST(PiStiffness, TrussOfTheReference) {
   const Value &given = inputs("pi-truss"), &expected = computed("pi-truss");
@@ -29,14 +28,14 @@ TEST(PiStiffness, TrussOfTheReference) {
                     .coupler = number_at(given, "k_coupler_N_m"),
                     .diagonal = number_at(given, "k_diag_N_m")};
   for (const auto& [name, share] : {std::pair{"wA=1", 1.0}, {"wA=0.5", 0.5}, {"wA=0", 0.0}}) {
-    const auto forces = numbers(*testing::at(expected, "member_force_per_Nm_OC_BA_CA_OA").find(name));
+    const auto forces = numbers(*test::at(expected, "member_force_per_Nm_OC_BA_CA_OA").find(name));
     const PiBarForces found = bar_forces(pi_prototype(), radians(20), share);
     expect_same(found.arm_base, forces[0]);
     expect_same(found.arm_top, forces[1]);
     expect_same(found.coupler, forces[2]);
     expect_same(found.diagonal, forces[3]);
     expect_same(compliance(pi_prototype(), bars, radians(20), share),
-                testing::at(expected, "compliance_rad_per_Nm").find(name)->as_number());
+                test::at(expected, "compliance_rad_per_Nm").find(name)->as_number());
   }
 }
 
@@ -44,8 +43,8 @@ TEST(PiStiffness, TrussOfTheReference) {
 TEST(PiStiffness, PrototypeWithAnElasticDiagonal) {
   const Value& expected = computed("pi-stiffness");
   const PiBars bars{.diagonal = number_at(expected, "k_d_rigid_arms_N_m")};
-  const auto at = numbers(testing::at(expected, "K_theta_at_deg"));
-  const auto stiff = numbers(testing::at(expected, "K_theta_Nm_rad"));
+  const auto at = numbers(test::at(expected, "K_theta_at_deg"));
+  const auto stiff = numbers(test::at(expected, "K_theta_Nm_rad"));
   for (std::size_t i = 0; i < at.size(); ++i)
     expect_same(stiffness(pi_prototype(), bars, radians(at[i])), stiff[i]);
 }

@@ -12,9 +12,9 @@
 namespace linkwright::parallel {
 namespace {
 
-using testing::at;
-using testing::number_at;
-using testing::numbers;
+using test::at;
+using test::number_at;
+using test::numbers;
 
 Eigen::Vector3d eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
 

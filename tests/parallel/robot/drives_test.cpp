@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "parallel/robots.h"
@@ -12,7 +12,7 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double degree = pi / 180;
 
 struct Reference {
   const char* id;
@@ -33,39 +33,39 @@ Reference references[] = {{"delta-pose-0_0_-0.8", reference_delta(), reference_d
 TEST(Drives, OfTheReferencePoses) {
   for (const auto& [id, robot, drives, mode] : references) {
     SCOPED_TRACE(id);
-    Pose pose{point(testing::at(inputs(id), "p_m"))};
+    Pose pose{point(test::at(inputs(id), "p_m"))};
     if (inputs(id).find("rotation_matrix"))
       for (int i = 0; i < 3; ++i)
-        pose.rotation.row[i] = point(testing::at(inputs(id), "rotation_matrix").as_array()[i]);
+        pose.rotation.row[i] = point(test::at(inputs(id), "rotation_matrix").as_array()[i]);
     const auto angles = inverse(robot, pose, mode).angle;
     const DrivesState at = drives_at(robot, drives, angles);
     const Matrix6 total = total_jacobian(robot, jacobian(robot, jacobians(robot, pose, angles)), at.drive);
     const Value& out = computed(id);
-    EXPECT_EQ(at.status == Status::done, testing::at(out, "pi_range_ok").as_bool());
+    EXPECT_EQ(at.status == Status::done, test::at(out, "pi_range_ok").as_bool());
     for (int i = 0; i < robot.legs(); ++i) {
-      const auto expected = [&](const char* key) { return testing::numbers(testing::at(out, key))[i]; };
+      const auto expected = [&](const char* key) { return test::numbers(test::at(out, key))[i]; };
       EXPECT_NEAR(at.drive[i].angle, expected("theta_rad"), 1e-12);
       EXPECT_NEAR(at.drive[i].value, expected("d_m"), 1e-13);
       EXPECT_NEAR(at.drive[i].rate, expected("Jeff_m"), 1e-13);
-      const auto row = testing::numbers(testing::at(out, "J_total").as_array()[i]);
+      const auto row = test::numbers(test::at(out, "J_total").as_array()[i]);
       for (int k = 0; k < robot.legs(); ++k) EXPECT_NEAR(total[i][k], row[k], 1e-9);
       EXPECT_NEAR(arm_angle(drives[i], robot.leg[i].arm, at.drive[i].value).angle, angles[i], 1e-14);
     }
     const Resolution step = resolution(robot, drives, total);
-    const auto box = testing::numbers(testing::at(out, "resolution_box_m"));
+    const auto box = test::numbers(test::at(out, "resolution_box_m"));
     EXPECT_NEAR(step.along.x, box[0], 1e-15);
     EXPECT_NEAR(step.along.y, box[1], 1e-15);
-    EXPECT_NEAR(step.worst, testing::number_at(out, "resolution_worst_m"), 1e-15);
+    EXPECT_NEAR(step.worst, test::number_at(out, "resolution_worst_m"), 1e-15);
   }
 }
 
 TEST(Drives, MapOfResolutionAndSpeed) {
   const Robot robot = reference_delta();
   const Drives drives = reference_drives();
-  const auto& rows = testing::at(computed("delta-resolution-map"), "rows").as_array();
+  const auto& rows = test::at(computed("delta-resolution-map"), "rows").as_array();
   ASSERT_GT(rows.size(), 50u);
   for (const Value& row : rows) {
-    const auto expected = testing::numbers(row);
+    const auto expected = test::numbers(row);
     const Pose pose{{expected[0], expected[1], expected[2]}};
     const auto angles = inverse(robot, pose).angle;
     const Jacobians at = jacobians(robot, pose, angles);
@@ -86,7 +86,7 @@ TEST(Drives, AMirroredPiJointTurnsTheOtherWay) {
   constexpr double arm = 0.25, h = 1e-6;
   RandomStream random({.seed = 4});
   for (int trial = 0; trial < 200; ++trial) {
-    const double alpha = drive.mounting + random.uniform(-1.2, 1.2) + 2 * std::numbers::pi * (trial % 3 - 1);
+    const double alpha = drive.mounting + random.uniform(-1.2, 1.2) + 2 * pi * (trial % 3 - 1);
     const DriveAt at = drive_at(drive, arm, alpha), before = drive_at(drive, arm, alpha - h),
                   after = drive_at(drive, arm, alpha + h);
     EXPECT_LT(at.rate, 0);
@@ -103,7 +103,7 @@ TEST(Drives, TellWhereAPiJointEnds) {
   EXPECT_TRUE(std::isnan(drive_at(drive, 0.35, drive.mounting + 95 * degree).value));
   // At a right angle the screw has no lever.
   drive.highest = 2;
-  const DriveAt toggle = drive_at(drive, 0.35, drive.mounting + std::numbers::pi / 2);
+  const DriveAt toggle = drive_at(drive, 0.35, drive.mounting + pi / 2);
   EXPECT_EQ(toggle.status, Status::done);
   EXPECT_NEAR(toggle.rate, 0, 1e-16);
   EXPECT_EQ(arm_angle(drive, 0.35, 0.6).status, Status::no_assembly);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "parallel/robots.h"
 #include "support/allocations.h"
@@ -14,12 +15,12 @@ namespace linkwright::parallel {
 namespace {
 
 RobotMasses published_masses(const Value& in) {
-  const Value& m = testing::at(in, "masses");
-  const auto number = [&](const char* key) { return testing::number_at(m, key); };
+  const Value& m = test::at(in, "masses");
+  const auto number = [&](const char* key) { return test::number_at(m, key); };
   PlatformMasses platform{.mass = number("m_p_kg")};
-  const auto& rows = testing::at(m, "I_p_kgm2").as_array();
+  const auto& rows = test::at(m, "I_p_kgm2").as_array();
   for (int i = 0; i < 3; ++i) {
-    const auto row = testing::numbers(rows[i]);
+    const auto row = test::numbers(rows[i]);
     platform.inertia[i] = row[i];
     platform.deviation[i] = row[(i + 1) % 3];
   }
@@ -30,11 +31,11 @@ RobotMasses published_masses(const Value& in) {
                      .arm_inertia = number("I_a_kgm2"),
                      .arm_mass = number("m_a_kg"),
                      .arm_centre = number("r_a_m")},
-                    point(testing::at(m, "g_m_s2")));
+                    point(test::at(m, "g_m_s2")));
 }
 
 PiMasses published_pi_masses(const Value& m) {
-  const auto number = [&](const char* key) { return testing::number_at(m, key); };
+  const auto number = [&](const char* key) { return test::number_at(m, key); };
   return {.arm_inertia = number("I_arm_kgm2"),
           .arm_mass = number("m_arm_kg"),
           .arm_centre = number("r_arm_m"),
@@ -50,7 +51,7 @@ PiMasses published_pi_masses(const Value& m) {
 }
 
 void expect_numbers(const Vector6& found, const Value& expected, double tolerance) {
-  const auto numbers = testing::numbers(expected);
+  const auto numbers = test::numbers(expected);
   for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_NEAR(found[i], numbers[i], tolerance) << i;
 }
 
@@ -71,20 +72,20 @@ Case delta_case() {
           {},
           published_masses(in),
           all_positive,
-          {{point(testing::at(in, "p_m"))},
-           {point(testing::at(in, "v_m_s")), {}},
-           {point(testing::at(in, "acc_m_s2")), {}}}};
+          {{point(test::at(in, "p_m"))},
+           {point(test::at(in, "v_m_s")), {}},
+           {point(test::at(in, "acc_m_s2")), {}}}};
 }
 Case delta_pi_case() {
   Case out = delta_case();
   out.drives = reference_drives();
-  const Value& masses = testing::at(inputs("delta-dynamics"), "pi_masses");
+  const Value& masses = test::at(inputs("delta-dynamics"), "pi_masses");
   for (auto& leg : out.masses.leg) leg.pi = published_pi_masses(masses);
   return out;
 }
 Case hexa_case() {
   const Value& in = inputs("hexa-dynamics-statics");
-  const auto vector = [&](const char* key) { return point(testing::at(in, key)); };
+  const auto vector = [&](const char* key) { return point(test::at(in, key)); };
   return {reference_hexa(),
           reference_drives(),
           published_masses(in),
@@ -99,9 +100,9 @@ Case five_bar_case() {
           {},
           published_masses(in),
           {-1, 1},
-          {{point(testing::at(in, "p_m"))},
-           {point(testing::at(in, "v_m_s")), {}},
-           {point(testing::at(in, "acc_m_s2")), {}}}};
+          {{point(test::at(in, "p_m"))},
+           {point(test::at(in, "v_m_s")), {}},
+           {point(test::at(in, "acc_m_s2")), {}}}};
 }
 
 /// All sorts of legs: uneven rods, payload, Pi-joints with their masses on some, a load.
@@ -127,31 +128,31 @@ TEST(RobotDynamics, OfTheReferenceDelta) {
   Case c = delta_case();
   const DynamicLoads loads = c.loads();
   EXPECT_EQ(loads.status, Status::done);
-  expect_numbers(loads.arm_speed, testing::at(out, "alpha_dot"), 1e-13);
-  expect_numbers(loads.arm_acceleration, testing::at(out, "alpha_ddot"), 1e-11);
-  expect_numbers(loads.arm_torque, testing::at(out, "tau_exact_Nm"), 1e-11);
+  expect_numbers(loads.arm_speed, test::at(out, "alpha_dot"), 1e-13);
+  expect_numbers(loads.arm_acceleration, test::at(out, "alpha_ddot"), 1e-11);
+  expect_numbers(loads.arm_torque, test::at(out, "tau_exact_Nm"), 1e-11);
   // The simplified model.
   for (auto& leg : c.masses.leg) leg.rod_split = 1.0 / 3;
-  expect_numbers(c.loads().arm_torque, testing::at(out, "tau_simplified_nu13_Nm"), 1e-11);
+  expect_numbers(c.loads().arm_torque, test::at(out, "tau_simplified_nu13_Nm"), 1e-11);
   for (auto& leg : c.masses.leg) leg.rod_split = 0.5;
-  expect_numbers(c.loads().arm_torque, testing::at(out, "tau_simplified_nu12_Nm"), 1e-11);
+  expect_numbers(c.loads().arm_torque, test::at(out, "tau_simplified_nu12_Nm"), 1e-11);
   // Legs with Pi-joints.
-  const DynamicLoads pi = delta_pi_case().loads();
-  EXPECT_EQ(pi.status, Status::done);
-  expect_numbers(pi.arm_torque, testing::at(out, "tau_with_pi_legs_Nm"), 1e-11);
-  expect_numbers(pi.drive_effort, testing::at(out, "screw_force_with_pi_legs_N"), 1e-10);
+  const DynamicLoads driven = delta_pi_case().loads();
+  EXPECT_EQ(driven.status, Status::done);
+  expect_numbers(driven.arm_torque, test::at(out, "tau_with_pi_legs_Nm"), 1e-11);
+  expect_numbers(driven.drive_effort, test::at(out, "screw_force_with_pi_legs_N"), 1e-10);
 }
 
 TEST(RobotDynamics, OfTheReferenceHexa) {
   const DynamicLoads loads = hexa_case().loads();
   const Value& out = computed("hexa-dynamics-statics");
-  expect_numbers(loads.arm_speed, testing::at(out, "alpha_dot"), 1e-12);
-  expect_numbers(loads.arm_acceleration, testing::at(out, "alpha_ddot"), 1e-10);
-  expect_numbers(loads.arm_torque, testing::at(out, "tau_exact_Nm"), 1e-11);
+  expect_numbers(loads.arm_speed, test::at(out, "alpha_dot"), 1e-12);
+  expect_numbers(loads.arm_acceleration, test::at(out, "alpha_ddot"), 1e-10);
+  expect_numbers(loads.arm_torque, test::at(out, "tau_exact_Nm"), 1e-11);
 }
 
 TEST(RobotDynamics, OfTheReferenceFiveBar) {
-  expect_numbers(five_bar_case().loads().arm_torque, testing::at(computed("five-bar-dynamics"), "tau_Nm"),
+  expect_numbers(five_bar_case().loads().arm_torque, test::at(computed("five-bar-dynamics"), "tau_Nm"),
                  1e-12);
 }
 
@@ -195,14 +196,14 @@ Energies energies(const Case& c, const Pose& pose, const Twist& velocity) {
       out.potential -= m.arm_mass * m.arm_centre * dot(c.masses.gravity, u);
       continue;
     }
-    const PiJoint pi{leg.arm, c.drives[i].ratio};
+    const PiJoint pi_joint{leg.arm, c.drives[i].ratio};
     const DriveAt drive = drive_at(c.drives[i], leg.arm, angle[i]);
     const double e = c.drives[i].mounting;
     const Vec3 x = std::cos(e) * leg.ahead + std::sin(e) * leg.aside;
     const Vec3 y = c.drives[i].mirror * (std::cos(e) * leg.aside - std::sin(e) * leg.ahead);
-    out.kinetic += 0.5 * inertia(pi, *m.pi, drive.angle) * speed * speed;
+    out.kinetic += 0.5 * inertia(pi_joint, *m.pi, drive.angle) * speed * speed;
     out.potential +=
-        potential(pi, *m.pi, {dot(c.masses.gravity, x), dot(c.masses.gravity, y), 0}, drive.angle);
+        potential(pi_joint, *m.pi, {dot(c.masses.gravity, x), dot(c.masses.gravity, y), 0}, drive.angle);
   }
   return out;
 }
@@ -396,7 +397,7 @@ TEST(RobotDynamics, TellsWhatIsSingular) {
   EXPECT_EQ(loads.leg, 0);
   EXPECT_TRUE(std::isnan(loads.arm_torque[0]));
   // Type 1.
-  c.state.pose.position = {0, 0, testing::number_at(computed("delta-singular"), "type1_z_m")};
+  c.state.pose.position = {0, 0, test::number_at(computed("delta-singular"), "type1_z_m")};
   loads = c.loads();
   EXPECT_EQ(loads.status, Status::singular);
   EXPECT_EQ(loads.leg, 0);
@@ -407,7 +408,7 @@ TEST(RobotDynamics, TellsWhatIsSingular) {
   Case yaw = hexa_case();
   yaw.drives = {};
   yaw.state.pose = {{0, 0, -0.5},
-                    math::turn_z(testing::numbers(testing::at(computed("hexa-singular-yaw"), "yaw_rad"))[1])};
+                    math::turn_z(test::numbers(test::at(computed("hexa-singular-yaw"), "yaw_rad"))[1])};
   loads = yaw.loads();
   EXPECT_EQ(loads.status, Status::singular);
   EXPECT_EQ(loads.leg, -1);
@@ -417,7 +418,7 @@ TEST(RobotDynamics, TellsWhatIsSingular) {
             Status::done);
   // A screw without lever: torques stay.
   Case toggle = delta_pi_case();
-  toggle.drives[1].mounting = toggle.loads().arm_angle[1] - std::numbers::pi / 2;
+  toggle.drives[1].mounting = toggle.loads().arm_angle[1] - pi / 2;
   toggle.drives[1].highest = 2;
   loads = toggle.loads();
   EXPECT_EQ(loads.status, Status::singular);
@@ -453,7 +454,7 @@ TEST(RobotDynamics, ErrorOfTheSimplifiedModel) {
   // The printed figures belong to other random states: means of 200 states differ by some 10 %, the largest
   // errors, where torques happen to be small, by up to a factor of two.
   const Value& out = computed("delta-dynamics");
-  const auto published = [&](const char* key) { return testing::numbers(testing::at(out, key)); };
+  const auto published = [&](const char* key) { return test::numbers(test::at(out, key)); };
   const SplitError third = split_error(c.robot, c.drives, c.masses, c.mode, states, 1.0 / 3);
   EXPECT_EQ(third.states, 200);
   EXPECT_NEAR(third.mean / published("simplified_error_nu13_mean_max")[0], 1, 0.2);

@@ -12,9 +12,9 @@
 namespace linkwright::parallel {
 namespace {
 
-using testing::at;
+using test::at;
+using test::number_at;
 using ::testing::HasSubstr;
-using testing::number_at;
 
 double falls_to(const Value& path, const char* least, const char* key) {
   const Value* found = at(path, "index_falls_to").find(least);
@@ -77,7 +77,7 @@ TEST_P(ConstraintPaths, AreThoseOfTheReference) {
   const Pose pose{line.motion(*trouble->zero).position};
   EXPECT_NEAR(norm(pose.position - point(at(zero, "p_m"))), 0, 1e-9);
   const ArmAngles arms = inverse(line.robot, pose);
-  const auto alpha = testing::numbers(at(zero, "alpha_rad"));
+  const auto alpha = test::numbers(at(zero, "alpha_rad"));
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(arms.angle[i], alpha[static_cast<std::size_t>(i)], 1e-9);
   const Jacobians here = jacobians(line.robot, pose, arms.angle);
   const Quality q = quality(line.robot, here, 1);
@@ -225,7 +225,7 @@ TEST(PathTrouble, TurnOfAHexaEndsAtItsSingularYaw) {
     ASSERT_TRUE(found && found->zero);
     EXPECT_EQ(found->kind, Trouble::type2);
     EXPECT_NEAR(math::radians(170) * *found->zero,
-                testing::numbers(at(computed("hexa-singular-yaw"), "yaw_rad")).at(1), 1e-9);
+                test::numbers(at(computed("hexa-singular-yaw"), "yaw_rad")).at(1), 1e-9);
   }
 }
 

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "parallel/robots.h"
 #include "support/allocations.h"
@@ -16,8 +16,7 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double degree = pi / 180;
 
 // What the plain functions say of a pose: the other route to everything that the kernel computes.
 struct Plain {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/parallel/robot/jacobians.h"
 #include "parallel/robots.h"
@@ -15,28 +15,24 @@
 namespace linkwright::parallel {
 namespace {
 
-using std::numbers::pi;
-
-std::vector<double> expected_angles(const Value& at) {
-  return testing::numbers(testing::at(at, "alpha_rad"));
-}
+std::vector<double> expected_angles(const Value& at) { return test::numbers(test::at(at, "alpha_rad")); }
 
 TEST(Position, OfTheReferencePoses) {
   for (const char* id : {"delta-pose-0_0_-0.8", "delta-pose-0.2_-0.1_-0.85", "delta-pose--0.15_0.25_-0.7",
                          "delta-pose-0.3_0.2_-0.9"}) {
     const Robot robot = reference_delta();
-    const Pose pose{point(testing::at(inputs(id), "p_m"))};
+    const Pose pose{point(test::at(inputs(id), "p_m"))};
     const ArmAngles found = inverse(robot, pose);
     ASSERT_EQ(found.status, Status::done);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(found.angle[i], expected_angles(computed(id))[i], 1e-12) << id;
     const Placed back = direct(robot, found.angle, -1), other = direct(robot, found.angle, 1);
     EXPECT_LT(norm(back.pose.position - pose.position), 1e-14);
-    EXPECT_LT(norm(other.pose.position - point(testing::at(computed(id), "other_assembly_p_m"))), 1e-12);
+    EXPECT_LT(norm(other.pose.position - point(test::at(computed(id), "other_assembly_p_m"))), 1e-12);
   }
   for (const char* id : {"hexa-pose-home", "hexa-pose-tilted"}) {
-    Pose pose{point(testing::at(inputs(id), "p_m"))};
+    Pose pose{point(test::at(inputs(id), "p_m"))};
     for (int i = 0; i < 3; ++i)
-      pose.rotation.row[i] = point(testing::at(inputs(id), "rotation_matrix").as_array()[i]);
+      pose.rotation.row[i] = point(test::at(inputs(id), "rotation_matrix").as_array()[i]);
     const ArmAngles found = inverse(reference_hexa(), pose);
     for (int i = 0; i < 6; ++i) EXPECT_NEAR(found.angle[i], expected_angles(computed(id))[i], 1e-12) << id;
   }
@@ -56,7 +52,7 @@ TEST(Position, OfEveryWorkingMode) {
     const ArmAngles found = inverse(delta, pose, mode);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(found.angle[i], expected_angles(*one)[i], 1e-12);
     EXPECT_EQ(working_mode(delta, pose, found.angle), mode);
-    EXPECT_NEAR(determinant(delta, jacobians(delta, pose, found.angle)), testing::number_at(*one, "det_Jx"),
+    EXPECT_NEAR(determinant(delta, jacobians(delta, pose, found.angle)), test::number_at(*one, "det_Jx"),
                 1e-13);
   }
   for (const WorkingMode& mode : working_modes(five_bar)) {
@@ -64,10 +60,10 @@ TEST(Position, OfEveryWorkingMode) {
     ASSERT_TRUE(one);
     const ArmAngles found = inverse(five_bar, {{0.05, 0.45, 0}}, mode);
     for (int i = 0; i < 2; ++i) EXPECT_NEAR(found.angle[i], expected_angles(*one)[i], 1e-12);
-    const int assembly = testing::number_at(*one, "det_Jx") > 0 ? 1 : -1;
+    const int assembly = test::number_at(*one, "det_Jx") > 0 ? 1 : -1;
     EXPECT_LT(norm(direct(five_bar, found.angle, assembly).pose.position - Vec3{0.05, 0.45, 0}), 1e-14);
     EXPECT_LT(norm(direct(five_bar, found.angle, -assembly).pose.position -
-                   point(testing::at(*one, "other_assembly_p_m"))),
+                   point(test::at(*one, "other_assembly_p_m"))),
               1e-12);
   }
 }
@@ -227,22 +223,22 @@ TEST(Position, ExactSingularPlaces) {
   const Value& expected = computed("delta-singular");
   // At full stretch the leg is straight, and rounding must not tear it.
   const Robot stretched = reference_delta();
-  const double z = testing::number_at(expected, "type1_z_m");
+  const double z = test::number_at(expected, "type1_z_m");
   EXPECT_NEAR(z, -std::sqrt(1.15 * 1.15 - 0.155 * 0.155), 1e-14);
   EXPECT_EQ(inverse(stretched, {{0, 0, z}}).status, Status::done);
   EXPECT_EQ(inverse(stretched, {{0, 0, z - 1e-9}}).status, Status::no_assembly);
   // Coplanar rods: both assemblies are one.
   const Robot flat = delta({.base_radius = 0.35, .platform_radius = 0.05, .arm = 0.4, .rod = 0.6});
-  const double alpha = testing::number_at(expected, "type2_alpha_rad");
+  const double alpha = test::number_at(expected, "type2_alpha_rad");
   const std::array<double, 3> angles{alpha, alpha, alpha};
   for (const int assembly : {-1, 1}) {
     const Placed placed = direct(flat, angles, assembly);
     ASSERT_EQ(placed.status, Status::done);
-    EXPECT_NEAR(placed.pose.position.z, testing::number_at(expected, "type2_z_m"), 1e-7);
+    EXPECT_NEAR(placed.pose.position.z, test::number_at(expected, "type2_z_m"), 1e-7);
   }
   // Rods parallel: the three centres are one point.
   const Robot parallel_rods = delta({.base_radius = 0.25, .platform_radius = 0.05, .arm = 0.3, .rod = 0.8});
-  const double up = testing::number_at(expected, "rods_parallel_alpha_rad");
+  const double up = test::number_at(expected, "rods_parallel_alpha_rad");
   EXPECT_EQ(direct(parallel_rods, std::array{up, up, up}, -1).status, Status::singular);
   // A five-bar whose elbows meet: the platform point turns about them.
   EXPECT_EQ(direct(reference_five_bar(), std::array{std::acos(0.6), pi - std::acos(0.6)}, 1).status,

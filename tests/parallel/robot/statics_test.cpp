@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "parallel/robots.h"
 #include "support/allocations.h"
@@ -11,9 +12,7 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
-
-struct Case {
+struct StaticsCase {
   Robot robot;
   Drives drives;
   Pose pose;
@@ -24,7 +23,7 @@ struct Case {
   DrivesAt drives_state() const { return drives_at(robot, drives, angles()).drive; }
 };
 
-const Case cases[] = {
+const StaticsCase statics_cases[] = {
     {reference_delta(), reference_drives(), {{0.2, -0.1, -0.85}}},
     {reference_hexa(), reference_drives(), {{0.05, -0.03, -0.5}, math::turn_about(Vec3{0.15, -0.2, 0.25})}},
     {reference_five_bar(), mirrored_drives(), {{0.05, 0.45, 0}}, {-1, 1}},
@@ -36,14 +35,14 @@ Drives elastic(Drives drives) {
 }
 
 TEST(Statics, OfTheReferenceDelta) {
-  const Case c = cases[0];
+  const StaticsCase c = statics_cases[0];
   const Value& out = computed("delta-statics");
   const StaticLoads loads =
       static_loads(c.robot, c.at(), c.drives_state(),
-                   {.force = point(testing::at(inputs("delta-statics"), "force_on_platform_N"))});
+                   {.force = point(test::at(inputs("delta-statics"), "force_on_platform_N"))});
   EXPECT_EQ(loads.status, Status::done);
   for (int i = 0; i < 3; ++i) {
-    const auto expected = [&](const char* key) { return testing::numbers(testing::at(out, key))[i]; };
+    const auto expected = [&](const char* key) { return test::numbers(test::at(out, key))[i]; };
     EXPECT_NEAR(loads.arm_torque[i], expected("tau_Nm"), 1e-12);
     EXPECT_NEAR(loads.drive_effort[i], expected("screw_force_N"), 1e-11);
     EXPECT_NEAR(loads.rod_force[i], expected("rod_axial_force_N"), 1e-12);
@@ -52,22 +51,22 @@ TEST(Statics, OfTheReferenceDelta) {
   const Stiffness k = stiffness(c.robot, drives, c.at(), c.drives_state(), 1);
   EXPECT_EQ(k.status, Status::done);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_NEAR(k.eigenvalue[i], testing::numbers(testing::at(out, "stiffness_eigenvalues_N_m"))[i], 1e-5);
+    EXPECT_NEAR(k.eigenvalue[i], test::numbers(test::at(out, "stiffness_eigenvalues_N_m"))[i], 1e-5);
     for (int j = 0; j < 3; ++j)
-      EXPECT_NEAR(k.matrix[i][j], testing::numbers(testing::at(out, "stiffness_N_m").as_array()[i])[j], 1e-5);
+      EXPECT_NEAR(k.matrix[i][j], test::numbers(test::at(out, "stiffness_N_m").as_array()[i])[j], 1e-5);
   }
 }
 
 TEST(Statics, OfTheReferenceHexa) {
-  const Case c = cases[1];
-  const auto wrench = testing::numbers(testing::at(inputs("hexa-dynamics-statics"), "wrench_on_platform"));
+  const StaticsCase c = statics_cases[1];
+  const auto wrench = test::numbers(test::at(inputs("hexa-dynamics-statics"), "wrench_on_platform"));
   const StaticLoads loads =
       static_loads(c.robot, c.at(), c.drives_state(),
                    {{wrench[0], wrench[1], wrench[2]}, {wrench[3], wrench[4], wrench[5]}});
   const Value& out = computed("hexa-dynamics-statics");
   for (int i = 0; i < 6; ++i) {
-    EXPECT_NEAR(loads.arm_torque[i], testing::numbers(testing::at(out, "tau_static_Nm"))[i], 1e-12);
-    EXPECT_NEAR(loads.drive_effort[i], testing::numbers(testing::at(out, "screw_force_static_N"))[i], 1e-11);
+    EXPECT_NEAR(loads.arm_torque[i], test::numbers(test::at(out, "tau_static_Nm"))[i], 1e-12);
+    EXPECT_NEAR(loads.drive_effort[i], test::numbers(test::at(out, "screw_force_static_N"))[i], 1e-11);
   }
 }
 
@@ -76,10 +75,10 @@ TEST(Statics, VirtualWorkAndTheRodsAgree) {
   const auto draw = [&](double size) {
     return Vec3{random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
   };
-  for (Case c : cases)
+  for (StaticsCase c : statics_cases)
     for (int trial = 0; trial < 200; ++trial) {
       const bool plane = c.robot.freedom == Freedom::plane_translation;
-      Case moved = c;
+      StaticsCase moved = c;
       const Vec3 shift = draw(0.04);
       moved.pose.position += {shift.x, shift.y, plane ? 0 : shift.z};
       if (c.robot.freedom == Freedom::space)
@@ -117,9 +116,9 @@ TEST(Statics, VirtualWorkAndTheRodsAgree) {
 
 TEST(Statics, SingularPosesAreTold) {
   // Level platform of the HEXA at the yaw where the rods do not hold it.
-  Case yaw = cases[1];
+  StaticsCase yaw = statics_cases[1];
   yaw.pose = {{0, 0, -0.5},
-              math::turn_z(testing::numbers(testing::at(computed("hexa-singular-yaw"), "yaw_rad"))[1])};
+              math::turn_z(test::numbers(test::at(computed("hexa-singular-yaw"), "yaw_rad"))[1])};
   const Wrench load{{1, 2, 3}, {0.1, 0, 0.2}};
   StaticLoads loads = static_loads(yaw.robot, yaw.at(), yaw.drives_state(), load);
   EXPECT_EQ(loads.status, Status::singular);
@@ -134,9 +133,9 @@ TEST(Statics, SingularPosesAreTold) {
   EXPECT_GT(soft.eigenvalue[1], 1e-4 * soft.eigenvalue[5]);
 
   // An arm that its screw cannot hold: the leg and its effort are told, torques and rod forces are kept.
-  Case toggle = cases[0];
+  StaticsCase toggle = statics_cases[0];
   const Vector6 angles = toggle.angles();
-  toggle.drives[1].mounting = angles[1] - std::numbers::pi / 2;
+  toggle.drives[1].mounting = angles[1] - pi / 2;
   loads = static_loads(toggle.robot, toggle.at(), toggle.drives_state(), load);
   EXPECT_EQ(loads.status, Status::singular);
   EXPECT_EQ(loads.leg, 1);
@@ -152,8 +151,8 @@ TEST(Statics, SingularPosesAreTold) {
   EXPECT_EQ(loads.leg, 1);
 
   // A stretched leg needs no torque to hold along itself, and does not give way there unless it is elastic.
-  Case stretched = cases[0];
-  stretched.pose = {{0, 0, testing::number_at(computed("delta-singular"), "type1_z_m")}};
+  StaticsCase stretched = statics_cases[0];
+  stretched.pose = {{0, 0, test::number_at(computed("delta-singular"), "type1_z_m")}};
   stretched.drives = {};
   for (auto& d : stretched.drives) d.stiffness = 1e5;
   loads = static_loads(stretched.robot, stretched.at(), stretched.drives_state(), {{0, 0, -30}});
@@ -173,7 +172,7 @@ TEST(Statics, SingularPosesAreTold) {
 
 TEST(Statics, StiffnessTimesDisplacementIsTheLoad) {
   const Wrench load{{10, -20, 30}, {1, 2, -3}};
-  for (Case c : cases) {
+  for (StaticsCase c : statics_cases) {
     c.drives = elastic(c.drives);
     c.drives[1].stiffness = 4e6;
     LegStiffnesses own;
@@ -194,7 +193,7 @@ TEST(Statics, StiffnessTimesDisplacementIsTheLoad) {
     }
     // Rigid legs and drives hold still.
     Drives rigid = c.drives;
-    for (auto& d : rigid) d.stiffness = inf;
+    for (auto& d : rigid) d.stiffness = infinity;
     const Displacement none = displacement(c.robot, rigid, c.at(), c.drives_state(), load);
     EXPECT_EQ(none.status, Status::done);
     EXPECT_EQ(norm(none.shift), 0);
@@ -205,7 +204,7 @@ TEST(Statics, StiffnessTimesDisplacementIsTheLoad) {
 // Displacement by another way: the springs are let go by what holds them, and the robot is put together anew.
 TEST(Statics, DisplacementIsThatOfTheRobotWithItsSpringsPressed) {
   const Wrench load{{3, -2, -4}, {0.2, -0.1, 0.3}};
-  for (Case c : cases) {
+  for (StaticsCase c : statics_cases) {
     c.drives = elastic(c.drives);
     LegStiffnesses own;
     own.fill({.rod = 2e7});
@@ -231,7 +230,7 @@ TEST(Statics, DisplacementIsThatOfTheRobotWithItsSpringsPressed) {
 }
 
 TEST(Statics, AllocateNothing) {
-  const Case c = cases[1];
+  const StaticsCase c = statics_cases[1];
   const Jacobians at = c.at();
   const DrivesAt drives = c.drives_state();
   const Drives springs = elastic(c.drives);

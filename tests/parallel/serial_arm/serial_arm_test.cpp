@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "parallel/robots.h"
@@ -14,7 +14,7 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double degree = pi / 180;
 
 // Pi-joints of the reference case, the second a mirror image.
 SerialPiArm reference_arm() {
@@ -52,10 +52,10 @@ SerialArmMasses pi_masses() {
 TEST(SerialPiArm, OfTheReference) {
   const SerialPiArm arm = reference_arm();
   ASSERT_FALSE(problem(arm));
-  const Vec3 p = point(testing::at(inputs("serial-pi-pi"), "p_m"));
+  const Vec3 p = point(test::at(inputs("serial-pi-pi"), "p_m"));
   for (int mode : {1, -1}) {
-    const Value& out = testing::at(computed("serial-pi-pi"), mode == 1 ? "+1" : "-1");
-    const auto numbers = [&](const char* key) { return testing::numbers(testing::at(out, key)); };
+    const Value& out = test::at(computed("serial-pi-pi"), mode == 1 ? "+1" : "-1");
+    const auto numbers = [&](const char* key) { return test::numbers(test::at(out, key)); };
     const SerialAngles q = inverse(arm, {p.x, p.y}, mode);
     EXPECT_EQ(q.status, Status::done);
     const Matrix2 j = jacobian(arm, q.angle);
@@ -66,10 +66,10 @@ TEST(SerialPiArm, OfTheReference) {
       EXPECT_NEAR(q.angle[k], numbers("q_rad")[k], 1e-14);
       EXPECT_NEAR(drives.drive[k].angle, numbers("theta_rad")[k], 1e-14);
       EXPECT_NEAR(values[k] = drives.drive[k].value, numbers("d_m")[k], 1e-15);
-      const auto row = testing::numbers(testing::at(out, "J").as_array()[k]);
+      const auto row = test::numbers(test::at(out, "J").as_array()[k]);
       for (int i = 0; i < 2; ++i) EXPECT_NEAR(j[k][i], row[i], 1e-15);
     }
-    EXPECT_NEAR(determinant(arm, q.angle), testing::number_at(out, "det_J"), 1e-15);
+    EXPECT_NEAR(determinant(arm, q.angle), test::number_at(out, "det_J"), 1e-15);
     const SerialAngles back = arm_angles(arm, values);
     for (int k = 0; k < 2; ++k) EXPECT_NEAR(back.angle[k], q.angle[k], 1e-14);
   }
@@ -81,8 +81,8 @@ TEST(SerialPiArm, DirectUndoesInverse) {
     SerialPiArm arm = reference_arm();
     arm.arm = {random.uniform(0.1, 0.5), random.uniform(0.1, 0.5)};
     // 1e-2 rad from the arms in line, where an angle loses digits like 1/sin.
-    const double turn = (trial % 2 ? 1 : -1) * random.uniform(0.01, std::numbers::pi - 0.01);
-    const double first = random.uniform(-std::numbers::pi, std::numbers::pi);
+    const double turn = (trial % 2 ? 1 : -1) * random.uniform(0.01, pi - 0.01);
+    const double first = random.uniform(-pi, pi);
     const Vector2 angles{first, math::wrap_angle(first + turn)};
     const Vector2 p = direct(arm, angles);
     const SerialAngles q = inverse(arm, p, turn > 0 ? 1 : -1);
@@ -125,12 +125,12 @@ TEST(SerialPiArm, Limits) {
   EXPECT_EQ(drives.status, Status::no_assembly);
   EXPECT_EQ(drives.joint, 0);
   EXPECT_EQ(arm_angles(arm, {0.2, 0.5}).status, Status::no_assembly);
-  const SerialLoads toggle = static_loads(arm, {0.2, std::numbers::pi / 2}, {0, -10});
+  const SerialLoads toggle = static_loads(arm, {0.2, pi / 2}, {0, -10});
   EXPECT_EQ(toggle.status, Status::singular);
   EXPECT_EQ(toggle.joint, 1);
   EXPECT_TRUE(std::isnan(toggle.drive_effort[1]));
   EXPECT_TRUE(std::isfinite(toggle.arm_torque[1] + toggle.drive_effort[0]));
-  EXPECT_TRUE(quality(arm, {0.2, std::numbers::pi / 2}).singular);
+  EXPECT_TRUE(quality(arm, {0.2, pi / 2}).singular);
   EXPECT_EQ(static_loads(arm, {2.5, 0.2}, {0, -10}).status, Status::no_assembly);
 }
 
@@ -173,7 +173,7 @@ TEST(SerialPiArm, JacobianStaticsAndQuality) {
   // Isotropic with arms of equal length at a right angle.
   SerialPiArm equal = arm;
   equal.arm = {0.3, 0.3};
-  EXPECT_NEAR(quality(equal, {0.2, 0.2 + std::numbers::pi / 2}).condition, 1, 1e-7);
+  EXPECT_NEAR(quality(equal, {0.2, 0.2 + pi / 2}).condition, 1, 1e-7);
 }
 
 TEST(SerialPiArm, StepsAndSpringsOfTheDrives) {
@@ -271,7 +271,7 @@ Energies energies(const SerialPiArm& arm, const SerialArmMasses& masses, const V
       beside(p.coupler_mass, length, 0, q[k], w);
       beside(p.nut_mass, p.nut_centre, 0, x, dx);
       beside(p.rod_mass, d.value - p.rod_centre, d.rate, x, dx);
-      const double rotor = 2 * std::numbers::pi / p.lead * d.rate;
+      const double rotor = 2 * pi / p.lead * d.rate;
       const double arms = 2 * (p.arm_inertia - p.arm_mass * p.arm_centre * p.arm_centre);
       out.kinetic +=
           0.5 * (arms * w * w + (p.nut_inertia + p.rod_inertia) * dx * dx + p.rotor_inertia * rotor * rotor);

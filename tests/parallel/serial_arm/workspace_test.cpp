@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "support/allocations.h"
 
@@ -88,9 +89,9 @@ TEST(SerialPiWorkspace, RefusesGridsWithoutSense) {
 }
 
 TEST(SerialPiWorkspace, AngleBetweenTheArms) {
-  EXPECT_NEAR(elbow_angle({0.3, 0.3}), std::numbers::pi, 1e-15);
-  EXPECT_NEAR(elbow_angle({3, -3}), std::numbers::pi - (2 * std::numbers::pi - 6), 1e-15);
-  EXPECT_NEAR(elbow_angle({1, 1 - std::numbers::pi}), 0, 1e-15);
+  EXPECT_NEAR(elbow_angle({0.3, 0.3}), pi, 1e-15);
+  EXPECT_NEAR(elbow_angle({3, -3}), pi - (2 * pi - 6), 1e-15);
+  EXPECT_NEAR(elbow_angle({1, 1 - pi}), 0, 1e-15);
 }
 
 TEST(SerialPiWorkspace, AllocatesNothing) {

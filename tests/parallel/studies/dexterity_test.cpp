@@ -9,14 +9,14 @@
 namespace linkwright::parallel {
 namespace {
 
+using test::column;
+using test::example;
+using test::fact;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::AllOf;
-using testing::column;
-using testing::example;
-using testing::fact;
 using ::testing::HasSubstr;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
 
 const std::string head =
     "schema = 1\nkind = \"synthesis\"\n[mechanism]\ntype = \"parallel.delta\"\nradius_difference_mm = { min "
@@ -55,11 +55,10 @@ TEST(DexterityStudy, GoesOnFromACheckpointWithTheSameBits) {
   const std::string few = "[optimiser]\nstarts = 2\nseeds = { first = 1, count = 2 }\n";
   for (const char* goal : {"size", "worst", "mean"})
     for (const char* between : {"", "between_nodes = true\n"})
-      ::linkwright::testing::expect_resumed_alike(
-          testing::kinds(), replaced(smallest, "\"size\"", std::string("\"") + goal + "\"") + few + between,
-          2);
-  ::linkwright::testing::expect_resumed_alike(
-      testing::kinds(),
+      ::linkwright::test::expect_resumed_alike(
+          test::kinds(), replaced(smallest, "\"size\"", std::string("\"") + goal + "\"") + few + between, 2);
+  ::linkwright::test::expect_resumed_alike(
+      test::kinds(),
       smallest +
           "[optimiser]\nmethod = \"differential_evolution\"\npopulation = 30\ngenerations = 10\n"
           "seeds = { first = 1, count = 2 }\n",
@@ -71,7 +70,7 @@ TEST(DexterityStudy, PutsALimitInWhereTheSmallestWouldBeSingular) {
   const auto result = run_text(head + "goal = \"size\"\n");
   EXPECT_EQ(result.status, Status::done) << result.headline;
   EXPECT_THAT(fact(result, "limit put in"), HasSubstr("transmission index at least 0.3"));
-  const Table& limits = testing::table(result, "limits");
+  const Table& limits = test::table(result, "limits");
   const auto& bound = column(result, "limits", "bound");
   int input = 0;
   for (std::size_t k = 0; k < limits.names.size(); ++k)
@@ -87,8 +86,8 @@ TEST(DexterityStudy, PutsALimitInWhereTheSmallestWouldBeSingular) {
 TEST(DexterityStudy, TheConstraintIsAChoice) {
   const auto free = run_text(smallest + "constraint = 0\n");
   EXPECT_NEAR(free.solutions.at(0).objectives.find("size_m")->as_number(), 1.0362, 2e-4);
-  EXPECT_THAT(problems_of(testing::replaced(example("synthesis/parallel.five_bar/region"), "size_mm = 900",
-                                            "size_mm = 900\nconstraint = 0.2")),
+  EXPECT_THAT(problems_of(test::replaced(example("synthesis/parallel.five_bar/region"), "size_mm = 900",
+                                         "size_mm = 900\nconstraint = 0.2")),
               HasSubstr("only the legs of a DELTA are parallelograms"));
 }
 

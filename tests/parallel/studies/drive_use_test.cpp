@@ -4,7 +4,8 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -109,7 +110,7 @@ TEST(DriveUseStudy, DemandsTellHowFarLimitsAreKept) {
   // Without limits an arm may turn as it likes; a Pi-joint stays within a right angle.
   EXPECT_LT(travel_demand(0, {}, drive_at({}, 0.3, 3)).excess, 0);
   const Drive pi{.type = DriveType::pi_joint};
-  EXPECT_NEAR(travel_demand(0, pi, drive_at(pi, 0.3, 2)).excess, 2 - std::numbers::pi / 2, 1e-15);
+  EXPECT_NEAR(travel_demand(0, pi, drive_at(pi, 0.3, 2)).excess, 2 - pi / 2, 1e-15);
 }
 
 TEST(DriveUseStudy, GoodVerdictNamesTheTightestLimit) {
@@ -132,7 +133,7 @@ TEST(DriveUseStudy, GoodVerdictNamesTheTightestLimit) {
 TEST(DriveUseStudy, ColumnsAreThoseOfEachDrive) {
   const std::vector<Drive> drives{{.type = DriveType::pi_joint}, {}};
   std::vector<PiDrive> geared(2);
-  geared[1].screw.lead = 2 * std::numbers::pi / 10;
+  geared[1].screw.lead = 2 * pi / 10;
   const std::vector<std::vector<DriveMotion>> rows{{{.speed = 1}, {.speed = 2}}, {}};
   Table table{.name = "motion"};
   add_drive_columns(table, drives, geared, rows, true, true);

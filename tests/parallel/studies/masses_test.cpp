@@ -7,8 +7,8 @@
 namespace linkwright::parallel {
 namespace {
 
+using test::problems_of;
 using ::testing::HasSubstr;
-using testing::problems_of;
 
 const std::string head =
     "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"parallel.delta\"\nbase_radius_mm = "

@@ -12,12 +12,12 @@
 namespace linkwright::parallel {
 namespace {
 
-using testing::column;
-using testing::fact;
+using test::column;
+using test::fact;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::HasSubstr;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
 
 const std::string delta =
     "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"parallel.delta\"\nbase_radius_mm = "
@@ -45,7 +45,7 @@ TEST(MotionStudy, SaysThatItWorks) {
   EXPECT_NEAR(column(result, "motion", "x_m").back(), 0.15, 1e-12);
   // At rest the torques are those of the weight alone, and all powers are 0.
   EXPECT_NEAR(column(result, "motion", "power_1_W").front(), 0, 1e-9);
-  EXPECT_EQ(testing::table(result, "drive_limits").rows(), 6u);
+  EXPECT_EQ(test::table(result, "drive_limits").rows(), 6u);
 }
 
 // What the drives give is what the moving masses take: the energy of a whole path from rest to rest at one
@@ -175,7 +175,7 @@ TEST(MotionStudy, UsesAreThePeaksOfThePath) {
   const auto coarse = run_text(replaced(whole, "interval_s = 0.002", "interval_s = 10"));
   const auto fine = run_text(replaced(whole, "interval_s = 0.002", "interval_s = 0.00002"));
   const auto& use = column(coarse, "drive_limits", "largest");
-  const Table& names = testing::table(coarse, "drive_limits");
+  const Table& names = test::table(coarse, "drive_limits");
   for (std::size_t k = 0; k < names.names.size(); ++k) {
     const bool speed = names.names[k].starts_with("speed");
     const std::string leg = names.names[k].substr(names.names[k].size() - 1);

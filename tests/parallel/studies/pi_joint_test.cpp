@@ -8,13 +8,13 @@
 namespace linkwright::parallel {
 namespace {
 
-using testing::column;
-using testing::example;
-using testing::fact;
+using test::column;
+using test::example;
+using test::fact;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::HasSubstr;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
 
 const std::string& analysis = example("analysis/parallel.pi_joint");
 const std::string& design = example("synthesis/parallel.pi_joint/requirements");

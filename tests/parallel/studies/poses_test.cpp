@@ -9,10 +9,10 @@
 namespace linkwright::parallel {
 namespace {
 
-using testing::column;
+using test::column;
+using test::problems_of;
+using test::run_text;
 using ::testing::HasSubstr;
-using testing::problems_of;
-using testing::run_text;
 
 const std::string delta =
     "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"parallel.delta\"\nbase_radius_mm = "
@@ -29,19 +29,17 @@ TEST(PosesStudy, TellsEverythingOfAPose) {
   const auto result = run_text(delta + "[[pose]]\nposition_mm = [200, -100, -850]\nforce_N = [10, 5, -30]\n");
   const Value &pose = computed("delta-pose-0.2_-0.1_-0.85"), &statics = computed("delta-statics");
   EXPECT_NEAR(column(result, "poses", "diagonal_2_m").at(0),
-              linkwright::testing::numbers(linkwright::testing::at(pose, "d_m"))[1], 1e-12);
+              linkwright::test::numbers(linkwright::test::at(pose, "d_m"))[1], 1e-12);
   EXPECT_NEAR(column(result, "poses", "condition_number").at(0),
-              linkwright::testing::number_at(pose, "condition_number"), 1e-10);
-  EXPECT_NEAR(column(result, "poses", "transmission").at(0), linkwright::testing::number_at(pose, "lti"),
-              1e-11);
+              linkwright::test::number_at(pose, "condition_number"), 1e-10);
+  EXPECT_NEAR(column(result, "poses", "transmission").at(0), linkwright::test::number_at(pose, "lti"), 1e-11);
   EXPECT_NEAR(column(result, "poses", "resolution_worst_m").at(0),
-              linkwright::testing::number_at(pose, "resolution_worst_m"), 1e-14);
+              linkwright::test::number_at(pose, "resolution_worst_m"), 1e-14);
   EXPECT_NEAR(column(result, "poses", "static_screw_force_3_N").at(0),
-              linkwright::testing::numbers(linkwright::testing::at(statics, "screw_force_N"))[2], 1e-9);
+              linkwright::test::numbers(linkwright::test::at(statics, "screw_force_N"))[2], 1e-9);
   EXPECT_NEAR(column(result, "poses", "least_stiffness_N_per_m").at(0),
-              linkwright::testing::numbers(linkwright::testing::at(statics, "stiffness_eigenvalues_N_m"))[0],
-              1e-3);
-  EXPECT_EQ(testing::fact(result, "poses reached"), "1 of 1");
+              linkwright::test::numbers(linkwright::test::at(statics, "stiffness_eigenvalues_N_m"))[0], 1e-3);
+  EXPECT_EQ(test::fact(result, "poses reached"), "1 of 1");
 }
 
 TEST(PosesStudy, ArmAnglesGiveThePoseBack) {
@@ -57,17 +55,16 @@ TEST(PosesStudy, ArmAnglesGiveThePoseBack) {
 TEST(PosesStudy, ListsModes) {
   const auto result =
       run_text(delta + "[[pose]]\nname = \"corner\"\nposition_mm = [200, -100, -850]\n[modes]\n");
-  EXPECT_EQ(testing::table(result, "working_modes").rows(), 8u);
-  EXPECT_EQ(testing::table(result, "assembly_modes").rows(), 2u);
+  EXPECT_EQ(test::table(result, "working_modes").rows(), 8u);
+  EXPECT_EQ(test::table(result, "assembly_modes").rows(), 2u);
   // The other assembly is in the table.
-  const Vec3 other =
-      point(linkwright::testing::at(computed("delta-pose-0.2_-0.1_-0.85"), "other_assembly_p_m"));
+  const Vec3 other = point(linkwright::test::at(computed("delta-pose-0.2_-0.1_-0.85"), "other_assembly_p_m"));
   EXPECT_THAT(column(result, "assembly_modes", "x_m"),
               ::testing::Contains(::testing::DoubleNear(other.x, 1e-12)));
   const auto all = run_text(hexa +
                             "[[pose]]\nposition_mm = [50, -30, -500]\nrotation_rad = [0.15, -0.2, "
                             "0.25]\n[modes]\nworking = false\n");
-  EXPECT_EQ(testing::table(all, "assembly_modes").rows(), 12u);
+  EXPECT_EQ(test::table(all, "assembly_modes").rows(), 12u);
   EXPECT_THAT(
       problems_of(delta + "[modes]\n[workspace]\nlower_mm=[0,0,-800]\nupper_mm=[0,0,-700]\nstep_mm=50\n"),
       HasSubstr("there is no pose whose modes could be listed"));
@@ -85,7 +82,7 @@ TEST(PosesStudy, AnInterruptedListOfAssembliesKeepsItsPoses) {
     const LooksAllowed looks(std::int64_t{1} << 40);
     const auto whole = run_text(text);
     EXPECT_EQ(whole.status, Status::done);
-    EXPECT_EQ(testing::table(whole, "assembly_modes").rows(), 10u);
+    EXPECT_EQ(test::table(whole, "assembly_modes").rows(), 10u);
     all = looks.made();
   }
   ASSERT_GE(all, 4);
@@ -94,11 +91,11 @@ TEST(PosesStudy, AnInterruptedListOfAssembliesKeepsItsPoses) {
     const LooksAllowed looks(allowed);
     const auto some = run_text(text);
     EXPECT_EQ(some.status, allowed < all ? Status::cancelled : Status::done) << allowed;
-    const std::size_t rows = testing::table(some, "assembly_modes").rows();
+    const std::size_t rows = test::table(some, "assembly_modes").rows();
     EXPECT_GE(rows, 2u);  // the first pose always
     EXPECT_GE(rows, before);
     before = rows;
-    EXPECT_EQ(testing::table(some, "poses").rows(), 5u);
+    EXPECT_EQ(test::table(some, "poses").rows(), 5u);
   }
   EXPECT_EQ(before, 10u);
 }
@@ -110,8 +107,8 @@ TEST(PosesStudy, SaysWhyAPoseIsNoUse) {
   ASSERT_EQ(far.diagnostics.size(), 1u);
   EXPECT_THAT(to_string(far.diagnostics[0]), HasSubstr("pose 1: no_assembly: leg 1 is 358 mm too short"));
   EXPECT_TRUE(std::isnan(column(far, "poses", "arm_angle_1_rad").at(0)));
-  const auto beyond = run_text(testing::replaced(delta, "[-60, 60]", "[-20, 20]") +
-                               "[[pose]]\nposition_mm = [550, 0, -700]\n");
+  const auto beyond =
+      run_text(test::replaced(delta, "[-60, 60]", "[-20, 20]") + "[[pose]]\nposition_mm = [550, 0, -700]\n");
   EXPECT_EQ(beyond.status, Status::limit_reached);
   EXPECT_THAT(to_string(beyond.diagnostics.at(0)), HasSubstr("beyond its travel"));
   // A platform that has turned by the angle where its rods hold it no longer.
@@ -133,13 +130,13 @@ TEST(PosesStudy, APoseBeyondTheConstraintIsNoUse) {
                "[[pose]]\nposition_mm = [0, 0, -600]\n[[pose]]\nposition_mm = [300, 0, -440]\n"
                "[[pose]]\nposition_mm = [270.8689700253, 0, -455.5365493198]\n"
                "[[pose]]\narm_angles_rad = [0.069, 1.1843, 1.1843]\n");
-  const Value& path = linkwright::testing::at(computed("delta-constraint-path"), "paths.clear");
+  const Value& path = linkwright::test::at(computed("delta-constraint-path"), "paths.clear");
   const auto& index = column(result, "poses", "constraint_index");
-  EXPECT_NEAR(index.at(0), linkwright::testing::number_at(path, "start.index"), 1e-9);
-  EXPECT_NEAR(index.at(1), linkwright::testing::number_at(path, "end.index"), 1e-9);
+  EXPECT_NEAR(index.at(0), linkwright::test::number_at(path, "start.index"), 1e-9);
+  EXPECT_NEAR(index.at(1), linkwright::test::number_at(path, "end.index"), 1e-9);
   EXPECT_NEAR(column(result, "poses", "constraint_determinant").at(1),
-              linkwright::testing::number_at(path, "end.det_of_unit_rows"), 1e-9);
-  const Table& poses = testing::table(result, "poses");
+              linkwright::test::number_at(path, "end.det_of_unit_rows"), 1e-9);
+  const Table& poses = test::table(result, "poses");
   EXPECT_THAT(poses.status, ::testing::ElementsAre("done", "branch_lost", "singular", "branch_lost"));
   EXPECT_THAT(column(result, "poses", "joined_to_home"), ::testing::ElementsAre(1, -1, ::testing::_, -1));
   EXPECT_GT(column(result, "poses", "clear_radius_m").at(0), 0.01);
@@ -147,16 +144,16 @@ TEST(PosesStudy, APoseBeyondTheConstraintIsNoUse) {
   ASSERT_EQ(result.diagnostics.size(), 3u);
   EXPECT_THAT(to_string(result.diagnostics[0]), HasSubstr("of another assembly of the platform than home"));
   EXPECT_THAT(to_string(result.diagnostics[1]), HasSubstr("the rods of legs 2 and 3 lie level"));
-  EXPECT_EQ(testing::fact(result, "poses reached"), "1 of 4");
+  EXPECT_EQ(test::fact(result, "poses reached"), "1 of 4");
 }
 
 // Beyond the level rods on both sides of a leg: the same marks, yet the straight way is blocked.
 TEST(PosesStudy, EqualMarksProveNothingYet) {
-  const auto result = run_text(testing::replaced(clear, "[0, 0, -600]", "[258.4, -150, -450]") +
+  const auto result = run_text(test::replaced(clear, "[0, 0, -600]", "[258.4, -150, -450]") +
                                "[[pose]]\nposition_mm = [258.4, 150, -450]\n");
   EXPECT_EQ(result.status, Status::done);
   EXPECT_EQ(column(result, "poses", "joined_to_home").at(0), 0);
-  EXPECT_THAT(testing::fact(result, "pose 1: way from home"),
+  EXPECT_THAT(test::fact(result, "pose 1: way from home"),
               HasSubstr("the straight way is blocked at 38.94 %"));
 }
 
@@ -166,9 +163,9 @@ TEST(PosesStudy, AHexaTellsOfThreeWays) {
       run_text(at_home +
                "[[pose]]\nname = \"turned\"\nposition_mm = [0, 0, -500]\nrotation_deg = [0, 0, 60]\n"
                "[[pose]]\nname = \"beyond\"\nposition_mm = [0, 0, -500]\nrotation_deg = [0, 0, 170]\n");
-  EXPECT_THAT(testing::fact(result, "turned: way from home"), HasSubstr("the straight way is free"));
-  EXPECT_THAT(testing::fact(result, "beyond: way from home"), HasSubstr("of another assembly than home"));
-  EXPECT_THAT(testing::table(result, "poses").status, ::testing::ElementsAre("done", "branch_lost"));
+  EXPECT_THAT(test::fact(result, "turned: way from home"), HasSubstr("the straight way is free"));
+  EXPECT_THAT(test::fact(result, "beyond: way from home"), HasSubstr("of another assembly than home"));
+  EXPECT_THAT(test::table(result, "poses").status, ::testing::ElementsAre("done", "branch_lost"));
   EXPECT_THAT(column(result, "poses", "joined_to_home"), ::testing::ElementsAre(1, -1));
 }
 
@@ -182,7 +179,7 @@ TEST(PosesStudy, ArmsOfAHexaAreLedFromHome) {
   EXPECT_EQ(result.status, Status::done);
   EXPECT_NEAR(column(result, "poses", "x_m").at(0), 0.05, 1e-5);
   EXPECT_NEAR(column(result, "poses", "rotation_z_rad").at(0), 0.25, 1e-4);
-  EXPECT_THAT(testing::fact(result, "pose 1: way from home"), HasSubstr("the arms lead there"));
+  EXPECT_THAT(test::fact(result, "pose 1: way from home"), HasSubstr("the arms lead there"));
 }
 
 TEST(PosesStudy, TellsWhatDoesNotFitTogether) {

@@ -51,7 +51,7 @@ TEST(RobotScene, DrawsPiJointsAsParallelograms) {
     const auto& end = named(scene, "end of the screw " + std::to_string(leg));
     const auto& pivot = named(scene, "pivot " + std::to_string(leg));
     EXPECT_NEAR(std::hypot(end.x[0] - pivot.x[0], end.y[0] - pivot.y[0]),
-                testing::numbers(testing::at(expected, "d_m"))[static_cast<std::size_t>(leg - 1)], 1e-12);
+                test::numbers(test::at(expected, "d_m"))[static_cast<std::size_t>(leg - 1)], 1e-12);
   }
 }
 

@@ -7,10 +7,10 @@
 namespace linkwright::parallel {
 namespace {
 
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::HasSubstr;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
 
 const std::string head = "schema = 1\nkind = \"analysis\"\n[mechanism]\n";
 const std::string delta =
@@ -24,7 +24,7 @@ const std::string five_bar =
     "[[mechanism.leg]]\nbase_mm = [150, 0]\narm_mm = 250\nrod_mm = 350\n";
 
 double arm_angle(const study::Result& result, int leg) {
-  return testing::column(result, "poses", "arm_angle_" + std::to_string(leg) + "_rad").at(0);
+  return test::column(result, "poses", "arm_angle_" + std::to_string(leg) + "_rad").at(0);
 }
 
 TEST(RobotStudy, ReadsADelta) {
@@ -108,9 +108,9 @@ TEST(RobotStudy, EveryLegMayHaveItsOwnDrive) {
       "[[mechanism.drive]]\ntype = \"pi_joint\"\nmounting_deg = 120\n[[mechanism.drive]]\ntype = "
       "\"pi_joint\"\nmounting_deg = 60\nmirrored = true\n";
   const auto result = run_text(five_bar + drives + "[[pose]]\nposition_mm = [50, 450, 0]\n");
-  EXPECT_NEAR(testing::column(result, "poses", "diagonal_1_m").at(0), 0.24955605336444084, 1e-12);
-  EXPECT_NEAR(testing::column(result, "poses", "diagonal_2_m").at(0), 0.2788666183575844, 1e-12);
-  EXPECT_NEAR(testing::column(result, "poses", "pi_angle_2_rad").at(0), 0.105527568012457, 1e-12);
+  EXPECT_NEAR(test::column(result, "poses", "diagonal_1_m").at(0), 0.24955605336444084, 1e-12);
+  EXPECT_NEAR(test::column(result, "poses", "diagonal_2_m").at(0), 0.2788666183575844, 1e-12);
+  EXPECT_NEAR(test::column(result, "poses", "pi_angle_2_rad").at(0), 0.105527568012457, 1e-12);
 }
 
 }  // namespace

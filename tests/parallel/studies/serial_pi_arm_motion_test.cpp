@@ -11,12 +11,12 @@
 namespace linkwright::parallel {
 namespace {
 
-using testing::column;
-using testing::fact;
+using test::column;
+using test::fact;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::HasSubstr;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
 
 // Energy in the field of gravity (J) by the two arm angles.
 double potential(double first, double second) {
@@ -48,7 +48,7 @@ TEST(SerialMotionStudy, WorkOfTheDrivesLiftsTheMasses) {
   EXPECT_GT(std::abs(lifted), 0.5);
   // Trapezia of 0.5 ms over a third of a second of some 10 W that change within 20 ms.
   EXPECT_NEAR(work(result), lifted, 2e-4);
-  EXPECT_EQ(testing::table(result, "drive_limits").rows(), 4u);
+  EXPECT_EQ(test::table(result, "drive_limits").rows(), 4u);
   EXPECT_EQ(result.scenes.front().name, "motion");
 }
 
@@ -126,7 +126,7 @@ TEST(SerialMotionStudy, JointsMayHaveDrivesOfEitherType) {
                                "[[mechanism.drive]]\ngear_ratio = 20\nspeed_limit_rad_per_s = 9\n" +
                                serial_masses + serial_home + serial_line);
   EXPECT_EQ(result.status, Status::done);
-  const Table& motion = testing::table(result, "motion");
+  const Table& motion = test::table(result, "motion");
   EXPECT_NE(motion.find("diagonal_1_m"), nullptr);
   EXPECT_EQ(motion.find("diagonal_2_m"), nullptr);
   EXPECT_EQ(motion.find("motor_speed_1_rad_per_s"), nullptr);

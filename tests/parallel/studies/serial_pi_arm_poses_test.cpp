@@ -11,11 +11,11 @@
 namespace linkwright::parallel {
 namespace {
 
-using testing::column;
+using test::column;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::HasSubstr;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
 
 const std::string arm = serial_mechanism + serial_drives;
 const std::string pose = "[[pose]]\nposition_mm = [400, 220, 0]\nforce_N = [7, -20, 0]\n";
@@ -26,9 +26,9 @@ TEST(SerialPosesStudy, IsThatOfTheReference) {
         run_text(replaced(arm, "mode = -1", "mode = " + std::to_string(mode)) + pose + "[modes]\n");
     EXPECT_EQ(result.status, Status::done);
     EXPECT_EQ(result.headline, "1 of 1 poses are of use.");
-    const Value& expected = linkwright::testing::at(computed("serial-pi-pi"), mode == 1 ? "+1" : "-1");
+    const Value& expected = linkwright::test::at(computed("serial-pi-pi"), mode == 1 ? "+1" : "-1");
     const auto numbers = [&](const char* key) {
-      return linkwright::testing::numbers(linkwright::testing::at(expected, key));
+      return linkwright::test::numbers(linkwright::test::at(expected, key));
     };
     for (std::size_t k = 0; k < 2; ++k) {
       const std::string number = std::to_string(k + 1);
@@ -37,13 +37,13 @@ TEST(SerialPosesStudy, IsThatOfTheReference) {
                   1e-14);
       EXPECT_NEAR(column(result, "poses", "diagonal_" + number + "_m").at(0), numbers("d_m")[k], 1e-15);
       // tau = -J^T W.
-      const Value::Array& rows = linkwright::testing::at(expected, "J").as_array();
+      const Value::Array& rows = linkwright::test::at(expected, "J").as_array();
       const double torque =
-          -7 * linkwright::testing::numbers(rows[0])[k] + 20 * linkwright::testing::numbers(rows[1])[k];
+          -7 * linkwright::test::numbers(rows[0])[k] + 20 * linkwright::test::numbers(rows[1])[k];
       EXPECT_NEAR(column(result, "poses", "static_torque_" + number + "_N_m").at(0), torque, 1e-12);
     }
     EXPECT_NEAR(column(result, "poses", "determinant_m2").at(0),
-                linkwright::testing::number_at(expected, "det_J"), 1e-15);
+                linkwright::test::number_at(expected, "det_J"), 1e-15);
     // Both modes are listed in either.
     EXPECT_THAT(column(result, "working_modes", "mode"), ::testing::ElementsAre(1, -1));
     EXPECT_NEAR(column(result, "working_modes", "diagonal_1_m").at(0), 0.25884878174273523, 1e-15);
@@ -62,8 +62,8 @@ TEST(SerialPosesStudy, ArmAnglesGiveThePoseBack) {
 
 TEST(SerialPosesStudy, TellsStepsAndStiffness) {
   const auto rigid = run_text(arm + pose);
-  EXPECT_EQ(testing::table(rigid, "poses").find("displacement_m"), nullptr);
-  EXPECT_EQ(testing::table(rigid, "poses").find("resolution_worst_m"), nullptr);
+  EXPECT_EQ(test::table(rigid, "poses").find("displacement_m"), nullptr);
+  EXPECT_EQ(test::table(rigid, "poses").find("resolution_worst_m"), nullptr);
   std::string text = arm;
   for (int k = 0; k < 2; ++k)
     text = replaced(text, "lead_mm = 10\nforce",
@@ -82,7 +82,7 @@ TEST(SerialPosesStudy, SaysWhyAPoseIsNoUse) {
   const auto say = [](const std::string& mechanism, const std::string& place) {
     const auto result = run_text(mechanism + "[[pose]]\nposition_mm = " + place + "\n");
     EXPECT_NE(result.status, Status::done);
-    EXPECT_EQ(testing::fact(result, "poses reached"), "0 of 1");
+    EXPECT_EQ(test::fact(result, "poses reached"), "0 of 1");
     return result.diagnostics.empty() ? "" : to_string(result.diagnostics[0]);
   };
   EXPECT_THAT(say(arm, "[660, -20, 0]"), HasSubstr("pose 1: no_assembly: the arms are 50 mm too short"));

@@ -41,7 +41,7 @@ TEST(SerialArmScene, DrawsBothPiJoints) {
   EXPECT_FALSE(scene.spatial());
   EXPECT_EQ(scene.samples(), 2u);
   // Screws are as long as the diagonals of the reference.
-  const auto d = testing::numbers(testing::at(testing::at(computed("serial-pi-pi"), "-1"), "d_m"));
+  const auto d = test::numbers(test::at(test::at(computed("serial-pi-pi"), "-1"), "d_m"));
   EXPECT_NEAR(distance(scene, index(scene, "pivot 1"), index(scene, "end of the screw 1")), d[0], 1e-14);
   EXPECT_NEAR(distance(scene, index(scene, "elbow 1"), index(scene, "end of the screw 2")), d[1], 1e-14);
   // Opposite sides of both parallelograms are equal.

@@ -10,22 +10,22 @@
 namespace linkwright::parallel {
 namespace {
 
-using testing::column;
-using testing::fact;
+using test::column;
+using test::fact;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::HasSubstr;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
 
 const std::string pose = "[[pose]]\nposition_mm = [400, 220, 0]\n";
 
 TEST(SerialArmStudy, AnswersAllThatIsAskedFor) {
-  const auto result = run_text(testing::example("analysis/parallel.serial_pi_arm"));
+  const auto result = run_text(test::example("analysis/parallel.serial_pi_arm"));
   EXPECT_EQ(result.status, Status::done) << result.headline;
   EXPECT_THAT(result.headline, HasSubstr("It works: the path takes"));
   for (const char* name :
        {"motion", "drive_limits", "poses", "working_modes", "workspace", "workspace_totals"})
-    EXPECT_GT(testing::table(result, name).rows(), 0u) << name;
+    EXPECT_GT(test::table(result, name).rows(), 0u) << name;
   EXPECT_EQ(result.scenes.size(), 2u);
 }
 
@@ -41,7 +41,7 @@ TEST(SerialArmStudy, WorkspaceIsTheAnnulusOfMotorsAndLessOfPiJoints) {
   const auto& left = column(joints, "workspace_totals", "area_left_m2");
   for (std::size_t i = 1; i < left.size(); ++i) EXPECT_LE(left[i], left[i - 1]);
   EXPECT_LT(left.back(), 0.5 * reach);
-  const Table& nodes = testing::table(joints, "workspace");
+  const Table& nodes = test::table(joints, "workspace");
   for (std::size_t i = 0; i < nodes.rows(); ++i) {
     const double lci = nodes.find("conditioning")->values[i];
     EXPECT_EQ(nodes.status[i] == "done", lci >= 0.3);

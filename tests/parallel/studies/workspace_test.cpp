@@ -3,20 +3,20 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include "linkwright/core/numbers.h"
 #include "parallel/robots.h"
 #include "parallel/studies.h"
 
 namespace linkwright::parallel {
 namespace {
 
-using testing::column;
+using test::column;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::HasSubstr;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
 
 const std::string delta =
     "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"parallel.delta\"\nbase_radius_mm = "
@@ -34,7 +34,7 @@ TEST(WorkspaceStudy, CountsNodesByWhatTheyFail) {
   for (std::size_t i = 1; i < left.size(); ++i) EXPECT_LE(left[i], left[i - 1]);
   // A grid of 20 mm has 44273 nodes, 0.3542 m3; one of 40 mm about an eighth of them.
   EXPECT_NEAR(column(result, "workspace_totals", "volume_left_m3").back(), 0.3542, 0.006);
-  const Table& nodes = testing::table(result, "workspace");
+  const Table& nodes = test::table(result, "workspace");
   EXPECT_EQ(std::count(nodes.status.begin(), nodes.status.end(), "done"), static_cast<long>(left.back()));
   double sum = 0;
   for (const double lci : column(result, "workspace", "conditioning"))
@@ -56,16 +56,13 @@ TEST(WorkspaceStudy, DrawsSlices) {
 TEST(WorkspaceStudy, TellsWhatCanBePromised) {
   const auto result =
       run_text(delta + box + "boundary = 36\n[workspace.inscribed]\naxis_mm = [0, 0]\nheight_mm = 200\n");
-  EXPECT_THAT(testing::fact(result, "joined to home without a singularity"), HasSubstr(" of 5530 nodes"));
-  EXPECT_THAT(testing::fact(result, "largest cylinder"), HasSubstr("height 200 mm at 0, 0, "));
+  EXPECT_THAT(test::fact(result, "joined to home without a singularity"), HasSubstr(" of 5530 nodes"));
+  EXPECT_THAT(test::fact(result, "largest cylinder"), HasSubstr("height 200 mm at 0, 0, "));
   // Every ray of every slice ends where a pose no longer passes.
-  const Table& boundary = testing::table(result, "workspace_boundary");
+  const Table& boundary = test::table(result, "workspace_boundary");
   ASSERT_GE(boundary.rows(), 100u);
-  const Drive drive{.type = DriveType::pi_joint,
-                    .ratio = 0.4,
-                    .mounting = std::numbers::pi / 6,
-                    .lowest = -std::numbers::pi / 3,
-                    .highest = std::numbers::pi / 3};
+  const Drive drive{
+      .type = DriveType::pi_joint, .ratio = 0.4, .mounting = pi / 6, .lowest = -pi / 3, .highest = pi / 3};
   PoseConditions conditions{.robot = reference_delta(), .assembly = -1, .least_transmission = 0.5};
   conditions.drives.fill(drive);
   const auto &z = column(result, "workspace_boundary", "z_m"),

@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 
 namespace linkwright::parallel {
 namespace {
 
 using math::Vec3;
-constexpr double pi = std::numbers::pi;
 
 Vec3 random_vector(RandomStream& random) {
   return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};

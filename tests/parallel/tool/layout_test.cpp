@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::parallel {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 const Pose origin{};
 
 std::string message(const ToolPath& path, const Pose& start = origin) {

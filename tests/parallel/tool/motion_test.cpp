@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "support/allocations.h"
 #include "support/message.h"
@@ -15,7 +15,6 @@ namespace linkwright::parallel {
 namespace {
 
 using ::testing::HasSubstr;
-constexpr double pi = std::numbers::pi;
 const Pose origin{};
 
 Coordinates coordinates(const Vec3& a) { return {a.x, a.y, a.z}; }

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
@@ -81,13 +81,13 @@ TEST(ToolPath, IsReadWithUnitsAndWrittenBackTheSame) {
   ASSERT_EQ(path.steps.size(), 6);
   const auto& line = std::get<ToolLine>(path.steps[0].form);
   EXPECT_EQ(line.to, (Coordinates{0.1, 0, -0.5}));
-  EXPECT_EQ(line.rotation, (Coordinates{0, 0, std::numbers::pi / 2}));
+  EXPECT_EQ(line.rotation, (Coordinates{0, 0, pi / 2}));
   EXPECT_EQ(line.speed, 0.25);
   const auto& arc = std::get<ToolArc>(path.steps[1].form);
   EXPECT_EQ(arc.through, (Coordinates{0.05, 0.05, -0.5}));
   EXPECT_FALSE(arc.rotation || arc.speed);
   const auto& circle = std::get<ToolCircle>(path.steps[2].form);
-  EXPECT_EQ(circle.angle, -2 * std::numbers::pi);
+  EXPECT_EQ(circle.angle, -2 * pi);
   EXPECT_EQ(circle.axis, (Coordinates{0, 0, 2}));
   const auto& gate = std::get<PickAndPlace>(path.steps[3].form);
   EXPECT_EQ(gate.height, 0.025);
@@ -100,7 +100,7 @@ TEST(ToolPath, IsReadWithUnitsAndWrittenBackTheSame) {
   const auto& table = std::get<ToolTable>(path.steps[5].form);
   EXPECT_EQ(table.times, (std::vector<double>{0, 0.1}));
   EXPECT_EQ(table.points[1], (Coordinates{0.01, 0, -0.5}));
-  EXPECT_EQ(table.rotations[1], (Coordinates{0, 0, std::numbers::pi}));
+  EXPECT_EQ(table.rotations[1], (Coordinates{0, 0, pi}));
 
   const Value written = study::write_fields(path);
   const Value* steps = written.find("step");
@@ -115,7 +115,7 @@ TEST(ToolPath, IsReadWithUnitsAndWrittenBackTheSame) {
   EXPECT_EQ(messages, "");
   EXPECT_EQ(limits.speed, 4);
   EXPECT_EQ(limits.acceleration, 100);
-  EXPECT_DOUBLE_EQ(limits.angular_speed, std::numbers::pi);
+  EXPECT_DOUBLE_EQ(limits.angular_speed, pi);
 }
 
 TEST(ToolPath, FilesAreToldWhatIsWrong) {

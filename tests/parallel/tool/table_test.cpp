@@ -6,6 +6,8 @@
 #include <numbers>
 #include <string>
 
+#include "linkwright/core/numbers.h"
+
 namespace linkwright::parallel {
 namespace {
 
@@ -34,7 +36,7 @@ TEST(ToolTable, ReadsPointsInAnyUnitAndOrder) {
 }
 
 TEST(ToolTable, ReadsRotationVectorsAndAngles) {
-  const double quarter = std::numbers::pi / 2;
+  const double quarter = pi / 2;
   const ToolTable t = table(
       "time_s,x_m,y_m,z_m,rotation_x_deg,rotation_y_deg,rotation_z_deg,status\n"
       "0,0,0,0,0,0,90,done\n1,0,0,0,0,90,0,done\n");
@@ -42,9 +44,9 @@ TEST(ToolTable, ReadsRotationVectorsAndAngles) {
   // A quarter about x and then one about z: a third of a turn about (1, 1, 1) with z going to x ... x to y.
   const ToolTable r =
       table("time_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0,0,0,0,90,0,90\n1,0,0,0,0,30,0\n");
-  const double third = 2 * std::numbers::pi / 3 / std::numbers::sqrt3;
+  const double third = 2 * pi / 3 / std::numbers::sqrt3;
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(r.rotations[0][k], third, 1e-15);
-  EXPECT_NEAR(r.rotations[1][1], std::numbers::pi / 6, 1e-15);
+  EXPECT_NEAR(r.rotations[1][1], pi / 6, 1e-15);
 }
 
 TEST(ToolTable, TellsWhereACellIsWrong) {

@@ -6,12 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 
 namespace linkwright::parallel {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 ToolTiming timed_path(const ToolPath& path, const ToolLimits& limits) {
   return timed(lay_out(path, {}).runs.at(0), path.law, limits);

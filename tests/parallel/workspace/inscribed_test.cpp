@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/parallel/workspace/rays.h"
 #include "parallel/robots.h"
 
 namespace linkwright::parallel {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 struct Setting {
   WorkspaceTask task;
@@ -121,8 +119,8 @@ TEST(WorkspaceInscribed, CylinderOfGivenHeightOnTheAxis) {
 // for.
 TEST(WorkspaceInscribed, TheConstraintMakesCylindersSmaller) {
   const Value& expected =
-      testing::at(computed("delta-constraint-workspace"), "cylinder_height_250_top_at_0_29446465");
-  const Robot robot = delta_of(testing::at(inputs("delta-constraint-workspace"), "robots.mean"));
+      test::at(computed("delta-constraint-workspace"), "cylinder_height_250_top_at_0_29446465");
+  const Robot robot = delta_of(test::at(inputs("delta-constraint-workspace"), "robots.mean"));
   const double top = -0.29446465;
   const auto widest = [&](double least) {
     const Setting s(
@@ -132,12 +130,12 @@ TEST(WorkspaceInscribed, TheConstraintMakesCylindersSmaller) {
   };
   for (const auto& [key, least] : {std::pair{"index>=0.1", 0.1}, {"index>=0.2", 0.2}}) {
     const Inscribed found = widest(least);
-    EXPECT_NEAR(2 * found.half.x, testing::number_at(*expected.find(key), "largest_diameter_m"), 1e-5);
+    EXPECT_NEAR(2 * found.half.x, test::number_at(*expected.find(key), "largest_diameter_m"), 1e-5);
     EXPECT_TRUE(found.proven);
   }
   // By the sign alone the body touches the singularity; what can be proven keeps away from it by the floor.
   const Inscribed by_sign = widest(0);
-  const double diameter = testing::number_at(*expected.find("index>=0"), "largest_diameter_m");
+  const double diameter = test::number_at(*expected.find("index>=0"), "largest_diameter_m");
   EXPECT_TRUE(by_sign.proven);
   EXPECT_LT(2 * by_sign.half.x, diameter);
   EXPECT_NEAR(2 * by_sign.half.x, diameter, 1e-3);

@@ -42,8 +42,7 @@ TEST(WorkspaceParts, TheReferenceDeltaIsInOnePiece) {
 TEST(WorkspaceParts, WhatTheConstraintLeavesIsJoinedToHome) {
   for (const char* name : {"mean", "clear"})
     for (const auto& [key, least] : {std::pair{"chi_min=0", 1e-3}, {"chi_min=0.2", 0.2}}) {
-      const Value& row =
-          testing::at(computed("delta-constraint-workspace"), std::string("workspaces.") + name);
+      const Value& row = test::at(computed("delta-constraint-workspace"), std::string("workspaces.") + name);
       const Value& counts = *row.find(key);
       WorkspaceTask task = constraint_task(name);
       task.conditions.constraint = 1;
@@ -52,9 +51,9 @@ TEST(WorkspaceParts, WhatTheConstraintLeavesIsJoinedToHome) {
       const WorkspaceParts found = workspace_parts(
           map, passing(map), {.conditions = task.conditions, .home = constraint_home(name).position},
           RunContext());
-      EXPECT_NEAR(static_cast<double>(found.reachable()), testing::number_at(counts, "joined_to_home"), 3)
+      EXPECT_NEAR(static_cast<double>(found.reachable()), test::number_at(counts, "joined_to_home"), 3)
           << name;
-      EXPECT_EQ(static_cast<double>(found.size.size()), testing::number_at(counts, "parts")) << name << key;
+      EXPECT_EQ(static_cast<double>(found.size.size()), test::number_at(counts, "parts")) << name << key;
     }
 }
 

@@ -33,9 +33,9 @@ TEST(ProvenBody, FindsThePlaceInTheFormerDesign) {
 
 TEST(ProvenBody, SmallerCylindersOfItAreProven) {
   const Value& largest =
-      testing::at(computed("delta-constraint-workspace"), "cylinder_height_250_top_at_0_29446465");
+      test::at(computed("delta-constraint-workspace"), "cylinder_height_250_top_at_0_29446465");
   for (const auto& [key, least] : {std::pair{"index>=0.1", 0.1}, {"index>=0.2", 0.2}}) {
-    const double diameter = testing::number_at(*largest.find(key), "largest_diameter_m");
+    const double diameter = test::number_at(*largest.find(key), "largest_diameter_m");
     const BodyProof found = look(former(), diameter, least);
     EXPECT_TRUE(found.proven) << key;
     EXPECT_LT(found.looks, 30000);

@@ -3,18 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "parallel/robots.h"
 
 namespace linkwright::parallel {
 namespace {
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
+constexpr double degree = pi / 180;
 
 TEST(WorkspaceRays, AreaOfTheReferenceFiveBar) {
-  const double exact = testing::number_at(computed("five-bar-singular-area"), "area_m2");
+  const double exact = test::number_at(computed("five-bar-singular-area"), "area_m2");
   EXPECT_NEAR(reachable_area(reference_five_bar()), exact, 1e-15);
   // Both holes, of radius 0.1 about the pivots, are seen from beside them.
   const Rays rays = position_rays({.robot = reference_five_bar()}, {{0, 0.3, 0}}, directions_around(7200),
@@ -51,7 +51,7 @@ TEST(WorkspaceRays, EndWhereTheLegsAreStraight) {
   ASSERT_EQ(rays.ray.size(), 1u);
   const Ray& ray = rays.ray[0];
   EXPECT_EQ(ray.direction.z, -1);
-  EXPECT_NEAR(-0.8 - ray.reach(), testing::number_at(computed("delta-singular"), "type1_z_m"), 2e-12);
+  EXPECT_NEAR(-0.8 - ray.reach(), test::number_at(computed("delta-singular"), "type1_z_m"), 2e-12);
   ASSERT_EQ(ray.stretch.size(), 1u);
   EXPECT_EQ(ray.stretch[0].before, Hurdle::none);
   EXPECT_EQ(ray.stretch[0].after, Hurdle::leg);

@@ -3,15 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "parallel/robots.h"
 
 namespace linkwright::parallel {
 namespace {
 
-using testing::number_at;
+using test::number_at;
 
 // The reference counts let a node on the boundary go either way.
 constexpr double nodes = 3;
@@ -50,7 +50,7 @@ TEST(Workspace, OfTheReferenceDelta) {
 
 // The same grid, with what keeps the platform from turning.
 TEST(Workspace, OfTheReferenceDeltaWithItsConstraint) {
-  const Value& expected = testing::at(computed("delta-workspace"), "constraint");
+  const Value& expected = test::at(computed("delta-workspace"), "constraint");
   WorkspaceTask task = delta_task();
   task.conditions.constraint = 1;
   WorkspaceMap map = workspace(task, RunContext());
@@ -67,7 +67,7 @@ TEST(Workspace, OfTheReferenceDeltaWithItsConstraint) {
 // Two robots whose workspaces the constraint cuts, by sign, by the floor, and by a limit.
 TEST(Workspace, TheConstraintCutsWhatIsOfUse) {
   for (const char* name : {"mean", "clear"}) {
-    const Value& row = testing::at(computed("delta-constraint-workspace"), std::string("workspaces.") + name);
+    const Value& row = test::at(computed("delta-constraint-workspace"), std::string("workspaces.") + name);
     WorkspaceTask task = constraint_task(name);
     const auto passing_with = [&](int sign, double least) {
       task.conditions.constraint = sign;
@@ -101,13 +101,13 @@ TEST(Workspace, OfTheReferenceHexa) {
                                             .assembly = assembly_at(reference_hexa(), {{0, 0, -0.5}}),
                                             .least_transmission = 0.4},
                              .grid = {{-0.42, -0.42, -0.75}, {0.42, 0.42, -0.15}, 0.03},
-                             .rotation = math::turn_z(yaw * std::numbers::pi / 180)};
+                             .rotation = math::turn_z(yaw * pi / 180)};
     const WorkspaceMap map = workspace(task, RunContext());
     const std::string key = yaw == 0 ? "yaw_deg=0" : "yaw_deg=25";
     EXPECT_NEAR(count_before(map, Hurdle::transmission),
-                number_at(testing::at(computed("hexa-workspace"), key), "pi_range"), nodes);
+                number_at(test::at(computed("hexa-workspace"), key), "pi_range"), nodes);
     EXPECT_NEAR(count_before(map, Hurdle::open),
-                number_at(testing::at(computed("hexa-workspace"), key), "pi_range_lti"), nodes);
+                number_at(test::at(computed("hexa-workspace"), key), "pi_range_lti"), nodes);
   }
 }
 

@@ -11,29 +11,28 @@
 namespace linkwright::planar {
 namespace {
 
-using testing::between;
+using test::between;
 using ::testing::HasSubstr;
 
 // Reference B4: the shaking force is the weight, whatever the linkage weighs before, at any motion.
 RC_GTEST_PROP(ForceBalanceProperty, LeavesTheWeightAlone, ()) {
-  const FourBar l = *testing::any_four_bar();
-  const FourBarMasses before = *testing::any_masses();
+  const FourBar l = *test::any_four_bar();
+  const FourBarMasses before = *test::any_masses();
   const double r1 = *between(0.05, 2), r3 = *between(0.05, 2);
   const Counterweights weights = balancing_counterweights(l, before, r1, r3);
   const FourBarMasses after = with_counterweights(before, weights);
   const double mass =
       before.crank.mass + before.coupler.mass + before.rocker.mass + weights.crank.mass + weights.rocker.mass;
-  const FourBarRates r = rates(l, *testing::any_angle(), *between(-40, 40), *between(-300, 300));
+  const FourBarRates r = rates(l, *test::any_angle(), *between(-40, 40), *between(-300, 300));
   RC_PRE(r.status == Status::done && std::abs(r.transmission_sine) > 0.1);
   const FourBarReactions f = reactions(l, after, r, 9.81);
   // Rounding of the joint forces that cancel.
-  const double tolerance = 1e-12 * (1 + mass + testing::largest_force(f));
+  const double tolerance = 1e-12 * (1 + mass + test::largest_force(f));
   RC_ASSERT(std::abs(f.shaking_force - std::complex<double>(0, -9.81 * mass)) < tolerance);
 }
 
 TEST(ForceBalance, HoldsToTheLastDigitForTheOriginalMachine) {
-  const testing::Machine m =
-      testing::machine(*testing::dynamics_case("fourbar-initial-samples").find("inputs"));
+  const test::Machine m = test::machine(*test::dynamics_case("fourbar-initial-samples").find("inputs"));
   const Counterweights weights = balancing_counterweights(m.linkage, m.masses, 0.05, 0.1);
   const FourBarMasses after = with_counterweights(m.masses, weights);
   const double mass = after.crank.mass + after.coupler.mass + after.rocker.mass;

@@ -20,8 +20,8 @@ constexpr int iterations = 100, seeds = 20;
 
 // Quantile 0.9 of the reference over its seeds; the sample median is to stay below it.
 double reference_p90(const std::string& row) {
-  const Value& rows = testing::at(testing::dynamics_case("algorithm-statistics"), "computed");
-  return testing::number_at(*rows.find(row), "p90");
+  const Value& rows = test::at(test::dynamics_case("algorithm-statistics"), "computed");
+  return test::number_at(*rows.find(row), "p90");
 }
 
 class BalancingMethods : public ::testing::TestWithParam<const char*> {};

@@ -9,28 +9,28 @@
 namespace linkwright::planar {
 namespace {
 
-using testing::dynamics_case;
+using test::dynamics_case;
 
 TEST(FourBarBalancingSamples, AreThoseOfTheReference) {
   EXPECT_EQ(four_bar_numbers(balancing_original()),
-            testing::numbers_of(*dynamics_case("fourbar-initial-samples").find("inputs")));
+            test::numbers_of(*dynamics_case("fourbar-initial-samples").find("inputs")));
   ASSERT_EQ(published_balancings().size(), 5u);
   for (const PublishedBalancing& p : published_balancings()) {
     const std::string name(p.name), algorithm = name == "sp-fa" ? "" : "-H-CS-FA";
     EXPECT_EQ(four_bar_numbers(p.published),
-              testing::numbers_of(*dynamics_case("published-" + name + algorithm).find("inputs")))
+              test::numbers_of(*dynamics_case("published-" + name + algorithm).find("inputs")))
         << name;
     const Value& best = dynamics_case("best-known-" + name + "-rms-minimax_pub");
     for (std::size_t j = 0; j < four_bar_number_count; ++j) {
-      const Value& range = testing::at(best, fmt::format("inputs.bounds.{}", testing::design_keys[j]));
+      const Value& range = test::at(best, fmt::format("inputs.bounds.{}", test::design_keys[j]));
       EXPECT_EQ(p.problem.bounds[j],
                 (Range{range.as_array()[0].as_number(), range.as_array()[1].as_number()}))
-          << name << " " << testing::design_keys[j];
+          << name << " " << test::design_keys[j];
     }
-    const auto& objectives = testing::at(best, "computed.objectives").as_array();
+    const auto& objectives = test::at(best, "computed.objectives").as_array();
     ASSERT_EQ(p.problem.objectives.size(), objectives.size()) << name;
     for (std::size_t k = 0; k < objectives.size(); ++k)
-      EXPECT_EQ(p.problem.objectives[k].component, testing::component(objectives[k].as_string())) << name;
+      EXPECT_EQ(p.problem.objectives[k].component, test::component(objectives[k].as_string())) << name;
   }
 }
 

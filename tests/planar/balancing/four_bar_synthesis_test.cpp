@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/balancing/four_bar_samples.h"
 #include "planar/balancing_cases.h"
 
@@ -13,8 +14,8 @@ namespace {
 using optimise::SmoothGoal;
 using optimise::SmoothOptions;
 using optimise::SmoothReport;
-using testing::dynamics_case;
-using testing::number_at;
+using test::dynamics_case;
+using test::number_at;
 
 /// The least of the largest objective against the published design.
 SmoothReport minimax(PublishedBalancing p, std::uint64_t seed) {
@@ -102,7 +103,7 @@ TEST(FourBarBalancingSynthesis, ComesThroughKinks) {
 
 TEST(FourBarBalancingSynthesis, KeepsTransmissionAngleAndSwing) {
   PublishedBalancing p = published_balancing("case3");
-  const double limit = 40 * std::numbers::pi / 180;
+  const double limit = 40 * pi / 180;
   p.problem.min_transmission_angle = limit;
   p.problem.rocker_swing = Range{0.73, 0.75};
   RunContext context;

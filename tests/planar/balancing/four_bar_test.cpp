@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/planar/balancing/four_bar_samples.h"
 #include "linkwright/planar/four_bar/classify.h"
@@ -16,18 +17,17 @@
 namespace linkwright::planar {
 namespace {
 
-using testing::at;
-using testing::dynamics_case;
+using test::at;
+using test::dynamics_case;
+using test::number_at;
 using ::testing::HasSubstr;
-using testing::number_at;
-constexpr double pi = std::numbers::pi;
 
 /// All thirteen components in the order of the reference file.
 FourBarBalancing everything(Measure measure, int samples) {
   FourBarBalancing b = published_balancing("case1").problem;
   b.objectives.clear();
-  for (const std::string_view quantity : testing::quantity_names)
-    b.objectives.push_back({testing::component(quantity), measure});
+  for (const std::string_view quantity : test::quantity_names)
+    b.objectives.push_back({test::component(quantity), measure});
   b.samples = samples;
   return b;
 }
@@ -40,8 +40,8 @@ TEST(FourBarBalancing, HasTheMeasuresOfTheOriginalMachine) {
   for (const auto& [measure, key] : rows) {
     const auto f = balancing_measures(everything(measure, 201), balancing_original());
     for (std::size_t q = 0; q < f.size(); ++q) {
-      const double expected = number_at(*values.find(testing::quantity_names[q]), key);
-      EXPECT_NEAR(f[q], expected, 1e-9 * expected) << testing::quantity_names[q] << " " << key;
+      const double expected = number_at(*values.find(test::quantity_names[q]), key);
+      EXPECT_NEAR(f[q], expected, 1e-9 * expected) << test::quantity_names[q] << " " << key;
     }
   }
   // The reference has the root of the mean over distinct samples, this over all that are given.
@@ -50,8 +50,8 @@ TEST(FourBarBalancing, HasTheMeasuresOfTheOriginalMachine) {
   b.crank_rotates_fully = false;
   const auto f = balancing_measures(b, balancing_original());
   for (std::size_t q = 0; q < f.size(); ++q) {
-    const double expected = number_at(*values.find(testing::quantity_names[q]), "rms");
-    EXPECT_NEAR(f[q], expected, 1e-9 * expected) << testing::quantity_names[q];
+    const double expected = number_at(*values.find(test::quantity_names[q]), "rms");
+    EXPECT_NEAR(f[q], expected, 1e-9 * expected) << test::quantity_names[q];
   }
 }
 
@@ -63,7 +63,7 @@ const std::array<const char*, 11> published_ids = {
 std::vector<double> reductions(Measure measure, int samples, const Value& design) {
   FourBarBalancing b = everything(measure, samples);
   set_references(b, balancing_original());
-  std::vector<double> f = balancing_measures(b, testing::machine_of(design));
+  std::vector<double> f = balancing_measures(b, test::machine_of(design));
   for (std::size_t q = 0; q < f.size(); ++q) f[q] = 100 * (1 - f[q] / b.objectives[q].reference);
   return f;
 }
@@ -79,8 +79,8 @@ TEST(FourBarBalancing, HasTheReductionsOfThePublishedDesigns) {
       const auto found = reductions(measure, samples, *c.find("inputs"));
       int compared = 0;
       for (std::size_t q = 0; q < found.size(); ++q)
-        if (const Value* expected = at(c, "computed").find(key)->find(testing::quantity_names[q])) {
-          EXPECT_NEAR(found[q], expected->as_number(), 5e-4) << id << key << testing::quantity_names[q];
+        if (const Value* expected = at(c, "computed").find(key)->find(test::quantity_names[q])) {
+          EXPECT_NEAR(found[q], expected->as_number(), 5e-4) << id << key << test::quantity_names[q];
           ++compared;
         }
       EXPECT_GE(compared, 8) << id;
@@ -98,11 +98,10 @@ TEST(FourBarBalancing, ReproducesThePublishedPercentages) {
     const auto found = reductions(Measure::mean_abs, 501, *c.find("inputs"));
     for (std::size_t q = 0; q < found.size(); ++q)
       if (const Value* printed =
-              at(c, "published.reduction_percent_unsigned").find(testing::quantity_names[q])) {
+              at(c, "published.reduction_percent_unsigned").find(test::quantity_names[q])) {
         const double band =
-            number_at(*at(c, "computed").find("rounding_band_percent_points"), testing::quantity_names[q]);
-        EXPECT_NEAR(std::abs(found[q]), printed->as_number(), band + 0.02)
-            << id << testing::quantity_names[q];
+            number_at(*at(c, "computed").find("rounding_band_percent_points"), test::quantity_names[q]);
+        EXPECT_NEAR(std::abs(found[q]), printed->as_number(), band + 0.02) << id << test::quantity_names[q];
         ++compared;
       }
   }
@@ -130,7 +129,7 @@ TEST(FourBarBalancing, HasTheValuesOfTheBestKnownDesigns) {
           p.problem.samples = 501;
           for (BalancingObjective& o : p.problem.objectives) o.measure = Measure::mean_abs;
         }
-        const FourBarMachine best = testing::machine_of(*c.find("design"));
+        const FourBarMachine best = test::machine_of(*c.find("design"));
         set_references(p.problem, best);
         const auto f = balancing_measures(p.problem, best),
                    published = balancing_measures(p.problem, p.published),

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/reactions.h"
@@ -21,13 +21,11 @@ namespace linkwright::planar {
 namespace {
 
 using linkwright::test::message;
-using testing::any_angle;
-using testing::at;
-using testing::between;
-using testing::dynamics_case;
+using test::any_angle;
+using test::at;
+using test::between;
+using test::dynamics_case;
 using ::testing::HasSubstr;
-
-constexpr double pi = std::numbers::pi;
 
 std::vector<BaseParameters> bases(const std::vector<LinkMass>& links) {
   std::vector<BaseParameters> out;
@@ -37,7 +35,7 @@ std::vector<BaseParameters> bases(const std::vector<LinkMass>& links) {
 
 // Superposition of other masses on the published four-bar, to 1e-9 N of some 400 N.
 TEST(LinearForces, OfAFourBarSuperpose) {
-  const testing::Machine m = testing::machine(at(dynamics_case("published-case3-H-CS-FA"), "inputs"));
+  const test::Machine m = test::machine(at(dynamics_case("published-case3-H-CS-FA"), "inputs"));
   std::vector<double> angle;
   for (int i = 0; i <= 200; ++i) angle.push_back(2 * pi * i / 200);
   const double speed[] = {10 * pi}, acceleration[] = {30};
@@ -51,7 +49,7 @@ TEST(LinearForces, OfAFourBarSuperpose) {
     for (std::size_t i = 0; i < angle.size(); i += 7) {
       const FourBarReactions r =
           reactions(m.linkage, m.masses, rates(m.linkage, angle[i], speed[0], acceleration[0]), 9.81);
-      EXPECT_NEAR(got[i], testing::quantities(r)[order[c]], 1e-9) << forces.components[c].name << " " << i;
+      EXPECT_NEAR(got[i], test::quantities(r)[order[c]], 1e-9) << forces.components[c].name << " " << i;
     }
   }
   // The magnitude of a joint force.
@@ -62,9 +60,9 @@ TEST(LinearForces, OfAFourBarSuperpose) {
 
 RC_GTEST_PROP(LinearForcesProperty, OfAnArmEqualItsReactions, ()) {
   const std::size_t n = *rc::gen::inRange<std::size_t>(1, 5);
-  const SerialArm arm = testing::any_arm(n);
-  std::vector<math::Motion> motion = testing::any_motion(n);
-  const std::vector<math::Motion> second = testing::any_motion(n);
+  const SerialArm arm = test::any_arm(n);
+  std::vector<math::Motion> motion = test::any_motion(n);
+  const std::vector<math::Motion> second = test::any_motion(n);
   motion.insert(motion.end(), second.begin(), second.end());
   const LinearForces forces = linear_forces(arm, motion, 9.81);
   const auto all = elements(arm);

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/nlopt_bridge.h"
 #include "linkwright/planar/linkage/samples.h"
@@ -21,12 +21,10 @@ namespace linkwright::planar {
 namespace {
 
 using linkwright::test::message;
-using testing::at;
-using testing::dynamics_case;
+using test::at;
+using test::dynamics_case;
+using test::number_at;
 using ::testing::HasSubstr;
-using testing::number_at;
-
-constexpr double pi = std::numbers::pi;
 
 // The published machine at 300 rpm over one turn, 201 samples (Boskovic 2018, section 2.4).
 FourBarMachine original() {
@@ -106,10 +104,10 @@ TEST_P(FixedLengths, ReachTheBestKnownValueWithProof) {
   for (std::size_t k = 0; k < b.objectives.size(); ++k) {
     std::vector<double> samples;
     for (int i = 0; i <= 200; ++i) {
-      const auto q = testing::quantities(
+      const auto q = test::quantities(
           reactions(m.linkage, m.masses, rates(m.linkage, 2 * pi * i / 200, 10 * pi, 0), 9.81));
       for (std::size_t c = 0; c < q.size(); ++c)
-        if (c < 12 && column(std::string(testing::quantity_names[c])) == b.objectives[k].quantity)
+        if (c < 12 && column(std::string(test::quantity_names[c])) == b.objectives[k].quantity)
           samples.push_back(q[c]);
     }
     const double reference = b.objectives[k].reference.value_or(r.before[k]);

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/planar/serial_arm/samples.h"
 #include "planar/reactions_cases.h"
@@ -17,12 +17,10 @@ namespace linkwright::planar {
 namespace {
 
 using linkwright::test::message;
-using testing::at;
-using testing::dynamics_case;
+using test::at;
+using test::dynamics_case;
+using test::number_at;
 using ::testing::HasSubstr;
-using testing::number_at;
-
-constexpr double pi = std::numbers::pi;
 
 // The published arm (Boskovic 2018, Table 2.1), with its cycloidal laws or with polynomials in their place.
 ArmTask published(bool polynomials) {
@@ -78,7 +76,7 @@ TEST(SerialArmBalancing, GradientsAreExact) {
 TEST(SerialArmBalancing, LawsFromEverySeed) {
   const double best = published_number("manipulator-polynomial", "computed.F_optimum_N");
   const auto& minima = at(dynamics_case("manipulator-polynomial"), "computed.minima_F_a61_a62").as_array();
-  const auto trap = linkwright::testing::numbers(minima[1]);
+  const auto trap = linkwright::test::numbers(minima[1]);
   RunContext context;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const ArmSearchReport r = search_arm(published(true), {.degree = 6}, {}, {.seed = seed}, context);
@@ -98,8 +96,7 @@ TEST(SerialArmBalancing, LawsFromEverySeed) {
 
 TEST(SerialArmBalancing, BoundsOfTheSingleCoefficient) {
   const optimise::Problem p = arm_problem(published(true), {.degree = 6});
-  const auto box =
-      linkwright::testing::numbers(at(dynamics_case("manipulator-polynomial"), "computed.a6_box"));
+  const auto box = linkwright::test::numbers(at(dynamics_case("manipulator-polynomial"), "computed.a6_box"));
   ASSERT_EQ(p.variables.size(), 2U);
   EXPECT_EQ(p.variables[0].name, "a6_1");
   for (const optimise::Variable& v : p.variables) {

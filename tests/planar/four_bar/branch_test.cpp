@@ -3,16 +3,15 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::planar {
 namespace {
 
 using ::testing::ElementsAre;
-constexpr double pi = std::numbers::pi;
 
 FourBar lengths(double ground, double crank, double coupler, double rocker) {
   FourBar l{.ground = ground, .crank = crank, .coupler = coupler, .rocker = rocker};

@@ -1,4 +1,4 @@
-#include "linkwright/planar/four_bar/forces_kernel.h"
+#include "linkwright/planar/four_bar/detail/forces_kernel.h"
 
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 
 // With the crank at unit speed the derivative by the crank angle is that by time: speeds against exact
 // derivatives of the directions, accelerations against those of the speeds.

@@ -5,10 +5,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "planar/four_bars.h"
@@ -17,12 +16,10 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(FourBarPosition, MeetsTheCouplerPointsOfBothBranches) {
   const Value& entry = path_case("JAC-1");
@@ -104,7 +101,7 @@ TEST(FourBarPosition, RejectsWhatIsNoLinkage) {
                   "link lengths must be positive and finite (1e-70 to 1e+70 m), got ground 1, crank -1, "
                   "coupler 1, rocker 1")));
   for (double FourBar::*length : {&FourBar::ground, &FourBar::crank, &FourBar::coupler, &FourBar::rocker})
-    for (double value : {0.0, -1e-300, nan, std::numeric_limits<double>::infinity(), 1e-300, 1e300})
+    for (double value : {0.0, -1e-300, nan, infinity, 1e-300, 1e300})
       EXPECT_THAT(with(length, value), ThrowsMessage<ContractError>(HasSubstr("link lengths must be")));
   for (double FourBar::*other : {&FourBar::coupler_u, &FourBar::coupler_v, &FourBar::pivot_x,
                                  &FourBar::pivot_y, &FourBar::frame_angle})

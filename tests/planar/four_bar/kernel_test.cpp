@@ -21,13 +21,13 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 
-constexpr std::size_t quantities = 10;  // L1 L2 L3 L4 l1 l2 x0 y0 theta0 theta2, as in [JAC-1]
+constexpr std::size_t parameter_count = 10;  // L1 L2 L3 L4 l1 l2 x0 y0 theta0 theta2, as in [JAC-1]
 
 // Coupler point from the kernel, for any scalar.
 template <class T>
-std::array<T, 2> coupler_point(const std::array<T, quantities>& q, double branch) {
+std::array<T, 2> coupler_point(const std::array<T, parameter_count>& q, double branch) {
   using std::cos, std::sin;
   const T wx = q[1] * cos(q[9]), wy = q[1] * sin(q[9]);
   const Closure<T> closure = close_loop(q[0], T(0.0), wx, wy, q[2], q[3], T(branch));
@@ -37,19 +37,19 @@ std::array<T, 2> coupler_point(const std::array<T, quantities>& q, double branch
   return {q[6] + c * zx - s * zy, q[7] + s * zx + c * zy};
 }
 
-using Jet = ceres::Jet<double, quantities>;
-std::array<Jet, 2> derivatives(const std::array<double, quantities>& q, double branch) {
-  std::array<Jet, quantities> jets;
-  for (int i = 0; i < static_cast<int>(quantities); ++i) jets[i] = Jet(q[i], i);
+using Jet = ceres::Jet<double, parameter_count>;
+std::array<Jet, 2> derivatives(const std::array<double, parameter_count>& q, double branch) {
+  std::array<Jet, parameter_count> jets;
+  for (int i = 0; i < static_cast<int>(parameter_count); ++i) jets[i] = Jet(q[i], i);
   return coupler_point(jets, branch);
 }
 
 TEST(FourBarKernel, JetsMeetThePublishedDerivatives) {
   const Value& entry = path_case("JAC-1");
-  std::array<double, quantities> q;
+  std::array<double, parameter_count> q;
   std::size_t i = 0;
   for (const auto& member : at(entry, "inputs.x").as_object()) q.at(i++) = member.value.as_number();
-  ASSERT_EQ(i, quantities);
+  ASSERT_EQ(i, parameter_count);
   for (const auto& [key, branch] :
        {std::pair{"computed.branch_plus", 1.0}, {"computed.branch_minus", -1.0}}) {
     const auto point = derivatives(q, branch);
@@ -57,7 +57,7 @@ TEST(FourBarKernel, JetsMeetThePublishedDerivatives) {
     const auto& expected = at(at(entry, key), "dC_dx").as_array();
     for (int axis = 0; axis < 2; ++axis) {
       EXPECT_NEAR(point[axis].a, expected_point[axis], 1e-10);
-      for (std::size_t j = 0; j < quantities; ++j)
+      for (std::size_t j = 0; j < parameter_count; ++j)
         EXPECT_NEAR(point[axis].v[static_cast<int>(j)], numbers(expected[j])[axis], 1e-10)
             << key << " quantity " << j;
     }
@@ -69,28 +69,29 @@ RC_GTEST_PROP(FourBarKernel, JetsAgreeWithDifferences, ()) {
   const double angle = *any_angle(), branch = sign(l.branch);
   const auto pose = position(l, angle);
   RC_PRE(pose.status == Status::done && pose.transmission_angle > 0.2);
-  const std::array<double, quantities> q = {l.ground,    l.crank,   l.coupler, l.rocker,      l.coupler_u,
-                                            l.coupler_v, l.pivot_x, l.pivot_y, l.frame_angle, angle};
+  const std::array<double, parameter_count> q = {l.ground,      l.crank,     l.coupler, l.rocker,
+                                                 l.coupler_u,   l.coupler_v, l.pivot_x, l.pivot_y,
+                                                 l.frame_angle, angle};
   const double size =
       l.ground + l.crank + l.coupler + l.rocker + std::abs(l.coupler_u) + std::abs(l.coupler_v);
   const double shortest = std::min({l.ground, l.crank, l.coupler, l.rocker});
   const double distance = std::abs(rocker_pivot(l) - pose.crank_pin);
   // Lengths over which the point bends: the triangle's sides and height.
   const double bend = std::min({shortest, distance, 1.0}) * std::sin(pose.transmission_angle);
-  std::array<double, quantities> scale;
-  for (std::size_t j = 0; j < quantities; ++j) scale[j] = j < 8 ? bend : bend / (1 + size);
+  std::array<double, parameter_count> scale;
+  for (std::size_t j = 0; j < parameter_count; ++j) scale[j] = j < 8 ? bend : bend / (1 + size);
   const auto point = [&](std::span<const double> at, std::span<double> c, std::span<double>) {
-    std::array<double, quantities> moved;
+    std::array<double, parameter_count> moved;
     std::copy(at.begin(), at.end(), moved.begin());
     const auto found = coupler_point(moved, branch);
     std::copy(found.begin(), found.end(), c.begin());
     return true;
   };
-  std::array<double, 2 * quantities> differences;
+  std::array<double, 2 * parameter_count> differences;
   RC_ASSERT(math::central_jacobian(point, 2, q, differences, scale) == Status::done);
   const auto exact = derivatives(q, branch);
   // The error of differences is some eps^(2/3) = 4e-11 of size / bend.
-  for (std::size_t j = 0; j < quantities; ++j)
+  for (std::size_t j = 0; j < parameter_count; ++j)
     for (std::size_t axis = 0; axis < 2; ++axis)
       RC_ASSERT(std::abs(differences[2 * j + axis] - exact[axis].v[static_cast<int>(j)]) <
                 1e-7 * (1 + size / bend));

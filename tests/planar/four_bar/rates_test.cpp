@@ -4,10 +4,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <span>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/differences.h"
 #include "planar/reactions_cases.h"
@@ -16,15 +15,15 @@
 namespace linkwright::planar {
 namespace {
 
-using testing::any_angle;
-using testing::between;
+using test::any_angle;
+using test::between;
+using test::number_at;
 using ::testing::HasSubstr;
-using testing::number_at;
 
 // The reference table of the initial mechanism at 300 rpm, eight crank angles.
 TEST(FourBarRates, AreThoseOfTheReference) {
-  const Value& reference = testing::dynamics_case("fourbar-initial-samples");
-  const testing::Machine m = testing::machine(*reference.find("inputs"));
+  const Value& reference = test::dynamics_case("fourbar-initial-samples");
+  const test::Machine m = test::machine(*reference.find("inputs"));
   const double speed = number_at(reference, "inputs.omega1_rad_s");
   std::size_t rows = 0;
   for (const Value& row : reference.find("computed")->as_array()) {
@@ -46,7 +45,7 @@ TEST(FourBarRates, AreThoseOfTheReference) {
 }
 
 RC_GTEST_PROP(FourBarRatesProperty, HaveTheDirectionsOfThePosition, ()) {
-  const FourBar l = *testing::any_four_bar();
+  const FourBar l = *test::any_four_bar();
   const double angle = *any_angle(), speed = *between(-20, 20), acceleration = *between(-50, 50);
   const FourBarPosition p = position(l, angle);
   const FourBarRates r = rates(l, angle, speed, acceleration);
@@ -66,7 +65,7 @@ RC_GTEST_PROP(FourBarRatesProperty, HaveTheDirectionsOfThePosition, ()) {
 // Speeds against differences of the angles, accelerations against differences of the speeds, along a motion
 // theta(t) = angle + speed t + acceleration t^2 / 2.
 RC_GTEST_PROP(FourBarRatesProperty, AreTheDerivativesOfThePosition, ()) {
-  const FourBar l = *testing::any_four_bar();
+  const FourBar l = *test::any_four_bar();
   const double angle = *any_angle(), speed = *between(-20, 20), acceleration = *between(-50, 50);
   const FourBarRates r = rates(l, angle, speed, acceleration);
   RC_PRE(r.status == Status::done && std::abs(r.transmission_sine) > 0.1);
@@ -118,7 +117,7 @@ TEST(FourBarRates, AreNotDeterminedWhereTheLinkageSticksOrDoesNotAssemble) {
   EXPECT_EQ(stuck.status, Status::singular);
   EXPECT_TRUE(std::isnan(stuck.coupler_speed));
   EXPECT_NEAR(std::abs(stuck.rocker_direction), 1, 1e-7);
-  const FourBarRates apart = rates(rocker, std::numbers::pi, 1);
+  const FourBarRates apart = rates(rocker, pi, 1);
   EXPECT_EQ(apart.status, Status::no_assembly);
   EXPECT_TRUE(std::isnan(apart.coupler_direction.real()));
   // A on B0
@@ -128,7 +127,7 @@ TEST(FourBarRates, AreNotDeterminedWhereTheLinkageSticksOrDoesNotAssemble) {
 }
 
 TEST(FourBarRates, RejectWhatIsNotFinite) {
-  EXPECT_THAT(test::message([] { rates({}, 0, std::numeric_limits<double>::infinity()); }),
+  EXPECT_THAT(test::message([] { rates({}, 0, infinity); }),
               HasSubstr("crank speed inf and crank acceleration 0 must be finite"));
   EXPECT_THAT(test::message([] { rates({.crank = 0}, 0, 1); }),
               HasSubstr("link lengths must be positive and finite"));

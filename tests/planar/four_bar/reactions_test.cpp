@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/differences.h"
 #include "planar/reactions_cases.h"
 #include "support/message.h"
@@ -17,19 +17,18 @@
 namespace linkwright::planar {
 namespace {
 
-using testing::any_angle;
-using testing::between;
+using test::any_angle;
+using test::between;
+using test::number_at;
+using test::quantities;
+using test::quantity_names;
 using ::testing::HasSubstr;
-using testing::number_at;
-using testing::quantities;
-using testing::quantity_names;
 
-constexpr double pi = std::numbers::pi;
 constexpr double three_hundred_rpm = 10 * pi;
 
 TEST(FourBarReactions, AreThoseOfTheReference) {
-  const Value& reference = testing::dynamics_case("fourbar-initial-samples");
-  const testing::Machine m = testing::machine(*reference.find("inputs"));
+  const Value& reference = test::dynamics_case("fourbar-initial-samples");
+  const test::Machine m = test::machine(*reference.find("inputs"));
   for (const Value& row : reference.find("computed")->as_array()) {
     const FourBarRates r =
         rates(m.linkage, number_at(row, "theta1_rad"), number_at(reference, "inputs.omega1_rad_s"));
@@ -44,7 +43,7 @@ TEST(FourBarReactions, AreThoseOfTheReference) {
 struct CycleValues {
   double f = 0, rms = 0, mean_abs = 0, max_abs = 0;  // f: Eq. (2.80), the divisor outside the root
 };
-std::array<CycleValues, 13> over_the_cycle(const testing::Machine& m, double gravity, int samples) {
+std::array<CycleValues, 13> over_the_cycle(const test::Machine& m, double gravity, int samples) {
   std::array<CycleValues, 13> out;
   for (int i = 0; i <= samples; ++i) {
     const auto values = quantities(
@@ -62,8 +61,8 @@ std::array<CycleValues, 13> over_the_cycle(const testing::Machine& m, double gra
 }
 
 TEST(FourBarReactions, HaveTheCycleValuesOfTheReference) {
-  const Value& reference = testing::dynamics_case("fourbar-initial-cycle-values");
-  const testing::Machine m = testing::machine(*reference.find("inputs"));
+  const Value& reference = test::dynamics_case("fourbar-initial-cycle-values");
+  const test::Machine m = test::machine(*reference.find("inputs"));
   int compared = 0;
   for (const Value::Member& block : reference.find("computed")->as_object()) {
     const double gravity = block.key.starts_with("g=0,") ? 0 : 9.81;
@@ -91,11 +90,11 @@ TEST(FourBarReactions, HaveTheCycleValuesOfThePublishedDesigns) {
        {"published-case1-FA", "published-case1-CS", "published-case1-H-CS-FA", "published-case2-FA",
         "published-case2-CS", "published-case2-H-CS-FA", "published-case3-FA", "published-case3-CS",
         "published-case3-H-CS-FA", "published-case3x-H-CS-FA", "published-sp-fa"}) {
-    const Value& reference = testing::dynamics_case(id);
-    const auto values = over_the_cycle(testing::machine(*reference.find("inputs")), 9.81, 200);
+    const Value& reference = test::dynamics_case(id);
+    const auto values = over_the_cycle(test::machine(*reference.find("inputs")), 9.81, 200);
     int compared = 0;
     for (std::size_t q = 0; q < values.size(); ++q) {
-      const Value* expected = testing::at(reference, "computed.f_2_80_delta200").find(quantity_names[q]);
+      const Value* expected = test::at(reference, "computed.f_2_80_delta200").find(quantity_names[q]);
       if (!expected) continue;
       EXPECT_NEAR(values[q].f, expected->as_number(), 1e-9 * expected->as_number())
           << id << quantity_names[q];
@@ -112,8 +111,8 @@ struct State {  // any linkage in any motion
   FourBarRates r;
 };
 State any_state(double least_sine) {
-  State s{*testing::any_four_bar(),
-          *testing::any_masses(),
+  State s{*test::any_four_bar(),
+          *test::any_masses(),
           *any_angle(),
           *between(-40, 40),
           *between(-300, 300),
@@ -129,7 +128,7 @@ RC_GTEST_PROP(FourBarReactionsProperty, AgreeWithNewtonAndEuler, ()) {
   const FourBarReactions a = reactions(s.linkage, s.masses, s.r, s.gravity);
   const FourBarReactions b = reactions_newton_euler(s.linkage, s.masses, s.r, s.gravity);
   const auto qa = quantities(a), qb = quantities(b);
-  const double force = testing::largest_force(a) + 1e-6;
+  const double force = test::largest_force(a) + 1e-6;
   const double length = s.linkage.ground + s.linkage.crank;
   for (std::size_t q = 0; q < qa.size(); ++q) {
     const bool moment = q == 8 || q >= 11;
@@ -141,7 +140,7 @@ RC_GTEST_PROP(FourBarReactionsProperty, TheDriveFeedsTheEnergy, ()) {
   const State s = any_state(0.02);
   const FourBarReactions a = reactions(s.linkage, s.masses, s.r, s.gravity);
   const double power = energy_rate(s.linkage, s.masses, s.r, s.gravity);
-  const double size = testing::largest_force(a) * (s.linkage.crank + s.linkage.ground) *
+  const double size = test::largest_force(a) * (s.linkage.crank + s.linkage.ground) *
                           (std::abs(s.speed) + std::abs(s.r.coupler_speed) + std::abs(s.r.rocker_speed)) +
                       std::abs(power) + 1e-9;
   RC_ASSERT(std::abs(a.drive_torque * s.speed - power) <= 1e-11 * size);
@@ -227,8 +226,8 @@ TEST(FourBarReactions, OfAForceBalancedLinkageShakeWithTheWeightAlone) {
 }
 
 TEST(FourBarReactions, DoNotKnowTheInertiaOfAnEvenlyTurningCrank) {
-  const Value& reference = testing::dynamics_case("fourbar-initial-samples");
-  testing::Machine m = testing::machine(*reference.find("inputs"));
+  const Value& reference = test::dynamics_case("fourbar-initial-samples");
+  test::Machine m = test::machine(*reference.find("inputs"));
   const FourBarRates r = rates(m.linkage, 0.7, three_hundred_rpm), faster = rates(m.linkage, 0.7, 31, 50);
   const auto before = quantities(reactions(m.linkage, m.masses, r, 9.81));
   const double torque = reactions(m.linkage, m.masses, faster, 9.81).drive_torque;
@@ -240,7 +239,7 @@ TEST(FourBarReactions, DoNotKnowTheInertiaOfAnEvenlyTurningCrank) {
 // All outputs are linear in (m, m d cos a, m d sin a, J + m d^2) of each link.
 RC_GTEST_PROP(FourBarReactionsProperty, AreLinearInTheBaseParameters, ()) {
   const State s = any_state(0.2);
-  const FourBarMasses other = *testing::any_masses();
+  const FourBarMasses other = *test::any_masses();
   const auto add = [](const LinkMass& a, const LinkMass& b) {
     const std::complex<double> moment = a.mass * std::polar(a.centre_distance, a.centre_angle) +
                                         b.mass * std::polar(b.centre_distance, b.centre_angle);

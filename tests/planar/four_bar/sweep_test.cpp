@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "planar/reactions_cases.h"
 #include "support/allocations.h"
 #include "support/message.h"
@@ -15,8 +15,8 @@
 namespace linkwright::planar {
 namespace {
 
-using testing::any_angle;
-using testing::between;
+using test::any_angle;
+using test::between;
 using ::testing::HasSubstr;
 
 // Row r of the plain functions, in the order of FourBarRow.
@@ -72,7 +72,7 @@ void compare(const FourBarSweep& sweep, const FourBarMachine& m, double gravity,
 }
 
 RC_GTEST_PROP(FourBarSweepProperty, OverAnglesEqualsThePlainFunctions, ()) {
-  const FourBarMachine m{*testing::any_four_bar(), *testing::any_masses()};
+  const FourBarMachine m{*test::any_four_bar(), *test::any_masses()};
   const auto n = *rc::gen::inRange<std::size_t>(1, 40);
   const double gravity = *between(0, 20);
   std::vector<double> angle(n), speed(n), acceleration(n);
@@ -86,7 +86,7 @@ RC_GTEST_PROP(FourBarSweepProperty, OverAnglesEqualsThePlainFunctions, ()) {
 
 RC_GTEST_PROP(FourBarSweepProperty, OverMachinesEqualsThePlainFunctions, ()) {
   std::vector<FourBarMachine> machines(*rc::gen::inRange<std::size_t>(1, 20));
-  for (FourBarMachine& m : machines) m = {*testing::any_four_bar(), *testing::any_masses()};
+  for (FourBarMachine& m : machines) m = {*test::any_four_bar(), *test::any_masses()};
   const double gravity = *between(0, 20), speed = *between(-40, 40), acceleration = *between(-300, 300);
   const std::vector<double> angle = {*any_angle(), *any_angle(), *any_angle()};
   FourBarSweep sweep({});
@@ -103,7 +103,7 @@ const FourBarMachine crank_rocker{
 TEST(FourBarSweep, NamesWhatKeepsASampleFromBeingComputed) {
   const FourBar rocker{.ground = 2, .crank = 1.5, .coupler = 1, .rocker = 1};
   const double dead = std::acos((1.5 * 1.5 + 4 - 4) / (2 * 1.5 * 2));
-  const std::vector<double> angle = {0.3, dead, std::numbers::pi, -0.3};
+  const std::vector<double> angle = {0.3, dead, pi, -0.3};
   FourBarSweep sweep({});
   sweep.run(rocker, crank_rocker.masses, 9.81, {angle, {}, {}});
   EXPECT_THAT(sweep.status(),
@@ -152,15 +152,11 @@ TEST(FourBarSweep, EveryInstructionSetGivesTheSameUpToRounding) {
   for (std::size_t r = 0; r < four_bar_row_count; ++r) task.first[r] = r;
   task.data = data.data();
   EXPECT_TRUE(four_bar_sweep_baseline(task));
-  __builtin_cpu_init();
-  for (const auto& [run, there] :
-       {std::pair{&four_bar_sweep_avx2, __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")},
-        std::pair{&four_bar_sweep_avx512, __builtin_cpu_supports("avx512f") != 0}}) {
-    if (!there) continue;
+  for (const auto& [run, name] : runnable(four_bar_sweep_kernels())) {
     task.data = other.data();
     EXPECT_TRUE(run(task));
     // Forces of some hundred newtons, rates of some hundred rad/s2.
-    for (std::size_t i = 0; i < data.size(); ++i) EXPECT_NEAR(other[i], data[i], 1e-11) << i;
+    for (std::size_t i = 0; i < data.size(); ++i) EXPECT_NEAR(other[i], data[i], 1e-11) << name << ' ' << i;
   }
 }
 

@@ -5,14 +5,14 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "linkwright/core/numbers.h"
 #include "planar/linkage_sweeps.h"
 #include "tests/planar/linkage_cases.h"
 
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
-constexpr double pi = std::numbers::pi;
+using namespace linkwright::planar::test;
 
 // Random linkages, swept beyond the range of their drawing in a shuffled order: LINKWRIGHT_SWEEPS=100000 (and
 // LINKWRIGHT_FIRST_SWEEP) in the environment makes it many.

@@ -1,17 +1,15 @@
 #include "linkwright/planar/linkage/branch.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/quality.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "tests/planar/linkage_cases.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 double mode_at(const BranchPath& path, double value, std::size_t group = 1) {
   std::vector<double> modes(path.pieces[0].modes.size());
@@ -96,7 +94,7 @@ TEST(LinkageBranch, RunsBetweenLimitsWithoutChangePoints) {
   EXPECT_NEAR(path.low.value, near, 1e-14);
   EXPECT_NEAR(path.high.value, far, 1e-14);
   EXPECT_EQ(path.high.kind, EndKind::limit);
-  EXPECT_THAT(path.high.groups, testing::ElementsAre(1));
+  EXPECT_THAT(path.high.groups, ::testing::ElementsAre(1));
   EXPECT_EQ(branch_path(p, std::vector<double>{2}, 0, std::vector<double>{1, 1}, -pi, pi).status,
             Status::no_assembly);
   EXPECT_THROW(branch_path(p, std::vector<double>{9}, 0, std::vector<double>{1, 1}, -pi, pi), ContractError);

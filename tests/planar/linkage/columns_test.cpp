@@ -7,7 +7,7 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 TEST(LinkageColumns, AreThoseOfTheQuantities) {
   const LinkageSample s = slider_crank_sample();

@@ -3,16 +3,14 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/modes.h"
 #include "tests/planar/linkage_cases.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // Solved all at once, four-bars have the ranges and places of their closed form.
 TEST(LinkageCurve, HasTheModesOfAFourBar) {

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "planar/simulations.h"
 #include "support/allocations.h"
 #include "support/message.h"
@@ -13,8 +13,7 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace test;
 
 // Published accelerations at the start of Andrews' squeezer, at rest: all its digits.
 TEST(LinkageDynamics, StartsAndrewsSqueezerAsPublished) {

@@ -13,7 +13,7 @@ namespace {
 
 using linkwright::test::message;
 using ::testing::HasSubstr;
-using namespace testing;
+using namespace test;
 
 // Accelerations of the free inputs and the power of the drives by both routes.
 void expect_same(const Linkage& l, const LinkagePlan& p, const std::vector<bool>& free,

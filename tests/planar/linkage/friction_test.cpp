@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/dynamics.h"
 #include "linkwright/planar/simulation/simulation.h"
 #include "planar/linkages.h"
@@ -13,8 +13,7 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
-constexpr double pi = std::numbers::pi;
+using namespace linkwright::planar::test;
 
 Linkage rubbing(double guide, double pins) {
   LinkageSample s = slider_crank_sample();

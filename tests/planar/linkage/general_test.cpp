@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "planar/linkage_changes.h"
 #include "planar/linkages.h"
 
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
-constexpr double pi = std::numbers::pi;
+using namespace linkwright::planar::test;
 
 // From poses that are off by centimetres Newton's method finds the same place as from near ones, to rounding.
 TEST(LinkageGeneral, FindsThePlaceFromAfar) {

@@ -11,7 +11,7 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 
 // A dyad between two points of the ground, the first named "first" and "second".
 std::vector<PartState<double>> placed(const Linkage& l, double mode, GroupType type) {
@@ -27,9 +27,9 @@ std::vector<PartState<double>> placed(const Linkage& l, double mode, GroupType t
 
 // Path synthesis, section 5: the five dyads between A and B.
 TEST(LinkageKernel, MeetsThePublishedDyads) {
-  using linkwright::testing::at;
-  using linkwright::testing::numbers;
-  const Value& entry = linkwright::testing::published_case("path-synthesis.json", "DYADS");
+  using linkwright::test::at;
+  using linkwright::test::numbers;
+  const Value& entry = linkwright::test::published_case("path-synthesis.json", "DYADS");
   const std::complex<double> a(0.2, 0.1), b(1.7, -0.4);
   const auto expected = [&](const std::string& key) { return numbers(at(entry, "computed." + key)); };
 

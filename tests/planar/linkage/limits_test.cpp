@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/classify.h"
@@ -15,7 +15,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 const std::vector<double> at_zero{0};
 
 InputLimits turn_limits(const Linkage& l, double from = 0) {
@@ -58,7 +57,7 @@ TEST(LinkageLimits, OfAParallelogramMeetAtChangePoints) {
     for (const InputRange& r : l.ranges) {
       EXPECT_EQ(r.from.kind, EndKind::change_point);
       EXPECT_EQ(r.to.kind, EndKind::change_point);
-      EXPECT_THAT(r.to.groups, testing::ElementsAre(1));
+      EXPECT_THAT(r.to.groups, ::testing::ElementsAre(1));
       EXPECT_NEAR(r.to.value - r.from.value, pi, 1e-14);
       EXPECT_NEAR(std::remainder(r.from.value, pi), 0, 1e-14);
     }
@@ -106,7 +105,7 @@ TEST(LinkageLimits, EveryRangeAssemblesInsideAndNotOutside) {
       }
       if (range.to.kind == EndKind::limit) {
         EXPECT_EQ(status(range.to.value + 1e-9), Status::no_assembly);
-        EXPECT_THAT(range.to.groups, testing::ElementsAre(m.failed_group));
+        EXPECT_THAT(range.to.groups, ::testing::ElementsAre(m.failed_group));
       }
     }
   }

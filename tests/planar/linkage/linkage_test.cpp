@@ -3,15 +3,13 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/samples.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 // "key: message; hint" of every problem.
 std::vector<std::string> told(const Linkage& l) {
@@ -54,14 +52,14 @@ TEST(LinkageCheck, WantsNamesOnce) {
               ElementsAre("torque.t: the name 't' is given twice; give every one a name of its own"));
 }
 TEST(LinkageCheck, WantsFiniteNumbers) {
-  EXPECT_THAT(after([](Linkage& l) { l.bodies[2].points[1].at = inf; }),
+  EXPECT_THAT(after([](Linkage& l) { l.bodies[2].points[1].at = infinity; }),
               ElementsAre("body.coupler.point.B: its coordinates are not finite; "));
   EXPECT_THAT(after([](Linkage& l) { l.bodies[1].mass->inertia = -1; }),
               ElementsAre("body.crank.mass: mass 0.2 and inertia -1 must be finite and not negative; "));
   EXPECT_THAT(after([](Linkage& l) {
-                l.bodies[1].attached.push_back({"weight", inf, 0});
+                l.bodies[1].attached.push_back({"weight", infinity, 0});
               }),
-              ElementsAre("body.crank.attached.weight: mass inf must be finite and not negative; "));
+              ElementsAre("body.crank.attached.weight: mass infinity must be finite and not negative; "));
   EXPECT_THAT(after([](Linkage& l) { l.gravity = std::nan(""); }),
               ElementsAre("environment.gravity: is not finite; "));
   EXPECT_THAT(after([](Linkage& l) { l.joints[1].slide_first = std::nan(""); }),
@@ -131,7 +129,7 @@ TEST(LinkageCheck, WantsLoadsThatDoSomething) {
                           "angle finite; "));
   EXPECT_THAT(
       after([](Linkage& l) {
-        l.forces.push_back({.name = "f", .point = {2, 5}, .force = inf});
+        l.forces.push_back({.name = "f", .point = {2, 5}, .force = infinity});
       }),
       ElementsAre("force.f: refers to a body or point that does not exist; ", "force.f: is not finite; "));
   const auto torque = [](BodyTorque t) { return after([&](Linkage& l) { l.torques.push_back(t); }); };
@@ -139,7 +137,7 @@ TEST(LinkageCheck, WantsLoadsThatDoSomething) {
               ElementsAre("torque.t: body 'crank' exerts it on itself; "));
   EXPECT_THAT(torque({.name = "t", .body = 8}),
               ElementsAre("torque.t: refers to a body that does not exist; "));
-  EXPECT_THAT(torque({.name = "t", .body = 1, .torque = inf}), ElementsAre("torque.t: is not finite; "));
+  EXPECT_THAT(torque({.name = "t", .body = 1, .torque = infinity}), ElementsAre("torque.t: is not finite; "));
   EXPECT_THAT(
       torque({.name = "t", .body = 1, .factor = {LoadArgument::x, {0, 1}, {0, 1}}}),
       ElementsAre("torque.t: a torque has no point: its table cannot go by x or y; use input or time"));
@@ -154,7 +152,7 @@ TEST(LinkageCheck, WantsLoadsThatDoSomething) {
                           "of both"));
   EXPECT_THAT(table({0, 0}, {1, 2}),
               ElementsAre("torque.t: the arguments of its table do not rise; sort them, each once"));
-  EXPECT_THAT(table({0, 1}, {1, inf}),
+  EXPECT_THAT(table({0, 1}, {1, infinity}),
               ElementsAre("torque.t: its table holds numbers that are not finite; "));
 }
 TEST(LinkageSize, IsTheLargestDistanceOfJoints) {

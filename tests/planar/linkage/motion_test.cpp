@@ -4,8 +4,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/differences.h"
 #include "linkwright/planar/four_bar/rates.h"
 #include "linkwright/planar/linkage/general.h"
@@ -19,9 +19,8 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::HasSubstr;
-constexpr double pi = std::numbers::pi;
 
 // Positions and speeds of all parts as functions of the time, with rates and accelerations as their
 // derivatives; the difference quotient sets its own tolerance from its step.
@@ -203,9 +202,9 @@ struct Chain {
   const char* point;
 };
 TEST(LinkageMotion, MeetsThePublishedChains) {
-  using linkwright::testing::at;
-  using linkwright::testing::numbers;
-  const Value& entry = linkwright::testing::published_case("path-synthesis.json", "CHAINS");
+  using linkwright::test::at;
+  using linkwright::test::numbers;
+  const Value& entry = linkwright::test::published_case("path-synthesis.json", "CHAINS");
   const auto base = [](std::vector<LinkagePoint> ground) {
     Linkage l = grounded(std::move(ground));
     add_bar(l, "crank", "O", "A", 0.5);

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "planar/linkage_changes.h"
 #include "planar/linkages.h"
 #include "support/message.h"
@@ -12,13 +12,12 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-constexpr double pi = std::numbers::pi;
 
-std::vector<std::string> told(const Linkage& l) {
+std::vector<std::string> problems_told(const Linkage& l) {
   std::vector<std::string> out;
   for (const Diagnostic& d : plan(l).problems) out.push_back(d.key + ": " + d.message + "; " + d.hint);
   return out;
@@ -222,13 +221,13 @@ TEST(LinkagePlan, TakesTheModesOfSlidesInAnyOrder) {
 TEST(LinkagePlanProblems, IncludeThoseOfTheDescription) {
   Linkage l = four_bar();
   l.bodies[2].name = "crank";
-  EXPECT_THAT(told(l),
+  EXPECT_THAT(problems_told(l),
               ElementsAre("body.crank: the name 'crank' is given twice; give every one a name of its own"));
 }
 TEST(LinkagePlanProblems, NameALooseBody) {
   Linkage l = four_bar();
   add_bar(l, "spare", "P", "Q", 1);
-  EXPECT_THAT(told(l),
+  EXPECT_THAT(problems_told(l),
               ElementsAre("body.spare: 'spare' is not joined to anything; join it to another body, or "
                           "leave it out"));
 }
@@ -237,21 +236,22 @@ TEST(LinkagePlanProblems, NameBodiesOffTheGround) {
   add_bar(l, "spare", "P", "Q", 1);
   add_bar(l, "second", "P", "Q", 1);
   add_pin(l, "P", "spare.P", "second.P");
-  EXPECT_THAT(told(l), ElementsAre("body.spare: 'spare' and 'second' are joined to each other but not to the "
-                                   "ground; join one of them to the ground or to a body that stands on it"));
+  EXPECT_THAT(problems_told(l),
+              ElementsAre("body.spare: 'spare' and 'second' are joined to each other but not to the "
+                          "ground; join one of them to the ground or to a body that stands on it"));
 }
 TEST(LinkagePlanProblems, NameFreedomsWithoutADrive) {
   Linkage l = four_bar();
   l.driven.clear();
   EXPECT_THAT(
-      told(l),
+      problems_told(l),
       ElementsAre("body.crank: 'crank', 'coupler' and 'rocker' keep 1 degree of freedom without a "
                   "drive; the linkage has 1 degree(s) of freedom and 0 drive(s): drive one more joint, "
                   "or add a joint"));
   Linkage open = grounded({{"O", {0, 0}}});
   add_bar(open, "arm", "O", "A", 1);
   add_pin(open, "O", "ground.O", "arm.O");
-  EXPECT_THAT(told(open),
+  EXPECT_THAT(problems_told(open),
               ElementsAre("body.arm: 'arm' keeps 1 degree of freedom without a drive; the linkage has 1 "
                           "degree(s) of freedom and 0 drive(s): drive one more joint, or add a joint"));
 }
@@ -259,7 +259,7 @@ TEST(LinkagePlanProblems, NameDrivesBeyondTheFreedoms) {
   Linkage l = four_bar();
   add_drive(l, "B0");
   EXPECT_THAT(
-      told(l),
+      problems_told(l),
       ElementsAre("drive: two drives on one freedom: with the drives of 'O' and 'B0' nothing is left to "
                   "place 'coupler'; the linkage has 1 degree(s) of freedom and 2 drive(s): remove one "
                   "drive"));
@@ -270,7 +270,7 @@ TEST(LinkagePlanProblems, NameDrivesBeyondTheFreedoms) {
   add_drive(two, "O");
   add_drive(two, "slide");
   EXPECT_THAT(
-      told(two),
+      problems_told(two),
       ElementsAre("drive: two drives on one freedom: 'ground' and 'arm', which joint 'slide' would "
                   "drive, are placed by other drives already; the linkage has -1 degree(s) of freedom "
                   "and 2 drive(s): remove one drive"));
@@ -281,11 +281,12 @@ TEST(LinkagePlanProblems, NameRedundantConstraints) {
   l.bodies[0].points.push_back({"extra", {0.3, 0.3}});
   add_pin(l, "P", "ground.extra", "brace.P");
   add_pin(l, "Q", "coupler.C", "brace.Q");
-  EXPECT_THAT(told(l), ElementsAre("body.brace: 'brace' has 1 constraint too many: a rigid or overdetermined "
-                                   "structure; leave out a joint or a drive"));
+  EXPECT_THAT(problems_told(l),
+              ElementsAre("body.brace: 'brace' has 1 constraint too many: a rigid or overdetermined "
+                          "structure; leave out a joint or a drive"));
   Linkage doubled = four_bar();
   add_pin(doubled, "again", "ground.O", "crank.O");
-  EXPECT_THAT(told(doubled),
+  EXPECT_THAT(problems_told(doubled),
               ElementsAre("joint.again: a redundant constraint: 'ground' and 'crank' are placed by other "
                           "joints already, so the joint fits by chance only; leave the joint out, or one of "
                           "the links beside it"));
@@ -295,34 +296,36 @@ TEST(LinkagePlanProblems, NameAStructure) {
   add_body(l, "plate", {{"A", {0, 0}}, {"B", {1, 0}}});
   add_pin(l, "A", "ground.A", "plate.A");
   add_pin(l, "B", "ground.B", "plate.B");
-  EXPECT_THAT(told(l), ElementsAre("body.plate: 'plate' has 1 constraint too many: a rigid or overdetermined "
-                                   "structure; leave out a joint or a drive"));
+  EXPECT_THAT(problems_told(l),
+              ElementsAre("body.plate: 'plate' has 1 constraint too many: a rigid or overdetermined "
+                          "structure; leave out a joint or a drive"));
 }
 TEST(LinkagePlanProblems, NameWeldsThatCloseALoop) {
   Linkage l = four_bar();
   add_bar(l, "extra", "P", "Q", 1);
   add_weld(l, "w1", "coupler.C", "extra.P");
   add_weld(l, "w2", "extra.Q", "coupler.B");
-  EXPECT_THAT(told(l),
+  EXPECT_THAT(problems_told(l),
               ElementsAre("joint.w2: welds 'extra' and 'coupler', which are welded together already: "
                           "a redundant constraint; leave it out"));
   l.joints.back() = l.joints[0];
   l.joints.back().name = "pin";
   l.joints.back().first = point_named(l, "extra.Q");
   l.joints.back().second = point_named(l, "coupler.B");
-  EXPECT_THAT(told(l), ElementsAre("joint.pin: joins 'extra' and 'coupler', which are welded together: a "
-                                   "redundant constraint; leave the joint or the weld out"));
+  EXPECT_THAT(problems_told(l),
+              ElementsAre("joint.pin: joins 'extra' and 'coupler', which are welded together: a "
+                          "redundant constraint; leave the joint or the weld out"));
 }
 TEST(LinkagePlanProblems, NameGearsThatDoNotFollow) {
   Linkage l = four_bar();
   add_gear(l, "gear", "crank", "rocker", -2);
   // The gear turns the rocker, the pins hold the coupler once too often.
-  EXPECT_THAT(told(l), ElementsAre("body.coupler: 'coupler' has 1 constraint too many: a rigid or "
-                                   "overdetermined structure; leave out a joint or a drive"));
+  EXPECT_THAT(problems_told(l), ElementsAre("body.coupler: 'coupler' has 1 constraint too many: a rigid or "
+                                            "overdetermined structure; leave out a joint or a drive"));
   Linkage loose = linkage_sample("geared_five_bar").linkage;
   loose.joints.back().first.body = body_index(loose, "link 1");
   EXPECT_THAT(
-      told(loose),
+      problems_told(loose),
       ElementsAre("joint.gear: the gear between 'link 1' and 'second crank' on 'ground' cannot be "
                   "followed from the drives; one of the two must be turned by drives and gears alone, "
                   "so must the carrier, and the other must have a pin on a placed body"));
@@ -334,23 +337,25 @@ TEST(LinkagePlanProblems, NameGearsThatDoNotFollow) {
   add_drive(twice, "A");
   add_drive(twice, "B");
   add_gear(twice, "gear", "one", "two", -2);
-  EXPECT_THAT(told(twice),
+  EXPECT_THAT(problems_told(twice),
               ElementsAre("joint.gear: a redundant constraint: 'one' and 'two' are placed without "
                           "the gear already; leave the gear or a drive out"));
 }
 TEST(LinkagePlanProblems, NamePairsWithoutModes) {
   Linkage l = four_bar();
   set_mode(l, "crank", "coupler", AssemblyMode::plus);
-  EXPECT_THAT(told(l),
+  EXPECT_THAT(problems_told(l),
               ElementsAre("assembly: 'crank' and 'coupler' are no pair with two assembly modes; these "
                           "are: coupler + rocker"));
   l.modes.back() = {7, 2, AssemblyMode::plus};
-  EXPECT_THAT(told(l), ElementsAre("assembly: '7' and 'coupler' are no pair with two assembly modes; these "
-                                   "are: coupler + rocker"));
+  EXPECT_THAT(problems_told(l),
+              ElementsAre("assembly: '7' and 'coupler' are no pair with two assembly modes; these "
+                          "are: coupler + rocker"));
   Linkage arm = arm_sample(2).linkage;
   set_mode(arm, "link 1", "link 2", AssemblyMode::plus);
-  EXPECT_THAT(told(arm), ElementsAre("assembly: 'link 1' and 'link 2' are no pair with two assembly modes; "
-                                     "this linkage has no such pair"));
+  EXPECT_THAT(problems_told(arm),
+              ElementsAre("assembly: 'link 1' and 'link 2' are no pair with two assembly modes; "
+                          "this linkage has no such pair"));
 }
 TEST(LinkagePlanProblems, NoGearsAllAtOnce) {
   EXPECT_THAT(test::message([] { plan(linkage_sample("geared_five_bar").linkage, PlanRoute::all_at_once); }),

@@ -1,9 +1,9 @@
 #include "linkwright/planar/linkage/quality.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/linkage/samples.h"
@@ -11,8 +11,6 @@
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 void move(const LinkagePlan& p, double value, double rate, double acceleration, LinkageMotion& m) {
   const std::vector<InputMotion> in{{value, rate, acceleration}};

@@ -4,8 +4,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/differences.h"
 #include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/linkage/general.h"
@@ -17,15 +17,14 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::HasSubstr;
-constexpr double pi = std::numbers::pi;
 
 BodyMass body_mass(const LinkMass& m) {
   return {m.mass, m.inertia, std::polar(m.centre_distance, m.centre_angle)};
 }
 Linkage linkage_of(const FourBar& b, const FourBarMasses& masses, double gravity) {
-  Linkage l = testing::linkage_of(b);
+  Linkage l = test::linkage_of(b);
   l.bodies[1].mass = body_mass(masses.crank);
   l.bodies[2].mass = body_mass(masses.coupler);
   l.bodies[3].mass = body_mass(masses.rocker);
@@ -191,7 +190,7 @@ RC_GTEST_PROP(LinkageReactionsOfAFourBar, AgreeWithItsClosedForm, ()) {
 
 // The published four-bar, its crank and rocker given the mass moments that balance the coupler.
 TEST(LinkageReactions, OfABalancedFourBarShakeNothing) {
-  const Machine machine = testing::machine(at(dynamics_case("fourbar-initial-samples"), "inputs"));
+  const Machine machine = test::machine(at(dynamics_case("fourbar-initial-samples"), "inputs"));
   FourBar b = machine.linkage;
   FourBarMasses masses = machine.masses;
   const std::complex<double> coupler =

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/general.h"
 #include "planar/linkages.h"
 #include "support/message.h"
@@ -14,8 +14,7 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
-constexpr double pi = std::numbers::pi;
+using namespace linkwright::planar::test;
 
 // Calls `look(share, plan, motion)` at `count` + 1 positions from one end of the sample to the other.
 template <class Look>
@@ -290,10 +289,10 @@ TEST(FourBarChain, KeepsItsRockersParallel) {
 
 // Test set for initial value problem solvers: consistent start of the Andrews problem.
 TEST(AndrewsSqueezer, StartsAsPublished) {
-  using linkwright::testing::number_at;
-  const Value& c = linkwright::testing::published_case("multibody-benchmarks.json", "A03-andrews-squeezer");
+  using linkwright::test::number_at;
+  const Value& c = linkwright::test::published_case("multibody-benchmarks.json", "A03-andrews-squeezer");
   const auto text = [&](const Value& v) { return std::stod(v.as_string()); };
-  const auto& q = linkwright::testing::at(c, "inputs.start.q0_rad").as_array();
+  const auto& q = linkwright::test::at(c, "inputs.start.q0_rad").as_array();
   const LinkageSample& s = linkage_sample("andrews_squeezer");
   const LinkagePlan p = planned(s.linkage);
   LinkageMotion m(p);
@@ -317,15 +316,15 @@ TEST(AndrewsSqueezer, StartsAsPublished) {
   EXPECT_NEAR(angle("K4") - angle("K5"), text(q[3]), 1e-13);
   EXPECT_NEAR(angle("K7"), text(q[6]), 1e-13);
   EXPECT_NEAR(angle("K6") - angle("K7"), text(q[5]), 1e-13);
-  const double published_beta = text(linkwright::testing::at(c, "inputs.start.dd_beta0")),
-               published_theta = text(linkwright::testing::at(c, "inputs.start.dd_theta0"));
+  const double published_beta = text(linkwright::test::at(c, "inputs.start.dd_beta0")),
+               published_theta = text(linkwright::test::at(c, "inputs.start.dd_theta0"));
   EXPECT_NEAR(dd_beta, published_beta, 1e-10 * published_beta);
   EXPECT_NEAR(body("K2").angular_acceleration - body("K1").angular_acceleration, published_theta,
               1e-10 * published_beta);
   // The published multipliers are the force in the loop over B: K3 on K2 would carry them at E, and the same
   // equations at the other loops do not vanish because the spring pulls on K3 and the crank is driven.
-  const double lambda1 = text(linkwright::testing::at(c, "inputs.start.lambda1_0")),
-               lambda2 = text(linkwright::testing::at(c, "inputs.start.lambda2_0"));
+  const double lambda1 = text(linkwright::test::at(c, "inputs.start.lambda1_0")),
+               lambda2 = text(linkwright::test::at(c, "inputs.start.lambda2_0"));
   const JointReaction& e2 = f.joints[index(joint_index(s.linkage, "E2"))];
   EXPECT_NEAR(std::abs(e2.force.x), std::abs(lambda1), 1e-9 * lambda1);
   EXPECT_NEAR(std::abs(e2.force.y), std::abs(lambda2), 1e-9 * lambda1);

@@ -1,16 +1,14 @@
 #include "linkwright/planar/linkage/scan.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "tests/planar/linkage_cases.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 TEST(LinkageScan, FindsTheLimitsOfATripleRocker) {
   // Crank pin and rocker pivot are coupler + rocker apart where cos = (1 + 1 - (0.6 + 0.7)^2) / 2.

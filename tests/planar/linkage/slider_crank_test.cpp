@@ -4,14 +4,12 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/motion.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // Boskovic 2018, Eqs. (4.9)-(4.11), whose H is the offset counted the other way.
 TEST(SliderCrank, IsTheSourcesMechanismOnBothSides) {

@@ -3,15 +3,14 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "planar/linkages.h"
 
 namespace linkwright::planar {
 namespace {
 
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace test;
 
 TEST(ChangeZone, InterpolatesPolynomialsOfDegreeSevenExactly) {
   for (const double x : {-1.0, -0.3, 0.0, 0.7}) {

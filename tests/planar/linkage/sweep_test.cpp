@@ -1,9 +1,9 @@
 #include "linkwright/planar/linkage/sweep.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "tests/planar/linkage_cases.h"
 #include "tests/support/allocations.h"
@@ -11,8 +11,7 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 struct Inputs {
   std::vector<double> value, rate, acceleration;
@@ -142,11 +141,8 @@ TEST(LinkageSweepTest, EveryInstructionSetGivesTheSame) {
   take(t.drives, 1);
   take(t.shaking, 3);
   take(t.good, 1);
-  std::vector<SweepKernel> kernels{sweep_baseline};
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) kernels.push_back(sweep_avx2);
-  if (__builtin_cpu_supports("avx512f")) kernels.push_back(sweep_avx512);
   std::vector<std::vector<double>> all;
-  for (const SweepKernel run : kernels) {
+  for (const auto& [run, name] : runnable(sweep_kernels())) {
     std::vector<double> data(rows * t.stride, 0.0);
     for (std::size_t i = 0; i < t.count; ++i) {
       data[i] = 0.1 * static_cast<double>(i);

@@ -13,7 +13,7 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 
 SweptLinkage raised_arm(int number) {
   RandomStream random({.seed = 12, .run = static_cast<std::uint32_t>(number)});

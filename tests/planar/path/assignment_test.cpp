@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/path/problem.h"
@@ -15,7 +14,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 using Complex = std::complex<double>;
 
 FourBar random_crank_rocker(RandomStream& r) {
@@ -52,7 +50,7 @@ TEST(AssignCrankAngles, IsTheBestOfAllWaysInOrder) {
     for (int k = 0; k < 4; ++k)
       for (int s = 0; s < fine; ++s)
         if (cost(k, s) <= cost(k, s - 1) && cost(k, s) <= cost(k, s + 1)) places[k].push_back(s);
-    double best = std::numeric_limits<double>::infinity();
+    double best = infinity;
     for (int a : places[0])
       for (int b : places[1])
         for (int c : places[2])

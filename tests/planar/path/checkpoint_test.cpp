@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "linkwright/core/checkpoint.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/planar/path/eighteen_points.h"
 
@@ -60,7 +61,7 @@ TEST(PathCheckpoint, InfeasibleAndEmptySeeds) {
   apart.designs.push_back(
       measure(problem, {.ground = 9, .crank = 1, .coupler = 1, .rocker = 1}, 1, std::move(angles)));
   const PathSeedRun back = restored(kept(apart), problem, "seed 3");
-  EXPECT_EQ(back.designs[0].error, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(back.designs[0].error, infinity);
   EXPECT_EQ(total_violation(back.designs[0]), total_violation(apart.designs[0]));
 }
 

@@ -4,17 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "planar/path_cases.h"
 
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::IsEmpty;
-constexpr double pi = std::numbers::pi;
 
 // The defects depend on linkage and angles only; the target points are anywhere.
 PathProblem points(std::size_t count, bool closed, Timing timing = Timing::free) {
@@ -42,7 +41,7 @@ const FourBar crank_rocker{.ground = 2.2, .crank = 0.75, .coupler = 1.9, .rocker
 TEST(Defects, NoneOfTheStoredOptima) {
   for (const char* id : {"P18-timed-global-optimum", "P18-free-timing-mu-min-30"})
     for (const Value& stored : at(path_case(id), "computed.designs").as_array()) {
-      PathProblem problem = eighteen_points();
+      PathProblem problem = printed_eighteen_points();
       if (std::string(id) != "P18-timed-global-optimum") problem.timing = Timing::free;
       EXPECT_THAT(defects(problem, measure(problem, four_bar(stored), 1, numbers(at(stored, "theta2_rad")))),
                   IsEmpty())

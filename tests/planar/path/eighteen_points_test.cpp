@@ -13,11 +13,11 @@ namespace {
 TEST(EighteenPoints, AreThePublishedOnes) {
   const PathProblem ours = eighteen_points();
   PathProblem stored;
-  testing::set_points(stored, testing::at(testing::path_case("T4.1-Boskovic2018"), "inputs.target_points_m"));
+  test::set_points(stored, test::at(test::path_case("T4.1-Boskovic2018"), "inputs.target_points_m"));
   EXPECT_EQ(ours.x, stored.x);
   EXPECT_EQ(ours.y, stored.y);
   EXPECT_DOUBLE_EQ(ours.step,
-                   testing::number_at(testing::path_case("T4.1-Boskovic2018"), "inputs.theta2_step_rad"));
+                   test::number_at(test::path_case("T4.1-Boskovic2018"), "inputs.theta2_step_rad"));
 }
 
 TEST(EighteenPoints, PublishedDesignsReevaluateToTheStoredErrors) {
@@ -37,11 +37,11 @@ TEST(EighteenPoints, PublishedDesignsReevaluateToTheStoredErrors) {
       std::vector<double> angles;
       for (std::size_t k = 0; k < problem.x.size(); ++k)
         angles.push_back(design.start_angle + point_angle(problem, k));
-      const Value& entry = testing::path_case(id);
+      const Value& entry = test::path_case(id);
       EXPECT_NEAR(measure(problem, design.linkage, 1, angles).error,
-                  testing::number_at(entry, "computed.sse_m2"), 1e-8)
+                  test::number_at(entry, "computed.sse_m2"), 1e-8)
           << label;
-      EXPECT_EQ(design.published_error, testing::number_at(entry, "published.sse_m2")) << label;
+      EXPECT_EQ(design.published_error, test::number_at(entry, "published.sse_m2")) << label;
     }
   EXPECT_EQ(found, 6u);
 }

@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
@@ -19,11 +18,10 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
-constexpr double pi = std::numbers::pi;
 constexpr PathFitOptions to_the_end{.iterations = 200, .passes = 30};
 
 struct Start {
@@ -52,14 +50,14 @@ Start perturbed(Start start, double share, std::uint64_t seed) {
 }
 
 PathProblem free_eighteen_points(double degrees) {
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   problem.timing = Timing::free;
   problem.min_transmission_angle = math::radians(degrees);
   return problem;
 }
 
 TEST(PathFitter, ReturnsToTheTimedOptimum) {
-  const PathProblem problem = eighteen_points();
+  const PathProblem problem = printed_eighteen_points();
   const Start optimum = stored("P18-timed-global-optimum");
   PathFitter fitter(problem, 1);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -132,7 +130,7 @@ TEST(PathFitter, MeetsActiveBoundsExactly) {
 }
 
 TEST(PathFitter, StaysInThePackagingBox) {
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   const Start optimum = stored("P18-timed-global-optimum");
   // Free, both pivots lie at (0.27, 0.15) and (1.28, 0.45): the box cuts off the second one.
   problem.packaging = PackagingBox{-0.5, 1.1, -0.5, 1};
@@ -151,8 +149,8 @@ TEST(PathFitter, StaysInThePackagingBox) {
 // A region on one side, on both, and a fixed place.
 TEST(PathFitter, PutsTheRockerPivotWhereItMayBe) {
   const Start optimum = stored("P18-timed-global-optimum");  // it lies at (1.28, 0.45)
-  constexpr double far = std::numeric_limits<double>::infinity();
-  PathProblem problem = eighteen_points();
+  constexpr double far = infinity;
+  PathProblem problem = printed_eighteen_points();
   problem.rocker_pivot = PackagingBox{-far, 1.1, -far, far};
   PathFit fit = PathFitter(problem, 1).fit(optimum.linkage, optimum.angles, to_the_end);
   EXPECT_NEAR(rocker_pivot(fit.linkage).real(), 1.1, 1e-9);
@@ -171,7 +169,7 @@ TEST(PathFitter, PutsTheRockerPivotWhereItMayBe) {
 // Within a tolerance an error costs nothing: the best error falls to zero as soon as the tolerance takes in
 // the largest miss that can be reached, and no sooner than half of it.
 TEST(PathFitter, MeetsTolerancesAtNoCost) {
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   const Start optimum = stored("P18-timed-global-optimum");
   const PathErrors misses = path_errors(problem, measure(problem, optimum.linkage, 1, optimum.angles));
   const double largest = *std::max_element(misses.distance.begin(), misses.distance.end());
@@ -192,7 +190,7 @@ TEST(PathFitter, MeetsTolerancesAtNoCost) {
 // Gates along the normals of a curve that some linkage traces are passed from a start nearby.
 TEST(PathFitter, PassesThroughGates) {
   const Start optimum = stored("P18-timed-global-optimum");
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   const auto point = [&](double angle) { return position(optimum.linkage, angle).coupler_point; };
   for (Timing timing : {Timing::equal_steps, Timing::free}) {
     problem.timing = timing;
@@ -215,7 +213,7 @@ TEST(PathFitter, PassesThroughGates) {
 }
 
 TEST(PathFitter, KeepsFixedValues) {
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   problem.bounds[index(FourBarParameter::rocker)] = {0.6, 0.6};
   problem.bounds[index(FourBarParameter::start_angle)] = {0.9, 0.9};
   const Start start = stored("P18-timed-global-optimum");
@@ -289,7 +287,7 @@ TEST(PathFitter, MeetsTheTransmissionLimitOverAnArc) {
 }
 
 TEST(PathFitter, TellsWhenTheStartDoesNotAssemble) {
-  const PathProblem problem = eighteen_points();
+  const PathProblem problem = printed_eighteen_points();
   Start start = stored("P18-timed-global-optimum");
   start.linkage.rocker = 0.1;
   const PathFit fit = PathFitter(problem, 1).fit(start.linkage, start.angles, {});
@@ -298,7 +296,7 @@ TEST(PathFitter, TellsWhenTheStartDoesNotAssemble) {
 }
 
 TEST(PathFitter, RejectsAnglesOfAnotherNumber) {
-  const PathProblem problem = eighteen_points();
+  const PathProblem problem = printed_eighteen_points();
   PathFitter fitter(problem, 1);
   EXPECT_THAT(
       [&] {

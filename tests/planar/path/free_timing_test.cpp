@@ -5,9 +5,9 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/planar/path/fit.h"
 #include "planar/path_cases.h"
@@ -15,11 +15,10 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
-constexpr double pi = std::numbers::pi;
 
 // A curve with a loop and a crossing, and a target for every 10 degrees of it.
 const FourBar looping{.ground = 2.2,
@@ -60,7 +59,7 @@ TEST(PolishFreeTiming, AssignsTheTargetsAnew) {
 }
 
 TEST(PolishFreeTiming, NeverReturnsAWorseDesign) {
-  PathProblem p = eighteen_points();
+  PathProblem p = printed_eighteen_points();
   p.timing = Timing::free;
   for (const char* id :
        {"P18-free-timing-mu-min-20", "P18-free-timing-mu-min-30", "P18-free-timing-mu-min-40"}) {
@@ -76,7 +75,7 @@ TEST(PolishFreeTiming, NeverReturnsAWorseDesign) {
 
 TEST(SearchFreeTiming, IsForFreeTimingOnly) {
   RunContext context;
-  const PathProblem p = eighteen_points();
+  const PathProblem p = printed_eighteen_points();
   EXPECT_THAT([&] { search_free_timing(p, {}, context); },
               ThrowsMessage<ContractError>(HasSubstr("the timing is equal_steps")));
 }

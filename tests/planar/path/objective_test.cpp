@@ -6,11 +6,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <numbers>
 #include <string>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "planar/path_cases.h"
@@ -19,25 +18,10 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using optimise::Population;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-constexpr double pi = std::numbers::pi;
-
-struct NamedKernel {
-  PathKernel evaluate;
-  std::string name;
-};
-
-std::vector<NamedKernel> kernels_of_this_machine() {
-  std::vector<NamedKernel> out = {{evaluate_path_baseline, "baseline"}};
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    out.push_back({evaluate_path_avx2, "avx2"});
-  if (__builtin_cpu_supports("avx512f")) out.push_back({evaluate_path_avx512, "avx512"});
-  return out;
-}
 
 // Kinds of problems that take different ways through the kernels. Point counts that do and do not fill the
 // blocks of four and eight.
@@ -78,7 +62,7 @@ PathProblem problem_of(const Case& c) {
   if (c.limits) {
     p.min_transmission_angle = 0.35;
     p.packaging = PackagingBox{-2, 2.5, -3, 2};
-    p.rocker_pivot = PackagingBox{-std::numeric_limits<double>::infinity(), 2, -2, 1.5};
+    p.rocker_pivot = PackagingBox{-infinity, 2, -2, 1.5};
     if (c.points % 3 != 0) {  // some gates, some points, some with a tolerance
       for (std::size_t k = 0; k < c.points; ++k) {
         p.gate_x.push_back(k % 3 == 0 ? 0 : 0.3);
@@ -134,8 +118,8 @@ TEST(PathObjective, MeetsWhatMeasureSays) {
         const Population x = candidates(p, sense, count, c.points);
         const auto objective = path_objective(p, branch, sense);
         std::vector<double> cost(count), violation(count), one(x.dimension());
-        for (const NamedKernel& kernel : kernels_of_this_machine()) {
-          kernel.evaluate(objective, x.view(), cost.data(), violation.data());
+        for (const auto& kernel : runnable(path_kernels())) {
+          kernel.run(objective, x.view(), cost.data(), violation.data());
           for (std::size_t i = 0; i < count; ++i) {
             x.get(i, one);
             const PathDesign design = path_design(p, branch, sense, one);
@@ -159,16 +143,16 @@ TEST(PathObjective, MeetsWhatMeasureSays) {
 }
 
 TEST(PathObjective, KernelsAgree) {
-  const auto kernels = kernels_of_this_machine();
+  const auto kernels = runnable(path_kernels());
   for (const Case& c : cases()) {
     const PathProblem p = problem_of(c);
     const std::size_t count = 64;
     const Population x = candidates(p, 1, count, 77);
     const auto objective = path_objective(p, Branch::crossed, 1);
     std::vector<double> cost(count), violation(count), reference(count), reference_violation(count);
-    kernels[0].evaluate(objective, x.view(), reference.data(), reference_violation.data());
+    kernels[0].run(objective, x.view(), reference.data(), reference_violation.data());
     for (std::size_t n = 1; n < kernels.size(); ++n) {
-      kernels[n].evaluate(objective, x.view(), cost.data(), violation.data());
+      kernels[n].run(objective, x.view(), cost.data(), violation.data());
       for (std::size_t i = 0; i < count; ++i) {
         // Fused rounding of the radicand, R^4 times eps, under a square root: a share sqrt(eps) of the size
         // where a toggle is met within rounding, which none of these candidates does.
@@ -192,9 +176,9 @@ TEST(PathObjective, SameBitsForAnySplit) {
     const Population x = candidates(p, -1, most, 5);
     const auto objective = path_objective(p, Branch::open, -1);
     std::vector<double> one(x.dimension());
-    for (const NamedKernel& kernel : kernels_of_this_machine()) {
+    for (const auto& kernel : runnable(path_kernels())) {
       std::vector<double> cost(most), violation(most);
-      kernel.evaluate(objective, x.view(), cost.data(), violation.data());
+      kernel.run(objective, x.view(), cost.data(), violation.data());
       for (std::size_t size = 1; size < most; ++size) {
         std::vector<double> part(most), part_violation(most);
         // A population of its own size, and the slices of the large one.
@@ -203,15 +187,15 @@ TEST(PathObjective, SameBitsForAnySplit) {
           x.get(i, one);
           smaller.set(i, one);
         }
-        kernel.evaluate(objective, smaller.view(), part.data(), part_violation.data());
+        kernel.run(objective, smaller.view(), part.data(), part_violation.data());
         for (std::size_t i = size; i < most; ++i) part[i] = cost[i], part_violation[i] = violation[i];
         ASSERT_EQ(bits(part), bits(cost)) << kernel.name << ", " << describe(c) << ", size " << size;
         ASSERT_EQ(bits(part_violation), bits(violation));
       }
       for (std::size_t first = 8; first < most; first += 8) {
         std::vector<double> part = cost, part_violation = violation;
-        kernel.evaluate(objective, x.view().slice(first, most - first), part.data() + first,
-                        part_violation.data() + first);
+        kernel.run(objective, x.view().slice(first, most - first), part.data() + first,
+                   part_violation.data() + first);
         ASSERT_EQ(bits(part), bits(cost)) << kernel.name << ", " << describe(c) << ", from " << first;
       }
       for (std::size_t i = 0; i < most; ++i) {
@@ -219,7 +203,7 @@ TEST(PathObjective, SameBitsForAnySplit) {
         x.get(i, one);
         single.set(0, one);
         double alone = 0, alone_violation = 0;
-        kernel.evaluate(objective, single.view(), &alone, &alone_violation);
+        kernel.run(objective, single.view(), &alone, &alone_violation);
         ASSERT_EQ(std::bit_cast<std::uint64_t>(alone), std::bit_cast<std::uint64_t>(cost[i]))
             << kernel.name << ", " << describe(c) << ", candidate " << i;
         ASSERT_EQ(alone_violation, violation[i]);
@@ -241,8 +225,8 @@ TEST(PathObjective, DegenerateLinksAreInfeasibleAndNeverNaN) {
     x(0, 16) = x(1, 16) = x(2, 16) = x(3, 16) = 1;
     const auto objective = path_objective(p, Branch::open, 1);
     std::vector<double> cost(count), violation(count);
-    for (const NamedKernel& kernel : kernels_of_this_machine()) {
-      kernel.evaluate(objective, x.view(), cost.data(), violation.data());
+    for (const auto& kernel : runnable(path_kernels())) {
+      kernel.run(objective, x.view(), cost.data(), violation.data());
       for (std::size_t i = 0; i < count; ++i) {
         EXPECT_FALSE(std::isnan(cost[i]) || std::isnan(violation[i]))
             << kernel.name << " " << describe(c) << i;
@@ -273,14 +257,14 @@ TEST(PathObjective, AllocatesNothing) {
 }
 
 TEST(PathObjective, UsesAKernelOfThisMachine) {
-  const auto kernels = kernels_of_this_machine();
+  const auto kernels = runnable(path_kernels());
   EXPECT_EQ(kernel_name(), kernels.back().name);
-  const PathProblem p = eighteen_points();
+  const PathProblem p = printed_eighteen_points();
   const Population x = candidates(p, 1, 20, 1);
   const auto objective = path_objective(p, Branch::open, 1);
   std::vector<double> cost(20), violation(20), expected(20), expected_violation(20);
   evaluate(objective, x.view(), cost, violation);
-  kernels.back().evaluate(objective, x.view(), expected.data(), expected_violation.data());
+  kernels.back().run(objective, x.view(), expected.data(), expected_violation.data());
   EXPECT_EQ(cost, expected);
   EXPECT_EQ(violation, expected_violation);
   // The problem that optimisers see is the same function.
@@ -289,7 +273,7 @@ TEST(PathObjective, UsesAKernelOfThisMachine) {
 }
 
 TEST(PathObjective, RejectsWhatItCannotEvaluate) {
-  const PathProblem p = eighteen_points();
+  const PathProblem p = printed_eighteen_points();
   EXPECT_THAT([&] { path_objective(p, Branch::open, 0.5); },
               ThrowsMessage<ContractError>(HasSubstr("sense must be +1 or -1, got 0.5")));
   const Population x(10, 4);

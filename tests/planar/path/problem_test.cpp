@@ -5,10 +5,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/classify.h"
@@ -18,13 +17,11 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
-constexpr double pi = std::numbers::pi;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> stepped(double first, double step, std::size_t count) {
   std::vector<double> out(count);
@@ -78,7 +75,7 @@ TEST(PathMeasure, OfTheDesignsOfTable41) {
   for (const char* id : table_4_1) {
     const Value& entry = path_case(id);
     const Value& design = at(entry, "inputs.design");
-    const PathProblem problem = eighteen_points();
+    const PathProblem problem = printed_eighteen_points();
     const double first = number_at(design, "theta2_first_rad");
     const PathDesign found = measure(problem, four_bar(design), 1, stepped(first, problem.step, 18));
     expect_error(found.error, number_at(entry, "computed.sse_m2"), id);
@@ -96,7 +93,7 @@ TEST(PathMeasure, OfTable41InEveryConvention) {
   for (const char* id : table_4_1) {
     const Value& entry = path_case(id);
     const Value& design = at(entry, "inputs.design");
-    const PathProblem problem = eighteen_points();
+    const PathProblem problem = printed_eighteen_points();
     int conventions = 0;
     for (const auto& [name, value, place] : at(entry, "computed.all_conventions_sse_m2").as_object()) {
       const Branch branch = name.find("branch+1") == 0 ? Branch::open : Branch::crossed;
@@ -117,7 +114,7 @@ TEST(PathMeasure, OfTable41InEveryConvention) {
 TEST(PathMeasure, OfCabrera2007Corrected) {
   const Value& computed = at(path_case("T4.1-Cabrera2007"), "computed");
   const Value& design = at(computed, "corrected_design");
-  const PathProblem problem = eighteen_points();
+  const PathProblem problem = printed_eighteen_points();
   const auto angles = stepped(number_at(design, "theta2_first_rad"), problem.step, 18);
   FourBar linkage = four_bar(design);
   expect_error(measure(problem, linkage, 1, angles).error, number_at(computed, "corrected_sse_m2"),
@@ -163,7 +160,7 @@ TEST(PathMeasure, OfEveryStoredDesign) {
 TEST(PathMeasure, StoredDesignsMeetTheirLimits) {
   for (const double degrees : {20.0, 30.0, 40.0}) {
     const Value& entry = path_case("P18-free-timing-mu-min-" + std::to_string(static_cast<int>(degrees)));
-    PathProblem problem = eighteen_points();
+    PathProblem problem = printed_eighteen_points();
     problem.timing = Timing::free;
     problem.min_transmission_angle = math::radians(degrees);
     for (const Value& design : at(entry, "computed.designs").as_array())
@@ -190,7 +187,7 @@ TEST(PathMeasure, OppositeSenseBeatsTheStoredFreeTimingDesigns) {
       0.3087405987752598, 0.04380140399869336, -0.1362421111472099, -0.3301766963237567, -0.5809996524467114,
       -0.946858637263096, -1.164850001259162,  -1.486115861484417,  -1.83946842021984,   -2.134422235183303,
       -2.604847871134734, -3.215702267017839,  -3.634138536340206};
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   problem.timing = Timing::free;
   problem.min_transmission_angle = math::radians(40);
   const PathDesign found = measure(problem, linkage, -1, angles);

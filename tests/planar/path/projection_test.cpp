@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <span>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/differences.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/path/starts.h"
@@ -17,12 +16,10 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 using P = FourBarParameter;
-constexpr double pi = std::numbers::pi;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 constexpr RatioKind kinds[] = {RatioKind::crank_rocker, RatioKind::double_crank, RatioKind::any};
 
@@ -46,7 +43,7 @@ std::vector<Case> cases() {
 }
 
 PathProblem problem_of(const Case& c) {
-  PathProblem p = eighteen_points();
+  PathProblem p = printed_eighteen_points();
   p.timing = c.timing;
   for (std::size_t k = 0; k < p.x.size(); ++k) p.angles.push_back(0.7 + p.step * static_cast<double>(k));
   p.bounds = derive_bounds(p.x, p.y);
@@ -115,7 +112,7 @@ TEST(PathProjection, ResidualsAreThoseOfTheRecoveredDesign) {
 
 // The linear unknowns are the best: moving any of them makes the error larger.
 TEST(PathProjection, LinearUnknownsAreOptimal) {
-  const PathProblem p = eighteen_points();
+  const PathProblem p = printed_eighteen_points();
   PathProjection projection(p, RatioKind::crank_rocker, Branch::open, 1);
   const Case c{Timing::equal_steps, false, false, RatioKind::crank_rocker, Branch::open, 1};
   for (const auto& q : usable_ratios(projection, c, 10, 0.05)) {
@@ -202,21 +199,21 @@ TEST(PathProjection, RatiosOfTheFirstTwoKindsTurnFully) {
 }
 
 TEST(PathProjection, RefusesRatiosThatAreNoLinkage) {
-  PathProjection projection(eighteen_points(), RatioKind::double_crank, Branch::open, 1);
+  PathProjection projection(printed_eighteen_points(), RatioKind::double_crank, Branch::open, 1);
   std::vector<double> r(projection.residuals());
   EXPECT_FALSE(projection.evaluate(std::vector<double>{0, 1, 1, 0}, r, {}));  // r1 = 1 - e
   EXPECT_THAT(
       [&] {
-        projection.design(eighteen_points(), std::vector<double>{0, 1, 1, 0});
+        projection.design(printed_eighteen_points(), std::vector<double>{0, 1, 1, 0});
       },
       ThrowsMessage<ContractError>(HasSubstr("q is no linkage that assembles at every point")));
-  PathProjection any(eighteen_points(), RatioKind::any, Branch::open, 1);
+  PathProjection any(printed_eighteen_points(), RatioKind::any, Branch::open, 1);
   EXPECT_FALSE(any.evaluate(std::vector<double>{3, 0, 0, 0}, r, {}));    // ground of 20 cranks, the rest of 1
   EXPECT_FALSE(any.evaluate(std::vector<double>{20, 20, 0, 0}, r, {}));  // ratios beyond 1e6
 }
 
 TEST(PathProjection, AppliesWhenTheLinearUnknownsAreFree) {
-  PathProblem p = eighteen_points();
+  PathProblem p = printed_eighteen_points();
   EXPECT_TRUE(PathProjection::applies(p));
   const auto with_fixed = [&](std::initializer_list<P> parameters) {
     PathProblem out = p;
@@ -239,7 +236,7 @@ TEST(PathProjection, AppliesWhenTheLinearUnknownsAreFree) {
 }
 
 TEST(PathProjection, SizesFollowTheProblem) {
-  PathProblem p = eighteen_points();
+  PathProblem p = printed_eighteen_points();
   EXPECT_EQ(PathProjection(p, RatioKind::any, Branch::open, 1).variables(), 4u);
   EXPECT_EQ(PathProjection(p, RatioKind::any, Branch::open, 1).residuals(), 36u);
   p.timing = Timing::given;

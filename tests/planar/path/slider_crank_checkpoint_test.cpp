@@ -11,7 +11,7 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::HasSubstr;
 
 SliderPathSynthesis searched(const SliderPathProblem& problem, bool front) {
@@ -23,7 +23,7 @@ SliderPathSynthesis searched(const SliderPathProblem& problem, bool front) {
 
 // Bits, not tolerances: a resumed run is to end like an uninterrupted one.
 TEST(SliderPathCheckpoint, ASeedComesBackBitForBit) {
-  const SliderPathProblem problem = eighteen_slider_points();
+  const SliderPathProblem problem = printed_eighteen_slider_points();
   for (const bool front : {false, true}) {
     const SliderPathSynthesis run = searched(problem, front);
     ASSERT_FALSE(run.designs.empty());
@@ -43,7 +43,7 @@ TEST(SliderPathCheckpoint, ASeedComesBackBitForBit) {
 }
 
 TEST(SliderPathCheckpoint, RefusesWhatItCannotHaveMade) {
-  const SliderPathProblem problem = eighteen_slider_points();
+  const SliderPathProblem problem = printed_eighteen_slider_points();
   const Value good = kept(searched(problem, false));
   const auto refusal = [&](const auto& change) -> std::string {
     Value bad = good;

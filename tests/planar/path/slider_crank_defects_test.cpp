@@ -4,16 +4,16 @@
 
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "planar/slider_crank_path_cases.h"
 
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-constexpr double pi = std::numbers::pi;
 
 // The interval against a walk in small steps from the angle, both ways.
 TEST(SliderPathDefects, TheCrankReachesWhatAWalkReaches) {
@@ -50,7 +50,7 @@ TEST(SliderPathDefects, TheCrankReachesWhatAWalkReaches) {
 }
 
 TEST(SliderPathDefects, TellsAssemblyCircuitAndOrder) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   const SliderCrankMechanism good = slider_crank(at(path_case("T4.2"), "inputs.design"));
   EXPECT_THAT(defects(p, measure(p, good, 1, angles_of(p, 0.53607))), IsEmpty());
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/path/slider_crank_projection.h"
@@ -12,16 +13,16 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::IsEmpty;
-using P = SliderParameter;
+using SP = SliderParameter;
 
 SliderCrankMechanism published() { return slider_crank(at(path_case("T4.2"), "inputs.design")); }
 constexpr PathFitOptions thorough{.iterations = 400, .passes = 30};
 
 // The optimum of the separable form is one of the full form: two routes to one design.
 TEST(SliderPathFitter, FindsTheTimedOptimumFromThePublishedDesign) {
-  const SliderPathProblem p = eighteen_slider_points();
+  const SliderPathProblem p = printed_eighteen_slider_points();
   SliderPathFitter fitter(p, 1);
   const SliderPathFit fit = fitter.fit(published(), angles_of(p, 0.53607), thorough);
   EXPECT_NEAR(
@@ -40,7 +41,7 @@ TEST(SliderPathFitter, FindsTheTimedOptimumFromThePublishedDesign) {
 
 // Acceptance of the clipped projection by the other route: the full problem with the stroke as a constraint.
 TEST(SliderPathFitter, AStrokeLimitGivesAPointOfTheFront) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   for (const auto& [stroke, best] : {std::pair{0.70, 0.0100054313071148}, {0.58, 0.01753792635814025}}) {
     p.stroke = {0, stroke};
     SliderPathFitter fitter(p, 1);
@@ -53,7 +54,7 @@ TEST(SliderPathFitter, AStrokeLimitGivesAPointOfTheFront) {
 }
 
 TEST(SliderPathFitter, KeepsThePressureAngle) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   p.max_pressure_angle = math::radians(45);
   SliderPathFitter fitter(p, 1);
   const SliderPathFit fit = fitter.fit(published(), angles_of(p, 0.53607), thorough);
@@ -70,10 +71,10 @@ TEST(SliderPathFitter, KeepsThePressureAngle) {
 }
 
 TEST(SliderPathFitter, KeepsBoundsAndFixedValues) {
-  SliderPathProblem p = eighteen_slider_points();
-  p.bounds[index(P::point_distance)] = {0, 0.2};
-  p.bounds[index(P::rod)] = {0.7, 0.7};
-  p.bounds[index(P::guide_angle)] = {4.5, 4.6};
+  SliderPathProblem p = printed_eighteen_slider_points();
+  p.bounds[index(SP::point_distance)] = {0, 0.2};
+  p.bounds[index(SP::rod)] = {0.7, 0.7};
+  p.bounds[index(SP::guide_angle)] = {4.5, 4.6};
   SliderPathFitter fitter(p, 1);
   const SliderPathFit fit = fitter.fit(published(), angles_of(p, 0.53607), thorough);
   const SliderPathDesign d = measure(p, fit.mechanism, 1, fit.angles);
@@ -119,7 +120,7 @@ TEST(SliderPathFitter, MeetsPointsOfItsOwnCurve) {
 }
 
 TEST(SliderPathFitter, ReachesTheFreeTimingOptimumFromNearIt) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   p.free_timing = true;
   for (std::size_t j : {0, 1}) p.bounds[j].lower = 1e-3;
   const Value& design = at(path_case("SC18-free-timing"), "computed.designs").as_array()[0];
@@ -135,11 +136,11 @@ TEST(SliderPathFitter, ReachesTheFreeTimingOptimumFromNearIt) {
 }
 
 TEST(SliderPathFitter, AStartThatDoesNotAssembleHasNoError) {
-  const SliderPathProblem p = eighteen_slider_points();
+  const SliderPathProblem p = printed_eighteen_slider_points();
   SliderCrankMechanism apart = published();
   apart.parameters.rod = 0.1;
   SliderPathFitter fitter(p, 1);
-  EXPECT_EQ(fitter.fit(apart, angles_of(p, 0), thorough).error, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(fitter.fit(apart, angles_of(p, 0), thorough).error, infinity);
 }
 
 }  // namespace

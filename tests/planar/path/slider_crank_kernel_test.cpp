@@ -1,4 +1,4 @@
-#include "linkwright/planar/path/slider_crank_kernel.h"
+#include "linkwright/planar/path/detail/slider_crank_kernel.h"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <string>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "planar/slider_crank_path_cases.h"
 #include "support/allocations.h"
@@ -16,31 +16,17 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using optimise::Population;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-constexpr double pi = std::numbers::pi;
 
-struct NamedKernel {
-  SliderPathKernel evaluate;
-  std::string name;
-};
-std::vector<NamedKernel> kernels_of_this_machine() {
-  std::vector<NamedKernel> out = {{evaluate_slider_path_baseline, "baseline"}};
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    out.push_back({evaluate_slider_path_avx2, "avx2"});
-  if (__builtin_cpu_supports("avx512f")) out.push_back({evaluate_slider_path_avx512, "avx512"});
-  return out;
-}
-
-struct Case {
+struct ObjectiveCase {
   bool free, closed, turning, limits, front;
   std::size_t points;
 };
-std::vector<Case> cases() {
-  std::vector<Case> out;
+std::vector<ObjectiveCase> objective_cases() {
+  std::vector<ObjectiveCase> out;
   for (bool free : {false, true})
     for (bool closed : {true, false})
       for (bool turning : {true, false})
@@ -50,7 +36,7 @@ std::vector<Case> cases() {
               if (turning || !front) out.push_back({free, closed, turning, limits, front, points});
   return out;
 }
-SliderPathProblem problem_of(const Case& c) {
+SliderPathProblem objective_problem(const ObjectiveCase& c) {
   SliderPathProblem p;
   for (std::size_t k = 0; k < c.points; ++k) {
     const double t = 2 * pi * static_cast<double>(k) / static_cast<double>(c.points);
@@ -68,13 +54,13 @@ SliderPathProblem problem_of(const Case& c) {
   }
   return p;
 }
-SliderPathObjective objective_of(const Case& c, SliderSide side, double sense) {
-  SliderPathObjective o = slider_path_objective(problem_of(c), side, sense);
+SliderPathObjective objective_of(const ObjectiveCase& c, SliderSide side, double sense) {
+  SliderPathObjective o = slider_path_objective(objective_problem(c), side, sense);
   o.with_stroke = c.front;
   o.scales = {0.25, 0.5};
   return o;
 }
-std::string describe(const Case& c) {
+std::string describe(const ObjectiveCase& c) {
   return std::string(c.free ? "free" : "timed") + (c.closed ? ", closed" : "") +
          (c.turning ? ", turning" : "") + (c.limits ? ", limits" : "") + (c.front ? ", front" : "") + ", " +
          std::to_string(c.points);
@@ -109,16 +95,16 @@ Population candidates(const SliderPathProblem& p, double sense, std::size_t coun
 
 TEST(SliderPathObjective, MeetsWhatMeasureSays) {
   int feasible = 0, infeasible = 0;
-  for (const Case& c : cases())
+  for (const ObjectiveCase& c : objective_cases())
     for (SliderSide side : {SliderSide::forward, SliderSide::backward})
       for (double sense : {1.0, -1.0}) {
-        const SliderPathProblem p = problem_of(c);
+        const SliderPathProblem p = objective_problem(c);
         const std::size_t count = 41, each = c.front ? 2 : 1;
         const Population x = candidates(p, sense, count, c.points);
         const SliderPathObjective objective = objective_of(c, side, sense);
         std::vector<double> cost(each * count), violation(count), one(x.dimension());
-        for (const NamedKernel& kernel : kernels_of_this_machine()) {
-          kernel.evaluate(objective, x.view(), cost.data(), violation.data());
+        for (const auto& kernel : runnable(slider_path_kernels())) {
+          kernel.run(objective, x.view(), cost.data(), violation.data());
           for (std::size_t i = 0; i < count; ++i) {
             x.get(i, one);
             const SliderPathDesign design = slider_path_design(p, side, sense, one);
@@ -146,16 +132,16 @@ TEST(SliderPathObjective, MeetsWhatMeasureSays) {
 }
 
 TEST(SliderPathObjective, KernelsAgree) {
-  const auto kernels = kernels_of_this_machine();
-  for (const Case& c : cases()) {
+  const auto kernels = runnable(slider_path_kernels());
+  for (const ObjectiveCase& c : objective_cases()) {
     const std::size_t count = 64, each = c.front ? 2 : 1;
-    const Population x = candidates(problem_of(c), 1, count, 77);
+    const Population x = candidates(objective_problem(c), 1, count, 77);
     const SliderPathObjective objective = objective_of(c, SliderSide::backward, 1);
     std::vector<double> cost(each * count), violation(count), reference = cost,
                                                               reference_violation = violation;
-    kernels[0].evaluate(objective, x.view(), reference.data(), reference_violation.data());
+    kernels[0].run(objective, x.view(), reference.data(), reference_violation.data());
     for (std::size_t n = 1; n < kernels.size(); ++n) {
-      kernels[n].evaluate(objective, x.view(), cost.data(), violation.data());
+      kernels[n].run(objective, x.view(), cost.data(), violation.data());
       for (std::size_t i = 0; i < cost.size(); ++i)
         EXPECT_NEAR(cost[i], reference[i], 1e-11 * (1 + reference[i])) << kernels[n].name << describe(c);
       for (std::size_t i = 0; i < count; ++i)
@@ -171,18 +157,18 @@ TEST(SliderPathObjective, SameBitsForAnySplit) {
     for (double x : v) out.push_back(std::bit_cast<std::uint64_t>(x));
     return out;
   };
-  for (const Case& c : cases()) {
+  for (const ObjectiveCase& c : objective_cases()) {
     const std::size_t each = c.front ? 2 : 1;
-    const Population x = candidates(problem_of(c), -1, most, 5);
+    const Population x = candidates(objective_problem(c), -1, most, 5);
     const SliderPathObjective objective = objective_of(c, SliderSide::forward, -1);
-    for (const NamedKernel& kernel : kernels_of_this_machine()) {
+    for (const auto& kernel : runnable(slider_path_kernels())) {
       std::vector<double> cost(each * most), violation(most);
-      kernel.evaluate(objective, x.view(), cost.data(), violation.data());
+      kernel.run(objective, x.view(), cost.data(), violation.data());
       for (std::size_t first = 1; first < most; ++first) {
         std::vector<double> part(each * most), part_violation(most);
-        kernel.evaluate(objective, x.view().slice(0, first), part.data(), part_violation.data());
-        kernel.evaluate(objective, x.view().slice(first, most - first), part.data() + each * first,
-                        part_violation.data() + first);
+        kernel.run(objective, x.view().slice(0, first), part.data(), part_violation.data());
+        kernel.run(objective, x.view().slice(first, most - first), part.data() + each * first,
+                   part_violation.data() + first);
         ASSERT_EQ(bits(part), bits(cost)) << kernel.name << ", " << describe(c) << ", from " << first;
         ASSERT_EQ(bits(part_violation), bits(violation));
       }
@@ -191,9 +177,9 @@ TEST(SliderPathObjective, SameBitsForAnySplit) {
 }
 
 TEST(SliderPathObjective, DegenerateLinksAreInfeasibleAndNeverNaN) {
-  for (const Case& c : cases()) {
+  for (const ObjectiveCase& c : objective_cases()) {
     const std::size_t count = 8, each = c.front ? 2 : 1;
-    Population x = candidates(problem_of(c), 1, count, 9);
+    Population x = candidates(objective_problem(c), 1, count, 9);
     for (std::size_t i = 0; i < count; ++i) {
       if (i & 1) x(0, i) = 0;
       if (i & 2) x(1, i) = 0;
@@ -201,8 +187,8 @@ TEST(SliderPathObjective, DegenerateLinksAreInfeasibleAndNeverNaN) {
     }
     const SliderPathObjective objective = objective_of(c, SliderSide::forward, 1);
     std::vector<double> cost(each * count), violation(count);
-    for (const NamedKernel& kernel : kernels_of_this_machine()) {
-      kernel.evaluate(objective, x.view(), cost.data(), violation.data());
+    for (const auto& kernel : runnable(slider_path_kernels())) {
+      kernel.run(objective, x.view(), cost.data(), violation.data());
       for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t k = 0; k < each; ++k) {
           EXPECT_FALSE(std::isnan(cost[each * i + k]) || std::isnan(violation[i])) << describe(c) << i;
@@ -217,8 +203,8 @@ TEST(SliderPathObjective, DegenerateLinksAreInfeasibleAndNeverNaN) {
 }
 
 TEST(SliderPathObjective, AllocatesNothing) {
-  for (const Case& c : cases()) {
-    const Population x = candidates(problem_of(c), 1, 33, 2);
+  for (const ObjectiveCase& c : objective_cases()) {
+    const Population x = candidates(objective_problem(c), 1, 33, 2);
     const SliderPathObjective objective = objective_of(c, SliderSide::forward, 1);
     std::vector<double> cost(66), violation(33);
     evaluate(objective, x.view(), cost, violation);
@@ -229,9 +215,9 @@ TEST(SliderPathObjective, AllocatesNothing) {
 }
 
 TEST(SliderPathObjective, UsesAKernelOfThisMachineAndIsTheProblemOfTheMethods) {
-  const auto kernels = kernels_of_this_machine();
+  const auto kernels = runnable(slider_path_kernels());
   EXPECT_EQ(slider_path_kernel_name(), kernels.back().name);
-  const SliderPathProblem p = eighteen_slider_points();
+  const SliderPathProblem p = printed_eighteen_slider_points();
   const Population x = candidates(p, 1, 20, 1);
   std::vector<double> cost(20), violation(20), expected(20), front(40);
   evaluate(slider_path_objective(p, SliderSide::forward, 1), x.view(), cost, violation);
@@ -244,7 +230,7 @@ TEST(SliderPathObjective, UsesAKernelOfThisMachineAndIsTheProblemOfTheMethods) {
 }
 
 TEST(SliderPathObjective, RejectsWhatItCannotEvaluate) {
-  const SliderPathProblem p = eighteen_slider_points();
+  const SliderPathProblem p = printed_eighteen_slider_points();
   EXPECT_THAT([&] { slider_path_objective(p, SliderSide::forward, 0.5); },
               ThrowsMessage<ContractError>(HasSubstr("sense must be +1 or -1, got 0.5")));
   const Population x(9, 4);

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/motion.h"
@@ -14,14 +14,13 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
-using P = SliderParameter;
+using SP = SliderParameter;
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
 
 SliderCrankMechanism random_mechanism(RandomStream& r, bool turning) {
   SliderCrankMechanism m;
@@ -38,7 +37,7 @@ SliderCrankMechanism random_mechanism(RandomStream& r, bool turning) {
 
 // Tables 4.2 and 4.3: the five printed designs, evaluated. Figures of an independent program, to 1e-8.
 TEST(SliderPathProblem, PublishedDesignsHaveTheComputedErrorsAndStrokes) {
-  const SliderPathProblem p = eighteen_slider_points();
+  const SliderPathProblem p = printed_eighteen_slider_points();
   for (const char* id : {"T4.2", "T4.3-1", "T4.3-2", "T4.3-3", "T4.3-4"}) {
     const Value& entry = path_case(id);
     const SliderCrankMechanism m = slider_crank(at(entry, "inputs.design"));
@@ -63,7 +62,7 @@ TEST(SliderPathProblem, PublishedDesignsHaveTheComputedErrorsAndStrokes) {
 }
 
 TEST(SliderPathProblem, StoredBestDesignsEvaluateToTheirStoredErrors) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   for (const char* id : {"SC18-timed-global-optimum", "SC18-free-timing"}) {
     p.free_timing = id == std::string_view("SC18-free-timing");
     const Value& design = at(path_case(id), "computed.designs").as_array()[0];
@@ -158,12 +157,12 @@ TEST(SliderPathProblem, TellsWhatIsViolated) {
     for (const auto& v : d.violations) out.push_back(v.reason);
     return out;
   };
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   const auto angles = angles_of(p, 0.2);
   SliderCrankMechanism m;
   m.parameters = {.crank = 0.4, .rod = 0.5, .offset = 0.2, .rod_u = 0.3};
   EXPECT_THAT(reasons(measure(p, m, 1, angles)), ElementsAre("no_assembly", "crank_rotates_fully"));
-  EXPECT_EQ(measure(p, m, 1, angles).error, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(measure(p, m, 1, angles).error, infinity);
   EXPECT_TRUE(std::isnan(stroke(m.parameters)));
   m.parameters.rod = 0.8;
   EXPECT_THAT(reasons(measure(p, m, 1, angles)), IsEmpty());
@@ -174,10 +173,10 @@ TEST(SliderPathProblem, TellsWhatIsViolated) {
   p.stroke = {0.9, 2};
   p.max_pressure_angle = math::radians(50);
   EXPECT_THAT(reasons(measure(p, m, 1, angles)), ElementsAre("stroke"));
-  p.stroke = {0, std::numeric_limits<double>::infinity()};
-  p.bounds[index(P::pivot_x)] = {0.1, 1};
+  p.stroke = {0, infinity};
+  p.bounds[index(SP::pivot_x)] = {0.1, 1};
   EXPECT_THAT(reasons(measure(p, m, 1, angles)), ElementsAre("bounds"));
-  p.bounds[index(P::pivot_x)] = {0, 1};
+  p.bounds[index(SP::pivot_x)] = {0, 1};
   EXPECT_THAT(measure(p, m, 1, angles).active_bounds, ElementsAre("pivot_x"));
   // An arc: the pressure angle between its ends counts, not that of a full turn.
   SliderPathProblem arc = p;
@@ -194,7 +193,7 @@ TEST(SliderPathProblem, TellsWhatIsViolated) {
 }
 
 TEST(SliderPathProblem, OrderOfFreeTiming) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   p.free_timing = true;
   const SliderCrankMechanism m = slider_crank(at(path_case("T4.2"), "inputs.design"));
   auto angles = angles_of(p, 0);
@@ -205,7 +204,7 @@ TEST(SliderPathProblem, OrderOfFreeTiming) {
 }
 
 TEST(SliderPathProblem, CandidatesAreUnwrapped) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   p.free_timing = true;
   std::vector<double> x = {0.3, 0.6, 0.4, 1, 0.5, 0.1, 0, 0};
   for (std::size_t k = 0; k < 18; ++k) x.push_back(std::fmod(5 + 0.3 * static_cast<double>(k), 2 * pi));
@@ -220,7 +219,7 @@ TEST(SliderPathProblem, CandidatesAreUnwrapped) {
 
 TEST(SliderPathProblem, RefusesWhatIsNoProblem) {
   const auto refused = [](auto&& change) {
-    SliderPathProblem p = eighteen_slider_points();
+    SliderPathProblem p = printed_eighteen_slider_points();
     change(p);
     try {
       require_valid(p);

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/differences.h"
 #include "planar/slider_crank_path_cases.h"
 #include "support/allocations.h"
@@ -13,19 +13,18 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-using P = SliderParameter;
-constexpr double pi = std::numbers::pi, nan = std::numeric_limits<double>::quiet_NaN();
+using SP = SliderParameter;
 
-struct Case {
+struct ProjectionCase {
   bool turning, limited_angle, pivot_fixed, guide_fixed, start_fixed;
   SliderSide side;
   double sense;
 };
-std::vector<Case> cases() {
-  std::vector<Case> out;
+std::vector<ProjectionCase> projection_cases() {
+  std::vector<ProjectionCase> out;
   for (bool turning : {true, false})
     for (bool limited : {false, true})
       for (bool pivot : {false, true})
@@ -36,33 +35,33 @@ std::vector<Case> cases() {
                 if (turning || !limited) out.push_back({turning, limited, pivot, guide, start, side, sense});
   return out;
 }
-SliderPathProblem problem_of(const Case& c) {
-  SliderPathProblem p = eighteen_slider_points();
+SliderPathProblem projection_problem(const ProjectionCase& c) {
+  SliderPathProblem p = printed_eighteen_slider_points();
   p.bounds = derive_slider_bounds(p.x, p.y);
   p.crank_rotates_fully = p.closed = c.turning;
   if (!c.turning)
     for (double& offset : p.offsets) offset *= 0.2;
   if (c.limited_angle) p.max_pressure_angle = 0.7;
-  if (c.pivot_fixed) p.bounds[index(P::pivot_x)] = {0.3, 0.3}, p.bounds[index(P::pivot_y)] = {-0.2, -0.2};
-  if (c.guide_fixed) p.bounds[index(P::guide_angle)] = {0.6, 0.6};
-  if (c.start_fixed) p.bounds[index(P::start_angle)] = {0.9, 0.9};
+  if (c.pivot_fixed) p.bounds[index(SP::pivot_x)] = {0.3, 0.3}, p.bounds[index(SP::pivot_y)] = {-0.2, -0.2};
+  if (c.guide_fixed) p.bounds[index(SP::guide_angle)] = {0.6, 0.6};
+  if (c.start_fixed) p.bounds[index(SP::start_angle)] = {0.9, 0.9};
   return p;
 }
 
-double sum_of_squares(const std::vector<double>& r) {
+double squares_of(const std::vector<double>& r) {
   double sum = 0;
   for (double x : r) sum += x * x;
   return sum;
 }
 
 // Limits of the stroke: none, one that holds the crank short, one that holds it long.
-const Range strokes[] = {{0, std::numeric_limits<double>::infinity()}, {0, 0.3}, {1.5, 3}};
+const Range strokes[] = {{0, infinity}, {0, 0.3}, {1.5, 3}};
 
 template <class Body>
 int with_random_unknowns(int count, Body&& body) {
   int used = 0;
-  for (const Case& c : cases()) {
-    const SliderPathProblem free = problem_of(c);
+  for (const ProjectionCase& c : projection_cases()) {
+    const SliderPathProblem free = projection_problem(c);
     for (const Range& stroke : strokes) {
       if (!c.turning && stroke.upper < 10) continue;
       SliderPathProblem p = free;
@@ -84,11 +83,11 @@ int with_random_unknowns(int count, Body&& body) {
 // Acceptance of the projection: 1e-12 relative, times the conditioning of the recovered lengths.
 TEST(SliderPathProjection, ResidualsAreThoseOfTheRecoveredDesign) {
   const int compared =
-      with_random_unknowns(20, [](const Case& c, const SliderPathProblem& p, SliderPathProjection& projection,
-                                  const auto& q, const auto& r) {
+      with_random_unknowns(20, [](const ProjectionCase& c, const SliderPathProblem& p,
+                                  SliderPathProjection& projection, const auto& q, const auto& r) {
         const SliderPathDesign design = projection.design(p, q);
         const SliderCrankForm& f = design.mechanism.parameters;
-        const double projected = sum_of_squares(r);
+        const double projected = squares_of(r);
         double steepest = 1;
         for (const double angle : design.angles)
           steepest = std::min(steepest, std::cos(slider_crank_pose(design.mechanism, angle).pressure_angle));
@@ -118,8 +117,8 @@ TEST(SliderPathProjection, ResidualsAreThoseOfTheRecoveredDesign) {
 // The linear unknowns are the best that the limits allow: every other one within them does worse.
 TEST(SliderPathProjection, LinearUnknownsAreOptimal) {
   int moved_back = 0;
-  with_random_unknowns(3, [&](const Case& c, const SliderPathProblem& p, SliderPathProjection& projection,
-                              const auto& q, const auto&) {
+  with_random_unknowns(3, [&](const ProjectionCase& c, const SliderPathProblem& p,
+                              SliderPathProjection& projection, const auto& q, const auto&) {
     const SliderPathDesign best = projection.design(p, q);
     const SliderCrankForm f = best.mechanism.parameters;
     for (const double delta : {-1e-3, 1e-3}) {
@@ -149,15 +148,15 @@ TEST(SliderPathProjection, LinearUnknownsAreOptimal) {
 
 TEST(SliderPathProjection, GradientAgreesWithDifferences) {
   int compared = 0, held = 0;
-  with_random_unknowns(6, [&](const Case&, const SliderPathProblem& p, SliderPathProjection& projection,
-                              const auto& q, auto r) {
+  with_random_unknowns(6, [&](const ProjectionCase&, const SliderPathProblem& p,
+                              SliderPathProjection& projection, const auto& q, auto r) {
     const std::size_t n = projection.variables(), m = projection.residuals();
     const SliderPathDesign design = projection.design(p, q);
     for (const double angle : design.angles)
       if (slider_crank_pose(design.mechanism, angle).pressure_angle > 1.4) return;
     std::vector<double> jacobian(n * m), gradient(n), difference(n);
     ASSERT_TRUE(projection.evaluate(q, r, jacobian));
-    const double f = sum_of_squares(r);
+    const double f = squares_of(r);
     double largest = 0;
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t k = 0; k < m; ++k) gradient[i] += 2 * jacobian[i * m + k] * r[k];
@@ -165,7 +164,7 @@ TEST(SliderPathProjection, GradientAgreesWithDifferences) {
     }
     const auto error = [&](std::span<const double> at) {
       std::vector<double> s(m);
-      return projection.evaluate(at, s, {}) ? sum_of_squares(s) : nan;
+      return projection.evaluate(at, s, {}) ? squares_of(s) : nan;
     };
     if (math::central_gradient(error, q, difference) != Status::done) return;
     for (std::size_t i = 0; i < n; ++i)
@@ -181,7 +180,7 @@ TEST(SliderPathProjection, GradientAgreesWithDifferences) {
 
 // Every stored point of the front from its three unknowns, by the clip (acceptance: 1e-9).
 TEST(SliderPathProjection, ClippingReproducesTheStoredFront) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   SliderPathProjection projection(p, SliderSide::forward, 1), other(p, SliderSide::forward, -1);
   int clipped = 0;
   for (const Value& point : at(path_case("SC18-pareto-front"), "computed.front").as_array()) {
@@ -191,8 +190,7 @@ TEST(SliderPathProjection, ClippingReproducesTheStoredFront) {
     for (SliderPathProjection* sense : {&projection, &other}) {
       sense->limit_stroke({0, limit});
       std::vector<double> r(sense->residuals());
-      if (sense->evaluate(sense->unknowns(m.parameters, start), r, {}))
-        best = std::min(best, sum_of_squares(r));
+      if (sense->evaluate(sense->unknowns(m.parameters, start), r, {})) best = std::min(best, squares_of(r));
     }
     EXPECT_NEAR(best, number_at(point, "sse_m2"), 1e-9);
     ++clipped;
@@ -201,10 +199,10 @@ TEST(SliderPathProjection, ClippingReproducesTheStoredFront) {
 }
 
 TEST(SliderPathProjection, BoundsOfTheLengthsAreKept) {
-  SliderPathProblem p = eighteen_slider_points();
-  p.bounds[index(P::crank)] = {0.1, 0.3};
-  p.bounds[index(P::rod)] = {0.4, 0.9};
-  p.bounds[index(P::offset)] = {-0.2, -0.05};
+  SliderPathProblem p = printed_eighteen_slider_points();
+  p.bounds[index(SP::crank)] = {0.1, 0.3};
+  p.bounds[index(SP::rod)] = {0.4, 0.9};
+  p.bounds[index(SP::offset)] = {-0.2, -0.05};
   SliderPathProjection projection(p, SliderSide::forward, 1);
   std::vector<double> r(projection.residuals());
   RandomStream stream({.seed = 3});
@@ -227,8 +225,8 @@ TEST(SliderPathProjection, BoundsOfTheLengthsAreKept) {
 }
 
 TEST(SliderPathProjection, UnknownsOfADesignGiveTheDesign) {
-  with_random_unknowns(3, [](const Case&, const SliderPathProblem& p, SliderPathProjection& projection,
-                             const auto& q, const auto&) {
+  with_random_unknowns(3, [](const ProjectionCase&, const SliderPathProblem& p,
+                             SliderPathProjection& projection, const auto& q, const auto&) {
     const SliderPathDesign design = projection.design(p, q);
     const auto again =
         projection.unknowns(design.mechanism.parameters, design.angles[0] - design.sense * p.offsets[0]);
@@ -239,19 +237,19 @@ TEST(SliderPathProjection, UnknownsOfADesignGiveTheDesign) {
 }
 
 TEST(SliderPathProjection, AppliesWhenTheUnknownsAreFree) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   EXPECT_TRUE(SliderPathProjection::applies(p));
-  const auto with = [&](std::initializer_list<P> parameters, Range range) {
+  const auto with = [&](std::initializer_list<SP> parameters, Range range) {
     SliderPathProblem out = p;
-    for (P j : parameters) out.bounds[index(j)] = range;
+    for (SP j : parameters) out.bounds[index(j)] = range;
     return SliderPathProjection::applies(out);
   };
   const Range fixed{0.5, 0.5};
-  for (P j : {P::rod, P::offset, P::point_distance, P::point_angle, P::pivot_x, P::pivot_y})
+  for (SP j : {SP::rod, SP::offset, SP::point_distance, SP::point_angle, SP::pivot_x, SP::pivot_y})
     EXPECT_FALSE(with({j}, fixed)) << name(j);
-  for (P j : {P::crank, P::guide_angle, P::start_angle}) EXPECT_TRUE(with({j}, fixed)) << name(j);
-  EXPECT_TRUE(with({P::pivot_x, P::pivot_y}, fixed));
-  EXPECT_FALSE(with({P::guide_angle}, {0, 1}));
+  for (SP j : {SP::crank, SP::guide_angle, SP::start_angle}) EXPECT_TRUE(with({j}, fixed)) << name(j);
+  EXPECT_TRUE(with({SP::pivot_x, SP::pivot_y}, fixed));
+  EXPECT_FALSE(with({SP::guide_angle}, {0, 1}));
   p.free_timing = true;
   EXPECT_FALSE(SliderPathProjection::applies(p));
   EXPECT_THAT([&] { SliderPathProjection(p, SliderSide::forward, 1); },
@@ -266,7 +264,7 @@ TEST(SliderPathProjection, AppliesWhenTheUnknownsAreFree) {
 }
 
 TEST(SliderPathProjection, AllocatesNothing) {
-  SliderPathProjection projection(eighteen_slider_points(), SliderSide::forward, 1);
+  SliderPathProjection projection(printed_eighteen_slider_points(), SliderSide::forward, 1);
   std::vector<double> r(projection.residuals()), j(3 * r.size());
   const std::vector<double> q = {0.1, 0.2, 0.3};
   projection.evaluate(q, r, j);

@@ -14,16 +14,16 @@ TEST(SliderCrankSamples, AreThoseOfTheReference) {
   const auto designs = published_slider_cranks();
   ASSERT_EQ(designs.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) {
-    const Value& entry = testing::path_case(ids[i]);
+    const Value& entry = test::path_case(ids[i]);
     const SliderCrankForm& f = designs[i].mechanism.parameters;
-    EXPECT_EQ(f.crank, testing::number_at(entry, "inputs.design.L2_m"));
-    EXPECT_EQ(f.offset, -testing::number_at(entry, "inputs.design.H_m"));
-    EXPECT_EQ(designs[i].published_error, testing::number_at(entry, "published.sse_m2"));
-    EXPECT_EQ(designs[i].published_stroke, testing::number_at(entry, "published.stroke_m"));
+    EXPECT_EQ(f.crank, test::number_at(entry, "inputs.design.L2_m"));
+    EXPECT_EQ(f.offset, -test::number_at(entry, "inputs.design.H_m"));
+    EXPECT_EQ(designs[i].published_error, test::number_at(entry, "published.sse_m2"));
+    EXPECT_EQ(designs[i].published_stroke, test::number_at(entry, "published.stroke_m"));
     std::vector<double> angles;
     for (const double offset : p.offsets) angles.push_back(designs[i].start_angle + offset);
-    EXPECT_NEAR(measure(p, designs[i].mechanism, 1, angles).error,
-                testing::number_at(entry, "computed.sse_m2"), 1e-10);
+    EXPECT_NEAR(measure(p, designs[i].mechanism, 1, angles).error, test::number_at(entry, "computed.sse_m2"),
+                1e-10);
   }
 }
 

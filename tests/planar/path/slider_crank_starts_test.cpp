@@ -9,10 +9,10 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 
 SliderPathProblem free_points(bool closed, bool turning) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   p.free_timing = true;
   p.closed = closed;
   p.crank_rotates_fully = turning;

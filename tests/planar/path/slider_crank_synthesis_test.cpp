@@ -13,7 +13,7 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
@@ -30,7 +30,7 @@ double stored(const char* id) {
 TEST(SliderPathSynthesis, FindsTheTimedOptimumFromEverySeed) {
   const double best = stored("SC18-timed-global-optimum");
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const SliderPathSynthesis answer = solve(eighteen_slider_points(), seed);
+    const SliderPathSynthesis answer = solve(printed_eighteen_slider_points(), seed);
     ASSERT_EQ(answer.status, Status::done) << seed;
     EXPECT_NEAR(answer.designs[0].error, best, 1e-9) << seed;
     EXPECT_NEAR(answer.designs[0].stroke, 0.721316, 1e-5);
@@ -39,7 +39,7 @@ TEST(SliderPathSynthesis, FindsTheTimedOptimumFromEverySeed) {
 }
 
 TEST(SliderPathSynthesis, FindsTheFreeTimingOptimum) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   p.free_timing = true;
   for (std::size_t j : {0, 1}) p.bounds[j].lower = 1e-3;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -55,7 +55,7 @@ TEST(SliderPathSynthesis, FindsTheFreeTimingOptimum) {
 TEST(SliderPathSynthesis, AShortStrokeOfFreeTimingIsKeptTo) {
   double longer = 0;
   for (const double stroke : {0.5, 0.3, 0.2}) {
-    SliderPathProblem p = eighteen_slider_points();
+    SliderPathProblem p = printed_eighteen_slider_points();
     p.stroke = {0, stroke};
     const double timed = solve(p).designs[0].error;
     p.free_timing = true;
@@ -82,7 +82,7 @@ TEST(SliderPathSynthesis, TheFrontIsThatOfTheReference) {
     strokes.push_back(number_at(point, "stroke_full_turn_m"));
     errors.push_back(number_at(point, "sse_m2"));
   }
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   p.search_negative = true;
   RunContext context;
   const SliderPathSynthesis answer = synthesise_slider_front(p, strokes, {.seed = 1}, context);
@@ -106,7 +106,7 @@ TEST(SliderPathSynthesis, TheFrontIsThatOfTheReference) {
 }
 
 TEST(SliderPathSynthesis, AFrontOfFreeTiming) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   p.free_timing = true;
   for (std::size_t j : {0, 1}) p.bounds[j].lower = 1e-3;
   RunContext context;
@@ -166,7 +166,7 @@ TEST(SliderPathSynthesis, GivenAnglesAndFixedPivotAndGuide) {
 }
 
 TEST(SliderPathSynthesis, BothSensesAreSearchedWhenAsked) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   p.search_positive = false;
   p.search_negative = true;
   const SliderPathSynthesis answer = solve(p);
@@ -193,7 +193,7 @@ TEST(SliderPathSynthesis, AnArcNeedsNoFullTurn) {
 
 TEST(SliderPathSynthesis, EqualSeedsGiveEqualBits) {
   for (const bool free : {false, true}) {
-    SliderPathProblem p = eighteen_slider_points();
+    SliderPathProblem p = printed_eighteen_slider_points();
     p.free_timing = free;
     const SliderPathSynthesis a = solve(p, 3, 6), b = solve(p, 3, 6), c = solve(p, 4, 6);
     ASSERT_EQ(a.designs.size(), b.designs.size());
@@ -205,7 +205,7 @@ TEST(SliderPathSynthesis, EqualSeedsGiveEqualBits) {
 }
 
 TEST(SliderPathSynthesis, StopsWhenToldTo) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   RunContext never;
   never.cancel();
   EXPECT_EQ(synthesise_slider_path(p, {}, never).status, Status::cancelled);
@@ -219,7 +219,7 @@ TEST(SliderPathSynthesis, StopsWhenToldTo) {
 }
 
 TEST(SliderPathSynthesis, TellsWhenNothingMeetsTheLimits) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   p.bounds[index(P::pivot_x)] = p.bounds[index(P::pivot_y)] = {40, 50};
   p.bounds[index(P::point_distance)] = {0, 1};
   p.bounds[index(P::crank)] = {1e-3, 1};
@@ -231,7 +231,7 @@ TEST(SliderPathSynthesis, TellsWhenNothingMeetsTheLimits) {
 
 TEST(SliderPathSynthesis, RejectsQuestionsWithoutMeaning) {
   RunContext context;
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   EXPECT_THAT([&] { synthesise_slider_path(p, {.max_solutions = 0}, context); },
               ThrowsMessage<ContractError>(HasSubstr("starts 0, max_solutions 0")));
   EXPECT_THAT([&] { synthesise_slider_front(p, std::vector<double>{-1.0}, {}, context); },

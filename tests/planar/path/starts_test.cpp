@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "planar/path_cases.h"
 
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
-constexpr double pi = std::numbers::pi;
+using namespace linkwright::planar::test;
 constexpr RatioKind kinds[] = {RatioKind::crank_rocker, RatioKind::double_crank, RatioKind::any};
 
 TEST(RandomRatios, CoverTheirRanges) {
@@ -49,7 +48,7 @@ TEST(RandomRatios, SameStreamSameNumbers) {
 }
 
 PathProblem free_path(bool closed) {
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   problem.timing = Timing::free;
   problem.closed = closed;
   if (!closed) {

@@ -7,10 +7,10 @@
 #include <chrono>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <string>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/four_bar/cognates.h"
@@ -20,9 +20,8 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::IsEmpty;
-constexpr double pi = std::numbers::pi;
 
 PathSynthesis solve(const PathProblem& problem, std::uint64_t seed = 1, int starts = 0) {
   RunContext context;
@@ -35,16 +34,16 @@ TEST(SynthesisePath, FindsTheEighteenPointOptimumFromEverySeed) {
   const double best =
       number_at(at(path_case("P18-timed-global-optimum"), "computed.designs").as_array()[0], "sse_m2");
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const PathSynthesis answer = solve(eighteen_points(), seed);
+    const PathSynthesis answer = solve(printed_eighteen_points(), seed);
     ASSERT_EQ(answer.status, Status::done) << "seed " << seed;
     EXPECT_NEAR(answer.designs[0].error, best, 1e-7) << "seed " << seed;
     EXPECT_TRUE(answer.designs[0].violations.empty());
-    EXPECT_TRUE(defects(eighteen_points(), answer.designs[0]).empty());
+    EXPECT_TRUE(defects(printed_eighteen_points(), answer.designs[0]).empty());
   }
 }
 
 TEST(SynthesisePath, TheTwoOptimaAreTimedCognates) {
-  const PathSynthesis answer = solve(eighteen_points());
+  const PathSynthesis answer = solve(printed_eighteen_points());
   ASSERT_GE(answer.designs.size(), 2u);
   EXPECT_NEAR(answer.designs[1].error, answer.designs[0].error, 1e-12);
   const FourBar& open = answer.designs[0].linkage;
@@ -135,7 +134,7 @@ TEST(SynthesisePath, SuiteNinePoints) {
 // ---- Free timing
 
 PathProblem free_eighteen_points(double degrees, bool positive, bool negative) {
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   problem.timing = Timing::free;
   for (std::size_t j = 0; j < 4; ++j) problem.bounds[j].lower = 1e-3;
   problem.min_transmission_angle = math::radians(degrees);
@@ -283,7 +282,7 @@ TEST(SynthesisePath, FreeTimingGrowsWithTheSquareOfTheSize) {
 // ---- Limits
 
 TEST(SynthesisePath, KeepsBothPivotsInTheBox) {
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   problem.packaging = PackagingBox{-0.5, 1.1, -0.5, 1};
   const PathSynthesis answer = solve(problem);
   ASSERT_EQ(answer.status, Status::done);
@@ -301,7 +300,7 @@ TEST(SynthesisePath, KeepsBothPivotsInTheBox) {
 // The best design has its crank pivot at (0.27, 0.15), its timed cognate on the other branch has it at
 // (0.55, 0.72): a box that only the cognate fits into costs nothing.
 TEST(SynthesisePath, TakesTheCognateThatFitsIntoTheBox) {
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   problem.packaging = PackagingBox{0.4, 1.5, 0.3, 1};
   const PathSynthesis answer = solve(problem);
   ASSERT_EQ(answer.status, Status::done);
@@ -310,7 +309,7 @@ TEST(SynthesisePath, TakesTheCognateThatFitsIntoTheBox) {
 }
 
 TEST(SynthesisePath, SearchesTheBranchesThatAreAskedFor) {
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   problem.search_open = false;
   const PathSynthesis answer = solve(problem);
   ASSERT_EQ(answer.status, Status::done);
@@ -319,7 +318,7 @@ TEST(SynthesisePath, SearchesTheBranchesThatAreAskedFor) {
 }
 
 TEST(SynthesisePath, FixedValuesAreKept) {
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   problem.bounds[index(FourBarParameter::crank)] = {0.5, 0.5};
   const PathSynthesis answer = solve(problem);
   ASSERT_EQ(answer.status, Status::done);
@@ -328,7 +327,7 @@ TEST(SynthesisePath, FixedValuesAreKept) {
 }
 
 TEST(SynthesisePath, TellsWhenNothingMeetsTheLimits) {
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   problem.packaging = PackagingBox{100, 101, 100, 101};  // outside the bounds of the pivots
   const PathSynthesis answer = solve(problem);
   EXPECT_EQ(answer.status, Status::infeasible);
@@ -340,7 +339,7 @@ TEST(SynthesisePath, TellsWhenNothingMeetsTheLimits) {
 
 TEST(SynthesisePath, EqualSeedsGiveEqualBits) {
   for (Timing timing : {Timing::equal_steps, Timing::free}) {
-    PathProblem problem = eighteen_points();
+    PathProblem problem = printed_eighteen_points();
     problem.timing = timing;
     problem.min_transmission_angle = math::radians(25);
     const PathSynthesis a = solve(problem, 3, 8), b = solve(problem, 3, 8), c = solve(problem, 4, 8);
@@ -391,9 +390,9 @@ TEST(SynthesisePath, TheDeadlineReturnsTheBestSoFar) {
 
 TEST(SynthesisePath, RejectsOptionsWithoutMeaning) {
   RunContext context;
-  EXPECT_THAT([&] { synthesise_path(eighteen_points(), {.max_solutions = 0}, context); },
+  EXPECT_THAT([&] { synthesise_path(printed_eighteen_points(), {.max_solutions = 0}, context); },
               ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("starts 0, max_solutions 0")));
-  PathProblem problem = eighteen_points();
+  PathProblem problem = printed_eighteen_points();
   problem.x.clear();
   EXPECT_THAT([&] { synthesise_path(problem, {}, context); },
               ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("needs at least 3 points")));
@@ -401,8 +400,8 @@ TEST(SynthesisePath, RejectsOptionsWithoutMeaning) {
 
 TEST(SynthesisePath, ReturnsNoMoreThanAskedFor) {
   RunContext context;
-  EXPECT_EQ(synthesise_path(eighteen_points(), {.max_solutions = 1}, context).designs.size(), 1u);
-  const auto many = synthesise_path(eighteen_points(), {.max_solutions = 100}, context).designs;
+  EXPECT_EQ(synthesise_path(printed_eighteen_points(), {.max_solutions = 1}, context).designs.size(), 1u);
+  const auto many = synthesise_path(printed_eighteen_points(), {.max_solutions = 100}, context).designs;
   EXPECT_GT(many.size(), 2u);
   // All of them distinct, best first.
   for (std::size_t i = 0; i + 1 < many.size(); ++i) EXPECT_LE(many[i].error, many[i + 1].error * (1 + 1e-9));

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 
 namespace linkwright::planar {
@@ -24,7 +24,7 @@ PathProblem targets() {
 
 // Distance to the nearest of many places between the posts, beyond the tolerance.
 double sampled(const PathProblem& p, std::size_t k, double px, double py) {
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   for (int i = -2000; i <= 2000; ++i)
     least = std::min(least,
                      std::hypot(px - p.x[k] - p.gate_x[k] * i / 2000, py - p.y[k] - p.gate_y[k] * i / 2000));

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "planar/path_cases.h"
@@ -13,10 +13,9 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-constexpr double pi = std::numbers::pi;
 
 // A path of `l` itself, over crank angles from `first` in steps.
 PathProblem own_path(const FourBar& l, double first, double step, int count, bool closed) {

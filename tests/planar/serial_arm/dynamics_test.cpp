@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 // Links with inertia of their own, so that the mass matrix is far from singular.
 SerialArm heavy_arm(std::size_t n) {
-  SerialArm arm = testing::any_arm(n);
+  SerialArm arm = test::any_arm(n);
   for (ArmLink& link : arm.links) link.body.inertia += 0.5;
   return arm;
 }
@@ -26,8 +26,8 @@ RC_GTEST_PROP(SerialArmDynamicsProperty, AccelerationsAreThoseOfTheTorques, ()) 
   const std::size_t n = static_cast<std::size_t>(*rc::gen::inRange(1, 6));
   const SerialArm arm = heavy_arm(n);
   const std::vector<ArmElement> e = elements(arm);
-  const std::vector<math::Motion> motion = testing::any_motion(n);
-  const double gravity = *testing::between(0, 20);
+  const std::vector<math::Motion> motion = test::any_motion(n);
+  const double gravity = *test::between(0, 20);
   std::vector<ArmLinkRates> r(n);
   std::vector<ArmJointLoads> loads(n);
   rates(e, arm.base, motion, r);
@@ -49,7 +49,7 @@ RC_GTEST_PROP(SerialArmDynamicsProperty, MassMatrixIsThatOfTheEnergy, ()) {
   const std::size_t n = static_cast<std::size_t>(*rc::gen::inRange(1, 6));
   const SerialArm arm = heavy_arm(n);
   const std::vector<ArmElement> e = elements(arm);
-  const std::vector<math::Motion> motion = testing::any_motion(n);
+  const std::vector<math::Motion> motion = test::any_motion(n);
   std::vector<double> angles;
   for (const math::Motion& m : motion) angles.push_back(m.value);
   const std::vector<double> matrix = mass_matrix(e, angles);

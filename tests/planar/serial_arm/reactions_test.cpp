@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/balancing/measures.h"
 #include "linkwright/planar/serial_arm/samples.h"
 #include "planar/serial_arm_cases.h"
@@ -18,12 +18,10 @@
 namespace linkwright::planar {
 namespace {
 
-using testing::at;
-using testing::dynamics_case;
+using test::at;
+using test::dynamics_case;
+using test::number_at;
 using ::testing::HasSubstr;
-using testing::number_at;
-
-constexpr double pi = std::numbers::pi;
 
 // The published task over 201 samples of 10 s.
 struct Task {
@@ -82,7 +80,7 @@ TEST(SerialArmReactions, ObjectiveOfThePublishedPolynomials) {
   const auto minima = at(dynamics_case("manipulator-polynomial"), "computed.minima_F_a61_a62").as_array();
   ASSERT_EQ(minima.size(), 2u);
   for (const Value& minimum : minima) {
-    const auto m = linkwright::testing::numbers(minimum);
+    const auto m = linkwright::test::numbers(minimum);
     EXPECT_NEAR(objective(run(with_polynomials(m[1], m[2]))), m[0], 1e-12);
   }
 }
@@ -97,7 +95,7 @@ TEST(SerialArmReactions, ObjectiveOfThePrintedCoefficients) {
   for (int i = 0; i <= 200; ++i) {
     std::array<math::Motion, 2> motion;
     for (std::size_t k = 0; k < 2; ++k) {
-      const auto a = linkwright::testing::numbers(at(reference, k == 0 ? "published.a1" : "published.a2"));
+      const auto a = linkwright::test::numbers(at(reference, k == 0 ? "published.a1" : "published.a2"));
       const double x = i / 200.0, stroke = k == 0 ? pi : 3 * pi / 2;
       for (std::size_t j = 0; j < 4; ++j) {
         const double n = static_cast<double>(j) + 3;
@@ -165,10 +163,10 @@ TEST(SerialArmReactions, ComponentsOfThePublishedMotion) {
 
 RC_GTEST_PROP(SerialArmReactionsProperty, AgreeWithRedundantCoordinates, ()) {
   const auto rod = [] {
-    return TwoRods::Rod{*testing::log_between(0.1, 3), *testing::between(0.1, 9), *testing::between(0, 2)};
+    return TwoRods::Rod{*test::log_between(0.1, 3), *test::between(0.1, 9), *test::between(0, 2)};
   };
-  const TwoRods arm{{rod(), rod()}, *testing::between(0, 5)};
-  const std::vector<math::Motion> motion = testing::any_motion(2);
+  const TwoRods arm{{rod(), rod()}, *test::between(0, 5)};
+  const std::vector<math::Motion> motion = test::any_motion(2);
   const auto b = reactions_redundant(arm, {motion[0], motion[1]});
   const std::vector<ArmElement> e = elements(serial_arm(arm));
   std::array<ArmLinkRates, 2> r;
@@ -254,9 +252,9 @@ double size_of(const SerialArm& arm, const std::vector<math::Motion>& motion, do
 
 RC_GTEST_PROP(SerialArmReactionsProperty, AgreeWithNewtonAndEuler, ()) {
   const std::size_t n = static_cast<std::size_t>(*rc::gen::inRange(1, 7));
-  const SerialArm arm = testing::any_arm(n);
-  const std::vector<math::Motion> motion = testing::any_motion(n);
-  const double gravity = *testing::between(0, 20), size = size_of(arm, motion, gravity);
+  const SerialArm arm = test::any_arm(n);
+  const std::vector<math::Motion> motion = test::any_motion(n);
+  const double gravity = *test::between(0, 20), size = size_of(arm, motion, gravity);
   const std::vector<ArmElement> e = elements(arm);
   std::vector<ArmLinkRates> r(n);
   std::vector<ArmJointLoads> a(n);
@@ -296,9 +294,9 @@ TEST(SerialArmReactions, OfFourLinksAgreeWithNewtonAndEulerTo1e12) {
 
 RC_GTEST_PROP(SerialArmReactionsProperty, TheMotorsFeedTheEnergy, ()) {
   const std::size_t n = static_cast<std::size_t>(*rc::gen::inRange(1, 6));
-  const SerialArm arm = testing::any_arm(n);
-  const std::vector<math::Motion> motion = testing::any_motion(n);
-  const double gravity = *testing::between(0, 20), size = 30 * size_of(arm, motion, gravity);
+  const SerialArm arm = test::any_arm(n);
+  const std::vector<math::Motion> motion = test::any_motion(n);
+  const double gravity = *test::between(0, 20), size = 30 * size_of(arm, motion, gravity);
   const std::vector<ArmElement> e = elements(arm);
   std::vector<ArmLinkRates> r(n);
   std::vector<ArmJointLoads> loads(n);

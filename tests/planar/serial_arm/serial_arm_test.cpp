@@ -4,9 +4,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/differences.h"
 #include "planar/serial_arm_cases.h"
 #include "support/allocations.h"
@@ -16,8 +16,6 @@ namespace linkwright::planar {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double pi = std::numbers::pi;
 
 TEST(SerialArm, StandsWhereItsAnglesSay) {
   const SerialArm arm{{1, 2}, {{2, {}, {}}, {1, {}, {}}, {0.5, {}, {}}}};
@@ -36,10 +34,10 @@ TEST(SerialArm, StandsWhereItsAnglesSay) {
 // Velocity and acceleration of joints and of a point of the last link against differences in time.
 RC_GTEST_PROP(SerialArmProperty, RatesAreTheDerivativesOfPositions, ()) {
   const std::size_t n = static_cast<std::size_t>(*rc::gen::inRange(1, 6));
-  const SerialArm arm = testing::any_arm(n);
+  const SerialArm arm = test::any_arm(n);
   const std::vector<ArmElement> e = elements(arm);
-  const std::vector<math::Motion> start = testing::any_motion(n);
-  const std::complex<double> place(*testing::between(-2, 2), *testing::between(-2, 2));
+  const std::vector<math::Motion> start = test::any_motion(n);
+  const std::complex<double> place(*test::between(-2, 2), *test::between(-2, 2));
   const auto function = [&](std::span<const double> t, std::span<double> out, std::span<double> jacobian) {
     std::vector<math::Motion> m = start;
     for (math::Motion& k : m) {

@@ -3,17 +3,16 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "planar/simulations.h"
 #include "support/message.h"
 
 namespace linkwright::planar {
 namespace {
 
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace test;
 
 // Both routes share nothing but loads and masses: same motion to the tolerance.
 void expect_same(const Linkage& l, const std::vector<InputCourse>& courses, double to, double tolerance) {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/simulation/coordinates.h"
 #include "planar/elastic_bodies.h"
 #include "support/message.h"
@@ -14,8 +14,7 @@ namespace {
 
 using linkwright::test::message;
 using ::testing::HasSubstr;
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace test;
 
 // A beam of 1 m from the origin along x, with a force of 0.01 N down at a point.
 Linkage loaded_beam(const char* point) {
@@ -159,10 +158,8 @@ TEST(ElasticBody, KnowsWhatFewSegmentsMiss) {
   EXPECT_NEAR(segment_errors(2).moment, 0.25, 1e-15);      // 4 / 4 * 3 / 4
   EXPECT_NEAR(segment_errors(4).moment, 1.0 / 16, 1e-15);  // 4 * 3 / 8 * 5 / 8
   EXPECT_NEAR(segment_errors(1).moment, 1 - 1.5 * std::sqrt(3.0) * 0.375, 1e-15);
-  EXPECT_NEAR(segment_errors(1).frequency, 1 - std::sqrt(48.0) / (std::numbers::pi * std::numbers::pi),
-              1e-15);
-  EXPECT_NEAR(segment_errors(2).frequency, 1 - std::sqrt(96.0) / (std::numbers::pi * std::numbers::pi),
-              1e-15);
+  EXPECT_NEAR(segment_errors(1).frequency, 1 - std::sqrt(48.0) / (pi * pi), 1e-15);
+  EXPECT_NEAR(segment_errors(2).frequency, 1 - std::sqrt(96.0) / (pi * pi), 1e-15);
   EXPECT_TRUE(too_few_segments(1));
   EXPECT_TRUE(too_few_segments(2));
   EXPECT_EQ(enough_segments(), 3);

@@ -3,18 +3,17 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/looks.h"
+#include "linkwright/core/numbers.h"
 #include "planar/simulations.h"
 #include "support/message.h"
 
 namespace linkwright::planar {
 namespace {
 
-using namespace testing;
-constexpr double pi = std::numbers::pi;
+using namespace test;
 
 // A wheel of 2 kg m2 about its pivot with a mass of 3 kg at 0.5 m, against a brake of 4 N m: J = 2.75 is
 // constant, Q = -4 - 3 * 0.5 g cos(q).

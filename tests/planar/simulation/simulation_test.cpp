@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "planar/simulations.h"
 #include "support/message.h"
 #include "support/published.h"
@@ -14,13 +14,12 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace testing;
-using linkwright::testing::numbers;
-using linkwright::testing::published_case;
-constexpr double pi = std::numbers::pi;
+using namespace test;
+using linkwright::test::numbers;
+using linkwright::test::published_case;
 
 const Value& published(const char* id) {
-  return linkwright::testing::at(published_case("multibody-benchmarks.json", id), "published");
+  return linkwright::test::at(published_case("multibody-benchmarks.json", id), "published");
 }
 
 // Benchmark A01: a point mass of 1 kg on a link of 1 m, let go horizontally, over 844 periods. The published
@@ -32,7 +31,7 @@ TEST(Simulate, KeepsThePhaseOfThePublishedPendulum) {
   std::vector<double> times{0};
   std::vector<std::vector<double>> samples;
   for (const Value& row :
-       linkwright::testing::at(published("A01-simple-pendulum"), "samples_t_x_y_m").as_array()) {
+       linkwright::test::at(published("A01-simple-pendulum"), "samples_t_x_y_m").as_array()) {
     samples.push_back(numbers(row));
     times.push_back(samples.back()[0]);
   }
@@ -74,7 +73,7 @@ TEST(Simulate, SqueezesAsAndrewsMechanism) {
   const LinkagePlan p = planned(l);
   const std::vector<double> y = [] {
     std::vector<double> out;
-    for (const Value& v : linkwright::testing::at(published("A03-andrews-squeezer"), "y_at_0_03").as_array())
+    for (const Value& v : linkwright::test::at(published("A03-andrews-squeezer"), "y_at_0_03").as_array())
       out.push_back(std::stod(v.as_string()));
     return out;
   }();
@@ -137,7 +136,7 @@ TEST_P(Chain, PassesFlatPositionsOnItsBranch) {
   std::vector<std::vector<double>> samples;
   std::vector<double> times{0};
   for (const Value& row :
-       linkwright::testing::at(published("A02-N-four-bar"), "samples_t_x_y_of_B0_m").as_array())
+       linkwright::test::at(published("A02-N-four-bar"), "samples_t_x_y_of_B0_m").as_array())
     if (loops == 40 || numbers(row)[0] <= 10)
       samples.push_back(numbers(row)), times.push_back(numbers(row)[0]);
   const SimulationRun run =

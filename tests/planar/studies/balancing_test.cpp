@@ -12,12 +12,12 @@
 namespace linkwright::planar {
 namespace {
 
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
 
 std::vector<std::string> names_of(const study::Result& r) {
   std::vector<std::string> out;
@@ -26,22 +26,21 @@ std::vector<std::string> names_of(const study::Result& r) {
 }
 
 TEST(BalancingStudyRead, ProblemsTellWhereAndHow) {
-  EXPECT_THAT(problems_of(replaced(testing::linkage_weights, "quantity = \"shaking_force_N\"",
+  EXPECT_THAT(problems_of(replaced(test::linkage_weights, "quantity = \"shaking_force_N\"",
                                    "quantity = \"shaking_forc_N\"")),
               HasSubstr("objective[0].quantity: the analysis has no column 'shaking_forc_N'; did you mean "
                         "'shaking_force_N'?"));
-  EXPECT_THAT(problems_of(replaced(testing::four_bar_masses, "crank_m   = 0.1", "crnk_m = 0.1")),
+  EXPECT_THAT(problems_of(replaced(test::four_bar_masses, "crank_m   = 0.1", "crnk_m = 0.1")),
               HasSubstr("mechanism.parameters.crnk_m"));
-  EXPECT_THAT(problems_of(replaced(testing::linkage_weights, "initial = 0.1 }", "begin = 0.1 }")),
+  EXPECT_THAT(problems_of(replaced(test::linkage_weights, "initial = 0.1 }", "begin = 0.1 }")),
               HasSubstr("the designed number lacks `initial`"));
-  EXPECT_THAT(problems_of(replaced(testing::four_bar_masses, "ground_m  = 0.6", "ground_m  = 0.9")),
+  EXPECT_THAT(problems_of(replaced(test::four_bar_masses, "ground_m  = 0.6", "ground_m  = 0.9")),
               HasSubstr("the initial design has no answer everywhere: no_assembly at crank_angle_rad"));
-  EXPECT_THAT(
-      problems_of(testing::linkage_weights + "[[constraint]]\nquantity = \"O_N\"\nmeasure = \"rms\"\n"),
-      HasSubstr("the constraint has no limit; add at_least or at_most"));
-  EXPECT_THAT(problems_of(testing::linkage_weights + "[optimiser]\nmethod = \"jade\"\ncombine = \"all\"\n"),
+  EXPECT_THAT(problems_of(test::linkage_weights + "[[constraint]]\nquantity = \"O_N\"\nmeasure = \"rms\"\n"),
+              HasSubstr("the constraint has no limit; add at_least or at_most"));
+  EXPECT_THAT(problems_of(test::linkage_weights + "[optimiser]\nmethod = \"jade\"\ncombine = \"all\"\n"),
               HasSubstr("jade minimises one objective, combine = \"all\" asks for several"));
-  std::string fixed = testing::arm_weights;
+  std::string fixed = test::arm_weights;
   for (const char* what :
        {"{ min = 0.0, max = 12.0, initial = 0.0 }", "{ min = 0.0, max = 12.0, initial = 0.0 }",
         "{ min = -0.5, max = 0.0, initial = 0.0 }"})
@@ -51,12 +50,12 @@ TEST(BalancingStudyRead, ProblemsTellWhereAndHow) {
   fixed = replaced(replaced(fixed, "mass_kg    = -0.1", "mass_kg    = 0.1"), "mass_kg    = -0.1",
                    "mass_kg = 0.1");
   EXPECT_THAT(problems_of(fixed), HasSubstr("nothing is designed: every number is fixed"));
-  EXPECT_THAT(problems_of(replaced(testing::arm_weights, "reference = 1.0", "reference = 0.0")),
+  EXPECT_THAT(problems_of(replaced(test::arm_weights, "reference = 1.0", "reference = 0.0")),
               HasSubstr("reference"));
 }
 
 TEST(BalancingStudyRun, CounterweightsOfTheArmUnloadItsFirstJoint) {
-  const study::Result r = run_text(testing::arm_weights);
+  const study::Result r = run_text(test::arm_weights);
   EXPECT_EQ(r.status, Status::done);
   ASSERT_EQ(r.solutions.size(), 1u);
   const auto& p = r.solutions[0].parameters;
@@ -65,7 +64,7 @@ TEST(BalancingStudyRun, CounterweightsOfTheArmUnloadItsFirstJoint) {
   EXPECT_NEAR(p[0].value, 11.5, 1e-4);
   EXPECT_NEAR(p[1].value, 7, 1e-4);
   EXPECT_NEAR(p[2].value, -0.5, 1e-6);
-  EXPECT_THAT(testing::fact(r, "proof"), HasSubstr("global optimum"));
+  EXPECT_THAT(test::fact(r, "proof"), HasSubstr("global optimum"));
   EXPECT_THAT(names_of(r), ::testing::ElementsAre("balanced", "initial", "overlay", "seeds"));
   // Before and after: what was asked for comes first, with its measure.
   ASSERT_GE(r.changes.size(), 2u);
@@ -88,7 +87,7 @@ TEST(BalancingStudyRun, CounterweightsOfTheArmUnloadItsFirstJoint) {
 }
 
 TEST(BalancingStudyRun, OverlaysJoinBothDesigns) {
-  const study::Result r = run_text(testing::linkage_weights);
+  const study::Result r = run_text(test::linkage_weights);
   const Table& overlay = r.tables[2];
   const Column *now = overlay.find("shaking_force_N"), *before = overlay.find("initial_shaking_force_N");
   ASSERT_TRUE(now && before);
@@ -102,8 +101,8 @@ TEST(BalancingStudyRun, OverlaysJoinBothDesigns) {
 }
 
 TEST(BalancingStudyRun, AFrontIsATableAPlotAndSolutions) {
-  const study::Result r = run_text(testing::linkage_weights +
-                                   "[optimiser]\nmethod = \"convex\"\ncombine = \"front\"\nfront = 5\n");
+  const study::Result r =
+      run_text(test::linkage_weights + "[optimiser]\nmethod = \"convex\"\ncombine = \"front\"\nfront = 5\n");
   // Five questions; ends of the front may be the same design.
   const std::size_t n = r.solutions.size();
   ASSERT_GE(n, 3u);
@@ -127,7 +126,7 @@ TEST(BalancingStudyRun, AFrontIsATableAPlotAndSolutions) {
 }
 
 TEST(BalancingStudyRun, WhatIsNotConvexIsRefusedByConvex) {
-  const study::Result r = run_text(testing::engine + "[optimiser]\nmethod = \"convex\"\n");
+  const study::Result r = run_text(test::engine + "[optimiser]\nmethod = \"convex\"\n");
   EXPECT_EQ(r.status, Status::infeasible);
   EXPECT_EQ(
       r.headline,
@@ -137,7 +136,7 @@ TEST(BalancingStudyRun, WhatIsNotConvexIsRefusedByConvex) {
 
 TEST(BalancingStudyRun, LengthsOfAFourBarGoThroughTheFastAndTheGeneralWay) {
   // The general way is taken because of a constraint that never binds.
-  const std::string text = replaced(replaced(testing::four_bar_masses, "crank_m   = 0.1",
+  const std::string text = replaced(replaced(test::four_bar_masses, "crank_m   = 0.1",
                                              "crank_m   = { min = 0.08, max = 0.12, initial = 0.1 }"),
                                     "mass_kg            = { min = 0.8, max = 1.6, initial = 1.296 }",
                                     "mass_kg            = 1.296");
@@ -155,7 +154,7 @@ TEST(BalancingStudyRun, LengthsOfAFourBarGoThroughTheFastAndTheGeneralWay) {
 
 // The first candidates of a search with many rows: one look before each, not one before 256 of them.
 TEST(BalancingStudyRun, LooksBetweenCandidates) {
-  const std::string text = replaced(testing::four_bar_masses, "crank_m   = 0.1",
+  const std::string text = replaced(test::four_bar_masses, "crank_m   = 0.1",
                                     "crank_m   = { min = 0.08, max = 0.12, initial = 0.1 }"),
                     // With a constraint that never binds the general way is taken.
       general = "[[constraint]]\nquantity = \"drive_torque_N_m\"\nmeasure = \"max_abs\"\nat_most = 1e6\n";
@@ -172,7 +171,7 @@ TEST(BalancingStudyRun, LooksBetweenCandidates) {
 TEST(BalancingStudyRun, AConstraintKeepsTheFunction) {
   // The rocker must swing as it does, whatever the crank.
   const std::string text =
-      replaced(testing::four_bar_masses, "crank_m   = 0.1",
+      replaced(test::four_bar_masses, "crank_m   = 0.1",
                "crank_m   = { min = 0.08, max = 0.12, initial = 0.1 }") +
       "[[constraint]]\nquantity = \"rocker_angle_rad\"\nmeasure = \"max_abs\"\nchange = true\nat_most = "
       "0.002\n"
@@ -187,7 +186,7 @@ TEST(BalancingStudyRun, AConstraintKeepsTheFunction) {
 TEST(BalancingStudyRun, InertiasAreKeptPhysical) {
   // Free inertia, mass and centre of the crank; its material is at most 60 mm from O1.
   const study::Result r = run_text(
-      testing::four_bar_masses +
+      test::four_bar_masses +
       "[[constraint]]\nquantity = \"crank_gyration_radius_m\"\nmeasure = \"maximum\"\nat_most = 0.06\n"
       "[optimiser]\nmethod = \"gradient\"\ncandidates = 64\nstarts = 2\nconfirmations = 0\n");
   EXPECT_EQ(r.status, Status::done);

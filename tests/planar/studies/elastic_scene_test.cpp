@@ -11,7 +11,7 @@
 namespace linkwright::planar {
 namespace {
 
-using namespace testing;
+using namespace test;
 
 struct Bent {
   Linkage rigid = four_bar();

@@ -14,15 +14,15 @@
 namespace linkwright::planar {
 namespace {
 
+using test::fact;
+using test::prepare;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::AllOf;
 using ::testing::Each;
-using testing::fact;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::prepare;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
 using ::testing::SizeIs;
 
 const std::string rod = R"([[elastic]]
@@ -126,7 +126,7 @@ TEST(LinkageElasticStudy, ReportsBendingBesideTheRigidLinkage) {
              &normal = column(r, "motion", "rod_normal_force_N"),
              &stress = column(r, "motion", "rod_stress_Pa");
   for (std::size_t i = 0; i < stress.size(); ++i)
-    EXPECT_NEAR(stress[i], std::abs(moment[i]) * 2e-3 / testing::second_moment + std::abs(normal[i]) / 80e-6,
+    EXPECT_NEAR(stress[i], std::abs(moment[i]) * 2e-3 / test::second_moment + std::abs(normal[i]) / 80e-6,
                 1e-9 * stress[i]);
   // The traced point sits in the middle: it leaves its rigid place by the deflection, and by what that lets
   // the slider move, a hundredth of it.

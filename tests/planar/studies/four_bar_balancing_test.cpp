@@ -10,11 +10,11 @@
 namespace linkwright::planar {
 namespace {
 
-using testing::balancing_study;
-using testing::replaced;
+using test::balancing_study;
+using test::replaced;
 
 std::string with_lengths() {
-  std::string text = testing::four_bar_masses;
+  std::string text = test::four_bar_masses;
   text = replaced(text, "crank_m   = 0.1", "crank_mm = { min = 80, max = 120, initial = 100 }");
   text = replaced(text, "rocker_m  = 0.32", "rocker_m  = { min = 0.256, max = 0.384, initial = 0.32 }");
   return replaced(text, "ground_m  = 0.6", "ground_m  = { min = 0.3, max = 0.9, initial = 0.6 }");
@@ -22,7 +22,7 @@ std::string with_lengths() {
 
 TEST(BalancingFourBar, BothWaysGiveTheSameObjectives) {
   const BalancingStudy s = balancing_study(with_lengths());
-  const BalancingProblem p = balancing_problem(testing::task_of(s));
+  const BalancingProblem p = balancing_problem(test::task_of(s));
   const auto fast = four_bar_problem(s, p);
   ASSERT_TRUE(fast);
   constexpr std::size_t n = 40;
@@ -49,15 +49,15 @@ TEST(BalancingFourBar, BothWaysGiveTheSameObjectives) {
 }
 
 TEST(BalancingFourBar, TheReportTellsTheCompleteForceBalance) {
-  const study::Result r = testing::run_text(testing::four_bar_masses);
-  const std::string told = testing::fact(r, "complete force balance would take");
+  const study::Result r = test::run_text(test::four_bar_masses);
+  const std::string told = test::fact(r, "complete force balance would take");
   EXPECT_THAT(told, ::testing::MatchesRegex("crank .* kg at 100 mm, .*, rocker .* kg at 320 mm, .*"));
 }
 
 TEST(BalancingFourBar, WhatItDoesNotKnowIsLeftToTheGeneralWay) {
   const auto known = [](const std::string& text) {
     const BalancingStudy s = balancing_study(text);
-    return four_bar_problem(s, balancing_problem(testing::task_of(s))).has_value();
+    return four_bar_problem(s, balancing_problem(test::task_of(s))).has_value();
   };
   EXPECT_TRUE(known(with_lengths()));
   EXPECT_FALSE(known(replaced(with_lengths(), "shaking_force_x_N", "shaking_force_N")));

@@ -7,9 +7,9 @@
 #include <complex>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 #include <string>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "linkwright/study/write.h"
 #include "planar/studies.h"
@@ -17,15 +17,13 @@
 namespace linkwright::planar {
 namespace {
 
+using test::prepare;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::prepare;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
-
-constexpr double pi = std::numbers::pi;
 
 const char* const four_bar_text = R"(schema = 1
 kind = "analysis"

@@ -10,7 +10,7 @@
 namespace linkwright::planar {
 namespace {
 
-using testing::balancing_study;
+using test::balancing_study;
 using ::testing::HasSubstr;
 
 const std::vector<std::string>& loads(std::string_view type) {
@@ -48,27 +48,27 @@ void expect_same_tables(const BalancingStudy& s) {
   }
 }
 
-TEST(BalancingMasses, TablesOfAFourBar) { expect_same_tables(balancing_study(testing::four_bar_masses)); }
-TEST(BalancingMasses, TablesOfALinkage) { expect_same_tables(balancing_study(testing::linkage_weights)); }
-TEST(BalancingMasses, TablesOfASliderCrank) { expect_same_tables(balancing_study(testing::engine)); }
-TEST(BalancingMasses, TablesOfAnArm) { expect_same_tables(balancing_study(testing::arm_weights)); }
+TEST(BalancingMasses, TablesOfAFourBar) { expect_same_tables(balancing_study(test::four_bar_masses)); }
+TEST(BalancingMasses, TablesOfALinkage) { expect_same_tables(balancing_study(test::linkage_weights)); }
+TEST(BalancingMasses, TablesOfASliderCrank) { expect_same_tables(balancing_study(test::engine)); }
+TEST(BalancingMasses, TablesOfAnArm) { expect_same_tables(balancing_study(test::arm_weights)); }
 
 TEST(BalancingMasses, WhatIsNoMassIsSaid) {
   std::string why;
   EXPECT_FALSE(
-      mass_study(balancing_study(testing::replaced(testing::four_bar_masses, "crank_m   = 0.1",
-                                                   "crank_m = { min = 0.1, max = 0.2, initial = 0.1 }")),
+      mass_study(balancing_study(test::replaced(test::four_bar_masses, "crank_m   = 0.1",
+                                                "crank_m = { min = 0.1, max = 0.2, initial = 0.1 }")),
                  why));
   EXPECT_EQ(why, "'parameters.crank_m' is no mass");
   EXPECT_FALSE(
-      mass_study(balancing_study(testing::replaced(testing::linkage_weights, "mass_kg   = 0.36",
-                                                   "mass_kg   = { min = 0.1, max = 1.0, initial = 0.36 }")),
+      mass_study(balancing_study(test::replaced(test::linkage_weights, "mass_kg   = 0.36",
+                                                "mass_kg   = { min = 0.1, max = 1.0, initial = 0.36 }")),
                  why));
   EXPECT_EQ(why, "the inertia of 'crank' follows from its mass; give it as a number");
-  EXPECT_FALSE(mass_study(
-      balancing_study(testing::replaced(testing::linkage_weights, "second = \"crank.O\"",
-                                        "second = \"crank.O\"\nfriction = 0.1\npin_radius_mm = 5")),
-      why));
+  EXPECT_FALSE(
+      mass_study(balancing_study(test::replaced(test::linkage_weights, "second = \"crank.O\"",
+                                                "second = \"crank.O\"\nfriction = 0.1\npin_radius_mm = 5")),
+                 why));
   EXPECT_EQ(why, "joint 'O' has friction, which is not linear in the masses");
 }
 
@@ -77,40 +77,40 @@ std::string why_not_convex(const std::string& text) {
   std::string why;
   const auto masses = mass_study(s, why);
   if (!masses) return why;
-  const BalancingProblem p = balancing_problem(testing::task_of(s));
+  const BalancingProblem p = balancing_problem(test::task_of(s));
   return exact_balancing(masses, p, why) ? "convex" : why;
 }
 
 TEST(BalancingMasses, WhatIsNotConvexIsSaid) {
-  using testing::replaced;
-  EXPECT_EQ(why_not_convex(testing::four_bar_masses), "convex");
-  EXPECT_EQ(why_not_convex(testing::arm_weights), "convex");
-  EXPECT_EQ(why_not_convex(testing::engine),
+  using test::replaced;
+  EXPECT_EQ(why_not_convex(test::four_bar_masses), "convex");
+  EXPECT_EQ(why_not_convex(test::arm_weights), "convex");
+  EXPECT_EQ(why_not_convex(test::engine),
             "the angle of 'crank mass 1' is limited; only a fixed one or a full "
             "turn is convex");
-  const std::string rectangle = replaced(testing::linkage_weights, "at_mm   = [-80, 0]",
+  const std::string rectangle = replaced(test::linkage_weights, "at_mm   = [-80, 0]",
                                          "at_mm = [{ min = -80, max = 0, initial = -80 }, "
                                          "{ min = -20, max = 20, initial = 0 }]");
   EXPECT_EQ(why_not_convex(rectangle), "convex");
-  EXPECT_EQ(why_not_convex(replaced(testing::four_bar_masses, "measure  = \"rms\"", "measure = \"range\"")),
+  EXPECT_EQ(why_not_convex(replaced(test::four_bar_masses, "measure  = \"rms\"", "measure = \"range\"")),
             "range is not convex");
   EXPECT_EQ(why_not_convex(
-                testing::four_bar_masses +
+                test::four_bar_masses +
                 "[[constraint]]\nquantity = \"drive_torque_N_m\"\nmeasure = \"max_abs\"\nat_most = 99.0\n"),
             "constraints beyond caps on the objectives are not part of the cone programme");
 }
 
 TEST(BalancingMasses, TheProgrammeAndTheGradientComeToTheSame) {
-  using testing::replaced;
-  const std::string rectangle = replaced(testing::linkage_weights, "at_mm   = [-80, 0]",
+  using test::replaced;
+  const std::string rectangle = replaced(test::linkage_weights, "at_mm   = [-80, 0]",
                                          "at_mm = [{ min = -80, max = 20, initial = -80 }, "
                                          "{ min = -20, max = 20, initial = 0 }]");
   for (const std::string& text :
-       {testing::four_bar_masses, testing::arm_weights, testing::linkage_weights, rectangle}) {
+       {test::four_bar_masses, test::arm_weights, test::linkage_weights, rectangle}) {
     BalancingStudy s = balancing_study(text);
     std::string why;
     const auto masses = mass_study(s, why);
-    const BalancingProblem p = balancing_problem(testing::task_of(s));
+    const BalancingProblem p = balancing_problem(test::task_of(s));
     const ExactBalancing exact = exact_balancing(masses, p, why);
     ASSERT_TRUE(exact) << why;
     for (Combine combine : {Combine::mean, Combine::largest}) {

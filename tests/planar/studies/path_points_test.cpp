@@ -2,10 +2,10 @@
 
 #include <gmock/gmock.h>
 
-#include <numbers>
 #include <optional>
 #include <string>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/read.h"
 
 namespace linkwright::planar {
@@ -53,7 +53,7 @@ TEST(PathPointsStudy, TheClosingPointOfAClosedPathCountsOnce) {
   EXPECT_THAT(closed.x, ::testing::ElementsAre(0, 2, 4));
   EXPECT_THAT(closed.y, ::testing::ElementsAre(1, 3, 5));
   // A path whose timing says a turn, or nothing, is closed by it.
-  for (const auto rotation : {std::optional(-2 * std::numbers::pi), std::optional<double>()}) {
+  for (const auto rotation : {std::optional(-2 * pi), std::optional<double>()}) {
     const ReadPoints turned = read(text, false, rotation);
     EXPECT_THAT(turned.problems,
                 ::testing::HasSubstr("study.toml:2:12: warning: target.points_m: the last of 4 "

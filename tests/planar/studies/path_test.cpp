@@ -13,9 +13,9 @@
 namespace linkwright::planar {
 namespace {
 
+using test::prepare;
+using test::problems_of;
 using ::testing::HasSubstr;
-using testing::prepare;
-using testing::problems_of;
 
 constexpr const char* head = R"(schema = 1
 kind = "synthesis"
@@ -331,7 +331,7 @@ TEST(PathStudyRun, MeetsGatesTolerancesAndTheRegionOfTheRockerPivot) {
   const study::Result result = study::run_study(*study, context);
   ASSERT_EQ(result.status, Status::done);
   EXPECT_THAT(result.headline, HasSubstr("passes the 5 gates within their tolerance"));
-  EXPECT_EQ(testing::fact(result, "worst point"), "none is beyond its tolerance");
+  EXPECT_EQ(test::fact(result, "worst point"), "none is beyond its tolerance");
   const auto value = [&](const char* key) {
     for (const study::Parameter& p : result.solutions[0].parameters)
       if (p.key == key) return p.value;
@@ -367,8 +367,8 @@ TEST(PathStudyRun, TheTransmissionAngleOfAnOpenPathIsThatOfThePath) {
   ASSERT_EQ(result.status, Status::done);
   for (const study::Solution& solution : result.solutions)
     EXPECT_GE(solution.classification.find("min_transmission_angle_rad")->as_number(), 0.5235987755 - 1e-6);
-  EXPECT_THAT(testing::fact(result, "least transmission angle"), HasSubstr("° over the path ("));
-  EXPECT_THAT(testing::fact(result, "least transmission angle"), HasSubstr("° over the whole motion)"));
+  EXPECT_THAT(test::fact(result, "least transmission angle"), HasSubstr("° over the path ("));
+  EXPECT_THAT(test::fact(result, "least transmission angle"), HasSubstr("° over the whole motion)"));
   for (const Diagnostic& d : result.diagnostics)
     EXPECT_THAT(d.message, ::testing::Not(HasSubstr("falls to")));
 }

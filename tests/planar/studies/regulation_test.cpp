@@ -13,12 +13,12 @@
 namespace linkwright::planar {
 namespace {
 
+using test::prepare;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::prepare;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
 
 TEST(LinkageRegulationStudy, SizesAFlywheelAndFindsTheSteadyCycle) {
   const study::Result r = run_text(linkage_regulation_kind().example);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/serial_arm/reactions.h"
 #include "linkwright/study/write.h"
 #include "planar/studies.h"
@@ -16,16 +16,14 @@
 namespace linkwright::planar {
 namespace {
 
+using test::fact;
+using test::prepare;
+using test::problems_of;
+using test::run_text;
 using ::testing::ElementsAreArray;
-using testing::fact;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-using testing::prepare;
-using testing::problems_of;
-using testing::run_text;
-
-constexpr double pi = std::numbers::pi;
 
 // Parts of a good study, any of which a test may replace.
 std::string study_text(const std::map<std::string, std::string>& changed = {}) {

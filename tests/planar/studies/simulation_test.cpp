@@ -13,15 +13,15 @@
 namespace linkwright::planar {
 namespace {
 
+using test::fact;
+using test::prepare;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::AllOf;
 using ::testing::Each;
-using testing::fact;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::prepare;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
 
 std::string pendulum() { return linkage_simulation_kind().example; }
 

@@ -4,12 +4,13 @@
 
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
 #include "planar/slider_crank_path_cases.h"
 
 namespace linkwright::planar {
 namespace {
 
-using namespace linkwright::planar::testing;
+using namespace linkwright::planar::test;
 
 SliderPathDesign published(const SliderPathProblem& p) {
   return measure(p, slider_crank(at(path_case("T4.2"), "inputs.design")), 1, angles_of(p, 0.53607));
@@ -17,7 +18,7 @@ SliderPathDesign published(const SliderPathProblem& p) {
 
 // The drawing comes from the linkage, the table from the closed form: two routes to one curve and one stroke.
 TEST(SliderPathScene, DrawsTheCurveThatTheTableLists) {
-  const SliderPathProblem p = eighteen_slider_points();
+  const SliderPathProblem p = printed_eighteen_slider_points();
   const SliderPathDesign d = published(p);
   const study::Scene scene = slider_path_scene(p, d, "solution-1", "1", 181);
   const Table motion = slider_motion_table(d, "motion", 181);
@@ -38,7 +39,7 @@ TEST(SliderPathScene, DrawsTheCurveThatTheTableLists) {
 }
 
 TEST(SliderPathScene, PointsTellTheirDistance) {
-  const SliderPathProblem p = eighteen_slider_points();
+  const SliderPathProblem p = printed_eighteen_slider_points();
   const SliderPathDesign d = published(p);
   const Table points = slider_point_table(p, d, "points");
   double sum = 0;
@@ -47,7 +48,7 @@ TEST(SliderPathScene, PointsTellTheirDistance) {
 }
 
 TEST(SliderPathScene, ACrankThatRocksIsShownOverWhatItReaches) {
-  SliderPathProblem p = eighteen_slider_points();
+  SliderPathProblem p = printed_eighteen_slider_points();
   p.crank_rotates_fully = p.closed = false;
   SliderCrankMechanism m;
   m.parameters = {.crank = 1, .rod = 0.5, .rod_u = 0.2};
@@ -56,8 +57,8 @@ TEST(SliderPathScene, ACrankThatRocksIsShownOverWhatItReaches) {
   for (int k = 0; k < 18; ++k) angles.push_back(-0.3 + 0.03 * k);
   for (const double sense : {1.0, -1.0}) {
     std::vector<double> shown = shown_angles(measure(p, m, sense, angles), 11);
-    EXPECT_NEAR(shown.front(), -sense * std::numbers::pi / 6, 1e-12);
-    EXPECT_NEAR(shown.back(), sense * std::numbers::pi / 6, 1e-12);
+    EXPECT_NEAR(shown.front(), -sense * pi / 6, 1e-12);
+    EXPECT_NEAR(shown.back(), sense * pi / 6, 1e-12);
   }
 }
 

@@ -6,18 +6,18 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "planar/studies.h"
 #include "support/memory_checkpoint.h"
 
 namespace linkwright::planar {
 namespace {
 
+using test::prepare;
+using test::problems_of;
+using test::run_text;
 using ::testing::HasSubstr;
-using testing::prepare;
-using testing::problems_of;
-using testing::run_text;
 
 constexpr const char* head = R"(schema = 1
 kind = "synthesis"
@@ -133,7 +133,7 @@ TEST(SliderPathStudyRead, ItsExampleReadsAndSaysWhatFollows) {
   EXPECT_NE(parameters.find("start_angle_rad"), nullptr);
   EXPECT_NEAR(
       study->canonical.find("target")->find("timing")->find("increments_rad")->as_array()[0].as_number(),
-      80 * std::numbers::pi / 180, 1e-12);
+      80 * pi / 180, 1e-12);
 }
 
 TEST(SliderPathStudyRun, AnswersWithEvidence) {
@@ -181,7 +181,7 @@ branch = ")" + r.solutions[0].classification.find("branch")->as_string() +
   std::snprintf(
       sweep, sizeof sweep,
       "[sweep]\ntype = \"grid\"\n[[sweep.input]]\nfrom_rad = %.17g\nto_rad = %.17g\nsamples = 721\n", start,
-      start + 2 * std::numbers::pi);
+      start + 2 * pi);
   text += sweep;
   text += "[output]\nquantities = [\"position\"]\n";
   text += "[[trace]]\npoint = \"rod.C\"\n";
@@ -340,8 +340,7 @@ TEST(SliderPathStudyRun, GreyWolfAsPublishedDoesNotReachThePublishedError) {
   Diagnostics diagnostics;
   Value document = study::read_file(file, diagnostics);
   document["optimiser"]["seeds"]["count"] = 60;
-  const auto study =
-      study::prepare(document, file.string(), file.parent_path(), testing::kinds(), diagnostics);
+  const auto study = study::prepare(document, file.string(), file.parent_path(), test::kinds(), diagnostics);
   ASSERT_TRUE(study);
   RunContext context;
   const study::Result result = study::run_study(*study, context);

@@ -13,9 +13,9 @@
 namespace linkwright::suspension {
 namespace {
 
-using testing::at;
-using testing::number_at;
-using testing::numbers;
+using test::at;
+using test::number_at;
+using test::numbers;
 
 Compliance five_rods(const WheelGuide& guide, Support support = Support::spring, double spring = 30000) {
   const auto rods =

@@ -16,9 +16,9 @@
 namespace linkwright::suspension {
 namespace {
 
-using testing::at;
-using testing::number_at;
-using testing::numbers;
+using test::at;
+using test::number_at;
+using test::numbers;
 using Matrix = Eigen::Matrix<double, 6, 6>;
 
 Matrix eigen(const Matrix6& from) {

@@ -12,9 +12,9 @@
 namespace linkwright::suspension {
 namespace {
 
-using testing::at;
-using testing::number_at;
-using testing::numbers;
+using test::at;
+using test::number_at;
+using test::numbers;
 
 constexpr WheelLoad some_load{{-700, 1100, 3900}, {310, -90, 55}};
 

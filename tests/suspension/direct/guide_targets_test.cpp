@@ -13,8 +13,8 @@
 namespace linkwright::suspension {
 namespace {
 
-using testing::at;
-using testing::numbers;
+using test::at;
+using test::numbers;
 
 TEST(GuideTargets, OfExample5) {
   const Value& given = published("ex5-targets");
@@ -39,7 +39,7 @@ TEST(GuideTargets, OfExample5) {
     }
   }
   // Five per cent of the largest.
-  EXPECT_NEAR(0.05 * most, testing::number_at(given, "computed.tolerance_track"), 1e-14);
+  EXPECT_NEAR(0.05 * most, test::number_at(given, "computed.tolerance_track"), 1e-14);
 }
 
 TEST(GuideTargets, ObjectivesAtThePublishedOptimum) {

@@ -9,23 +9,23 @@ namespace {
 
 TEST(PublishedTargets, AreThePolynomialsAndTolerances) {
   const DirectTask task = published_direct_task();
-  const Value& computed = testing::at(published("ex5-targets"), "computed");
+  const Value& computed = test::at(published("ex5-targets"), "computed");
   ASSERT_EQ(task.objectives.size(), 3U);
   for (const auto& [name, k] : {std::pair{"toe_rad", 0}, {"camber_rad", 1}, {"relative_track", 2}}) {
-    const auto values = testing::numbers(testing::at(computed, name));
+    const auto values = test::numbers(test::at(computed, name));
     const auto& points = task.objectives[static_cast<std::size_t>(k)].curves.at(0).points;
     ASSERT_EQ(points.size(), values.size());
     for (std::size_t i = 0; i < values.size(); ++i)
       EXPECT_NEAR(points[i].value, values[i], 1e-14) << name << i;
   }
   for (const auto& [name, k] : {std::pair{"tolerance_toe_rad", 0}, {"tolerance_camber_rad", 1}}) {
-    const auto values = testing::numbers(testing::at(computed, name));
+    const auto values = test::numbers(test::at(computed, name));
     for (std::size_t i = 0; i < values.size(); ++i)
       EXPECT_NEAR(task.objectives[static_cast<std::size_t>(k)].curves[0].points[i].tolerance, values[i],
                   1e-14);
   }
-  EXPECT_NEAR(task.objectives[2].curves[0].points[3].tolerance,
-              testing::number_at(computed, "tolerance_track"), 1e-14);
+  EXPECT_NEAR(task.objectives[2].curves[0].points[3].tolerance, test::number_at(computed, "tolerance_track"),
+              1e-14);
 }
 
 TEST(PublishedTargets, StandAtTheOptimum) {

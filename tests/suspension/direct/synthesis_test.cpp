@@ -13,8 +13,8 @@
 namespace linkwright::suspension {
 namespace {
 
-using testing::at;
-using testing::numbers;
+using test::at;
+using test::numbers;
 
 TEST(DirectSynthesis, FindsTheSmallestLargestDeviationOfExample5) {
   int assembled = 0, reached = 0;
@@ -46,7 +46,7 @@ TEST(DirectSynthesis, FindsTheLeastSquaresOptimumOfExample5) {
   const DirectSynthesis found =
       synthesise(task, {.goal = DirectGoal::least_squares, .starts = 16}, 3, context);
   const Value& expected = at(published("ex5-least-squares-optimum"), "computed");
-  EXPECT_NEAR(found.half_sum_of_squares, testing::number_at(expected, "half_sum_of_squares"), 1e-6 * 3.98);
+  EXPECT_NEAR(found.half_sum_of_squares, test::number_at(expected, "half_sum_of_squares"), 1e-6 * 3.98);
   const WheelGuide optimum = test::with_points(task, at(expected, "points_03_04_05_m"));
   // Where the search ends: a ten thousandth of a millimetre in the weakest direction.
   for (int i = 2; i < 5; ++i)

@@ -14,8 +14,8 @@
 namespace linkwright::suspension {
 namespace {
 
-using testing::at;
-using testing::number_at;
+using test::at;
+using test::number_at;
 
 GuidePosition solve(const GuidePlan& plan, double travel, double rack = 0,
                     Driver driver = Driver::wheel_centre_z) {
@@ -82,8 +82,7 @@ TEST(GuidePosition, TravelLimitsAndWhatLiesBeyond) {
   for (const GuideSample& sample : guide_samples().first(12)) {
     SCOPED_TRACE(sample.name);
     const GuidePlan plan = prepare(sample.guide);
-    const auto limits =
-        testing::numbers(at(published("mechanism-" + sample.name), "computed.travel_limits_m"));
+    const auto limits = test::numbers(at(published("mechanism-" + sample.name), "computed.travel_limits_m"));
     const TravelLimits found = travel_limits(plan, Driver::wheel_centre_z, 0, reference_position(plan));
     for (int i : {0, 1}) {
       EXPECT_EQ(found.status[i], Status::no_assembly);
@@ -152,7 +151,7 @@ TEST(GuidePosition, LongStepsFindTheSameLimits) {
         SCOPED_TRACE(sample.name + " " + std::to_string(first) + " " + std::to_string(far));
         const GuidePlan plan = prepare(sample.guide);
         const auto limits =
-            testing::numbers(at(published("mechanism-" + sample.name), "computed.travel_limits_m"));
+            test::numbers(at(published("mechanism-" + sample.name), "computed.travel_limits_m"));
         const GuidePosition found =
             solve_position(plan, Driver::wheel_centre_z, {far, 0}, reference_position(plan), {first, 1e-11});
         EXPECT_EQ(found.status, Status::no_assembly);

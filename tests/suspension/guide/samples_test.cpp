@@ -49,7 +49,7 @@ TEST(GuideSamples, AreThePublishedOnes) {
     SCOPED_TRACE(sample.name);
     const auto example = examples.find(sample.name);
     const std::string id = example == examples.end() ? "mechanism-" + sample.name : example->second;
-    expect_same(sample.guide, guide_from(testing::at(published(id), "inputs.mechanism")));
+    expect_same(sample.guide, guide_from(test::at(published(id), "inputs.mechanism")));
     EXPECT_FALSE(sample.summary.empty());
   }
 }

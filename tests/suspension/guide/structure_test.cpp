@@ -39,10 +39,10 @@ TEST(Structure, TwelveBasicMechanisms) {
     EXPECT_EQ(mobility(one), 1) << names.back();
   }
   std::vector<std::string> expected;
-  for (const Value& name : testing::at(reference, "computed.names").as_array())
+  for (const Value& name : test::at(reference, "computed.names").as_array())
     expected.push_back(name.as_string());
   EXPECT_EQ(names, expected);
-  for (const auto& member : testing::at(reference, "inputs.constraints_per_connection").as_object())
+  for (const auto& member : test::at(reference, "inputs.constraints_per_connection").as_object())
     EXPECT_EQ(constraints(parse_structure(member.key).structure.at(0)), member.value.as_integer())
         << member.key;
 }

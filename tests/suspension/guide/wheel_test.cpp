@@ -7,8 +7,8 @@
 namespace linkwright::suspension {
 namespace {
 
-using testing::at;
-using testing::number_at;
+using test::at;
+using test::number_at;
 
 void expect_near(const Vec3& a, const Vec3& b, double close) { EXPECT_LT(norm(a - b), close); }
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "tests/suspension/synthesis_cases.h"
 
 namespace linkwright::suspension {
@@ -61,7 +61,7 @@ TEST(GuideDeviations, PositionsOutOfReachAreCounted) {
 
 TEST(GuideDeviations, ASpinThatIsNotPrescribedIsNoDeviation) {
   test::Example e = test::example("ex4-forward");
-  for (CarrierTarget& pose : e.targets.poses) pose.angles.spin = std::numeric_limits<double>::quiet_NaN();
+  for (CarrierTarget& pose : e.targets.poses) pose.angles.spin = nan;
   const PoseDeviations d = pose_deviations(e.guide, e.targets);
   EXPECT_EQ(d.spin.largest, 0);
   EXPECT_LT(d.toe.largest, 1e-12);
@@ -71,7 +71,7 @@ TEST(GuideDeviations, ASpinThatIsNotPrescribedIsNoDeviation) {
 TEST(GuideDeviations, ThePublishedRun) {
   test::Example e = test::example("ex1-forward");
   const Value& run = published("ex1-appendix-de-run");
-  const auto off = testing::numbers(testing::at(run, "inputs.x_true_minus_x_found_m"));
+  const auto off = test::numbers(test::at(run, "inputs.x_true_minus_x_found_m"));
   double sum = 0, largest = 0;
   for (std::size_t j = 0; j < 5; ++j) {
     const double* d = &off[6 * j];
@@ -79,12 +79,8 @@ TEST(GuideDeviations, ThePublishedRun) {
     e.guide.links[j].carrier[0] = e.guide.links[j].carrier[0] - Vec3{d[3], d[4], d[5]};
     for (int k = 0; k < 6; ++k) sum += std::abs(d[k]), largest = std::max(largest, std::abs(d[k]));
   }
-  const auto computed = [&](const char* key) {
-    return testing::number_at(run, std::string("computed.") + key);
-  };
-  const auto printed = [&](const char* key) {
-    return testing::number_at(run, std::string("published.") + key);
-  };
+  const auto computed = [&](const char* key) { return test::number_at(run, std::string("computed.") + key); };
+  const auto printed = [&](const char* key) { return test::number_at(run, std::string("published.") + key); };
   EXPECT_NEAR(sum / 30, computed("coord_error_mean_m"), 1e-18);
   EXPECT_NEAR(sum / 30, printed("coord_error_mean_m"), 5.1e-11);  // four digits
   EXPECT_NEAR(largest, printed("coord_error_max_m"), 5e-10);

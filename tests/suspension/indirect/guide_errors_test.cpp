@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/suspension/indirect/link_fit.h"
 #include "support/message.h"
 #include "tests/suspension/synthesis_cases.h"
@@ -26,7 +26,7 @@ struct Case {
 Case make_case(const char* id, double edge = 0.05) {
   Case c{.example = test::example(id)};
   c.open = c.example.targets;
-  for (CarrierTarget& pose : c.open.poses) pose.angles.spin = std::numeric_limits<double>::quiet_NaN();
+  for (CarrierTarget& pose : c.open.poses) pose.angles.spin = nan;
   RandomStream random({3, 17});
   for (const GuideLink& link : c.example.links) c.links.push_back(test::random_task(link, edge, random));
   for (const Coupler& k : c.example.guide.couplers)

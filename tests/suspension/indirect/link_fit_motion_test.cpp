@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-
+#include "linkwright/core/numbers.h"
 #include "support/message.h"
 #include "tests/suspension/synthesis_cases.h"
 
@@ -30,7 +29,7 @@ TEST(LinkFitMotion, PlacesPointsAsTheCarrierDoes) {
 
 TEST(LinkFitMotion, NeedsTheSpin) {
   test::Example e = test::example("ex1-forward");
-  e.targets.poses[3].angles.spin = std::numeric_limits<double>::quiet_NaN();
+  e.targets.poses[3].angles.spin = nan;
   EXPECT_THAT(linkwright::test::message([&] { link_motion(e.targets, false); }),
               ::testing::HasSubstr("a position does not give the spin of the carrier"));
 }

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "support/message.h"
 #include "tests/suspension/synthesis_cases.h"
 
@@ -94,7 +94,7 @@ TEST(LinkFit, AKnownLinkIsNotFoundAgain) {
   const LinkFit none = fit_link(e.targets, task, {.starts = 50}, {e.links.data(), 2}, 3, context);
   EXPECT_EQ(none.status, Status::infeasible);
   EXPECT_GT(none.duplicates, 0);
-  EXPECT_EQ(none.rms, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(none.rms, infinity);
 }
 
 TEST(LinkFit, TheBestPlaceOfInexactPositionsStaysInTheBox) {
@@ -119,26 +119,26 @@ TEST(LinkFit, RoundedTableGivesTheLeastSquaresOptimum) {
        {std::pair{"ex1-forward", "lsq-table-ex1"}, {"ex2-forward", "lsq-table-ex2"}}) {
     test::Example e = test::example(forward);
     e.targets.poses.clear();
-    for (const Value& row : testing::at(published(forward), "published.rows").as_array()) {
-      const std::vector<double> r = testing::numbers(row);
+    for (const Value& row : test::at(published(forward), "published.rows").as_array()) {
+      const std::vector<double> r = test::numbers(row);
       const double degree = M_PI / 180;
       e.targets.poses.push_back({r[2], {r[3], r[4], r[5]}, {r[6] * degree, r[7] * degree, r[8] * degree}});
     }
     std::size_t j = 0;
-    for (const Value& wanted : testing::at(published(table), "computed.links").as_array()) {
+    for (const Value& wanted : test::at(published(table), "computed.links").as_array()) {
       const GuideLink& link = e.links[j++];
       const LinkTask task{.type = link.type,
                           .body = {box_around(link.body[0], 0.1)},
                           .carrier = {box_around(link.carrier[0], 0.1)},
                           .moved_by_rack = link.moved_by_rack};
       const LinkFit fit = fit_link(e.targets, task, {.starts = 30}, {}, 1, context);
-      const double squares = testing::number_at(wanted, "sum_of_squares_m2");
+      const double squares = test::number_at(wanted, "sum_of_squares_m2");
       EXPECT_NEAR(fit.rms * fit.rms * 14, squares, 1e-6 * squares);
-      EXPECT_LT(norm(fit.link.body[0] - point(testing::at(wanted, "body_m"))), 1e-6) << table << j;
-      EXPECT_LT(norm(fit.link.carrier[0] - point(testing::at(wanted, "carrier_m"))), 1e-6) << table << j;
+      EXPECT_LT(norm(fit.link.body[0] - point(test::at(wanted, "body_m"))), 1e-6) << table << j;
+      EXPECT_LT(norm(fit.link.carrier[0] - point(test::at(wanted, "carrier_m"))), 1e-6) << table << j;
       const LinkConditioning c = conditioning(e.targets, task, fit.link);
       ASSERT_EQ(c.singular_values.size(), 6u);
-      const double least = testing::number_at(wanted, "smallest_singular_value");
+      const double least = test::number_at(wanted, "smallest_singular_value");
       EXPECT_NEAR(c.singular_values.back(), least, 1e-3 * least);
     }
   }
@@ -191,9 +191,9 @@ TEST(LinkFit, ConditioningTellsTheWeakDirection) {
 }
 
 TEST(LinkFit, FewestPositionsArePublishedOnes) {
-  const Value& published_counts = testing::at(published("limiting-number-of-positions"), "computed");
+  const Value& published_counts = test::at(published("limiting-number-of-positions"), "computed");
   const auto expect = [&](const char* key, double found) {
-    EXPECT_DOUBLE_EQ(found, testing::number_at(published_counts, key)) << key;
+    EXPECT_DOUBLE_EQ(found, test::number_at(published_counts, key)) << key;
   };
   expect("five_KS", fewest_positions(30, 5));
   expect("five_KS_without_spin", fewest_positions(30, 5, 5));
@@ -205,7 +205,7 @@ TEST(LinkFit, FewestPositionsArePublishedOnes) {
   expect("single_SP", fewest_positions(5, 2));
   expect("single_RR", fewest_positions(8, 4));
   EXPECT_EQ(fewest_positions(9, 5, 3, true), 4.5);
-  EXPECT_EQ(fewest_positions(6, 1, 5), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(fewest_positions(6, 1, 5), infinity);
 }
 
 TEST(LinkFit, RefusesWhatItCannotDo) {

@@ -11,8 +11,8 @@ TEST(LinkSynthesis, ObjectiveOfThePublishedRun) {
   // The source's program divides by all 15 positions, the reference included.
   const test::Example e = test::example("ex1-forward");
   const Value& run = published("ex1-appendix-de-run");
-  const auto off = testing::numbers(testing::at(run, "inputs.x_true_minus_x_found_m"));
-  const auto wanted = testing::numbers(testing::at(run, "computed.f_per_link_mean_over_15_m"));
+  const auto off = test::numbers(test::at(run, "inputs.x_true_minus_x_found_m"));
+  const auto wanted = test::numbers(test::at(run, "computed.f_per_link_mean_over_15_m"));
   for (std::size_t j = 0; j < 5; ++j) {
     GuideLink link = e.links[j];
     const double* d = &off[6 * j];

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "support/message.h"
 #include "tests/suspension/synthesis_cases.h"
@@ -16,8 +16,6 @@ namespace {
 using linkwright::test::message;
 using ::testing::HasSubstr;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 const CarrierTarget& state(const test::Example& e, double travel, double rack) {
   for (const CarrierTarget& pose : e.targets.poses)
     if (std::abs(pose.centre.z - e.targets.wheel.centre.z - travel) < 1e-9 &&
@@ -27,20 +25,19 @@ const CarrierTarget& state(const test::Example& e, double travel, double rack) {
 }
 
 TEST(PoseCompletion, DyadOfTheSource) {
-  for (const Value& row : testing::at(published("rs-dyad-spin"), "computed.rows").as_array()) {
-    const test::Example e = test::example(testing::at(row, "mechanism").as_string() + "-forward");
-    const GuideLink& rod = e.links[static_cast<std::size_t>(testing::number_at(row, "link_1based")) - 1];
-    const CarrierTarget& pose =
-        state(e, testing::number_at(row, "travel_m"), testing::number_at(row, "rack_m"));
+  for (const Value& row : test::at(published("rs-dyad-spin"), "computed.rows").as_array()) {
+    const test::Example e = test::example(test::at(row, "mechanism").as_string() + "-forward");
+    const GuideLink& rod = e.links[static_cast<std::size_t>(test::number_at(row, "link_1based")) - 1];
+    const CarrierTarget& pose = state(e, test::number_at(row, "travel_m"), test::number_at(row, "rack_m"));
     const RsDyad dyad = rs_dyad(e.targets, pose, rod);
     EXPECT_EQ(dyad.status, Status::done);
-    EXPECT_NEAR(dyad.e, testing::number_at(row, "E_m2"), 1e-10);
-    EXPECT_NEAR(dyad.f, testing::number_at(row, "F_m2"), 1e-10);
-    EXPECT_NEAR(dyad.g, testing::number_at(row, "G_m2"), 1e-10);
-    EXPECT_NEAR(dyad.relative, testing::number_at(row, "beta_rel_rad"), 1e-10);
-    EXPECT_NEAR(dyad.other, testing::number_at(row, "beta_rel_other_branch_rad"), 1e-10);
+    EXPECT_NEAR(dyad.e, test::number_at(row, "E_m2"), 1e-10);
+    EXPECT_NEAR(dyad.f, test::number_at(row, "F_m2"), 1e-10);
+    EXPECT_NEAR(dyad.g, test::number_at(row, "G_m2"), 1e-10);
+    EXPECT_NEAR(dyad.relative, test::number_at(row, "beta_rel_rad"), 1e-10);
+    EXPECT_NEAR(dyad.other, test::number_at(row, "beta_rel_other_branch_rad"), 1e-10);
     // The spin of (50) is another angle of the same rotation.
-    const double spin = testing::number_at(row, "beta_nt_rad");
+    const double spin = test::number_at(row, "beta_nt_rad");
     EXPECT_NEAR(wheel_angles(Side::left, e.targets.wheel, dyad.rotation).spin, spin, 1e-10);
     EXPECT_NEAR(solve_for(e.targets, pose, rod, PoseParameter::spin).value, spin, 1e-10);
     EXPECT_GT(std::abs(dyad.relative - spin), 3e-5);

@@ -16,10 +16,10 @@ TEST(PublishedGuides, AreThoseOfTheReference) {
   ASSERT_EQ(published_guides().size(), 4u);
   for (const PublishedGuide& guide : published_guides()) {
     const std::string id = "ex" + std::to_string(guide.example) + "-forward";
-    const auto& rows = testing::at(published(id), "published.rows").as_array();
+    const auto& rows = test::at(published(id), "published.rows").as_array();
     ASSERT_EQ(rows.size(), guide.positions.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const std::vector<double> wanted = testing::numbers(rows[i]);
+      const std::vector<double> wanted = test::numbers(rows[i]);
       const PublishedPosition& p = guide.positions[i];
       const std::vector<double> found{p.travel, p.rack, p.x, p.y, p.toe, p.camber, p.spin};
       const std::array<std::size_t, 7> column{1, 2, 3, 4, 6, 7, 8};
@@ -38,10 +38,10 @@ TEST(PublishedGuides, AreThoseOfTheReference) {
 }
 
 TEST(PublishedGuides, EvolutionIsThatOfTheReference) {
-  const Value& given = testing::at(published("statistics-indirect-synthesis"), "published");
+  const Value& given = test::at(published("statistics-indirect-synthesis"), "published");
   const auto expect = [&](const char* key, const PublishedEvolution& e) {
-    const Value& wanted = testing::at(given, key);
-    EXPECT_EQ(e.coordinate_error, testing::number_at(wanted, "coord_error_mean_m")) << key;
+    const Value& wanted = test::at(given, key);
+    EXPECT_EQ(e.coordinate_error, test::number_at(wanted, "coord_error_mean_m")) << key;
     if (const Value* repeats = wanted.find("repeats")) {
       EXPECT_EQ(e.repeats, repeats->as_number());
     }
@@ -58,15 +58,14 @@ TEST(PublishedGuides, EvolutionIsThatOfTheReference) {
   expect("ex4_spin_given", published_guides()[3].evolution);
   expect("ex4_polynomial", published_quadratic());
   expect("ex4_dyad", published_dyad());
-  const auto off =
-      testing::numbers(testing::at(published("ex1-appendix-de-run"), "inputs.x_true_minus_x_found_m"));
+  const auto off = test::numbers(test::at(published("ex1-appendix-de-run"), "inputs.x_true_minus_x_found_m"));
   EXPECT_TRUE(std::equal(off.begin(), off.end(), published_run().begin(), published_run().end()));
 }
 
 // Figure 6-3 to its four decimals misses its own table.
 TEST(PublishedGuides, TheStrutAsPrintedMissesItsTable) {
   const Value& wanted =
-      testing::at(published("ex2-forward-printed-points"), "computed.max_abs_difference_to_published");
+      test::at(published("ex2-forward-printed-points"), "computed.max_abs_difference_to_published");
   const GuidePlan plan = prepare(strut_as_printed());
   const GuidePosition start = reference_position(plan);
   std::array<double, 5> largest{};
@@ -81,7 +80,7 @@ TEST(PublishedGuides, TheStrutAsPrintedMissesItsTable) {
   }
   const std::array keys{"x_m", "y_m", "toe_deg", "camber_deg", "carrier_spin_deg"};
   for (std::size_t k = 0; k < 5; ++k)
-    EXPECT_NEAR(largest[k], testing::number_at(wanted, keys[k]), k < 2 ? 1e-12 : 1e-10) << keys[k];
+    EXPECT_NEAR(largest[k], test::number_at(wanted, keys[k]), k < 2 ? 1e-12 : 1e-10) << keys[k];
 }
 
 TEST(PublishedGuides, BoxesHoldTheTrueLinks) {

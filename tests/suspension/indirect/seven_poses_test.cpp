@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <complex>
 
+#include "linkwright/core/numbers.h"
 #include "support/message.h"
 #include "tests/suspension/synthesis_cases.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 /// Rods that fit all positions within `tolerance`, and how far the nearest is from `link`.
 double nearest(const SevenPoseReport& report, const GuideLink& link, double tolerance) {
-  double best = std::numeric_limits<double>::infinity();
+  double best = infinity;
   for (const SevenPoseRod& rod : report.rods)
     if (rod.rms < tolerance) best = std::min(best, largest_distance(rod.link, link));
   return best;
@@ -24,19 +25,19 @@ TEST(SevenPoses, PublishedPositionsHaveTheirTwentySolutions) {
   const test::Example e = test::example("ex1-forward");
   for (const char* id : {"ss-seven-poses-unsteered", "ss-seven-poses-steered"}) {
     const Value& given = published(id);
-    const bool moved = testing::at(given, "inputs.body_point_moves_with_rack").as_bool();
+    const bool moved = test::at(given, "inputs.body_point_moves_with_rack").as_bool();
     CarrierTargets chosen = e.targets;
     chosen.poses.clear();
-    for (const double place : testing::numbers(testing::at(given, "inputs.positions_1based")))
+    for (const double place : test::numbers(test::at(given, "inputs.positions_1based")))
       chosen.poses.push_back(e.targets.poses[static_cast<std::size_t>(place) - 1]);
     const SevenPoseReport report = seven_pose_rods(chosen, moved);
     EXPECT_EQ(report.status, Status::done);
-    EXPECT_EQ(report.solutions, testing::number_at(given, "computed.number_of_solutions"));
-    const auto& wanted = testing::at(given, "computed.real_solutions").as_array();
+    EXPECT_EQ(report.solutions, test::number_at(given, "computed.number_of_solutions"));
+    const auto& wanted = test::at(given, "computed.real_solutions").as_array();
     EXPECT_EQ(report.rods.size(), wanted.size());
     for (const Value& rod : wanted) {
-      const GuideLink link{.body = {point(testing::at(rod, "body_m"))},
-                           .carrier = {point(testing::at(rod, "carrier_m"))}};
+      const GuideLink link{.body = {point(test::at(rod, "body_m"))},
+                           .carrier = {point(test::at(rod, "carrier_m"))}};
       EXPECT_LT(nearest(report, link, 1), 1e-6 * (1 + norm(link.body[0]) + norm(link.carrier[0]))) << id;
     }
   }

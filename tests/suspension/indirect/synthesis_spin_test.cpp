@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/suspension/guide/position.h"
 #include "linkwright/suspension/guide/samples.h"
 #include "linkwright/suspension/guide/wheel.h"
@@ -25,7 +25,7 @@ struct Case {
 Case make_case(const char* id, std::uint64_t seed, double edge) {
   Case c{.example = test::example(id)};
   c.open = c.example.targets;
-  for (CarrierTarget& pose : c.open.poses) pose.angles.spin = std::numeric_limits<double>::quiet_NaN();
+  for (CarrierTarget& pose : c.open.poses) pose.angles.spin = nan;
   RandomStream random({seed, 41});
   for (const GuideLink& link : c.example.links) c.tasks.push_back(test::random_task(link, edge, random));
   return c;
@@ -62,7 +62,7 @@ TEST(IndirectSynthesisSpin, CouplerInsideItsBoxIsFoundFromEverySeed) {
     const GuidePosition at =
         solve_position(plan, Driver::wheel_centre_z, {0.02 * i, 0}, reference_position(plan));
     WheelAngles angles = wheel_angles(Side::left, guide.wheel, at.place.carrier.rotation);
-    angles.spin = std::numeric_limits<double>::quiet_NaN();
+    angles.spin = nan;
     targets.poses.push_back({.rack = 0, .centre = at.place.carrier.centre, .angles = angles});
   }
   const auto box = [](const Vec3& middle, bool level) {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/suspension/indirect/guide_deviations.h"
 #include "tests/suspension/synthesis_cases.h"
 
@@ -134,8 +134,7 @@ TEST(IndirectSynthesis, AGivenRodSettlesTheSpin) {
   RunContext context;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     IndirectTask task = whole(e, seed);
-    for (CarrierTarget& pose : task.targets.poses)
-      pose.angles.spin = std::numeric_limits<double>::quiet_NaN();
+    for (CarrierTarget& pose : task.targets.poses) pose.angles.spin = nan;
     task.links[0] = given_link(e.links[0]);
     const IndirectSynthesis found = synthesise(task, {}, seed, context);
     ASSERT_EQ(found.status, Status::done) << seed;
@@ -153,7 +152,7 @@ TEST(IndirectSynthesis, AGivenRodSettlesTheSpin) {
 TEST(IndirectSynthesis, AGivenRodThatDoesNotReachIsTold) {
   const test::Example e = test::example("ex4-forward");
   IndirectTask task = whole(e, 1);
-  for (CarrierTarget& pose : task.targets.poses) pose.angles.spin = std::numeric_limits<double>::quiet_NaN();
+  for (CarrierTarget& pose : task.targets.poses) pose.angles.spin = nan;
   GuideLink rod = e.links[2];
   rod.carrier[0] = e.targets.wheel.centre + Vec3{0.001, -0.1, 0};
   task.links[2] = given_link(rod);
@@ -169,7 +168,7 @@ TEST(IndirectSynthesis, AGivenRodThatDoesNotReachIsTold) {
 TEST(IndirectSynthesis, LinksAndSpinsTogether) {
   const test::Example e = test::example("ex4-forward");
   IndirectTask task = whole(e, 1);
-  for (CarrierTarget& pose : task.targets.poses) pose.angles.spin = std::numeric_limits<double>::quiet_NaN();
+  for (CarrierTarget& pose : task.targets.poses) pose.angles.spin = nan;
   RunContext context;
   const IndirectSynthesis found = synthesise(task, {.spin = {.tolerance = 1e-6}}, 1, context);
   EXPECT_EQ(found.status, Status::done);

@@ -10,11 +10,11 @@
 namespace linkwright::suspension {
 namespace {
 
-using testing::fact;
+using test::fact;
+using test::problems_of;
+using test::run_text;
+using test::table;
 using ::testing::HasSubstr;
-using testing::problems_of;
-using testing::run_text;
-using testing::table;
 
 std::string study(const std::string& sample, const std::string& rest) {
   return "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\nsample = \"" +

@@ -11,15 +11,15 @@
 namespace linkwright::suspension {
 namespace {
 
+using test::named;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
+using test::table;
 using ::testing::HasSubstr;
-using testing::named;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
-using testing::table;
 
 // The sample 5KS with the stiffness of its spring.
-std::string study(const std::string& rest, const std::string& stiffness = "") {
+std::string compliance_study(const std::string& rest, const std::string& stiffness = "") {
   std::string text =
       "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\n"
       "[mechanism.wheel]\ncentre_m = [0, 0.75, 0]\ntoe_deg = 0.12\ncamber_deg = -0.6\ntyre_diameter_m = "
@@ -50,9 +50,9 @@ TEST(ComplianceStudy, TellsWhatElasticRodsDo) {
   // Reference figures of five elastic rods and a spring of 30 N/mm, body fixed: a kilonewton to the left at
   // the contact, and the spring force of 4 kN there.
   const study::Result result =
-      run_text(study(rods() + "[[compliance.load]]\nname = \"lateral\"\nforce_N = [0, 1000, 0]\n"
-                              "[[compliance.load]]\nname = \"weight\"\nforce_N = [0, 0, 4000]\n",
-                     "stiffness_N_per_mm = 30\n"));
+      run_text(compliance_study(rods() + "[[compliance.load]]\nname = \"lateral\"\nforce_N = [0, 1000, 0]\n"
+                                         "[[compliance.load]]\nname = \"weight\"\nforce_N = [0, 0, 4000]\n",
+                                "stiffness_N_per_mm = 30\n"));
   ASSERT_EQ(result.status, Status::done);
   EXPECT_TRUE(result.diagnostics.empty());
   const Table& loads = table(result, "loads");
@@ -72,17 +72,17 @@ TEST(ComplianceStudy, TellsWhatElasticRodsDo) {
 }
 
 TEST(ComplianceStudyRead, NamesWhatIsWrong) {
-  const std::string good = study(rods());
+  const std::string good = compliance_study(rods());
   EXPECT_THAT(problems_of(replaced(good, "link = \"tie rod\"", "link = \"tie rot\"")),
               HasSubstr("compliance.joint[2].link: no link is called 'tie rot'; did you mean 'tie rod'?"));
   EXPECT_THAT(
-      problems_of(study("support = \"spring\"\n" + rods())),
+      problems_of(compliance_study("support = \"spring\"\n" + rods())),
       HasSubstr("compliance.support: the stiffness of the spring is not known; write stiffness_N_per_mm in"));
-  EXPECT_THAT(problems_of(study("preload_N = 4000\n" + rods())),
+  EXPECT_THAT(problems_of(compliance_study("preload_N = 4000\n" + rods())),
               HasSubstr("compliance.preload_N: needs the spring that carries it"));
-  EXPECT_THAT(
-      problems_of(study("[[compliance.joint]]\nlink = \"tie rod\"\nend = \"body\"\naxial_N_per_mm = 1\n")),
-      HasSubstr("compliance.joint[0].radial: is missing; a bushing has both"));
+  EXPECT_THAT(problems_of(compliance_study(
+                  "[[compliance.joint]]\nlink = \"tie rod\"\nend = \"body\"\naxial_N_per_mm = 1\n")),
+              HasSubstr("compliance.joint[0].radial: is missing; a bushing has both"));
   const std::string wishbone =
       "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\nsample = \"2RS-KS\"\n"
       "[sweep.travel]\nvalues_mm = [0]\n[compliance]\n";
@@ -93,8 +93,8 @@ TEST(ComplianceStudyRead, NamesWhatIsWrong) {
 }
 
 TEST(ComplianceStudy, SaysWhatIsLeftFree) {
-  const study::Result result =
-      run_text(study("[[compliance.joint]]\nlink = \"tie rod\"\nend = \"body\"\nstiffness_N_per_mm = 0\n"));
+  const study::Result result = run_text(
+      compliance_study("[[compliance.joint]]\nlink = \"tie rod\"\nend = \"body\"\nstiffness_N_per_mm = 0\n"));
   ASSERT_EQ(result.diagnostics.size(), 1U);
   EXPECT_THAT(to_string(result.diagnostics[0]), HasSubstr("compliance: no compliance: "));
 }

@@ -13,16 +13,16 @@
 namespace linkwright::suspension {
 namespace {
 
+using test::problems_of;
+using test::replaced;
+using test::run_text;
+using test::table;
 using ::testing::HasSubstr;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
-using testing::table;
 
-const std::string& example() { return testing::example("wheel_parameters"); }
+const std::string& wheel_example() { return test::example("wheel_parameters"); }
 
 TEST(DirectStudy, TakesBumpSteerAwayByTheInnerTieRodPoint) {
-  const study::Result result = run_text(example());
+  const study::Result result = run_text(wheel_example());
   ASSERT_EQ(result.status, Status::done) << result.headline;
   ASSERT_EQ(result.changes.size(), 1U);
   EXPECT_LT(result.changes[0].after, 0.2 * result.changes[0].before);
@@ -48,7 +48,7 @@ TEST(DirectStudy, TakesTargetsFromAFile) {
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "curves.csv")
       << "travel_mm,toe_deg,camber_deg\n-80,0,\n-40,0,0.5\n40,0,-1.5\n80,0,\n";
-  std::string text = example();
+  std::string text = wheel_example();
   text = replaced(text, "# file = \"curves.csv\" ", "file = \"curves.csv\" #");
   text = replaced(text, "travel_mm     = [-80, -60, -40, -20, 20, 40, 60, 80]\nvalue_deg     = 0.0\n", "");
   text = replaced(text, "measure       = \"change\" ", "measure = \"value\" #");
@@ -62,24 +62,24 @@ TEST(DirectStudy, TakesTargetsFromAFile) {
 }
 
 TEST(DirectStudy, GoesOnFromACheckpointWithTheSameBits) {
-  ::linkwright::testing::expect_resumed_alike(testing::kinds(),
-                                              replaced(example(), "count = 1 }", "count = 3 }"), 3);
+  ::linkwright::test::expect_resumed_alike(test::kinds(),
+                                           replaced(wheel_example(), "count = 1 }", "count = 3 }"), 3);
 }
 
 TEST(DirectStudyRead, CanonicalStudiesAreTheSameStudies) {
   std::string messages;
-  const auto prepared = testing::prepare(example(), messages);
+  const auto prepared = test::prepare(wheel_example(), messages);
   ASSERT_TRUE(prepared) << messages;
   Diagnostics problems;
   const Value again = prepared->canonical;
-  const auto second = study::prepare(again, "canonical", ".", testing::kinds(), problems);
+  const auto second = study::prepare(again, "canonical", ".", test::kinds(), problems);
   ASSERT_TRUE(second) << (problems.empty() ? "" : to_string(problems[0]));
   EXPECT_EQ(second->canonical, prepared->canonical);
 }
 
 TEST(DirectStudyRead, NamesWhatIsWrong) {
   const auto told = [](const std::string& what, const std::string& by) {
-    return problems_of(replaced(example(), what, by));
+    return problems_of(replaced(wheel_example(), what, by));
   };
   EXPECT_THAT(
       told("point  = \"tie rod.body\"", "point = \"tie rod.bodi\""),
@@ -100,7 +100,7 @@ TEST(DirectStudyRead, NamesWhatIsWrong) {
 
 TEST(DirectStudy, KeepsToItsConstraints) {
   // The tie rod of the best answer is shorter than 280 mm.
-  const std::string text = replaced(example(), "min_mm = 250.0", "min_mm = 280.0\nmax_mm = 300.0");
+  const std::string text = replaced(wheel_example(), "min_mm = 250.0", "min_mm = 280.0\nmax_mm = 300.0");
   const study::Result result = run_text(text);
   ASSERT_FALSE(result.solutions.empty());
   double y = 0, x = 0, z = 0;

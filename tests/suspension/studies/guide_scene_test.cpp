@@ -11,7 +11,7 @@ namespace linkwright::suspension {
 namespace {
 
 TEST(GuideScene, DrawsWheelsOfBothSidesOverTheGrid) {
-  const study::Result result = testing::run_text(
+  const study::Result result = test::run_text(
       "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\nsample = \"2RS-KS\"\n"
       "[sweep.travel]\nfrom_mm = -80\nto_mm = 80\nstep_mm = 40\n[sweep.rack]\nvalues_mm = [-30, 0, 30]\n");
   const study::Scene& scene = result.scenes.at(0);

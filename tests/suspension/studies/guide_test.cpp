@@ -14,16 +14,16 @@
 namespace linkwright::suspension {
 namespace {
 
+using test::column;
+using test::head;
+using test::problems_of;
+using test::racks;
+using test::replaced;
+using test::run_text;
+using test::sample;
+using test::sweep;
 using ::testing::AllOf;
-using testing::column;
 using ::testing::HasSubstr;
-using testing::head;
-using testing::problems_of;
-using testing::racks;
-using testing::replaced;
-using testing::run_text;
-using testing::sample;
-using testing::sweep;
 
 // The same car printed by another program: millimetres, x rearward, y to the right, origin 1.2 m ahead of
 // and 0.3 m below the wheel centres, and the wheel on the right.
@@ -131,13 +131,13 @@ TEST(GuideStudyRead, NamesWhatIsWrongWithTheMechanism) {
 
 TEST(GuideStudyRead, CanonicalStudiesAreStudiesOfTheSameGuide) {
   std::string messages;
-  const auto prepared = testing::prepare(testing::kinds().at(0).example, messages);
+  const auto prepared = test::prepare(test::kinds().at(0).example, messages);
   ASSERT_TRUE(prepared) << messages;
   const Value& mechanism = *prepared->canonical.find("mechanism");
   EXPECT_FALSE(mechanism.find("hard_points"));
   Diagnostics problems;
   Value again = prepared->canonical;
-  const auto second = study::prepare(again, "canonical", ".", testing::kinds(), problems);
+  const auto second = study::prepare(again, "canonical", ".", test::kinds(), problems);
   ASSERT_TRUE(second) << (problems.empty() ? "" : to_string(problems[0]));
   EXPECT_EQ(second->canonical, prepared->canonical);
 }
@@ -170,7 +170,7 @@ TEST(GuideStudyRead, WhatIsFixedToARodOffItsLineIsKept) {
   EXPECT_GT(std::abs(column(run_text(other), "motion_ratio").at(4) - column(result, "motion_ratio").at(4)),
             1e-4);
   std::string messages;
-  const auto prepared = testing::prepare(other, messages);
+  const auto prepared = test::prepare(other, messages);
   ASSERT_TRUE(prepared) << messages;
   const Value& link = prepared->canonical.find("mechanism")->find("link")->as_array().at(0);
   ASSERT_TRUE(link.find("cross_axis"));
@@ -178,7 +178,7 @@ TEST(GuideStudyRead, WhatIsFixedToARodOffItsLineIsKept) {
 }
 
 TEST(GuideStudyRead, SlipsOfUnitsAreToldWhereTheyAre) {
-  const std::string& example = testing::example("");
+  const std::string& example = test::example("");
   EXPECT_THAT(
       problems_of(replaced(example, "tyre_diameter_mm = 640.0", "tyre_diameter_m = 90.0")),
       AllOf(HasSubstr("mechanism.wheel: the tyre's radius is 45 m"), HasSubstr("check tyre_diameter")));

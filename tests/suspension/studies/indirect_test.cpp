@@ -15,16 +15,16 @@
 namespace linkwright::suspension {
 namespace {
 
-using testing::fact;
+using test::fact;
+using test::problems_of;
+using test::replaced;
+using test::run_text;
 using ::testing::HasSubstr;
-using testing::problems_of;
-using testing::replaced;
-using testing::run_text;
 
-const std::string& example() { return testing::example("carrier_poses"); }
+const std::string& poses_example() { return test::example("carrier_poses"); }
 
 TEST(IndirectStudy, FindsTheRodsThatThePositionsComeFrom) {
-  const study::Result result = run_text(example());
+  const study::Result result = run_text(poses_example());
   ASSERT_EQ(result.status, Status::done) << result.headline;
   EXPECT_EQ(result.statistics.find("success_rate")->as_number(), 1);
   const study::Solution& best = result.solutions.at(0);
@@ -48,8 +48,8 @@ TEST(IndirectStudy, FindsTheRodsThatThePositionsComeFrom) {
 }
 
 TEST(IndirectStudy, ListsEveryRodThroughSevenPositions) {
-  const study::Result result = run_text(example());
-  const Table& rods = testing::table(result, "seven_pose_rods");
+  const study::Result result = run_text(poses_example());
+  const Table& rods = test::table(result, "seven_pose_rods");
   ASSERT_EQ(rods.names.size(), rods.rows());
   int solutions[2] = {}, found = 0;
   for (std::size_t i = 0; i < rods.rows(); ++i) {
@@ -103,7 +103,7 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
                         at(p.place.carrier.centre), a.toe, a.camber, a.spin);
   }
   const study::Result result = run_text(text);
-  const Table& arms = testing::table(result, "seven_pose_arms");
+  const Table& arms = test::table(result, "seven_pose_arms");
   ASSERT_EQ(arms.names, std::vector<std::string>{"RS"});
   const GuideLink& arm = guide.links[0];
   EXPECT_NEAR(arms.find("ball_x_m")->values.at(0), arm.carrier[0].x, 1e-5);
@@ -120,29 +120,29 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
 }
 
 TEST(IndirectStudy, GoesOnFromACheckpointWithTheSameBits) {
-  ::linkwright::testing::expect_resumed_alike(testing::kinds(),
-                                              replaced(example(), "count = 10 }", "count = 3 }"), 3);
+  ::linkwright::test::expect_resumed_alike(test::kinds(),
+                                           replaced(poses_example(), "count = 10 }", "count = 3 }"), 3);
   // Positions that no exact guide takes: the links keep what they miss.
-  ::linkwright::testing::expect_resumed_alike(
-      testing::kinds(),
-      replaced(replaced(example(), "toe_deg = -6.688676046", "toe_deg = -5.5"), "count = 10 }",
+  ::linkwright::test::expect_resumed_alike(
+      test::kinds(),
+      replaced(replaced(poses_example(), "toe_deg = -6.688676046", "toe_deg = -5.5"), "count = 10 }",
                "count = 2 }"),
       2);
 }
 
 TEST(IndirectStudyRead, SlipsOfUnitsAreTold) {
-  EXPECT_THAT(problems_of(replaced(example(), "0.6826680943, -0.2]", "0.6826680943, -200.0]")),
+  EXPECT_THAT(problems_of(replaced(poses_example(), "0.6826680943, -0.2]", "0.6826680943, -200.0]")),
               HasSubstr("target.pose: position 1: the wheel centre lies 200 m from its reference"));
 }
 
 TEST(IndirectStudy, FindsTheSameGuideOnTheRight) {
   // The mirror image: y changes its sign in every [x, y, z], and so does the rack's direction.
   std::string mirrored = std::regex_replace(
-      example(), std::regex(R"(\[([^\[\],]+),\s*(-?)([0-9.]+),([^\[\],]+)\])"), "[$1, @$2$3,$4]");
+      poses_example(), std::regex(R"(\[([^\[\],]+),\s*(-?)([0-9.]+),([^\[\],]+)\])"), "[$1, @$2$3,$4]");
   mirrored = std::regex_replace(mirrored, std::regex("@-"), "");
   mirrored = std::regex_replace(mirrored, std::regex("@"), "-");
   mirrored = replaced(mirrored, "side = \"left\"", "side = \"right\"\nrack = { direction = [0, -1, 0] }");
-  const study::Result right = run_text(mirrored), left = run_text(example());
+  const study::Result right = run_text(mirrored), left = run_text(poses_example());
   ASSERT_EQ(right.status, Status::done) << right.headline;
   for (std::size_t i = 0; i < left.solutions.at(0).parameters.size(); ++i) {
     const study::Parameter &l = left.solutions[0].parameters[i], &r = right.solutions.at(0).parameters.at(i);
@@ -152,7 +152,8 @@ TEST(IndirectStudy, FindsTheSameGuideOnTheRight) {
 
 TEST(IndirectStudy, SaysWhatItLacksWhenPositionsCannotBeTaken) {
   // A wheel that rises straight but turns about itself by a degree: no rods in these boxes do that.
-  const study::Result result = run_text(replaced(example(), "toe_deg = -6.688676046", "toe_deg = -5.5"));
+  const study::Result result =
+      run_text(replaced(poses_example(), "toe_deg = -6.688676046", "toe_deg = -5.5"));
   EXPECT_NE(result.status, Status::done);
   EXPECT_THAT(result.headline, HasSubstr("No exact wheel guide found"));
   EXPECT_EQ(result.statistics.find("success_rate")->as_number(), 0);
@@ -160,7 +161,7 @@ TEST(IndirectStudy, SaysWhatItLacksWhenPositionsCannotBeTaken) {
 
 TEST(IndirectStudy, TellsOfGivenLinksThatDoNotFit) {
   const study::Result result = run_text(
-      replaced(example(), "body_mm    = [-303.0, 432.0, 295.0]", "body_mm = [-303.0, 432.0, 299.0]"));
+      replaced(poses_example(), "body_mm    = [-303.0, 432.0, 295.0]", "body_mm = [-303.0, 432.0, 299.0]"));
   EXPECT_EQ(result.status, Status::not_converged);
   const Table& links = result.tables.at(2);
   ASSERT_EQ(links.name, "conditioning");
@@ -169,7 +170,7 @@ TEST(IndirectStudy, TellsOfGivenLinksThatDoNotFit) {
 }
 
 TEST(IndirectStudyRead, NamesWhatIsWrongWithTheTarget) {
-  const std::string good = example();
+  const std::string good = poses_example();
   const auto target = good.find("[target]"), optimiser = good.find("[optimiser]");
   const std::string before = good.substr(0, target), after = good.substr(optimiser);
   const auto told = [&](const std::string& text) {
@@ -184,15 +185,15 @@ TEST(IndirectStudyRead, NamesWhatIsWrongWithTheTarget) {
 }
 
 TEST(IndirectStudyRead, NamesWhatIsWrongWithTheMechanism) {
-  std::string all_given = example();
+  std::string all_given = poses_example();
   for (const char* text :
        {"near = [220.0, 380.0,  -90.0], box_mm = 150.0", "near = [ 10.0, 730.0, -140.0], box_mm = 150.0"})
     EXPECT_THAT(all_given, HasSubstr(text));
-  EXPECT_THAT(problems_of(replaced(example(), "near = [220.0, 380.0,  -90.0], box_mm = 150.0",
+  EXPECT_THAT(problems_of(replaced(poses_example(), "near = [220.0, 380.0,  -90.0], box_mm = 150.0",
                                    "near = [220.0, 380.0,  -90.0], box_mm = -1.0")),
               HasSubstr("mechanism.link[0].body_mm.box_mm: is -1 mm"));
   EXPECT_THAT(
-      problems_of(replaced(example(), "body_mm    = { near = [220.0, 380.0,  -90.0], box_mm = 150.0 }",
+      problems_of(replaced(poses_example(), "body_mm    = { near = [220.0, 380.0,  -90.0], box_mm = 150.0 }",
                            "body_mm = [220, { min = 400, max = 300 }, -90]")),
       HasSubstr("mechanism.link[0].body_mm[1]: min 400 mm is larger than max 300 mm"));
 }

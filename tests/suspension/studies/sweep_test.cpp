@@ -17,15 +17,15 @@
 namespace linkwright::suspension {
 namespace {
 
+using test::column;
+using test::problems_of;
+using test::racks;
+using test::run_text;
+using test::sample;
+using test::sweep;
+using test::table;
 using ::testing::AllOf;
-using testing::column;
 using ::testing::HasSubstr;
-using testing::problems_of;
-using testing::racks;
-using testing::run_text;
-using testing::sample;
-using testing::sweep;
-using testing::table;
 
 TEST(SweepStudy, TablesAGridAsTheLibrarySolvesIt) {
   const study::Result result = run_text(sample("5KS", sweep + racks));

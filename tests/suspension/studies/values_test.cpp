@@ -17,7 +17,7 @@ std::string travel(const std::string& keys) {
          keys;
 }
 std::vector<double> values(const std::string& keys) {
-  return testing::run_text(travel(keys)).tables.at(0).find("travel_m")->values;
+  return test::run_text(travel(keys)).tables.at(0).find("travel_m")->values;
 }
 
 TEST(InputValues, StepsEndAtTheLastValueAndPassZeroExactly) {
@@ -29,7 +29,7 @@ TEST(InputValues, StepsEndAtTheLastValueAndPassZeroExactly) {
 }
 
 TEST(InputValues, SayWhatTheyLack) {
-  const auto told = [](const std::string& keys) { return testing::problems_of(travel(keys)); };
+  const auto told = [](const std::string& keys) { return test::problems_of(travel(keys)); };
   EXPECT_THAT(told("from_mm = -80\nto_mm = 80\n"),
               HasSubstr("sweep.travel.step: is missing; give step_mm or samples"));
   EXPECT_THAT(told("from_mm = -80\n"),

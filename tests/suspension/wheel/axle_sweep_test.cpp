@@ -13,9 +13,9 @@
 namespace linkwright::suspension {
 namespace {
 
-using testing::at;
-using testing::number_at;
-using testing::numbers;
+using test::at;
+using test::number_at;
+using test::numbers;
 
 AxleParameters parameters(const AxlePlan& plan, const AxlePosition& position) {
   EXPECT_EQ(position.status, Status::done) << position.reason;

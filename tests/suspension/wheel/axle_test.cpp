@@ -12,9 +12,9 @@
 namespace linkwright::suspension {
 namespace {
 
-using testing::at;
-using testing::number_at;
-using testing::numbers;
+using test::at;
+using test::number_at;
+using test::numbers;
 
 WheelParameters parameters(const WheelGuide& guide, double travel, double rack = 0) {
   const GuidePlan plan = prepare(guide);

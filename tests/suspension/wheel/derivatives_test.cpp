@@ -7,7 +7,7 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/suspension/guide/samples.h"
-#include "linkwright/suspension/wheel/parameters_kernel.h"
+#include "linkwright/suspension/wheel/detail/parameters_kernel.h"
 
 namespace linkwright::suspension {
 namespace {

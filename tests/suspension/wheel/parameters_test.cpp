@@ -13,8 +13,8 @@
 namespace linkwright::suspension {
 namespace {
 
-using testing::at;
-using testing::number_at;
+using test::at;
+using test::number_at;
 
 GuidePosition solve(const GuidePlan& plan, double travel, double rack = 0) {
   return solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan));
@@ -108,7 +108,7 @@ TEST(WheelParameters, PublishedTables) {
       EXPECT_NEAR(found.angles.toe, number_at(row, "toe_rad"), angles);
       EXPECT_NEAR(found.angles.camber, number_at(row, "camber_rad"), angles);
       EXPECT_NEAR(found.angles.spin, number_at(row, "carrier_spin_rad"), angles);
-      const auto table = testing::numbers(rows[i]);
+      const auto table = test::numbers(rows[i]);
       const auto& columns = at(published(id), "published.columns").as_array();
       const std::map<std::string, double> ours{
           {"x_m", position.place.carrier.centre.x},           {"y_m", position.place.carrier.centre.y},
@@ -128,7 +128,7 @@ TEST(WheelParameters, PositionsWithPrescribedLengths) {
   const Vec3 axis = point(at(in, "wheel_axis"));
   WheelGuide guide{.wheel = {point(at(in, "wheel_centre_m")), std::atan2(axis.x, axis.y), -std::asin(axis.z),
                              number_at(in, "tyre_diameter_m")}};
-  const auto lengths = testing::numbers(at(in, "lengths_1_to_5_m"));
+  const auto lengths = test::numbers(at(in, "lengths_1_to_5_m"));
   const auto& carrier = at(in, "carrier_points_11_to_15_m").as_array();
   for (int i = 0; i < 5; ++i) {
     const Value& body = i < 2 ? at(in, "body_points_01_02_m").as_array()[i]
@@ -140,7 +140,7 @@ TEST(WheelParameters, PositionsWithPrescribedLengths) {
                            .moved_by_rack = i == 2});
   }
   const GuidePlan plan = prepare(guide);
-  const auto travels = testing::numbers(at(in, "dz_m")), racks = testing::numbers(at(in, "rack_m"));
+  const auto travels = test::numbers(at(in, "dz_m")), racks = test::numbers(at(in, "rack_m"));
   for (std::size_t i = 0; i < travels.size(); ++i) {
     const Value& row = at(computed, "positions").as_array()[i];
     const GuidePosition position = solve(plan, travels[i], racks[i]);
@@ -185,7 +185,7 @@ TEST(WheelParameters, RatesAreDifferencesOfValues) {
     EXPECT_NEAR(here.contact_velocity.geometric.x, slope(more.wheelbase_change, less.wheelbase_change), 2e-8);
     EXPECT_NEAR(here.contact_velocity.geometric.y, slope(more.half_track_change, less.half_track_change),
                 2e-8);
-    EXPECT_NEAR(here.velocity.x, slope(more.recession, less.recession), 2e-8);
+    EXPECT_NEAR(here.velocity.x, -slope(more.recession, less.recession), 2e-8);
     EXPECT_NEAR(here.motion_ratio, -slope(more.spring_length, less.spring_length), 2e-8);
   }
 }

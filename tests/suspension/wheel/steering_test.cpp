@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/suspension/guide/samples.h"
 #include "support/message.h"
 #include "suspension/guides.h"
@@ -111,7 +111,7 @@ TEST(Steering, MirroredWheel) {
 
 TEST(Steering, Ratio) {
   // 50 mm of rack a turn and 6.25 rad/m: 0.3125 rad a turn.
-  EXPECT_NEAR(steering_ratio(-6.25, 0.05), 2 * std::numbers::pi / 0.3125, 1e-13);
+  EXPECT_NEAR(steering_ratio(-6.25, 0.05), 2 * pi / 0.3125, 1e-13);
   EXPECT_THAT(test::message([] { steering_ratio(6, 0); }),
               ::testing::StartsWith("steering_ratio: rack travel by a turn of the pinion 0 m"));
 }

@@ -9,6 +9,7 @@
 
 #include "linkwright/clearance/mass_synthesis.h"
 #include "linkwright/clearance/path_synthesis.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/population_methods.h"
 #include "linkwright/planar/studies/four_bar.h"
 #include "linkwright/planar/studies/path_points.h"
@@ -285,8 +286,8 @@ struct ClearanceDesignStudy {
 struct ClearanceDesignAnswer {
   Status status = Status::infeasible;
   ClearanceDesignValues best;
-  double cost = std::numeric_limits<double>::infinity();  ///< see cost_name; infinite when infeasible
-  int starts = 0, reached = 0;                            ///< of the last stage that counts them
+  double cost = infinity;       ///< see cost_name; infinite when infeasible
+  int starts = 0, reached = 0;  ///< of the last stage that counts them
   std::int64_t evaluations = 0;
   std::vector<optimise::GenerationLog> log;
 };

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/clearance/studies/design.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr std::array<std::string_view, clearance_length_count> length_keys = {
     "ground",  "crank",   "coupler",     "rocker",     "point_distance",
     "pivot_x", "pivot_y", "point_angle", "frame_angle"};

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/clearance/studies/design.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/study/run_seeds.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi, nan = std::numeric_limits<double>::quiet_NaN(),
-                 infinity = std::numeric_limits<double>::infinity();
 using Verdict = study::Fact::Verdict;
 using Style = study::Plot::Style;
 
@@ -53,10 +51,10 @@ double wrapped_degrees(double angle) {
   return d < 0 ? d + 360 : d;
 }
 
-class Reporter {
+class DesignReporter {
  public:
-  Reporter(const ClearanceDesignStudy& s, const study::Common& common, const ClearanceDesignRuns& runs,
-           const RunContext& context)
+  DesignReporter(const ClearanceDesignStudy& s, const study::Common& common, const ClearanceDesignRuns& runs,
+                 const RunContext& context)
       : s_(s), common_(common), runs_(runs), context_(context) {}
 
   study::Result report() {
@@ -489,7 +487,7 @@ class Reporter {
 
 study::Result report_clearance_design(const ClearanceDesignStudy& study, const study::Common& common,
                                       const ClearanceDesignRuns& runs, const RunContext& context) {
-  return Reporter(study, common, runs, context).report();
+  return DesignReporter(study, common, runs, context).report();
 }
 
 }  // namespace linkwright::clearance

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/clearance/studies/design.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::clearance {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
 
 struct Stage {
   Status status = Status::infeasible;
@@ -120,14 +118,14 @@ ClearanceDesignAnswer answer_of(const ClearanceDesignStudy& s, std::uint64_t see
 // The turn from `start`, its rows, and where the tracing point is at the angles of the path.
 void follow_turn(const ClearanceDesignStudy& s, const EvenCrank& crank, const LinkState& start,
                  std::span<const double> angles, const RunContext* context, DesignMeasures& out) {
-  const double sense = std::copysign(1.0, crank.speed), period = turn / std::abs(crank.speed);
+  const double sense = std::copysign(1.0, crank.speed), period = full_turn / std::abs(crank.speed);
   const auto count = static_cast<std::size_t>(s.samples);
   std::vector<std::pair<double, std::size_t>> order;  // time; row, or after the rows the point of the path
   for (std::size_t i = 0; i < count; ++i)
     order.emplace_back(period * static_cast<double>(i) / static_cast<double>(count - 1), i);
   for (std::size_t k = 0; k < angles.size(); ++k) {
-    double way = std::fmod(sense * (angles[k] - crank.angle), turn);
-    if (way < 0) way += turn;
+    double way = std::fmod(sense * (angles[k] - crank.angle), full_turn);
+    if (way < 0) way += full_turn;
     order.emplace_back(way / std::abs(crank.speed), count + k);
   }
   std::sort(order.begin(), order.end());
@@ -166,7 +164,7 @@ void follow_presumed(const ClearanceDesignStudy& s, DesignMeasures& out) {
       s.path.crank_angles.size() > 1 && s.path.crank_angles[1] < s.path.crank_angles[0] ? -1 : 1;
   for (int i = 0; i < s.samples; ++i) {
     DesignRow row;
-    row.time = turn * i / (s.samples - 1);
+    row.time = full_turn * i / (s.samples - 1);
     row.crank = first + sense * row.time;
     row.link = {row.crank + s.path.lead, sense};
     row.instant.position = clearance_position(out.model, row.crank, row.link.angle);
@@ -221,9 +219,9 @@ DesignMeasures measure_design(const ClearanceDesignStudy& s, const ClearanceDesi
     out.largest = std::max(out.largest, off);
     constexpr int directions = 180;
     for (int i = 0; i < directions; ++i)
-      out.anywhere =
-          std::max(out.anywhere,
-                   std::abs(clearance_position(out.model, angles[k], turn * i / directions).point - target));
+      out.anywhere = std::max(
+          out.anywhere,
+          std::abs(clearance_position(out.model, angles[k], full_turn * i / directions).point - target));
   }
   out.rms = std::sqrt(sum / static_cast<double>(angles.size()));
   return out;

@@ -1,15 +1,13 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/clearance/studies/design.h"
 #include "linkwright/clearance/studies/simulation.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"
 
 namespace linkwright::clearance {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi, nan = std::numeric_limits<double>::quiet_NaN();
 
 // The linkage as any other of the program: drawn, and written into tables, from the same points.
 ClearanceStudy as_linkage(const DesignMeasures& d) {
@@ -41,7 +39,7 @@ ClearanceStudy as_linkage(const DesignMeasures& d) {
 }  // namespace
 
 double lead_of(const ClearanceDesignStudy& s, const DesignRow& r) {
-  return s.lead() + std::remainder(r.link.angle - r.crank - s.lead(), turn);
+  return s.lead() + std::remainder(r.link.angle - r.crank - s.lead(), full_turn);
 }
 
 Table design_points(const ClearanceDesignStudy& s, const DesignMeasures& d, const DesignMeasures* before) {
@@ -139,7 +137,7 @@ std::vector<Table> design_linkage_tables(const ClearanceDesignStudy& s, const De
   start.add("clearance_m", "clearance (m)", {d.model.clearance});
   start.add("start_angle_rad", "direction of the clearance link then (rad)", {first.link.angle});
   start.add("start_rate_rad_per_s", "its speed (rad/s)", {first.link.rate});
-  start.add("turn_s", "time of a turn (s)", {turn / std::abs(s.mass.crank.speed)});
+  start.add("turn_s", "time of a turn (s)", {full_turn / std::abs(s.mass.crank.speed)});
   return {std::move(points), std::move(bodies), std::move(start)};
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 
 #include "linkwright/clearance/automatic_contact.h"
 #include "linkwright/clearance/joint_orbit.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/study/kind.h"
@@ -114,7 +114,7 @@ struct ClearanceRegime {
   /// Largest change of a pin over `turns` periods, or, without, over the last one: ways as shares of the
   /// clearance, speeds as shares of the largest of all sections; of a clearance link the sine and cosine of
   /// its angle, and its speed as a share of one turn a period.
-  double change = std::numeric_limits<double>::quiet_NaN();
+  double change = nan;
   std::optional<JointOrbit> orbit;  ///< of continuous contact, where that was looked for
 };
 /// What a run has recorded.
@@ -125,7 +125,7 @@ struct ClearanceRecording {
   double time = 0;  ///< reached, s
   /// When pins went over from continuous to real contact, which of them parted, and where the inputs were
   /// then.
-  double switched = std::numeric_limits<double>::quiet_NaN();  ///< s; NaN: never
+  double switched = nan;  ///< s; NaN: never
   int parted = -1;
   std::vector<planar::InputMotion> switched_inputs;
   bool went_over() const { return !std::isnan(switched); }
@@ -155,9 +155,9 @@ Table multipliers_table(const JointOrbit& orbit);
 
 /// How far traced points are off; NaN: nothing is known.
 struct PathErrors {
-  double path = std::numeric_limits<double>::quiet_NaN();   ///< m, from the ideal path, at most
-  double place = std::numeric_limits<double>::quiet_NaN();  ///< m, from the ideal place, at most
-  std::string point;                                        ///< that is farthest from its path
+  double path = nan;   ///< m, from the ideal path, at most
+  double place = nan;  ///< m, from the ideal place, at most
+  std::string point;   ///< that is farthest from its path
 };
 /// Facts, warnings and the headline.
 void add_facts(const ClearanceStudy& study, const ClearanceRecording& recording, const PathErrors& errors,

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "linkwright/clearance/studies/simulation.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
 constexpr double poor_balance = 1e-5;
 // Of the radius of the pin: depths beyond it are outside of the law of contact.
@@ -153,7 +153,7 @@ class Facts {
   }
   void contact_facts() {
     if (!(duration() > 0)) return;
-    double shortest = std::numeric_limits<double>::infinity();
+    double shortest = infinity;
     for (std::size_t k = 0; k < s_.pins(); ++k) {
       std::size_t count = 0;
       double touching = r_.went_over() ? std::max(r_.switched - r_.from, 0.0) : 0;

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <variant>
 
 #include "linkwright/clearance/studies/simulation.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/simulation.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
@@ -17,7 +17,6 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double most_rows = 1e7;  // of which a periodic study keeps the last
 
 constexpr Field number(std::string_view key, std::string_view summary, Dimension dimension, double minimum,
@@ -139,7 +138,7 @@ void fields(Visitor&& visit, PinForm& p) {
 // The shortest link at a joint: name and length from it to another joint.
 struct ShortLink {
   std::string name;
-  double length = std::numeric_limits<double>::infinity();
+  double length = infinity;
 };
 ShortLink shortest_link(const planar::Linkage& l, int joint) {
   ShortLink out;

@@ -2,22 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/clearance/studies/simulation.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // Rows beyond which not every one is compared with the ideal path.
 constexpr std::size_t most_compared = 20000;
 
 // Distance of a place from a line through places, m.
 double distance_from(const std::vector<std::complex<double>>& path, std::complex<double> place) {
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const planar::Vec<double> along = planar::vec(path[i + 1] - path[i]), way = planar::vec(place - path[i]);
     const double square = dot(along, along);
@@ -28,9 +26,10 @@ double distance_from(const std::vector<std::complex<double>>& path, std::complex
   return std::isfinite(least) ? std::sqrt(least) : nan;
 }
 
-class Reporter {
+class SimulationReporter {
  public:
-  Reporter(const ClearanceStudy& s, ClearanceRecording recording) : s_(s), r_(std::move(recording)) {}
+  SimulationReporter(const ClearanceStudy& s, ClearanceRecording recording)
+      : s_(s), r_(std::move(recording)) {}
 
   study::Result report() {
     result_.status = r_.status;
@@ -219,7 +218,7 @@ class Reporter {
       // The way of the pin beside the circle that it is in.
       std::vector<double> circle_x, circle_y;
       for (std::size_t i = 0; i < rows(); ++i) {
-        const double angle = 2 * std::numbers::pi * double(i) / double(std::max<std::size_t>(rows() - 1, 1));
+        const double angle = 2 * pi * double(i) / double(std::max<std::size_t>(rows() - 1, 1));
         circle_x.push_back(s_.clearance_of(k) * std::cos(angle));
         circle_y.push_back(s_.clearance_of(k) * std::sin(angle));
       }
@@ -245,10 +244,9 @@ class Reporter {
   using Style = study::Plot::Style;
   study::Plot& plot(std::string name, std::string title, const char* of, std::string x,
                     std::vector<std::string> y, Style style = Style::line) {
-    static study::Plot none;
     const Table* t = table(of);
     if (t) std::erase_if(y, [&](const std::string& key) { return !t->find(key); });
-    if (!t || t->rows() == 0 || y.empty()) return none = {};
+    if (!t || t->rows() == 0 || y.empty()) return none_ = {};
     result_.plots.emplace_back();
     study::Plot& p = result_.plots.back();
     p.name = std::move(name);
@@ -332,12 +330,13 @@ class Reporter {
   ClearanceRecording r_;
   PathErrors errors_;
   study::Result result_;
+  study::Plot none_;  // what is said of a plot that has nothing to show goes here
 };
 
 }  // namespace
 
 study::Result report_clearance(const ClearanceStudy& study, ClearanceRecording recording) {
-  return Reporter(study, std::move(recording)).report();
+  return SimulationReporter(study, std::move(recording)).report();
 }
 
 }  // namespace linkwright::clearance

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/studies/simulation.h"
 
@@ -12,13 +13,6 @@ using planar::InputMotion, planar::Vec;
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-Vec<double> place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
-                     const planar::LinkageMotion& motion, const planar::BodyPoint& p) {
-  return planar::point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at).position;
-}
 // Direction of a vector in the frame of a body.
 double angle_in(const planar::LinkagePlan& plan, const planar::LinkageMotion& motion, int body,
                 std::complex<double> vector) {
@@ -27,6 +21,11 @@ double angle_in(const planar::LinkagePlan& plan, const planar::LinkageMotion& mo
 }
 
 }  // namespace
+
+Vec<double> place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
+                     const planar::LinkageMotion& motion, const planar::BodyPoint& p) {
+  return planar::point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at).position;
+}
 
 ClearanceRows::ClearanceRows(const ClearanceStudy& study, ClearanceRecording& out,
                              std::function<bool(RecordedRow&&)> keep)

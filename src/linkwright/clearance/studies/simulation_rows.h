@@ -54,4 +54,8 @@ class ClearanceRows {
   planar::LinkageForces forces_;
 };
 
+/// Where a point of a body is in a position of the ideal linkage (m).
+planar::Vec<double> place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
+                             const planar::LinkageMotion& motion, const planar::BodyPoint& p);
+
 }  // namespace linkwright::clearance

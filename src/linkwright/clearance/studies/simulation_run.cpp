@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/clearance/studies/simulation_rows.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::clearance {
@@ -13,8 +13,6 @@ namespace {
 
 using planar::InputMotion, planar::Vec;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // A motion that repeats itself after more periods than this counts as one that does not.
 constexpr int most_periods = 8;
 
@@ -37,10 +35,6 @@ std::vector<InputMotion> inputs_at(const std::vector<math::MotionCurve>& curves,
 }
 // Value of the first input, which loads may depend on.
 double first_of(std::span<const InputMotion> inputs) { return inputs.empty() ? 0 : inputs[0].value; }
-Vec<double> place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
-                     const planar::LinkageMotion& motion, const planar::BodyPoint& p) {
-  return planar::point_motion(plan, motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at).position;
-}
 // What of a section has to come back, scaled: of pins that fly also where they are off their circle.
 std::vector<double> section_state(const ClearanceStudy& s, const RecordedRow& row, double fastest) {
   std::vector<double> out;
@@ -49,7 +43,7 @@ std::vector<double> section_state(const ClearanceStudy& s, const RecordedRow& ro
     const bool link = s.model == PinModel::continuous;
     const std::complex<double> way = link ? std::polar(1.0, p.angle) : p.eccentricity / s.clearance_of(k);
     const std::complex<double> rate =
-        link ? std::complex<double>(p.angle_rate * s.period / (2 * std::numbers::pi)) : p.rate / fastest;
+        link ? std::complex<double>(p.angle_rate * s.period / (2 * pi)) : p.rate / fastest;
     out.insert(out.end(), {way.real(), way.imag(), rate.real(), rate.imag()});
   }
   return out;
@@ -92,8 +86,8 @@ class Recorder {
     for (int k = 0; s_.period > 0 && s_.from + k * s_.period <= to; ++k)
       sections.push_back(s_.from + k * s_.period);
     for (std::size_t i = 0, k = 0; i < rows.size() || k < sections.size();) {
-      const double row = i < rows.size() ? rows[i] : std::numeric_limits<double>::infinity();
-      const double section = k < sections.size() ? sections[k] : std::numeric_limits<double>::infinity();
+      const double row = i < rows.size() ? rows[i] : infinity;
+      const double section = k < sections.size() ? sections[k] : infinity;
       times_.push_back(std::abs(row - section) <= same_ ? row : std::min(row, section));
       is_row_.push_back(row <= times_.back());
       is_section_.push_back(section <= times_.back() + same_);
@@ -127,7 +121,7 @@ class Recorder {
   bool repeats() {
     double fastest = 1e-300;
     for (std::size_t k = 0; k < s_.pins(); ++k)
-      fastest = std::max(fastest, s_.clearance_of(k) * 2 * std::numbers::pi / s_.period);
+      fastest = std::max(fastest, s_.clearance_of(k) * 2 * pi / s_.period);
     for (const RecordedRow& row : out_.sections)
       for (const PinInstant& p : row.pins) fastest = std::max(fastest, std::abs(p.rate));
     std::vector<std::vector<double>> states;

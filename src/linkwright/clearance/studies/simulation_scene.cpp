@@ -3,15 +3,10 @@
 #include <algorithm>
 
 #include "linkwright/clearance/studies/simulation.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/drawn_scale.h"
 
 namespace linkwright::clearance {
-namespace {
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 study::Scene clearance_scene(const ClearanceStudy& s, const ClearanceRecording& recording,
                              std::string input_key, std::string input_label) {
   // Few enough rows for an animation.

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/clearance/contact_analysis.h"
 #include "linkwright/clearance/studies/simulation.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // Turns below which a section tells nothing, and rows below which a spectrum does.
 constexpr std::size_t least_turns = 3, least_rows = 32;
 constexpr int map_directions = 72;
@@ -51,9 +49,10 @@ Table contacts_table(const ClearanceStudy& s, const ClearanceRecording& r) {
 Table contact_map_table(const ClearanceStudy& s, const ClearanceRecording& r) {
   Table table{.name = "contact_map"};
   std::vector<double> directions;
-  for (int i = 0; i <= map_directions; ++i) directions.push_back(turn * i / map_directions);
+  for (int i = 0; i <= map_directions; ++i) directions.push_back(full_turn * i / map_directions);
   const auto place = [](double angle) {
-    const auto i = static_cast<int>(std::lround((angle / turn - std::floor(angle / turn)) * map_directions));
+    const auto i =
+        static_cast<int>(std::lround((angle / full_turn - std::floor(angle / full_turn)) * map_directions));
     return at(i % map_directions);
   };
   table.add("bush_angle_rad", "direction in the frame of the bush (rad)", directions);
@@ -136,7 +135,7 @@ Table section_table(const ClearanceStudy& s, const ClearanceRecording& r) {
           [](const PinInstant& p) { return p.rate.imag(); });
     } else {
       add("_link_angle_rad", "direction of the clearance link (rad)",
-          [](const PinInstant& p) { return std::remainder(p.angle, turn); });
+          [](const PinInstant& p) { return std::remainder(p.angle, full_turn); });
       add("_link_speed_rad_per_s", "speed of the clearance link (rad/s)",
           [](const PinInstant& p) { return p.angle_rate; });
     }

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "linkwright/clearance/sensitivity.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/study/kind.h"
@@ -63,7 +63,7 @@ struct ToleranceRecording {
   std::vector<ToleranceQuantity> quantities;
   std::vector<std::string> tolerances;  ///< their names: pins, then lengths
   /// Least transmission angle of a dyad: rad, its sample and its group; infinite when there is no dyad.
-  double transmission = std::numeric_limits<double>::infinity();
+  double transmission = infinity;
   std::size_t transmission_row = 0;
   std::string transmission_group;
 

@@ -6,6 +6,7 @@
 
 #include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/clearance/studies/tolerance.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
@@ -13,9 +14,6 @@
 
 namespace linkwright::clearance {
 namespace {
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 constexpr Field range(std::string_view key, std::string_view summary, Dimension dimension,
                       bool required = true) {

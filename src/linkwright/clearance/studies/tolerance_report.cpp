@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "linkwright/clearance/studies/tolerance.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/columns.h"
 
@@ -13,9 +14,6 @@ namespace linkwright::clearance {
 namespace {
 
 using Kind = ToleranceQuantity::Kind;
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Below it errors, like forces, grow without bound.
 constexpr double poor_transmission = 5 * 3.14159265358979 / 180;
 // Random linkages and the first order are said to differ when the root mean squares do by more than this,
@@ -38,9 +36,9 @@ Share share_of(int count, int draws) {
   return {p, std::max(0.0, middle - half), std::min(1.0, middle + half)};
 }
 
-class Reporter {
+class ToleranceReporter {
  public:
-  Reporter(const ToleranceStudy& s, ToleranceRecording recording) : s_(s), r_(std::move(recording)) {
+  ToleranceReporter(const ToleranceStudy& s, ToleranceRecording recording) : s_(s), r_(std::move(recording)) {
     for (std::size_t p = 0; p < s_.outputs.points.size(); ++p) bands_.push_back(path_band(s_, r_, p));
     scale_ = tolerance_scale(s_, bands_);
     for (std::size_t q = 0; q < quantities(); ++q) nearly_.push_back(quantile(q, nearly_all));
@@ -358,7 +356,7 @@ class Reporter {
 }  // namespace
 
 study::Result report_tolerances(const ToleranceStudy& study, ToleranceRecording recording) {
-  return Reporter(study, std::move(recording)).report();
+  return ToleranceReporter(study, std::move(recording)).report();
 }
 
 }  // namespace linkwright::clearance

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "linkwright/clearance/studies/tolerance.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/columns.h"
 
@@ -12,8 +13,6 @@ namespace linkwright::clearance {
 namespace {
 
 using Kind = ToleranceQuantity::Kind;
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<ToleranceQuantity> quantities_of(const planar::LinkageStudy& s, const ToleranceOutputs& o) {
   const planar::Linkage& l = s.linkage;

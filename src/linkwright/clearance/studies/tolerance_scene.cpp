@@ -4,15 +4,10 @@
 #include <cmath>
 
 #include "linkwright/clearance/studies/tolerance.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/columns.h"
 
 namespace linkwright::clearance {
-namespace {
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 double tolerance_scale(const ToleranceStudy& s, const std::vector<PathBand>& bands) {
   double largest = 0;
   for (const PathBand& band : bands)
@@ -67,7 +62,6 @@ study::Scene tolerance_scene(const ToleranceStudy& s, const ToleranceRecording& 
     for (std::size_t i = 0; i < r.records.size(); ++i) {
       const std::size_t k = middle.x.size() == 1 ? 0 : i;
       const planar::LinkageRecord& record = r.records[i];
-      const double nan = std::numeric_limits<double>::quiet_NaN();
       const planar::Vec<double> along = record.bodies.empty() ? planar::Vec<double>{nan, nan}
                                                               : record.bodies[at(joint.first.body)].direction;
       rim.x.push_back(middle.x.empty() ? nan : middle.x[k] + scale * pin.clearance * along.x);

@@ -1,10 +1,10 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "linkwright/clearance/studies/tolerance.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/columns.h"
 
@@ -12,8 +12,6 @@ namespace linkwright::clearance {
 namespace {
 
 using Kind = ToleranceQuantity::Kind;
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 class Tabler {
  public:

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/flexible/response.h"
 
 namespace linkwright::flexible {
 namespace {
-
-constexpr std::size_t per = coordinates_per_cell;
 
 // The cut of a link with the largest bending moment, of all samples.
 struct Worst {
@@ -95,8 +93,8 @@ Recording record(const ArmStudy& s, const ArmChain& arm, const Simulation& run) 
     for (std::size_t k = 0; k < links.size(); ++k) {
       const std::vector<SectionForce> cuts = link_sections(arm, k, equations, state);
       if (const auto cell = arm.links[k].hinge) {
-        push(joint[k], state.q[per * *cell + turn]);
-        push(joint[k] + 1, state.v[per * *cell + turn]);
+        push(joint[k], state.q[coordinates_per_cell * *cell + turn]);
+        push(joint[k] + 1, state.v[coordinates_per_cell * *cell + turn]);
         push(joint[k] + 2, forces[hinge].x);
         push(joint[k] + 3, forces[hinge++].y);
         if (motor[k] > 0) push(joint[k] + 4, run.hinge_torques[i][motor[k] - 1]);
@@ -235,7 +233,7 @@ study::Result run_arm_study(const ArmStudy& s, RunContext& context) {
     const std::string where =
         fmt::format("{} its root, at {:.4g} s",
                     w.position == 0 ? "at" : fmt::format("{:.4g} mm from", 1e3 * w.position), w.time);
-    double stress = std::numeric_limits<double>::quiet_NaN();
+    double stress = nan;
     if (link.fibre_distance) {
       stress = bending_stress(link.beam, w.moment, *link.fibre_distance);
       if (stress > most_stress) most_stress = stress, most_stressed = link.name;

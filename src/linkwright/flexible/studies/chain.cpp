@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/flexible/statics.h"
 #include "linkwright/flexible/studies/chain_scene.h"
 #include "linkwright/study/memory.h"
@@ -13,7 +13,7 @@
 namespace linkwright::flexible {
 namespace {
 
-constexpr double circle = 2 * std::numbers::pi;
+constexpr double circle = 2 * pi;
 /// Cells of the comparison are at most these.
 constexpr std::size_t most_cells = 2000;
 /// Steps in a period of the first vibration below which they are too few to follow it.
@@ -57,17 +57,16 @@ void add_modes(Table& table, const std::string& prefix, const std::string& where
 }
 
 Start start_of(const ChainStudy& s, const Chain& chain, study::Result& result) {
-  constexpr std::size_t per = coordinates_per_cell;
   const JointDrive& hub = s.drives[0];
   Start out{.angle = hub.angle, .rate = hub.rate, .q = {}, .v = {}};
-  out.q.resize(per * chain.cells.size());
+  out.q.resize(coordinates_per_cell * chain.cells.size());
   out.v.resize(out.q.size());
   const std::vector<std::size_t> joints = hinges(chain);
   std::vector<double> turns;
   for (std::size_t k = 0; k < joints.size(); ++k) {
     turns.push_back(s.drives[k + 1].angle);
-    out.q[per * joints[k] + turn] = turns.back();
-    out.v[per * joints[k] + turn] = s.drives[k + 1].rate;
+    out.q[coordinates_per_cell * joints[k] + turn] = turns.back();
+    out.v[coordinates_per_cell * joints[k] + turn] = s.drives[k + 1].rate;
   }
   if (s.simulation.start == StartForm::equilibrium) {
     const Equilibrium bent =

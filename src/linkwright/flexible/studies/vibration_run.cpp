@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/flexible/continuum.h"
 #include "linkwright/flexible/modes.h"
 #include "linkwright/flexible/response.h"
@@ -16,8 +15,7 @@
 namespace linkwright::flexible {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double turn_of = 2 * std::numbers::pi;
+constexpr double turn_of = 2 * pi;
 /// Share of a frequency by which twice the divisions, or the continuum, may change it before it is told.
 constexpr double poor_frequency = 0.01;
 

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <tuple>
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/parallel/assembly_modes/platform_paths.h"
 #include "linkwright/parallel/assembly_modes/platform_proof.h"
@@ -18,7 +18,7 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double same = 1e-8;           // distance of solutions that are one
+constexpr double same_solution = 1e-8;  // distance of solutions that are one
 constexpr double nearly_real = 1e-4;    // distance from the conjugate: worth a look among real poses
 constexpr double way_to_pose = 1e-7;    // by the unit of length, rad: from there to the real pose
 constexpr double same_singular = 1e-3;  // poses that are one where modes meet, known to half the digits
@@ -113,7 +113,7 @@ struct Start {
 Start start_for(std::uint64_t seed, std::uint32_t attempt) {
   static const SolvedPlatform generic = monodromy(start_seed);
   RandomStream random({seed, attempt});
-  const Complex factor = std::polar(1.0, random.uniform(-std::numbers::pi, std::numbers::pi));
+  const Complex factor = std::polar(1.0, random.uniform(-pi, pi));
   Start out{scaled(generic.legs, factor), generic.solutions};
   for (PlatformPoint& x : out.solutions) x = scaled(x, factor);
   const auto swap = [&](Six& six, int i, int j) {
@@ -131,7 +131,8 @@ Start start_for(std::uint64_t seed, std::uint32_t attempt) {
   return out;
 }
 
-bool knows(const std::vector<PlatformPoint>& solutions, const PlatformPoint& x, double within = same) {
+bool knows(const std::vector<PlatformPoint>& solutions, const PlatformPoint& x,
+           double within = same_solution) {
   return std::any_of(solutions.begin(), solutions.end(),
                      [&](const PlatformPoint& s) { return distance(s, x) < within; });
 }
@@ -240,7 +241,7 @@ AssemblyModes assembly_modes(const Robot& hexa, std::span<const double> arm_angl
     return true;
   };
   for (const PlatformPoint& x : found.solutions)
-    if (!take(x, nearly_real, way_to_pose, same)) others.push_back(x);
+    if (!take(x, nearly_real, way_to_pose, same_solution)) others.push_back(x);
   out.finite = static_cast<int>(real.size() + others.size());
   // Where modes meet, they are known to half the digits: one of them stands for all.
   for (const PlatformPoint& x : found.singular_ends) take(x, same_singular, same_singular, same_singular);

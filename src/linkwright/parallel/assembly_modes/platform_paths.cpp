@@ -8,14 +8,14 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double same = 1e-7;            // distance of solutions that are one
+constexpr double same_path_end = 1e-7;   // distance of solutions that are one
 constexpr double shortest_step = 1e-12;  // of the way
 constexpr int most_steps = 500;
 constexpr double nearly_there = 1e-6;     // of the way, for a path that is stuck
 constexpr double on_the_last_part = 0.1;  // the same, on its way out
 constexpr double small = 0.2;             // of |e| against |x|, on the way out
 constexpr double far_correction = 1e-3;   // of the first Newton step: the series failed
-constexpr double rounding = 1e-13;
+constexpr double path_rounding = 1e-13;
 
 struct Workspace {
   PlatformValues values;
@@ -86,7 +86,7 @@ PlatformPath follow(const PlatformLegs& from, const PlatformLegs& to, const Plat
       const double first = correct(ahead, trial, work);
       if (!(first < far_correction)) continue;
       // Quadratic convergence, or the point is not this path's.
-      if (!(correct(ahead, trial, work) < std::max(first * 1e-2, rounding))) continue;
+      if (!(correct(ahead, trial, work) < std::max(first * 1e-2, path_rounding))) continue;
       path.point = trial;
       path.at = at;
       legs = ahead;
@@ -137,7 +137,7 @@ SolvedPlatform monodromy(std::uint64_t seed) {
         path = follow(corner[side], corner[side + 1], path.point);
       if (path.end != PathEnd::regular) continue;
       if (std::none_of(out.solutions.begin(), out.solutions.end(),
-                       [&](const PlatformPoint& s) { return distance(s, path.point) < same; }))
+                       [&](const PlatformPoint& s) { return distance(s, path.point) < same_path_end; }))
         out.solutions.push_back(path.point);
     }
   }

@@ -1,4 +1,4 @@
-#include "linkwright/parallel/dexterity/kernel.h"
+#include "linkwright/parallel/dexterity/detail/kernel.h"
 
 namespace linkwright::parallel {
 

@@ -1,7 +1,8 @@
 #include "linkwright/parallel/dexterity/dexterity.h"
 
 #include "linkwright/core/check.h"
-#include "linkwright/parallel/dexterity/kernel.h"
+#include "linkwright/core/kernels.h"
+#include "linkwright/parallel/dexterity/detail/kernel.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -41,11 +42,12 @@ PreparedRobot prepare(const DesignedRobot& designed, const WorkingMode& mode, co
 }
 
 using Kernel = void (*)(const PreparedRobot&, int, const PoseSet&, bool, SetDexterity&);
-Kernel choose_kernel() {
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return measure_set_avx2;
-  return measure_set_baseline;
-}
+// Wider registers do not pay here.
+#ifdef LINKWRIGHT_X86_KERNELS
+constexpr KernelSet<Kernel> measures{measure_set_baseline, measure_set_avx2};
+#else
+constexpr KernelSet<Kernel> measures{measure_set_baseline};
+#endif
 
 void enlarge(std::vector<double>& values, std::size_t size) {
   if (values.size() < size) values.resize(size);
@@ -68,7 +70,7 @@ void measure(const DesignedRobot& designed, const WorkingMode& mode, const Dexte
 
 void measure(const DesignedRobot& designed, const WorkingMode& mode, const DexterityMeasures& what,
              const PoseSet& poses, bool derivatives, SetDexterity& out) {
-  static const Kernel kernel = choose_kernel();
+  static const Kernel kernel = widest(measures).run;
   const std::size_t size = poses.size();
   const int legs = designed.robot.legs();
   enlarge(out.conditioning, size);

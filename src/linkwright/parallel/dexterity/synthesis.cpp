@@ -7,9 +7,10 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/interruption.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/parallel.h"
-#include "linkwright/parallel/dexterity/synthesis_search.h"
+#include "linkwright/parallel/dexterity/detail/synthesis_search.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -33,7 +34,7 @@ Drawn draw(const DexterityModel& model, std::uint64_t seed, int index, Dexterity
   if (task.pi_joint) {
     const double ratio = random.uniform(task.pi_joint->ratio.lower, task.pi_joint->ratio.upper);
     const auto [low, high] = model.travel(extremes);
-    const double half = std::min((high - low) / 2, std::numbers::pi / 2);
+    const double half = std::min((high - low) / 2, pi / 2);
     const double mounting = (low + high) / 2 - task.pi_joint->mirror * best_centre({1, ratio}, half);
     x.push_back(std::clamp(mounting, task.pi_joint->mounting.lower, task.pi_joint->mounting.upper));
     x.push_back(ratio);
@@ -168,7 +169,7 @@ DexterityDesign assessed(const DexterityModel& model, std::span<const double> x,
   try {
     out.mean = model.mean(designed, work, {});
   } catch (const Interrupted&) {
-    out.mean = std::numeric_limits<double>::quiet_NaN();  // the rest is known
+    out.mean = nan;  // the rest is known
   }
   out.objective = task.goal == DexterityGoal::size   ? out.size
                   : task.goal == DexterityGoal::mean ? out.mean
@@ -208,7 +209,7 @@ void look_between(const DexterityModel& model, RunContext& context, DexteritySyn
   };
   out.worst_between_nodes = worst_of(PoseLimit::conditioning);
   for (const DexterityStand& stand : best.limits) {
-    double value = std::numeric_limits<double>::quiet_NaN();
+    double value = nan;
     if (stand.limit == DexterityLimit::conditioning) value = out.worst_between_nodes;
     if (stand.limit == DexterityLimit::constraint) value = worst_of(PoseLimit::constraint);
     if (stand.limit == DexterityLimit::reach) value = worst_of(PoseLimit::input);
@@ -319,7 +320,7 @@ DexteritySynthesis synthesise(const DexterityTask& task, const DexterityOptions&
     const bool met = out.starts[best].violation == 0;
     context.report({.stage = "starts",
                     .fraction = static_cast<double>(out.starts.size()) / static_cast<double>(most),
-                    .best = met ? out.starts[best].objective : std::numeric_limits<double>::quiet_NaN()});
+                    .best = met ? out.starts[best].objective : nan});
     stop = context.interruption();
     if (options.confirmations > 0 && out.reached_best >= options.confirmations) break;
   }
@@ -336,7 +337,7 @@ DexteritySynthesis synthesise(const DexterityTask& task, const DexterityOptions&
     } catch (const Interrupted& why) {
       stop = why.status();
       out.between_nodes.clear();
-      out.worst_between_nodes = std::numeric_limits<double>::quiet_NaN();
+      out.worst_between_nodes = nan;
     }
   }
   out.status = stop != Status::done ? stop : out.best.status;

@@ -2,13 +2,12 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/optimise/minimise.h"
 #include "linkwright/parallel/pi_joint/design_synthesis.h"
@@ -38,13 +37,12 @@ struct DexterityLimits {
   /// (constraint.h). With 0.2 loads and errors of the parallelograms are at most five times those of the best
   /// pose.
   double constraint = 0.2;
-  double input = 0;         ///< input transmission index at least, in [0, 1]
-  double output = 0;        ///< output transmission index at least, in [0, 1]
-  double transmission = 0;  ///< both of them at least, in [0, 1]
-  double arm_travel =
-      std::numeric_limits<double>::infinity();  ///< largest less least arm angle, all legs (rad)
-  double side_swing = std::numbers::pi / 2;  ///< of the rods out of the planes of their arms, at most (rad)
-  double size = std::numeric_limits<double>::infinity();  ///< arm + rod at most (m)
+  double input = 0;              ///< input transmission index at least, in [0, 1]
+  double output = 0;             ///< output transmission index at least, in [0, 1]
+  double transmission = 0;       ///< both of them at least, in [0, 1]
+  double arm_travel = infinity;  ///< largest less least arm angle, all legs (rad)
+  double side_swing = pi / 2;    ///< of the rods out of the planes of their arms, at most (rad)
+  double size = infinity;        ///< arm + rod at most (m)
 };
 
 struct DesignRange {
@@ -54,9 +52,9 @@ struct DesignRange {
 /// Pi-joints whose arms are the arms of the robot, alike for all legs: outward angle of the arm = mounting +
 /// mirror theta.
 struct PiTravelTask {
-  DesignRange mounting{-std::numbers::pi, std::numbers::pi};  ///< rad
-  DesignRange ratio{0.05, 0.95};                              ///< k
-  int mirror = 1;                                             ///< or -1
+  DesignRange mounting{-pi, pi};  ///< rad
+  DesignRange ratio{0.05, 0.95};  ///< k
+  int mirror = 1;                 ///< or -1
   /// Over the travel of the arms, which follows from the robot: half_travel does not count.
   PiRequirements limits;
 };
@@ -180,8 +178,8 @@ struct DexterityOptions {
 
 /// How one start ended.
 struct DexterityStart {
-  double objective = std::numeric_limits<double>::quiet_NaN();
-  double violation = std::numeric_limits<double>::infinity();
+  double objective = nan;
+  double violation = infinity;
   int exchanges = 0;             ///< rounds
   int working = 0;               ///< limits at poses that were looked at in the last one
   bool settled = false;          ///< no node misses what the search kept to
@@ -198,7 +196,7 @@ struct DexteritySynthesis {
   /// The least or most that a search between the nodes found for the goal's or limits' indices of `best`:
   /// what the nodes overlook. Same order as best.limits; NaN for limits that are not of a pose.
   std::vector<double> between_nodes;
-  double worst_between_nodes = std::numeric_limits<double>::quiet_NaN();  ///< least conditioning index
+  double worst_between_nodes = nan;    ///< least conditioning index
   std::vector<DexterityStart> starts;  ///< in the order in which they were made
   int reached_best = 0;
   std::int64_t evaluations = 0;  ///< designs

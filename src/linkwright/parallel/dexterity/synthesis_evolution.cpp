@@ -1,9 +1,9 @@
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "linkwright/core/interruption.h"
-#include "linkwright/parallel/dexterity/synthesis_model.h"
+#include "linkwright/core/numbers.h"
+#include "linkwright/parallel/dexterity/detail/synthesis_model.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -28,7 +28,7 @@ optimise::Problem population_problem(const DexterityTask& task, const RunContext
       const double mean = model->task().goal == DexterityGoal::mean ? model->mean(designed, work, {}) : 0;
       cost[i] = model->cost(x, extremes, mean);
       if (std::isfinite(cost[i])) continue;
-      cost[i] = std::numeric_limits<double>::infinity();
+      cost[i] = infinity;
       violation[i] += 1;
     }
   };
@@ -41,7 +41,7 @@ DexterityEvolution evolve(const DexterityTask& task, const optimise::OptimiserOp
   DexterityEvolution out;
   out.report =
       optimise::minimise(population_problem(task, &context), method, options, {.seed = seed}, context);
-  if (out.report.violation < std::numeric_limits<double>::infinity()) out.best = assess(task, out.report.x);
+  if (out.report.violation < infinity) out.best = assess(task, out.report.x);
   const std::size_t poses = model.nodes() + (task.goal == DexterityGoal::mean ? model.cells() : 0);
   out.poses = out.report.evaluations * static_cast<std::int64_t>(poses);
   return out;

@@ -1,19 +1,17 @@
-#include "linkwright/parallel/dexterity/synthesis_model.h"
+#include "linkwright/parallel/dexterity/detail/synthesis_model.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/interruption.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/parallel/pi_joint/range.h"
 #include "linkwright/parallel/robot/constraint.h"
 #include "linkwright/parallel/robot/regular_ball.h"
 
 namespace linkwright::parallel {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Poses of a part: about a millisecond. A multiple of what registers hold, so that parts change no bits.
 constexpr std::size_t part_size = 4096;
@@ -43,9 +41,7 @@ bool stands_out(const PrescribedRegion& region, const RegionPoint& point) {
 double least_rate(const PiRequirements& l) {
   return std::max(l.torque / l.force_limit, l.quantum / l.resolution);
 }
-double most_rate(const PiRequirements& l) {
-  return l.speed > 0 ? l.rate_limit / l.speed : std::numeric_limits<double>::infinity();
-}
+double most_rate(const PiRequirements& l) { return l.speed > 0 ? l.rate_limit / l.speed : infinity; }
 
 }  // namespace
 

@@ -1,7 +1,6 @@
 #include "linkwright/parallel/dexterity/synthesis_samples.h"
 
-#include <limits>
-
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::parallel {
@@ -21,7 +20,7 @@ DexterityTask dexterity_benchmark(DexterityGoal goal) {
 
 DexterityTask dexterity_benchmark_with_pi_joints(double transmission) {
   DexterityTask task = dexterity_benchmark(DexterityGoal::size);
-  task.limits.arm_travel = std::numeric_limits<double>::infinity();
+  task.limits.arm_travel = infinity;
   task.pi_joint = PiTravelTask{};
   task.pi_joint->limits.telescoping = 2;
   task.pi_joint->limits.transmission = transmission;

@@ -1,10 +1,10 @@
-#include "linkwright/parallel/dexterity/synthesis_search.h"
+#include "linkwright/parallel/dexterity/detail/synthesis_search.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "linkwright/core/interruption.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/minimise_largest.h"
 #include "linkwright/optimise/nlopt_bridge.h"
 
@@ -282,7 +282,7 @@ std::vector<BetweenNodes> between_nodes(const DexterityModel& model, const Desig
   model.indices(designed, kind, leg, work, values);
   poses += static_cast<std::int64_t>(values.size());
   // Of many nodes few are close to the worst: only those are put in order.
-  double worst = std::numeric_limits<double>::infinity();
+  double worst = infinity;
   for (const double v : values) worst = std::min(worst, sign * v);
   std::vector<std::size_t> order;
   for (std::size_t node = 0; node < values.size(); ++node)

@@ -2,12 +2,13 @@
 
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/parallel/dexterity/synthesis.h"
 
 namespace linkwright::parallel {
 namespace {
 
-constexpr double right = std::numbers::pi / 2;
+constexpr double right = pi / 2;
 
 std::optional<std::string> range_problem(std::string_view name, const DesignRange& range, double least) {
   if (!(range.lower >= least && range.upper >= range.lower && std::isfinite(range.upper)))
@@ -25,11 +26,12 @@ std::optional<std::string> positive_problem(std::string_view name, double value,
   return {};
 }
 
-std::optional<std::string> pi_problem(const PiTravelTask& pi) {
-  const PiRequirements& l = pi.limits;
-  if (const auto p = range_problem("mounting of the Pi-joints", pi.mounting, -HUGE_VAL)) return p;
-  if (const auto p = range_problem("ratio of the Pi-joints", pi.ratio, 1e-3)) return p;
-  if (pi.mirror != 1 && pi.mirror != -1) return fmt::format("mirror is 1 or -1, not {}", pi.mirror);
+std::optional<std::string> pi_problem(const PiTravelTask& travel) {
+  const PiRequirements& l = travel.limits;
+  if (const auto p = range_problem("mounting of the Pi-joints", travel.mounting, -HUGE_VAL)) return p;
+  if (const auto p = range_problem("ratio of the Pi-joints", travel.ratio, 1e-3)) return p;
+  if (travel.mirror != 1 && travel.mirror != -1)
+    return fmt::format("mirror is 1 or -1, not {}", travel.mirror);
   if (!(l.end_margin > 0 && l.end_margin < right))
     return fmt::format("margin to +-90 deg: {} rad is not in (0, pi/2)", l.end_margin);
   if (!(l.transmission >= 0 && l.transmission < right))

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/parallel/pi_joint/dynamics.h"
 #include "linkwright/parallel/pi_joint/screw.h"
 #include "linkwright/parallel/pi_joint/stiffness.h"
@@ -24,7 +24,7 @@ struct PiEquipment {
 
 /// Values at one angle (SI); NaN where the equipment that they need is not given.
 struct PiCurvePoint {
-  static constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double not_known = nan;
   double angle = 0;             ///< theta
   double diagonal = 0;          ///< d
   double jacobian = 0;          ///< J

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/dual.h"
@@ -17,9 +18,7 @@ namespace linkwright::parallel {
 
 namespace {
 
-using std::numbers::pi;
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = infinity;
 
 // Searches that end within this share of each other found the same size.
 constexpr double same_size = 1e-7;

@@ -2,13 +2,12 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/optimise/optimiser.h"
 #include "linkwright/parallel/pi_joint/pi_joint.h"
@@ -53,17 +52,17 @@ constexpr std::array<EnumName<PiLimit>, 8> names(PiLimit) {
 
 /// Each may be left at its default: not required.
 struct PiRequirements {
-  double half_travel = 0;  ///< Delta in (0, pi/2) (rad)
-  double torque = 0;       ///< at the output, everywhere in the range (N m), with
-  double force_limit = std::numeric_limits<double>::infinity();  ///< of the diagonal (N)
-  double speed = 0;                                              ///< of the output (rad/s), with
-  double rate_limit = std::numeric_limits<double>::infinity();   ///< of the diagonal (m/s)
-  double quantum = 0;                                            ///< step of the diagonal (m), which makes
-  double resolution = std::numeric_limits<double>::infinity();   ///< a turn of at most this (rad)
-  double transmission = 0;                                       ///< least mu, below pi/2 (rad)
-  double stroke = std::numeric_limits<double>::infinity();       ///< m
-  double telescoping = std::numeric_limits<double>::infinity();  ///< d_max / d_min, above 1
-  double end_margin = std::numbers::pi / 180;  ///< between the range and +-pi/2, above 0 (rad)
+  double half_travel = 0;         ///< Delta in (0, pi/2) (rad)
+  double torque = 0;              ///< at the output, everywhere in the range (N m), with
+  double force_limit = infinity;  ///< of the diagonal (N)
+  double speed = 0;               ///< of the output (rad/s), with
+  double rate_limit = infinity;   ///< of the diagonal (m/s)
+  double quantum = 0;             ///< step of the diagonal (m), which makes
+  double resolution = infinity;   ///< a turn of at most this (rad)
+  double transmission = 0;        ///< least mu, below pi/2 (rad)
+  double stroke = infinity;       ///< m
+  double telescoping = infinity;  ///< d_max / d_min, above 1
+  double end_margin = pi / 180;   ///< between the range and +-pi/2, above 0 (rad)
 };
 
 /// What keeps them from being a task, with the value; nothing if all is well. Something must ask for a size:
@@ -117,7 +116,7 @@ struct PiDesignReport {
   bool closed_form_is_best = false;
   std::vector<PiActiveLimit> active;  ///< at the best design, dearest first; empty when it is infeasible
   /// What is left of the gradient of the logarithm of the size, relative, when those are taken into account.
-  double stationarity = std::numeric_limits<double>::quiet_NaN();
+  double stationarity = nan;
   int starts = 0, reached_best = 0;  ///< local searches, and those that came to the size of the best
   int evaluations = 0;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 
 namespace linkwright::parallel {
@@ -29,7 +30,7 @@ Shape shape_at(const PiJoint& joint, double angle) {
 
 // (2 pi / h)^2 I_r: the mass that the rotor is, seen from the diagonal.
 double rotor_mass(const PiMasses& m) {
-  const double gearing = 2 * std::numbers::pi / m.lead;
+  const double gearing = 2 * pi / m.lead;
   return m.rotor_inertia == 0 ? 0 : m.rotor_inertia * gearing * gearing;
 }
 

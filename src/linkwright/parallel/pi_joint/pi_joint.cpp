@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 
 namespace linkwright::parallel {
 
 namespace {
 
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_known = nan;
 
 // What a diagonal that was computed from lengths may lie beyond its limits: a few roundings of the longest.
 constexpr double slack = 4 * tolerance::epsilon;
@@ -31,7 +32,7 @@ PiAngle angle_of(const PiJoint& joint, double diagonal) {
   if (!(std::abs(gap) <= slack * most)) return {.status = Status::no_assembly, .gap = gap};
   const double d = std::clamp(diagonal, least, most);
   const double half = std::atan2(std::sqrt((d - least) * (d + least)), std::sqrt((most - d) * (most + d)));
-  return {.angle = 2 * half - std::numbers::pi / 2};
+  return {.angle = 2 * half - pi / 2};
 }
 
 PiAngles angles(const PiJoint& joint, double angle) {
@@ -39,12 +40,12 @@ PiAngles angles(const PiJoint& joint, double angle) {
   PiAngles out;
   if (t.root == 0) {
     // k = 1, folded: A meets O; what the angles tend to.
-    out.transmission = std::numbers::pi / 2;
+    out.transmission = pi / 2;
   } else {
     out.diagonal_direction = std::atan2(pi_above(t), t.cosine);
     out.transmission = std::atan2(t.ratio * t.cosine, pi_along(t));
   }
-  out.base = std::numbers::pi / 2 - out.diagonal_direction;
+  out.base = pi / 2 - out.diagonal_direction;
   return out;
 }
 

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/parallel/pi_joint/kernel.h"
@@ -41,7 +40,7 @@ std::optional<std::string> problem(const PiJoint& joint);
 /// For the functions of an angle: theta in [-pi/2, pi/2], ends included.
 inline PiTerms<double> pi_terms(const PiJoint& joint, double angle) {
   double sine = 0, cosine = 0;
-  math::sincos_of_any(0.5 * angle + std::numbers::pi / 4, sine, cosine);
+  math::sincos_of_any(0.5 * angle + pi / 4, sine, cosine);
   return pi_terms(joint.arm, joint.ratio, sine, cosine);
 }
 
@@ -65,8 +64,8 @@ inline double jacobian_slope(const PiJoint& joint, double angle) {
 struct PiAngle {
   /// done, or no_assembly where the diagonal is outside |a - b| ... a + b by more than rounding.
   Status status = Status::done;
-  double angle = std::numeric_limits<double>::quiet_NaN();  ///< theta in [-pi/2, pi/2]; NaN when not done
-  double gap = 0;  ///< how far the diagonal is too long (> 0) or too short (< 0) (m)
+  double angle = nan;  ///< theta in [-pi/2, pi/2]; NaN when not done
+  double gap = 0;      ///< how far the diagonal is too long (> 0) or too short (< 0) (m)
 };
 /// (3)-(5) as half angles. Its error grows towards both limits of the diagonal, where the joint is singular:
 /// rounding of d by eps d moves theta by eps d / J.

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -11,7 +12,7 @@ struct PiEnd {
   PiRangeNumber diagonal, transmission, rate;
 };
 PiEnd at_end(const PiRangeNumber& arm, const PiRangeNumber& ratio, const PiRangeNumber& angle) {
-  const PiRangeNumber half = 0.5 * angle + std::numbers::pi / 4;
+  const PiRangeNumber half = 0.5 * angle + pi / 4;
   const PiTerms<PiRangeNumber> terms = pi_terms(arm, ratio, sin(half), cos(half));
   const PiRangeNumber rate = pi_jacobian(terms);
   return {pi_diagonal(terms), rate / arm, rate};

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
+
 namespace linkwright::parallel {
 
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
 
 // Beyond this speed the motor has no torque.
 double last_speed(const PiMotor& motor) {
@@ -19,7 +19,7 @@ double last_speed(const PiMotor& motor) {
 // At a speed of at most last_speed.
 double torque_at(const PiMotor& motor, double speed) {
   const auto& points = motor.torque;
-  if (points.empty()) return std::numeric_limits<double>::infinity();
+  if (points.empty()) return infinity;
   if (points.size() == 1) return points.front().torque;
   const auto after = std::upper_bound(points.begin() + 1, points.end() - 1, speed,
                                       [](double s, const MotorTorque& p) { return s < p.speed; });
@@ -36,13 +36,13 @@ double back_driving_efficiency(const PiScrew& screw) { return 2 - 1 / screw.effi
 bool self_locking(const PiScrew& screw) { return back_driving_efficiency(screw) <= 0; }
 
 double motor_torque(const PiScrew& screw, double force, double rate) {
-  const double lossless = force * screw.lead / turn;
+  const double lossless = force * screw.lead / full_turn;
   return force * rate < 0 ? lossless * back_driving_efficiency(screw) : lossless / screw.efficiency;
 }
 
-double rate_of(const PiScrew& screw, double motor_speed) { return screw.lead * motor_speed / turn; }
+double rate_of(const PiScrew& screw, double motor_speed) { return screw.lead * motor_speed / full_turn; }
 
-double motor_speed_of(const PiScrew& screw, double rate) { return rate * turn / screw.lead; }
+double motor_speed_of(const PiScrew& screw, double rate) { return rate * full_turn / screw.lead; }
 
 std::optional<std::string> problem(const PiDrive& drive) {
   const auto& [screw, motor, force_limit, rate_limit] = drive;
@@ -78,7 +78,7 @@ double available_force(const PiDrive& drive, double rate, PowerFlow flow) {
   const double speed = std::min(motor_speed_of(drive.screw, std::abs(rate)), last_speed(drive.motor));
   const double loss = flow == PowerFlow::motor_drives ? 1 / drive.screw.efficiency
                                                       : std::abs(back_driving_efficiency(drive.screw));
-  const double per_force = drive.screw.lead / turn * loss;
+  const double per_force = drive.screw.lead / full_turn * loss;
   // A screw on the verge of locking holds any load without a torque of the motor.
   return per_force == 0 ? drive.force_limit
                         : std::min(drive.force_limit, torque_at(drive.motor, speed) / per_force);

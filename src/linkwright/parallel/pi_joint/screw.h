@@ -1,10 +1,10 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/parallel/pi_joint/pi_joint.h"
 
 /// Screw and motor that change the diagonal of a Pi-joint, and what they make of it at its output
@@ -39,8 +39,8 @@ struct MotorTorque {
 };
 
 struct PiMotor {
-  double steps_per_turn = 0;                                   ///< 0: a motor without steps
-  double top_speed = std::numeric_limits<double>::infinity();  ///< rad/s
+  double steps_per_turn = 0;    ///< 0: a motor without steps
+  double top_speed = infinity;  ///< rad/s
   /// Torque over speed, straight between the points, the first one at speed 0; without torque beyond the
   /// last one, unless it is the only one, which holds at all speeds. Empty: as much as is asked for.
   std::vector<MotorTorque> torque;
@@ -49,8 +49,8 @@ struct PiMotor {
 struct PiDrive {
   PiScrew screw;
   PiMotor motor;
-  double force_limit = std::numeric_limits<double>::infinity();  ///< of screw and bearings (N)
-  double rate_limit = std::numeric_limits<double>::infinity();   ///< of the diagonal (m/s)
+  double force_limit = infinity;  ///< of screw and bearings (N)
+  double rate_limit = infinity;   ///< of the diagonal (m/s)
 };
 
 /// What keeps it from being a drive, with the value; nothing if all is well.

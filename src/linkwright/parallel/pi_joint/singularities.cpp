@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 
 namespace linkwright::parallel {
@@ -17,7 +18,7 @@ double transmission_sine(const PiJoint& joint, double angle) { return jacobian(j
 std::array<PiSingularPosition, 2> singular_positions(const PiJoint& joint) {
   std::array<PiSingularPosition, 2> out;
   for (int i = 0; i < 2; ++i) {
-    const double angle = (i - 0.5) * std::numbers::pi;
+    const double angle = (i - 0.5) * pi;
     out[i] = {.angle = angle, .diagonal = diagonal(joint, angle), .kind = singularity(joint, angle)};
   }
   return out;

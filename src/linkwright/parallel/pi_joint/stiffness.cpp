@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
+
 namespace linkwright::parallel {
 
 std::optional<std::string> problem(const PiBars& bars) {
@@ -19,7 +21,7 @@ std::optional<std::string> problem(const PiBars& bars) {
 
 PiBarForces bar_forces(const PiJoint& joint, double angle, double share) {
   const PiTerms<double> t = pi_terms(joint, angle);
-  const double sine = std::sin(angle), infinite = std::numeric_limits<double>::infinity();
+  const double sine = std::sin(angle), infinite = infinity;
   if (t.cosine == 0)
     return {.arm_base = infinite, .arm_top = infinite, .coupler = infinite, .diagonal = infinite};
   PiBarForces out;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/parallel/pi_joint/pi_joint.h"
 
 /// Stiffness of the Pi-joint as a truss: a rigid base, and bars OC and BA (arms), CA (coupler) and OA
@@ -14,11 +14,11 @@ namespace linkwright::parallel {
 
 /// Stiffness along the bars (N/m), infinite for a rigid one.
 struct PiBars {
-  double arm = std::numeric_limits<double>::infinity();       ///< k_a, each of both
-  double coupler = std::numeric_limits<double>::infinity();   ///< k_c
-  double diagonal = std::numeric_limits<double>::infinity();  ///< k_d, what does not depend on its length
+  double arm = infinity;       ///< k_a, each of both
+  double coupler = infinity;   ///< k_c
+  double diagonal = infinity;  ///< k_d, what does not depend on its length
   /// E A of the screw (N): yields in series with k_d by d / (E A), more the longer it is.
-  double screw = std::numeric_limits<double>::infinity();
+  double screw = infinity;
 };
 
 /// What keeps it from being a truss, with the value; nothing if all is well.

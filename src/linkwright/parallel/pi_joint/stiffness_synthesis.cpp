@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/function_ref.h"
 #include "linkwright/math/zero.h"
 #include "linkwright/optimise/nonnegative_fit.h"
@@ -16,13 +17,13 @@ namespace {
 // Beyond this condition the rounding of the samples alone decides.
 constexpr double worst_condition = 1e10;
 
-void require_range(const PiRange& r) {
-  LINKWRIGHT_REQUIRE(-std::numbers::pi / 2 < r.from && r.from < r.to && r.to < std::numbers::pi / 2,
-                     "range from {} to {} rad", r.from, r.to);
+void require_range(const AngleRange& r) {
+  LINKWRIGHT_REQUIRE(-pi / 2 < r.from && r.from < r.to && r.to < pi / 2, "range from {} to {} rad", r.from,
+                     r.to);
 }
 
 // Mean over the range of a function that is smooth on the scale of a radian.
-double mean_over(const PiRange& range, math::FunctionRef<double(double)> f) {
+double mean_over(const AngleRange& range, math::FunctionRef<double(double)> f) {
   constexpr int panels = 32;
   constexpr double node[] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
   constexpr double weight[] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
@@ -45,7 +46,7 @@ std::array<double, 4> terms_at(const PiJoint& joint, double angle, double share)
 
 }  // namespace
 
-double mean_stiffness(const PiJoint& joint, const PiBars& bars, const PiRange& range, StiffnessMean mean,
+double mean_stiffness(const PiJoint& joint, const PiBars& bars, const AngleRange& range, StiffnessMean mean,
                       double share) {
   require_range(range);
   switch (mean) {
@@ -59,11 +60,11 @@ double mean_stiffness(const PiJoint& joint, const PiBars& bars, const PiRange& r
   return stiffness(joint, bars, 0, share);
 }
 
-std::optional<double> diagonal_for_mean(const PiJoint& joint, const PiBars& bars, const PiRange& range,
+std::optional<double> diagonal_for_mean(const PiJoint& joint, const PiBars& bars, const AngleRange& range,
                                         StiffnessMean mean, double wanted, double share) {
   LINKWRIGHT_REQUIRE(wanted > 0 && std::isfinite(wanted), "stiffness {} N m/rad", wanted);
   PiBars tried = bars;
-  tried.diagonal = std::numeric_limits<double>::infinity();
+  tried.diagonal = infinity;
   if (!(mean_stiffness(joint, tried, range, mean, share) > wanted)) return {};
   // The joint is never stiffer than J^2 k_d with J at most the shorter length, and its mean tends to that of
   // the other bars from below: both signs are between these powers of e.
@@ -99,7 +100,7 @@ PiStiffnessFit fit_bars(const PiJoint& joint, std::span<const PiStiffnessSample>
   Eigen::VectorXd right(m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const auto [angle, stiff] = samples[i];
-    LINKWRIGHT_REQUIRE(std::abs(angle) < std::numbers::pi / 2, "sample {} at {} rad", i + 1, angle);
+    LINKWRIGHT_REQUIRE(std::abs(angle) < pi / 2, "sample {} at {} rad", i + 1, angle);
     LINKWRIGHT_REQUIRE(stiff > 0 && std::isfinite(stiff), "sample {}: {} N m/rad", i + 1, stiff);
     const std::array<double, 4> terms = terms_at(joint, angle, share);
     right[i] = 1;
@@ -114,10 +115,10 @@ PiStiffnessFit fit_bars(const PiJoint& joint, std::span<const PiStiffnessSample>
   for (Eigen::Index j = 0; j < n; ++j)
     if (scale[j] > 0) matrix.col(j) /= scale[j];
   const Eigen::VectorXd values = matrix.jacobiSvd().singularValues();
-  out.condition = values[n - 1] > 0 ? values[0] / values[n - 1] : std::numeric_limits<double>::infinity();
+  out.condition = values[n - 1] > 0 ? values[0] / values[n - 1] : infinity;
   if (!(out.condition < worst_condition)) {
     out.status = Status::singular;
-    out.condition = std::numeric_limits<double>::infinity();
+    out.condition = infinity;
   }
   Eigen::VectorXd x(n);
   const auto count = [](Eigen::Index k) { return static_cast<std::size_t>(k); };
@@ -125,7 +126,7 @@ PiStiffnessFit fit_bars(const PiJoint& joint, std::span<const PiStiffnessSample>
                                                 {x.data(), count(n)});
   for (Eigen::Index j = 0; j < n; ++j) *bars[order[j]] = scale[j] / x[j];
   for (Eigen::Index j = 0; j < n; ++j)
-    if (!(x[j] > 0)) *bars[order[j]] = std::numeric_limits<double>::infinity();
+    if (!(x[j] > 0)) *bars[order[j]] = infinity;
   out.error = norm / std::sqrt(static_cast<double>(m));
   return out;
 }

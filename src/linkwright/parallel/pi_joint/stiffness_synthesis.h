@@ -19,17 +19,17 @@ constexpr std::array<EnumName<StiffnessMean>, 3> names(StiffnessMean) {
 }
 
 /// A range of theta, within (-pi/2, pi/2), from < to.
-struct PiRange {
+struct AngleRange {
   double from = 0, to = 0;
 };
 
 /// Mean stiffness (N m/rad) over a range, by Gauss-Legendre quadrature.
-double mean_stiffness(const PiJoint& joint, const PiBars& bars, const PiRange& range, StiffnessMean mean,
+double mean_stiffness(const PiJoint& joint, const PiBars& bars, const AngleRange& range, StiffnessMean mean,
                       double share = 1);
 
 /// k_d (N/m) of the diagonal with which the mean stiffness is `wanted` (N m/rad, > 0); the other bars are as
 /// given, `bars.diagonal` is not looked at. Nothing where they alone make the joint softer.
-std::optional<double> diagonal_for_mean(const PiJoint& joint, const PiBars& bars, const PiRange& range,
+std::optional<double> diagonal_for_mean(const PiJoint& joint, const PiBars& bars, const AngleRange& range,
                                         StiffnessMean mean, double wanted, double share = 1);
 
 /// Stiffness (N m/rad) measured at an angle.

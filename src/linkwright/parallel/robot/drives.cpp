@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::parallel {
@@ -15,8 +15,7 @@ DriveAt drive_at(const Drive& drive, double arm, double arm_angle) {
   } else {
     const PiJoint joint{arm, drive.ratio};
     out.angle = math::wrap_angle(drive.mirror * (arm_angle - drive.mounting));
-    if (std::abs(out.angle) > std::numbers::pi / 2) {
-      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    if (std::abs(out.angle) > pi / 2) {
       return {Status::no_assembly, out.angle, nan, nan, nan, nan};
     }
     out.value = diagonal(joint, out.angle);

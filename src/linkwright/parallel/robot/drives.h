@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <span>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/parallel/pi_joint/pi_joint.h"
 #include "linkwright/parallel/robot/jacobians.h"
 
@@ -23,13 +23,13 @@ constexpr std::array<EnumName<DriveType>, 2> names(DriveType) {
 /// Drive of one arm. A Pi-joint's arm is the robot's arm; it stands so that alpha = mounting + mirror theta.
 struct Drive {
   DriveType type = DriveType::revolute;
-  double ratio = 0.4;                                        ///< k of a Pi-joint
-  double mounting = 0;                                       ///< arm angle at theta = 0 of a Pi-joint (rad)
-  int mirror = 1;                                            ///< 1, or -1: theta turns against alpha
-  double lowest = -std::numeric_limits<double>::infinity();  ///< travel: theta, or alpha of a motor (rad)
-  double highest = std::numeric_limits<double>::infinity();
-  double quantum = 0;                                          ///< smallest step of the value (m or rad)
-  double stiffness = std::numeric_limits<double>::infinity();  ///< effort per value (N/m or N m/rad)
+  double ratio = 0.4;         ///< k of a Pi-joint
+  double mounting = 0;        ///< arm angle at theta = 0 of a Pi-joint (rad)
+  int mirror = 1;             ///< 1, or -1: theta turns against alpha
+  double lowest = -infinity;  ///< travel: theta, or alpha of a motor (rad)
+  double highest = infinity;
+  double quantum = 0;           ///< smallest step of the value (m or rad)
+  double stiffness = infinity;  ///< effort per value (N/m or N m/rad)
 };
 using Drives = std::array<Drive, most_legs>;
 

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 
 namespace linkwright::parallel {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Vector6 nothing_known() {
   Vector6 out;
@@ -153,16 +151,15 @@ void require_motion(const Robot& robot, const DynamicState& state) {
 }
 
 std::optional<std::string> problem(const LegMasses& m, const Drive& drive) {
-  const double inf = std::numeric_limits<double>::infinity();
   for (const auto& [value, lowest, highest, what] :
-       {std::tuple{m.rod_mass, 0.0, inf, "rod mass = {} kg"},
+       {std::tuple{m.rod_mass, 0.0, infinity, "rod mass = {} kg"},
         {m.rod_centre, 0.0, 1.0, "rod centre at {} of its length"},
-        {m.rod_inertia.value_or(0), 0.0, inf, "rod inertia = {} kg m2"},
+        {m.rod_inertia.value_or(0), 0.0, infinity, "rod inertia = {} kg m2"},
         {m.rod_split.value_or(0), 0.0, 1.0, "share {} of the rod's mass at the platform"},
-        {m.elbow_mass, 0.0, inf, "elbow mass = {} kg"},
-        {m.arm_inertia, 0.0, inf, "arm inertia = {} kg m2"},
-        {m.arm_mass, 0.0, inf, "arm mass = {} kg"},
-        {m.arm_centre, -inf, inf, "arm centre at {} m"}})
+        {m.elbow_mass, 0.0, infinity, "elbow mass = {} kg"},
+        {m.arm_inertia, 0.0, infinity, "arm inertia = {} kg m2"},
+        {m.arm_mass, 0.0, infinity, "arm mass = {} kg"},
+        {m.arm_centre, -infinity, infinity, "arm centre at {} m"}})
     if (!(value >= lowest && value <= highest) || !std::isfinite(value))
       return fmt::format(fmt::runtime(what), value);
   if (!m.pi) return {};

@@ -1,9 +1,9 @@
 #include "linkwright/parallel/robot/family.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::parallel {
@@ -100,7 +100,7 @@ WorkingMode elbows_out(RobotFamily family) {
 }
 
 double arm_angle_of(const DesignedRobot& designed, int leg, double outward) {
-  return designed.sense[leg] > 0 ? math::wrap_angle(outward) : math::wrap_angle(std::numbers::pi - outward);
+  return designed.sense[leg] > 0 ? math::wrap_angle(outward) : math::wrap_angle(pi - outward);
 }
 
 }  // namespace linkwright::parallel

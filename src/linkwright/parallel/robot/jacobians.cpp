@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/math/singular_values.h"
 #include "linkwright/math/small_lu.h"
 #include "linkwright/parallel/robot/constraint.h"
-#include "linkwright/parallel/robot/legs_kernel.h"
+#include "linkwright/parallel/robot/detail/legs_kernel.h"
 
 namespace linkwright::parallel {
 
@@ -162,7 +162,7 @@ Twist platform_velocity(const Robot& robot, const Jacobians& at, std::span<const
 
 Quality quality(const Robot& robot, const Jacobians& at, double characteristic_length) {
   Quality out;
-  out.transmission = std::numeric_limits<double>::infinity();
+  out.transmission = infinity;
   out.rods = dimensionless_determinant(robot, at, characteristic_length);
   for (int i = 0; i < robot.legs(); ++i) {
     const Leg& leg = robot.leg[i];
@@ -174,7 +174,7 @@ Quality quality(const Robot& robot, const Jacobians& at, double characteristic_l
     out.output[i] = std::isfinite(speed) ? 1 / (leg.rod * speed) : 0;
     out.transmission = std::min({out.transmission, std::abs(out.input[i]), out.output[i]});
   }
-  out.constraint = robot.freedom == Freedom::space ? std::numeric_limits<double>::quiet_NaN() : 1;
+  out.constraint = robot.freedom == Freedom::space ? nan : 1;
   out.constraint_index = out.constraint;
   if (robot.freedom == Freedom::space_translation) {
     const Constraint held = constraint(robot, at);
@@ -194,8 +194,7 @@ Quality quality(const Robot& robot, const Jacobians& at, double characteristic_l
       out.singular_value[k] = values[k];
       out.manipulability *= values[k];
     }
-    out.condition = std::isfinite(values[0]) && values[n - 1] > 0 ? values[0] / values[n - 1]
-                                                                  : std::numeric_limits<double>::infinity();
+    out.condition = std::isfinite(values[0]) && values[n - 1] > 0 ? values[0] / values[n - 1] : infinity;
   });
   return out;
 }

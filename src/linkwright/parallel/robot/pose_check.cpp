@@ -6,30 +6,19 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::parallel {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr std::size_t line = 8;     // lanes of the widest register
-constexpr std::size_t block = 256;  // poses that go to the kernel at once; their rows stay in the cache
-
-using Kernel = void (*)(const PoseCheckTask&);
-struct NamedKernel {
-  Kernel run;
-  const char* name;
-};
-NamedKernel choose_kernel() {
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f")) return {pose_check_avx512, "avx512"};
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return {pose_check_avx2, "avx2"};
-  return {pose_check_baseline, "baseline"};
-}
-const NamedKernel& kernel() {
-  static const NamedKernel chosen = choose_kernel();
+const NamedKernel<PoseCheckKernel>& widest_pose_check() {
+  static const NamedKernel<PoseCheckKernel> chosen = widest(pose_check_kernels());
   return chosen;
 }
+
+constexpr std::size_t line = 8;     // lanes of the widest register
+constexpr std::size_t block = 256;  // poses that go to the kernel at once; their rows stay in the cache
 
 PoseCheckLeg prepared_leg(const PoseConditions& c, int i) {
   PoseCheckLeg out{.leg = c.robot.leg[i], .sign = static_cast<double>(c.mode[i])};
@@ -103,7 +92,7 @@ void run_blocks(PoseCheckTask task, std::size_t count, bool turns, const PoseFin
       for (std::size_t i = 0; i < here; ++i) input[r][i] = load(r, first + i);
       std::fill(input[r] + here, input[r] + task.count, input[r][here - 1]);
     }
-    kernel().run(task);
+    widest_pose_check().run(task);
     if (!out.hurdle.empty())
       for (std::size_t i = 0; i < here; ++i)
         out.hurdle[first + i] = static_cast<Hurdle>(static_cast<int>(hurdle[i]));
@@ -116,6 +105,8 @@ void run_blocks(PoseCheckTask task, std::size_t count, bool turns, const PoseFin
 double element(const Vec3& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
 
 }  // namespace
+
+KernelSet<PoseCheckKernel> pose_check_kernels() { return LINKWRIGHT_KERNEL_SET(pose_check); }
 
 std::optional<std::string> problem(const PoseConditions& c) {
   if (const auto found = problem(c.robot)) return found;
@@ -178,6 +169,6 @@ Hurdle check_pose(const PoseConditions& conditions, const Pose& pose) {
   return out;
 }
 
-const char* pose_check_kernel_name() { return kernel().name; }
+const char* pose_check_kernel_name() { return widest_pose_check().name; }
 
 }  // namespace linkwright::parallel

@@ -3,13 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/kernels.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/parallel/robot/drives.h"
 #include "linkwright/parallel/robot/regular_ball.h"
 
@@ -26,9 +26,8 @@ struct PoseConditions {
   int constraint = 0;           ///< of a DELTA, sign of det C (constraint.h); 0 = either. See marks_at.
   double least_constraint = 0;  ///< of a DELTA, constraint index
   double least_elbow = 0;       ///< angle between arm and rod at their joint: 0 = folded (rad)
-  double most_elbow = std::numbers::pi;  ///< pi = stretched (rad)
-  double most_swing =
-      std::numbers::pi / 2;             ///< angle between a rod and the plane in which its arm moves (rad)
+  double most_elbow = pi;       ///< pi = stretched (rad)
+  double most_swing = pi / 2;   ///< angle between a rod and the plane in which its arm moves (rad)
   double least_drive_transmission = 0;  ///< of the drives, sin(mu) of a Pi-joint
   double least_transmission = 0;        ///< of the legs, LTI
   double least_conditioning = 0;        ///< LCI, 1 / condition
@@ -165,8 +164,10 @@ struct PoseCheckTask {
 };
 
 /// Implementations, one a translation unit; all but the baseline need the machine to have the instructions.
+using PoseCheckKernel = void (*)(const PoseCheckTask&);
 void pose_check_baseline(const PoseCheckTask& task);
 void pose_check_avx2(const PoseCheckTask& task);
 void pose_check_avx512(const PoseCheckTask& task);
+KernelSet<PoseCheckKernel> pose_check_kernels();
 
 }  // namespace linkwright::parallel

@@ -1,4 +1,4 @@
-#include "linkwright/parallel/robot/pose_check_kernel.h"
+#include "linkwright/parallel/robot/detail/pose_check_kernel.h"
 
 namespace linkwright::parallel {
 

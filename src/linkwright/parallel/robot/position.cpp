@@ -7,17 +7,17 @@
 #include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/math/small_lu.h"
-#include "linkwright/parallel/robot/legs_kernel.h"
+#include "linkwright/parallel/robot/detail/legs_kernel.h"
 
 namespace linkwright::parallel {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // What rounding does to rho^2 - c^2, relative to the squares of the lengths.
-constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double position_rounding = 8 * std::numeric_limits<double>::epsilon();
 
 // How far the joint is from what the leg can reach: its distance to the nearest and the farthest point of the
 // elbow's circle, against the rod.
@@ -123,7 +123,7 @@ double length_error(const Robot& robot, const Residuals& at) {
 // The square of a height over the plane or the line of the centres; slightly negative is taken as none.
 double height(double square, double scale) {
   if (square >= 0) return std::sqrt(square);
-  return square > -rounding * scale ? 0.0 : nan;
+  return square > -position_rounding * scale ? 0.0 : nan;
 }
 
 }  // namespace
@@ -165,12 +165,12 @@ ArmAngles inverse(const Robot& robot, const Pose& pose, const WorkingMode& mode)
     const double c = (dot(v, v) + leg.arm * leg.arm - leg.rod * leg.rod) / (2 * leg.arm);
     double reach = square - c * c;
     const double scale = leg.arm * leg.arm + leg.rod * leg.rod;
-    if (square <= rounding * rounding * scale) {
+    if (square <= position_rounding * position_rounding * scale) {
       // On the arm's axis: every angle, or none.
-      fail(i, std::abs(c) <= rounding * leg.rod ? Status::singular : Status::no_assembly);
+      fail(i, std::abs(c) <= position_rounding * leg.rod ? Status::singular : Status::no_assembly);
       continue;
     }
-    if (reach < 0 && reach > -rounding * scale) reach = 0;
+    if (reach < 0 && reach > -position_rounding * scale) reach = 0;
     if (!(reach >= 0)) {
       fail(i, Status::no_assembly);
       continue;
@@ -202,7 +202,7 @@ Placed direct(const Robot& robot, std::span<const double> angles, int assembly) 
   Placed out;
   const Vec3 across = centre[1] - centre[0];
   const double distance = norm(across), scale = square(rod(0)) + square(rod(1));
-  if (distance <= rounding * (rod(0) + rod(1))) {
+  if (distance <= position_rounding * (rod(0) + rod(1))) {
     out.status = Status::singular;  // the first two spheres have one centre
     return out;
   }
@@ -216,7 +216,7 @@ Placed direct(const Robot& robot, std::span<const double> angles, int assembly) 
     const double i = dot(ex, third);
     const Vec3 rest = third - i * ex;
     const double j = norm(rest);
-    if (j <= rounding * (distance + norm(third))) {
+    if (j <= position_rounding * (distance + norm(third))) {
       out.status = Status::singular;  // three centres on a line
       return out;
     }

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/singular_values.h"
 #include "linkwright/math/small_lu.h"
 #include "linkwright/parallel/robot/constraint.h"
-#include "linkwright/parallel/robot/legs_kernel.h"
+#include "linkwright/parallel/robot/detail/legs_kernel.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -32,7 +32,7 @@ double square_within(const RegularAt::Leg& leg, double arm, double r) {
 }  // namespace
 
 RegularAt regular_at(const Robot& robot, const Pose& pose, const WorkingMode& mode, double length) {
-  RegularAt out{.reach = std::numeric_limits<double>::infinity()};
+  RegularAt out{.reach = infinity};
   std::array<Vec3, most_legs> rod, lever;
   for (int i = 0; i < robot.legs(); ++i) {
     const Leg& leg = robot.leg[i];

@@ -3,16 +3,15 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::parallel {
 
 namespace {
 
 // Unit and right angles may be wrong by rounding alone.
-constexpr double rounding = 1e-9;
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+constexpr double robot_rounding = 1e-9;
 
 Vec3 radial(double azimuth) { return {std::cos(azimuth), std::sin(azimuth), 0}; }
 
@@ -22,8 +21,9 @@ std::optional<std::string> problem(const Robot& robot, int i) {
   if (!finite(leg.base) || !finite(leg.platform)) return of_leg("its joints are not finite");
   if (!(leg.arm > 0 && std::isfinite(leg.arm))) return of_leg(fmt::format("arm = {} m", leg.arm));
   if (!(leg.rod > 0 && std::isfinite(leg.rod))) return of_leg(fmt::format("rod = {} m", leg.rod));
-  const bool units = std::abs(norm(leg.ahead) - 1) < rounding && std::abs(norm(leg.aside) - 1) < rounding &&
-                     std::abs(dot(leg.ahead, leg.aside)) < rounding;
+  const bool units = std::abs(norm(leg.ahead) - 1) < robot_rounding &&
+                     std::abs(norm(leg.aside) - 1) < robot_rounding &&
+                     std::abs(dot(leg.ahead, leg.aside)) < robot_rounding;
   if (!units) return of_leg("the directions of its arm are not unit vectors at a right angle");
   if (robot.freedom == Freedom::plane_translation &&
       (leg.base.z != 0 || leg.platform.z != 0 || leg.ahead.z != 0 || leg.aside.z != 0))
@@ -50,7 +50,7 @@ Robot delta(const DeltaDimensions& d) {
 Robot hexa(const HexaDimensions& d) {
   Robot out{.freedom = Freedom::space};
   for (int i = 0; i < 6; ++i) {
-    const double azimuth = i / 2 * 2 * std::numbers::pi / 3;
+    const double azimuth = i / 2 * 2 * pi / 3;
     const double side = i % 2 ? 1 : -1;
     const Vec3 e = radial(azimuth), across{-e.y, e.x, 0};
     out.leg[i] = {.base = d.base_radius * e + side * d.base_offset * across,

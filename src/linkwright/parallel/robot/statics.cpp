@@ -4,14 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/singular_values.h"
-#include "linkwright/parallel/robot/legs_kernel.h"
+#include "linkwright/parallel/robot/detail/legs_kernel.h"
 
 namespace linkwright::parallel {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Vector6 nothing_known() {
   Vector6 out;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <array>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/parallel/robot/drives.h"
 
 /// Forces at rest, and what gives way under them. Weights are in dynamics.h, which at rest gives their share.
@@ -36,10 +36,10 @@ double rods_determinant(const Robot& robot, const Jacobians& at);
 
 /// What a leg gives way besides its drive, each of it infinite when left out.
 struct LegStiffness {
-  double rod = std::numeric_limits<double>::infinity();  ///< along, both of a parallelogram together (N/m)
-  double arm_along = std::numeric_limits<double>::infinity();    ///< at the end of the arm, along it (N/m)
-  double arm_bending = std::numeric_limits<double>::infinity();  ///< in its plane of motion (N/m)
-  double arm_lateral = std::numeric_limits<double>::infinity();  ///< across that plane (N/m)
+  double rod = infinity;          ///< along, both of a parallelogram together (N/m)
+  double arm_along = infinity;    ///< at the end of the arm, along it (N/m)
+  double arm_bending = infinity;  ///< in its plane of motion (N/m)
+  double arm_lateral = infinity;  ///< across that plane (N/m)
 };
 using LegStiffnesses = std::array<LegStiffness, most_legs>;
 

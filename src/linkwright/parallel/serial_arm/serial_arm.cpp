@@ -5,19 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::parallel {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // Rounding of lengths near the limits of reach.
-constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+constexpr double arm_rounding = 4 * std::numeric_limits<double>::epsilon();
 
 Vector2 operator+(const Vector2& a, const Vector2& b) { return {a[0] + b[0], a[1] + b[1]}; }
 Vector2 operator-(const Vector2& a, const Vector2& b) { return {a[0] - b[0], a[1] - b[1]}; }
@@ -135,7 +134,7 @@ SerialAngles inverse(const SerialPiArm& arm, const Vector2& point, int mode) {
   const auto [a, b] = arm.arm;
   const Vector2 v = point - arm.base - arm.offset;
   const double r = std::hypot(v[0], v[1]), far = a + b, near = std::abs(a - b);
-  const double slack = rounding * (far + std::abs(point[0]) + std::abs(point[1]));
+  const double slack = arm_rounding * (far + std::abs(point[0]) + std::abs(point[1]));
   SerialAngles out{.angle = {nan, nan}};
   if (!(r <= far + slack && r >= near - slack)) {
     out.status = Status::no_assembly;
@@ -168,7 +167,7 @@ double determinant(const SerialPiArm& arm, const Vector2& q) {
   return arm.arm[0] * arm.arm[1] * std::sin(q[1] - q[0]);
 }
 
-double reachable_area(const SerialPiArm& arm) { return 4 * std::numbers::pi * arm.arm[0] * arm.arm[1]; }
+double reachable_area(const SerialPiArm& arm) { return 4 * pi * arm.arm[0] * arm.arm[1]; }
 
 SerialDrives drives_at(const SerialPiArm& arm, const Vector2& angles) {
   SerialDrives out;
@@ -231,8 +230,7 @@ SerialQuality quality(const SerialPiArm& arm, const Vector2& angles, double limi
   out.singular_value[0] = 0.5 * (sum + difference);
   // By the product: no digits lost where it is small.
   out.singular_value[1] = out.manipulability / out.singular_value[0];
-  out.condition = out.manipulability > 0 ? out.singular_value[0] / out.singular_value[1]
-                                         : std::numeric_limits<double>::infinity();
+  out.condition = out.manipulability > 0 ? out.singular_value[0] / out.singular_value[1] : infinity;
   out.singular = std::abs(out.sine) <= limit;
   const SerialDrives drives = drives_at(arm, angles);
   for (int k = 0; k < 2; ++k) {

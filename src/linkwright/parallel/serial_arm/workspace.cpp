@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::parallel {
@@ -34,20 +34,18 @@ SerialHurdle hurdle_of(const SerialConditions& c, const SerialDrives& drives, co
 
 }  // namespace
 
-double elbow_angle(const Vector2& angles) {
-  return std::numbers::pi - std::abs(math::wrap_angle(angles[1] - angles[0]));
-}
+double elbow_angle(const Vector2& angles) { return pi - std::abs(math::wrap_angle(angles[1] - angles[0])); }
 
 SerialPlace look_at(const SerialConditions& c, const Vector2& point) {
   SerialPlace out{.hurdle = SerialHurdle::reach};
-  out.index.fill(std::numeric_limits<double>::quiet_NaN());
+  out.index.fill(nan);
   const SerialAngles found = inverse(c.arm, point, c.mode);
   if (found.status != Status::done) return out;
   const SerialQuality q = quality(c.arm, found.angle);
   const SerialDrives drives = drives_at(c.arm, found.angle);
   out.index = {1 / q.condition, std::abs(q.sine), q.manipulability,
                std::min(q.transmission[0], q.transmission[1])};
-  if (drives.status == Status::no_assembly) out.index[3] = std::numeric_limits<double>::quiet_NaN();
+  if (drives.status == Status::no_assembly) out.index[3] = nan;
   out.hurdle = hurdle_of(c, drives, found.angle, out);
   return out;
 }

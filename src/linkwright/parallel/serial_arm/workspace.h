@@ -3,10 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/parallel/serial_arm/serial_arm.h"
 
@@ -18,10 +18,10 @@ namespace linkwright::parallel {
 struct SerialConditions {
   SerialPiArm arm;
   int mode = 1;
-  double least_elbow = 0;                ///< angle between the arms at their joint: 0 = folded (rad)
-  double most_elbow = std::numbers::pi;  ///< pi = stretched (rad)
-  double least_drive_transmission = 0;   ///< of the drives, sin(mu) of a Pi-joint
-  double least_conditioning = 0;         ///< 1 / condition
+  double least_elbow = 0;               ///< angle between the arms at their joint: 0 = folded (rad)
+  double most_elbow = pi;               ///< pi = stretched (rad)
+  double least_drive_transmission = 0;  ///< of the drives, sin(mu) of a Pi-joint
+  double least_conditioning = 0;        ///< 1 / condition
 };
 
 /// The first condition that a place does not meet, in this order.

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/studies/robot_scene.h"
@@ -30,7 +30,7 @@ using Runs = study::SeedRuns<Answer>;
 bool larger_is_better(DexterityGoal goal) { return goal != DexterityGoal::size; }
 /// What is minimised.
 double cost_of(DexterityGoal goal, const Answer& a) {
-  if (a.best.x.empty() || a.best.violation > 0) return std::numeric_limits<double>::infinity();
+  if (a.best.x.empty() || a.best.violation > 0) return infinity;
   return larger_is_better(goal) ? -a.best.objective : a.best.objective;
 }
 
@@ -56,7 +56,7 @@ Answer answer_of(const DexterityStudy& s, std::uint64_t seed, RunContext& contex
           minimise.checkpoint = optimise::seed_name(seed) + "/population";
           optimise::Report report = optimise::minimise(problem, *optimiser, method.options.generations,
                                                        choice_word(method).name, minimise, context);
-          if (report.violation < std::numeric_limits<double>::infinity()) out.best = assess(s.task, report.x);
+          if (report.violation < infinity) out.best = assess(s.task, report.x);
           out.status = report.status == Status::done ? out.best.status : report.status;
           out.evaluations = report.evaluations;
           out.log = std::move(report.log);
@@ -173,7 +173,7 @@ void add_statistics(study::Result& result, const DexterityStudy& s, const Runs& 
     entry["best"] = cost;
     entry["evaluations"] = a.evaluations;
     Value history = Value::array();
-    double last = std::numeric_limits<double>::infinity();
+    double last = infinity;
     for (const optimise::GenerationLog& g : a.log) {
       if (!(g.best_cost < last)) continue;
       last = g.best_cost;

@@ -5,18 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <utility>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/zero.h"
 
 namespace linkwright::parallel {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = infinity;
 
 bool is_pi(const Drive& drive) { return drive.type == DriveType::pi_joint; }
 
@@ -53,7 +51,7 @@ double peak_between(math::FunctionRef<double(double)> f, double a, double b, dou
 
 Demand travel_demand(int i, const Drive& drive, const DriveAt& at) {
   // A Pi-joint does not turn beyond a right angle.
-  constexpr double right = std::numbers::pi / 2;
+  constexpr double right = pi / 2;
   const double low = is_pi(drive) ? std::max(drive.lowest, -right) : drive.lowest;
   const double high = is_pi(drive) ? std::min(drive.highest, right) : drive.highest;
   const double below = low - at.angle, above = at.angle - high;
@@ -260,18 +258,19 @@ void add_drive_columns(Table& table, std::span<const Drive> drives, std::span<co
     }
   };
   const auto all = [](std::size_t) { return true; };
-  const auto pi = [&](std::size_t k) { return is_pi(drives[k]); };
+  const auto by_pi_joint = [&](std::size_t k) { return is_pi(drives[k]); };
   using M = DriveMotion;
   add("arm_angle", "rad", "arm angle", "rad", all, [](const M& m, std::size_t) { return m.arm_angle; });
-  add("pi_angle", "rad", "angle of Pi-joint", "rad", pi, [](const M& m, std::size_t) { return m.at.angle; });
-  add("diagonal", "m", "diagonal", "m", pi, [](const M& m, std::size_t) { return m.at.value; });
+  add("pi_angle", "rad", "angle of Pi-joint", "rad", by_pi_joint,
+      [](const M& m, std::size_t) { return m.at.angle; });
+  add("diagonal", "m", "diagonal", "m", by_pi_joint, [](const M& m, std::size_t) { return m.at.value; });
   add("arm_speed", "rad_per_s", "speed of arm", "rad/s", all,
       [](const M& m, std::size_t) { return m.arm_speed; });
-  add("diagonal_rate", "m_per_s", "rate of diagonal", "m/s", pi,
+  add("diagonal_rate", "m_per_s", "rate of diagonal", "m/s", by_pi_joint,
       [](const M& m, std::size_t) { return m.speed; });
   if (!forces) return;
   add("arm_torque", "N_m", "torque at arm", "N m", all, [](const M& m, std::size_t) { return m.arm_torque; });
-  add("screw_force", "N", "screw force", "N", pi, [](const M& m, std::size_t) { return m.effort; });
+  add("screw_force", "N", "screw force", "N", by_pi_joint, [](const M& m, std::size_t) { return m.effort; });
   add("power", "W", "power of drive", "W", all, [](const M& m, std::size_t) { return m.power; });
   const auto motor = [&](std::size_t k) { return motors_known && motors[k].screw.lead > 0; };
   add("motor_speed", "rad_per_s", "speed of motor", "rad/s", motor,

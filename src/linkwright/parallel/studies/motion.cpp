@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <span>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/robot/constraint.h"
 #include "linkwright/parallel/robot/path_trouble.h"
@@ -20,7 +19,6 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_instants = 200000;
 /// A scene is for looking at: so many samples at most.
 constexpr std::size_t most_scene_samples = 1200;
@@ -54,7 +52,7 @@ void demands_of(const RobotDescription& d, const QualityLimits& limits, const In
   if (limits.rod_swing) out.push_back(angle_demand(Asked::swing, 0, at.swing, 0, *limits.rod_swing));
   if (limits.least_elbow || limits.largest_elbow)
     out.push_back(angle_demand(Asked::elbow, at.least_elbow, at.largest_elbow, limits.least_elbow.value_or(0),
-                               limits.largest_elbow.value_or(std::numbers::pi)));
+                               limits.largest_elbow.value_or(pi)));
   for (int i = 0; i < d.robot.legs() && limits.drive_transmission > 0; ++i)
     out.push_back(index_demand(Asked::drive_transmission, at.drives.drive[i].transmission,
                                limits.drive_transmission, i));
@@ -64,10 +62,10 @@ void demands_of(const RobotDescription& d, const QualityLimits& limits, const In
 
 void passive_angles(const Robot& robot, const Jacobians& at, Instant& out) {
   const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
-  out.least_elbow = std::numbers::pi;
+  out.least_elbow = pi;
   for (int i = 0; i < robot.legs(); ++i) {
     const Vec3 axis = cross(robot.leg[i].ahead, robot.leg[i].aside), rod = unit(at.rod[i]);
-    out.swing = std::max(out.swing, std::abs(std::numbers::pi / 2 - angle(dot(rod, axis))));
+    out.swing = std::max(out.swing, std::abs(pi / 2 - angle(dot(rod, axis))));
     const double elbow = angle(-dot(rod, at.arm[i]));
     out.least_elbow = std::min(out.least_elbow, elbow);
     out.largest_elbow = std::max(out.largest_elbow, elbow);

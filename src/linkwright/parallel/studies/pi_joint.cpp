@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/pi_joint/singularities.h"
 #include "linkwright/study/bind_write.h"
@@ -13,7 +13,7 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double right = std::numbers::pi / 2;
+constexpr double right = pi / 2;
 
 std::string degrees(double radians) { return fmt::format("{:.4g}°", math::degrees(radians)); }
 std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
@@ -317,7 +317,7 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
   const PiRangeValues range = range_values(best.joint, best.centre, r.half_travel);
   study::Solution solution{.label = "smallest Pi-joint"};
   const auto parameter = [&](const char* key, const char* label, double value) {
-    solution.parameters.push_back({key, label, value, 0, std::numeric_limits<double>::infinity()});
+    solution.parameters.push_back({key, label, value, 0, infinity});
   };
   parameter("arm_m", "arm (m)", best.joint.arm);
   parameter("ratio", "ratio of base and arm", best.joint.ratio);
@@ -334,28 +334,27 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
 
   Table limits{.name = "requirements"};
   std::vector<double> value, least, most, price;
-  const double inf = std::numeric_limits<double>::quiet_NaN();
   const auto row = [&](const char* name, PiLimit limit, double has, double low, double high) {
     if (!std::isfinite(low) && !std::isfinite(high)) return;
     limits.names.emplace_back(name);
     value.push_back(has);
-    least.push_back(std::isfinite(low) ? low : inf);
-    most.push_back(std::isfinite(high) ? high : inf);
+    least.push_back(std::isfinite(low) ? low : nan);
+    most.push_back(std::isfinite(high) ? high : nan);
     const auto found = std::find_if(report.active.begin(), report.active.end(),
                                     [&](const PiActiveLimit& a) { return a.limit == limit; });
     price.push_back(found == report.active.end() ? 0 : found->price);
   };
   if (r.torque > 0 && std::isfinite(r.force_limit))
-    row("torque (N m)", PiLimit::torque, range.least_jacobian * r.force_limit, r.torque, inf);
+    row("torque (N m)", PiLimit::torque, range.least_jacobian * r.force_limit, r.torque, nan);
   if (r.quantum > 0 && std::isfinite(r.resolution))
-    row("resolution (rad)", PiLimit::resolution, r.quantum / range.least_jacobian, inf, r.resolution);
+    row("resolution (rad)", PiLimit::resolution, r.quantum / range.least_jacobian, nan, r.resolution);
   if (r.speed > 0 && std::isfinite(r.rate_limit))
-    row("rate of the diagonal (m/s)", PiLimit::speed, range.greatest_jacobian * r.speed, inf, r.rate_limit);
+    row("rate of the diagonal (m/s)", PiLimit::speed, range.greatest_jacobian * r.speed, nan, r.rate_limit);
   if (r.transmission > 0)
-    row("transmission angle (rad)", PiLimit::transmission, range.least_transmission, r.transmission, inf);
-  row("stroke (m)", PiLimit::stroke, range.stroke(), inf, r.stroke);
-  row("telescoping ratio", PiLimit::telescoping, range.telescoping(), inf, r.telescoping);
-  row("end of the range (rad)", PiLimit::ends, std::abs(best.centre) + r.half_travel, inf,
+    row("transmission angle (rad)", PiLimit::transmission, range.least_transmission, r.transmission, nan);
+  row("stroke (m)", PiLimit::stroke, range.stroke(), nan, r.stroke);
+  row("telescoping ratio", PiLimit::telescoping, range.telescoping(), nan, r.telescoping);
+  row("end of the range (rad)", PiLimit::ends, std::abs(best.centre) + r.half_travel, nan,
       right - r.end_margin);
   limits.add("value", "value (SI units)", value);
   limits.add("at_least", "at least", least);

@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/assembly_modes/assembly_modes.h"
 #include "linkwright/parallel/robot/constraint.h"
@@ -17,8 +17,6 @@
 
 namespace linkwright::parallel {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 void place(Rows& row, const RobotDescription& d, const Pose& pose, bool there) {
   const Vec3 turn = there ? math::turn_of(pose.rotation) : Vec3{nan, nan, nan};

@@ -2,8 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <numbers>
-
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::parallel {
@@ -109,7 +108,7 @@ std::optional<WorkingMode> read_mode(study::ObjectReader& mechanism, const Robot
 
 /// Keys that belong to the other type of drive.
 bool check_keys(study::ObjectReader& table, DriveType type) {
-  const bool pi = type == DriveType::pi_joint;
+  const bool pi_joint = type == DriveType::pi_joint;
   bool good = true;
   const auto refuse = [&](const char* key, const char* instead) {
     if (!table.has(key)) return;
@@ -117,7 +116,7 @@ bool check_keys(study::ObjectReader& table, DriveType type) {
     table.error(key, fmt::format("a drive of type {} has no '{}'", name_of(type), key),
                 instead ? fmt::format("write {}", instead) : std::string());
   };
-  if (pi) {
+  if (pi_joint) {
     refuse("gear_ratio", "lead_mm");
     refuse("step_angle", "step_mm");
     refuse("stiffness_angular", "stiffness_N_per_m");
@@ -138,15 +137,15 @@ bool check_keys(study::ObjectReader& table, DriveType type) {
 
 std::optional<DriveRead> drive_of(study::ObjectReader& table, const DriveForm& form) {
   if (!check_keys(table, form.type)) return std::nullopt;
-  const bool pi = form.type == DriveType::pi_joint;
-  constexpr double right = std::numbers::pi / 2;
+  const bool pi_joint = form.type == DriveType::pi_joint;
+  constexpr double right = pi / 2;
   DriveRead out;
   Drive& d = out.drive;
   d.type = form.type;
   d.ratio = form.ratio;
   d.mounting = form.mounting;
   d.mirror = form.mirrored ? -1 : 1;
-  if (pi) d.lowest = -right, d.highest = right;
+  if (pi_joint) d.lowest = -right, d.highest = right;
   if (form.travel) {
     d.lowest = (*form.travel)[0];
     d.highest = (*form.travel)[1];
@@ -154,22 +153,21 @@ std::optional<DriveRead> drive_of(study::ObjectReader& table, const DriveForm& f
       table.error("travel", "its first angle must be below its second one");
       return std::nullopt;
     }
-    if (pi && (d.lowest < -right || d.highest > right)) {
+    if (pi_joint && (d.lowest < -right || d.highest > right)) {
       table.error("travel", "a Pi-joint turns between -90 and 90 deg, less at both ends");
       return std::nullopt;
     }
   }
   PiDrive& m = out.motor;
-  m.screw = {pi ? form.lead.value_or(0) : 2 * std::numbers::pi / form.gear_ratio.value_or(1),
-             form.efficiency};
-  const auto& force = pi ? form.force_limit : form.torque_limit;
-  const auto& rate = pi ? form.rate_limit : form.speed_limit;
+  m.screw = {pi_joint ? form.lead.value_or(0) : 2 * pi / form.gear_ratio.value_or(1), form.efficiency};
+  const auto& force = pi_joint ? form.force_limit : form.torque_limit;
+  const auto& rate = pi_joint ? form.rate_limit : form.speed_limit;
   if (force) m.force_limit = *force;
   if (rate) m.rate_limit = *rate;
   out.known = force || rate;
   if (form.motor) {
     auto motor = table.table("motor");
-    if (pi && !form.lead) {
+    if (pi_joint && !form.lead) {
       table.error("lead", "a motor drives the Pi-joint by a screw, whose lead is missing",
                   "write lead_mm = ...");
       return std::nullopt;
@@ -183,8 +181,8 @@ std::optional<DriveRead> drive_of(study::ObjectReader& table, const DriveForm& f
     }
     out.known = true;
   }
-  const auto& step = pi ? form.step : form.step_angle;
-  const auto& stiffness = pi ? form.stiffness : form.stiffness_angular;
+  const auto& step = pi_joint ? form.step : form.step_angle;
+  const auto& stiffness = pi_joint ? form.stiffness : form.stiffness_angular;
   d.quantum = step ? *step : m.screw.lead > 0 ? quantum(m) : 0;
   if (stiffness) d.stiffness = *stiffness;
   return out;

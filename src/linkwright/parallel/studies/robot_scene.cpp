@@ -4,19 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::parallel {
 namespace {
 
 using study::Scene;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Half the distance of a DELTA's twin rods, by the arm: for the drawing only.
 constexpr double twin_rods_by_arm = 0.12;
 
-class Drawing {
+class RobotDrawing {
  public:
-  Drawing(Scene& scene, const Robot& robot, const Drives& drives, std::span<const RobotSample> samples)
+  RobotDrawing(Scene& scene, const Robot& robot, const Drives& drives, std::span<const RobotSample> samples)
       : scene_(scene), robot_(robot), drives_(drives), samples_(samples) {}
 
   void all() {
@@ -140,7 +140,7 @@ study::Scene robot_scene(const Robot& robot, const Drives& drives, const SceneIn
   scene.input_label = input.label;
   scene.input.assign(values.begin(), values.end());
   for (const RobotSample& s : samples) scene.status.emplace_back(to_string(s.status));
-  Drawing(scene, robot, drives, samples).all();
+  RobotDrawing(scene, robot, drives, samples).all();
   return scene;
 }
 

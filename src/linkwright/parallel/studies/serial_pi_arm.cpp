@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
 #include "linkwright/parallel/studies/serial_pi_arm_motion.h"
 #include "linkwright/parallel/studies/serial_pi_arm_poses.h"
@@ -15,8 +15,7 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double most_nodes = 5e5;
+constexpr double most_arm_nodes = 5e5;
 
 constexpr const char* example =
     R"(# linkwright study: a serial arm of two Pi-joints, its poses, a tool path and its workspace
@@ -158,7 +157,7 @@ void add_workspace(study::Result& result, const SerialAnalysis& s, RunContext& c
   const std::size_t passing = map.count(SerialHurdle::none);
   const double area = static_cast<double>(passing) * map.cell();
   const double reach = reachable_area(s.description.arm);
-  double sum = 0, least = std::numeric_limits<double>::infinity();
+  double sum = 0, least = infinity;
   for (const SerialPlace& p : map.place) {
     if (p.hurdle != SerialHurdle::none) continue;
     sum += p[SerialIndex::conditioning];
@@ -289,8 +288,8 @@ std::optional<SerialGrid> grid_of(study::ObjectReader& table, const SerialWorksp
   }
   double nodes = 1;
   for (std::size_t i = 0; i < 2; ++i) nodes *= std::floor((out.high[i] - out.low[i]) / form.step + 1e-6) + 1;
-  if (nodes > most_nodes) {
-    table.error("step", fmt::format("makes {:.3g} nodes, at most {:.3g} are allowed", nodes, most_nodes),
+  if (nodes > most_arm_nodes) {
+    table.error("step", fmt::format("makes {:.3g} nodes, at most {:.3g} are allowed", nodes, most_arm_nodes),
                 "take a larger step or a smaller box");
     return std::nullopt;
   }

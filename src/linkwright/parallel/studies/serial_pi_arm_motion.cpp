@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/zero.h"
 #include "linkwright/parallel/studies/drive_use.h"
 #include "linkwright/parallel/studies/serial_pi_arm_scene.h"
@@ -14,7 +13,6 @@
 namespace linkwright::parallel {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// A scene is for looking at: so many samples at most.
 constexpr std::size_t most_scene_samples = 1200;
 
@@ -59,7 +57,7 @@ void demands_of(const SerialAnalysis& s, const Instant& at, std::vector<Demand>&
   const double elbow = elbow_angle(at.angles.angle);
   if (limits.least_elbow || limits.largest_elbow)
     out.push_back(angle_demand(Asked::elbow, elbow, elbow, limits.least_elbow.value_or(0),
-                               limits.largest_elbow.value_or(std::numbers::pi)));
+                               limits.largest_elbow.value_or(pi)));
   for (int i = 0; i < 2 && limits.drive_transmission > 0; ++i)
     out.push_back(index_demand(Asked::drive_transmission, at.drives.drive[i].transmission,
                                limits.drive_transmission, i));

@@ -3,18 +3,16 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/studies/serial_pi_arm_scene.h"
 
 namespace linkwright::parallel {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 struct SolvedArm {
   Status status = Status::done;

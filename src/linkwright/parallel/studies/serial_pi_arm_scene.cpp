@@ -4,19 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::parallel {
 namespace {
 
 using study::Scene;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-class Drawing {
+class ArmDrawing {
  public:
-  Drawing(Scene& scene, const SerialPiArm& arm, std::span<const SerialSample> samples)
+  ArmDrawing(Scene& scene, const SerialPiArm& arm, std::span<const SerialSample> samples)
       : scene_(scene), arm_(arm), samples_(samples) {}
 
   void all() {
@@ -117,7 +117,7 @@ study::Scene serial_arm_scene(const SerialPiArm& arm, const SceneInput& input, s
   scene.input_label = input.label;
   scene.input.assign(values.begin(), values.end());
   for (const SerialSample& s : samples) scene.status.emplace_back(to_string(s.status));
-  Drawing(scene, arm, samples).all();
+  ArmDrawing(scene, arm, samples).all();
   return scene;
 }
 

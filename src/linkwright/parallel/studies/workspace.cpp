@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/robot/constraint.h"
@@ -111,7 +111,7 @@ Table boundary_table(const WorkspaceTask& task, const WorkspaceMap& map,
     for (std::size_t i = 0; i < rays.ray.size(); ++i)
       for (const RayStretch& stretch : rays.ray[i].stretch) {
         z.push_back(height);
-        angle.push_back(2 * std::numbers::pi * static_cast<double>(i) / f.boundary);
+        angle.push_back(2 * pi * static_cast<double>(i) / f.boundary);
         from.push_back(stretch.from);
         to.push_back(stretch.to);
         table.names.emplace_back(stretch.after == Hurdle::none ? "end of the ray" : name_of(stretch.after));
@@ -274,8 +274,8 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
              : body_text(body, *f.inscribed, planar) + (body.proven ? ", proven free of singularities" : ""));
   }
   if (d.tool_turns()) {
-    const RotationRange range = rotation_range(
-        task.conditions, home, 72, {.longest = std::numbers::pi, .step = 0.02, .tolerance = 1e-6}, context);
+    const RotationRange range =
+        rotation_range(task.conditions, home, 72, {.longest = pi, .step = 0.02, .tolerance = 1e-6}, context);
     if (range.status == Status::done) {
       fact("tilt at home, about any horizontal axis", fmt::format("{:.2f}°", math::degrees(range.tilt)));
       fact("yaw at home",

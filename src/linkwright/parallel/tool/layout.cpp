@@ -4,17 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::parallel {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 // Nearer points are one, in m and rad.
 constexpr double least_way = 1e-9, least_turn = 1e-12;
 // What is left of a line between its corners and is only rounding, m.
-constexpr double rounding = 1e-12;
+constexpr double layout_rounding = 1e-12;
 // Directions that differ by less are one.
 constexpr double least_corner = 1e-6;
 // Sharper corners turn back so nearly that a rounding would be all but a stop.
@@ -23,7 +23,6 @@ constexpr double sharpest_corner = 170 * pi / 180;
 constexpr double rotation_tolerance = 1e-7;
 
 Vec3 vector(const Coordinates& c) { return {c[0], c[1], c[2]}; }
-bool finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 bool finite(const Coordinates& c) { return finite(vector(c)); }
 std::string shown(const Vec3& p) { return fmt::format("({:g}, {:g}, {:g}) m", p.x, p.y, p.z); }
 
@@ -48,7 +47,7 @@ class Layer {
         if (!std::visit([&](const auto& s) { return lay(s); }, path_.steps[step_].form)) break;
     }
     for (ToolRun& run : out_.runs)
-      std::erase_if(run.parts, [](const ToolPart& part) { return part.curve.length <= rounding; });
+      std::erase_if(run.parts, [](const ToolPart& part) { return part.curve.length <= layout_rounding; });
     out_.end = here_;
     return std::move(out_);
   }
@@ -140,12 +139,12 @@ class Layer {
     return true;
   }
   bool shorten(ToolCurve& curve, int step) {
-    if (curve.length >= path_.corner - rounding) {
+    if (curve.length >= path_.corner - layout_rounding) {
       curve.length = std::max(0.0, curve.length - path_.corner);
       return true;
     }
     const double whole = norm(vector(std::get<ToolLine>(path_.steps[step].form).to) - starts_[step]);
-    const int corners = curve.length < whole - rounding ? 2 : 1;
+    const int corners = curve.length < whole - layout_rounding ? 2 : 1;
     return fail_at(step, "to",
                    fmt::format("the line is {:g} m long, the {} {:g} m of it", whole,
                                corners == 2 ? "corners at its ends need" : "corner at its end needs",
@@ -246,7 +245,7 @@ class Layer {
       if (s.speed) run.parts.back().speed = *s.speed;
     };
     const auto line = [&](const Vec3& a, const Vec3& b, double length) {
-      if (length > rounding) add(straight(a, b));
+      if (length > layout_rounding) add(straight(a, b));
     };
     line(from, first - reach * up, lift - reach);
     add(rounded(first, up, across, reach));

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/parallel/tool/curve.h"
 #include "linkwright/parallel/tool/path.h"
 
@@ -14,7 +14,7 @@ namespace linkwright::parallel {
 struct ToolPart {
   ToolCurve curve;
   int step = 0;
-  double speed = std::numeric_limits<double>::infinity();  ///< limit of the step, m/s
+  double speed = infinity;  ///< limit of the step, m/s
 };
 
 /// What the tool does between two rests: parts that join, a table, or nothing (a dwell).

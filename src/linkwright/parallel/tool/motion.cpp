@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/dual.h"
 #include "linkwright/math/zero.h"
 #include "linkwright/parallel/tool/layout.h"
@@ -54,7 +54,7 @@ Vector3<T> angular_velocity(const Vector3<T>& r, const Vector3<T>& v) {
 // The rotation vectors of a table, each the one of its rotation that is nearest to that before it: a turn may
 // go on beyond half a turn.
 std::vector<Vec3> unwound(const std::vector<Coordinates>& rotations) {
-  constexpr double whole = 2 * std::numbers::pi;
+  constexpr double whole = 2 * pi;
   std::vector<Vec3> out;
   for (const Coordinates& c : rotations) {
     Vec3 r{c[0], c[1], c[2]};

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/interruption.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 
 namespace linkwright::parallel {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr std::size_t between_looks = 64;
 
 // Counts work in nodes looked at, and looks at the context from time to time.

@@ -3,7 +3,8 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -40,7 +41,6 @@ bool is_planar(RegionShape shape) { return shape == RegionShape::circle || shape
 int coordinates(RegionShape shape) { return is_planar(shape) ? 2 : 3; }
 
 CoordinateRange coordinate_range(const PrescribedRegion& region, int k) {
-  using std::numbers::pi;
   const double half = region.width / 2;
   switch (region.shape) {
     case RegionShape::cylinder:

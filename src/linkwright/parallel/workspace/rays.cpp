@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/parallel.h"
 
 namespace linkwright::parallel {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 struct Route {
   const PoseConditions& conditions;

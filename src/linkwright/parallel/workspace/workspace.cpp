@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/parallel.h"
 
 namespace linkwright::parallel {
@@ -57,7 +57,7 @@ WorkspaceMap workspace(const WorkspaceTask& task, const RunContext& context) {
   const auto count = static_cast<std::size_t>(all);
   out.hurdle.assign(count, Hurdle::open);
   for (std::size_t k = 0; k < pose_index_count; ++k)
-    if (task.wanted[k]) out.index[k].assign(count, std::numeric_limits<double>::quiet_NaN());
+    if (task.wanted[k]) out.index[k].assign(count, nan);
 
   const std::size_t blocks = (count + block - 1) / block;
   std::atomic<std::size_t> finished{0};
@@ -100,7 +100,7 @@ IndexSummary summary(const WorkspaceMap& map, PoseIndex index, const NodeSet& se
     sum += values[n];
     ++out.count;
   }
-  if (out.count == 0) out.least = out.greatest = std::numeric_limits<double>::quiet_NaN();
+  if (out.count == 0) out.least = out.greatest = nan;
   out.mean = sum / static_cast<double>(out.count);
   return out;
 }

@@ -5,11 +5,10 @@
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 const std::vector<double>& values_of(const Table& table, const std::string& quantity) {
   const Column* column = table.find(quantity);

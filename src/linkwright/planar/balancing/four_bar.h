@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/smooth_problem.h"
 #include "linkwright/planar/balancing/measures.h"
 #include "linkwright/planar/four_bar/sweep.h"
@@ -95,7 +95,7 @@ struct FourBarBalancing {
   std::array<Range, four_bar_number_count> bounds{};  ///< lower = upper: fixed
   Branch branch = Branch::open;
 
-  double crank_from = 0, crank_to = 2 * std::numbers::pi;  ///< rad, both ends sampled
+  double crank_from = 0, crank_to = 2 * pi;  ///< rad, both ends sampled
   int samples = 201;
   double crank_speed = 1;         ///< rad/s, at every sample
   double crank_acceleration = 0;  ///< rad/s2, at every sample

@@ -1,6 +1,7 @@
 #include "linkwright/planar/balancing/four_bar_samples.h"
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::planar {
 namespace {
@@ -9,7 +10,7 @@ using C = FourBarComponent;
 
 FourBarBalancing problem(const std::array<Range, four_bar_number_count>& bounds,
                          const std::vector<FourBarComponent>& components) {
-  FourBarBalancing out{.bounds = bounds, .crank_speed = 10 * std::numbers::pi};
+  FourBarBalancing out{.bounds = bounds, .crank_speed = 10 * pi};
   for (const FourBarComponent c : components) out.objectives.push_back({.component = c});
   set_references(out, balancing_original());
   return out;
@@ -27,7 +28,7 @@ FourBarMachine balancing_original() {
 }
 
 std::vector<PublishedBalancing> published_balancings() {
-  const Range inertia1{2e-4, 6e-3}, inertia2{0.02, 0.07}, angle{0, 2 * std::numbers::pi};
+  const Range inertia1{2e-4, 6e-3}, inertia2{0.02, 0.07}, angle{0, 2 * pi};
   const std::array<Range, four_bar_number_count> table_2_2 = {{{0.05, 0.13},
                                                                {0.2, 0.6},
                                                                {0.2, 0.5},

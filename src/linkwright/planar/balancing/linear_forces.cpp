@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/linkage/reactions.h"
@@ -17,8 +17,6 @@
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // Four masses of a link that exist, whose forces make up its columns: a point at the own joint, points at
 // `length` along and across the link line, and inertia without mass.

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/cone_programme.h"
 
 namespace linkwright::planar {
@@ -19,8 +19,6 @@ using Eigen::Index;
 using optimise::Affine;
 using optimise::Cone;
 using Matrix = Eigen::MatrixXd;
-
-constexpr double pi = std::numbers::pi;
 
 Affine constant(double v) { return {{}, {}, v}; }
 Affine variable(std::size_t j, double factor = 1, double shift = 0) { return {{j}, {factor}, shift}; }

@@ -3,13 +3,13 @@
 #include <array>
 #include <complex>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/planar/balancing/linear_forces.h"
@@ -34,7 +34,7 @@ struct MassEnvelope {
 /// left out (what follows from them for the inertia about the own joint stays in), and the answer is checked
 /// against them.
 struct OpenLink {
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
+  static constexpr double infinite = infinity;
   std::size_t link = 0;                ///< of LinearForces::links
   Range mass{0, infinite};             ///< kg
   Range centre_distance{0, infinite};  ///< m from the own joint
@@ -100,11 +100,11 @@ struct BalancedMasses {
   std::vector<PlacedCounterweight> counterweights;
   std::vector<BaseParameters> bases;  ///< one a link, with its counterweights
   std::vector<double> before, after;  ///< one an objective: its measure with the initial masses, and now
-  double cost = std::numeric_limits<double>::infinity();  ///< of the answer, from `after`
+  double cost = infinity;             ///< of the answer, from `after`
   /// No masses within the convex bounds cost less (weak duality, see optimise::ConeReport).
-  double lower_bound = -std::numeric_limits<double>::infinity();
+  double lower_bound = -infinity;
   /// (cost - lower_bound) / cost; for a cost that vanishes over a thousandth of that of the initial masses.
-  double gap = std::numeric_limits<double>::infinity();
+  double gap = infinity;
   std::vector<ActiveBound> active;  ///< largest effect (price times limit) first
   /// Bounds without convexity that the answer breaks, in words; empty: it is the global optimum.
   std::vector<std::string> broken;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "linkwright/core/checkpoint.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/combine.h"
 #include "linkwright/optimise/pareto.h"
 #include "linkwright/optimise/priorities.h"
@@ -14,7 +15,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::int64_t most_evaluations = std::int64_t{1} << 46;
 // Of a front: no objective is forgotten altogether, or its value would be left to chance.
 constexpr double least_share = 1e-3;

@@ -2,13 +2,13 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/value.h"
 #include "linkwright/optimise/minimise_smooth.h"
@@ -106,10 +106,10 @@ struct MethodProblem {
 std::optional<MethodProblem> problem(const BalancingOptimiser& optimiser, std::size_t objectives);
 
 struct BalancedDesign {
-  std::vector<double> x;                                  ///< variables; empty = no design
-  std::vector<double> ratios;                             ///< objectives over their references
-  double cost = std::numeric_limits<double>::infinity();  ///< what was minimised
-  double violation = 0;                                   ///< 0 = every constraint and cap is met
+  std::vector<double> x;            ///< variables; empty = no design
+  std::vector<double> ratios;       ///< objectives over their references
+  double cost = infinity;           ///< what was minimised
+  double violation = 0;             ///< 0 = every constraint and cap is met
   std::vector<std::string> active;  ///< bounds and limits it rests on, with what they cost where known
   std::string proof;                ///< of a global optimum: "global optimum, gap 1e-10"; empty = none
 };

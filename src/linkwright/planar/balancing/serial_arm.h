@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/math/motion_law.h"
@@ -57,7 +57,7 @@ void require_valid(const ArmTask& task, const ArmDesign& design);
 
 /// A local minimum and how many starts ended there.
 struct ArmMinimum {
-  double cost = std::numeric_limits<double>::infinity();
+  double cost = infinity;
   std::vector<double> x;
   int ends = 0;
 };

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/build.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::complex<double> complex_of(const Vec<double>& v) { return {v.x, v.y}; }
 
@@ -58,8 +56,7 @@ FourBarBranch::FourBarBranch(const FourBar& four_bar, std::optional<FourBarMasse
 // The change points along the branch, its ends among them, and whole turns away from them.
 bool FourBarBranch::meets_at(double input) const {
   const auto here = [&](const RangeEnd& e) {
-    return e.kind == EndKind::change_point &&
-           std::abs(std::remainder(input - e.value, 2 * std::numbers::pi)) < 1e-6;
+    return e.kind == EndKind::change_point && std::abs(std::remainder(input - e.value, 2 * pi)) < 1e-6;
   };
   return here(path_->low) || here(path_->high) ||
          std::any_of(path_->change_points.begin(), path_->change_points.end(), here);

@@ -2,11 +2,11 @@
 
 #include <array>
 #include <complex>
-#include <limits>
 #include <span>
 #include <string_view>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 
 namespace linkwright::planar {
@@ -42,7 +42,6 @@ struct FourBar {
 /// Position of a four-bar at one crank angle. Points in the global frame, angles relative to the ground link;
 /// what is not determined is NaN.
 struct FourBarPosition {
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Status status = Status::done;  ///< done, no_assembly, or singular (toggle: branches meet); only A is known
                                  ///< when the links do not meet, and when A lies on B0 (singular, too)
   std::complex<double> crank_pin;                   ///< A

@@ -1,11 +1,9 @@
 #include "linkwright/planar/four_bar/published.h"
 
-#include <limits>
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Boskovic 2018, Tables 2.2 to 2.7. The bands are what half a unit of the last printed digit of every number
 // of a design does to its percentages.

@@ -5,7 +5,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/sincos.h"
-#include "linkwright/planar/four_bar/forces_kernel.h"
+#include "linkwright/planar/four_bar/detail/forces_kernel.h"
 #include "linkwright/planar/loop_gap.h"
 
 namespace linkwright::planar {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <complex>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/planar/four_bar/four_bar.h"
 
@@ -11,7 +11,6 @@ namespace linkwright::planar {
 /// Motion of a four-bar at one instant: directions of the links in the global frame, and how fast they turn.
 /// Speeds in rad/s and accelerations in rad/s2, counter-clockwise positive. What is not determined is NaN.
 struct FourBarRates {
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Status status =
       Status::done;  ///< done, no_assembly, or singular (dead point: the speeds are not determined)
   std::complex<double> ground_direction;                ///< unit vector along O -> B0

@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/sincos.h"
-#include "linkwright/planar/four_bar/forces_kernel.h"
+#include "linkwright/planar/four_bar/detail/forces_kernel.h"
 
 namespace linkwright::planar {
 namespace {
@@ -182,7 +183,7 @@ FourBarReactions reactions_newton_euler(const FourBar& linkage, const FourBarMas
 double energy_rate(const FourBar& linkage, const FourBarMasses& masses, const FourBarRates& rates,
                    double gravity) {
   require_masses(masses, gravity);
-  if (rates.status != Status::done) return FourBarReactions::nan;
+  if (rates.status != Status::done) return nan;
   const Bodies b = bodies(linkage, masses, rates);
   const auto of = [&](const LinkMass& mass, const Body& body) {
     return dot(load(mass, body, gravity), body.velocity) +

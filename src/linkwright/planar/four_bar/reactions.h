@@ -1,9 +1,9 @@
 #pragma once
 
 #include <complex>
-#include <limits>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/planar/four_bar/four_bar.h"
 #include "linkwright/planar/four_bar/rates.h"
@@ -25,7 +25,6 @@ void fields(Visitor&& visit, FourBarMasses& m) {
 /// Forces (N) in the global frame and moments (N m), counter-clockwise positive. All NaN unless `status` is
 /// done.
 struct FourBarReactions {
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Status status = Status::done;                      ///< that of the rates
   std::complex<double> ground_on_crank{nan, nan};    ///< at O1 = O
   std::complex<double> crank_on_coupler{nan, nan};   ///< at O2 = A

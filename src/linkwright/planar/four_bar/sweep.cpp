@@ -9,28 +9,18 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t line = 8;  // doubles of a cache line, and lanes of the widest register
-constexpr std::size_t at(FourBarRow row) { return static_cast<std::size_t>(row); }
-
-struct Kernel {
-  bool (*run)(const FourBarSweepTask&);
-  const char* name;
-};
-Kernel choose_kernel() {
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f")) return {four_bar_sweep_avx512, "avx512"};
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return {four_bar_sweep_avx2, "avx2"};
-  return {four_bar_sweep_baseline, "baseline"};
-}
-const Kernel& kernel() {
-  static const Kernel chosen = choose_kernel();
+const NamedKernel<FourBarSweepKernel>& widest_four_bar_sweep() {
+  static const NamedKernel<FourBarSweepKernel> chosen = widest(four_bar_sweep_kernels());
   return chosen;
 }
 
+constexpr std::size_t line = 8;  // doubles of a cache line, and lanes of the widest register
+constexpr std::size_t row_index(FourBarRow row) { return static_cast<std::size_t>(row); }
+
 bool kept(const FourBarWanted& wanted, std::size_t row) {
-  if (row <= at(FourBarRow::transmission_sine)) return wanted.directions;
-  if (row <= at(FourBarRow::rocker_acceleration)) return wanted.rates;
-  if (row <= at(FourBarRow::ground_on_rocker_y)) return wanted.forces;
+  if (row <= row_index(FourBarRow::transmission_sine)) return wanted.directions;
+  if (row <= row_index(FourBarRow::rocker_acceleration)) return wanted.rates;
+  if (row <= row_index(FourBarRow::ground_on_rocker_y)) return wanted.forces;
   return wanted.shaking;
 }
 
@@ -70,6 +60,8 @@ void spread(std::span<const double> from, std::size_t count, std::vector<double>
 }
 
 }  // namespace
+
+KernelSet<FourBarSweepKernel> four_bar_sweep_kernels() { return LINKWRIGHT_KERNEL_SET(four_bar_sweep); }
 
 struct FourBarSweep::Memory {
   FourBarSweepTask task;
@@ -145,7 +137,7 @@ void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, boo
 
 void FourBarSweep::Memory::run(std::span<const FourBarMachine> machines, const SweepInput& crank) {
   std::fill(status.begin(), status.end(), Status::done);
-  if (kernel().run(task)) return;
+  if (widest_four_bar_sweep().run(task)) return;
   // What the kernel could not settle, one by one: the plain functions name the reason and keep the good part.
   for (std::size_t i = 0; i < task.angles; ++i)
     for (std::size_t k = 0; k < samples; ++k) {
@@ -184,15 +176,16 @@ void FourBarSweep::run(std::span<const FourBarMachine> machines, double gravity,
 
 std::span<const double> FourBarSweep::row(FourBarRow row, std::size_t angle) const {
   const FourBarSweepTask& task = memory_->task;
-  LINKWRIGHT_REQUIRE(kept(task.wanted, at(row)), "row {} is not wanted of this sweep", at(row));
+  LINKWRIGHT_REQUIRE(kept(task.wanted, row_index(row)), "row {} is not wanted of this sweep", row_index(row));
   LINKWRIGHT_REQUIRE(angle < task.angles, "angle {} of {}", angle, task.angles);
-  return {memory_->data.data() + (task.first[at(row)] + angle * task.rows) * task.lanes, memory_->samples};
+  return {memory_->data.data() + (task.first[row_index(row)] + angle * task.rows) * task.lanes,
+          memory_->samples};
 }
 std::span<const Status> FourBarSweep::status(std::size_t angle) const {
   LINKWRIGHT_REQUIRE(angle < memory_->task.angles, "angle {} of {}", angle, memory_->task.angles);
   return {memory_->status.data() + angle * memory_->task.lanes, memory_->samples};
 }
 
-const char* four_bar_sweep_kernel_name() { return kernel().name; }
+const char* four_bar_sweep_kernel_name() { return widest_four_bar_sweep().name; }
 
 }  // namespace linkwright::planar

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "linkwright/core/kernels.h"
 #include "linkwright/core/status.h"
 #include "linkwright/planar/four_bar/reactions.h"
 #include "linkwright/planar/sweep_input.h"
@@ -112,8 +113,10 @@ struct FourBarSweepTask {
 
 /// Fill the rows; true when all samples are good. Implementations, one a translation unit; all but the
 /// baseline need the machine to have the instructions.
+using FourBarSweepKernel = bool (*)(const FourBarSweepTask&);
 bool four_bar_sweep_baseline(const FourBarSweepTask& task);
 bool four_bar_sweep_avx2(const FourBarSweepTask& task);
 bool four_bar_sweep_avx512(const FourBarSweepTask& task);
+KernelSet<FourBarSweepKernel> four_bar_sweep_kernels();
 
 }  // namespace linkwright::planar

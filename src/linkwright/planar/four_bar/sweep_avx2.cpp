@@ -1,4 +1,4 @@
-#include "linkwright/planar/four_bar/sweep_kernel.h"
+#include "linkwright/planar/four_bar/detail/sweep_kernel.h"
 
 namespace linkwright::planar {
 

@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
-#include "linkwright/planar/linkage/joint_rows.h"
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/detail/joint_rows.h"
 #include "linkwright/planar/linkage/modes.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr double full_turn = 2 * std::numbers::pi;
 constexpr int places = 64;  // within the reach of the input at which poses of unknown inputs are compared
 
 std::vector<InputMotion> standing(std::span<const double> values) {
@@ -90,7 +87,7 @@ double LinkageAssembly::misfit(std::span<const double> inputs) {
   motion.modes = modes_;
   const std::vector<InputMotion> now = standing(inputs);
   solve_position(before_, now, motion);
-  if (motion.status != Status::done) return std::numeric_limits<double>::infinity();
+  if (motion.status != Status::done) return infinity;
   const Group& g = plan_.groups[first_general_];
   double sum = 0;
   for (std::size_t i = 0; i < g.joints.size(); ++i) {
@@ -154,11 +151,11 @@ void LinkageAssembly::follow_one(const InputReach& reach, AtChangePoint policy) 
   InputLimits limits;
   limits.rotary = plan_.rotary[0];
   limits.closed = turns;
-  limits.from = turns ? -std::numbers::pi : std::min(reach.low[0], start);
-  limits.to = turns ? std::numbers::pi : std::max(reach.high[0], start);
+  limits.from = turns ? -pi : std::min(reach.low[0], start);
+  limits.to = turns ? pi : std::max(reach.high[0], start);
   InputRange range{curve_->low(), curve_->high(), curve_->period() > 0, modes_, 1};
   if (turns && !range.full_turn) {
-    const double shift = full_turn * std::floor((range.from.value + std::numbers::pi) / full_turn);
+    const double shift = full_turn * std::floor((range.from.value + pi) / full_turn);
     range.from.value -= shift;
     range.to.value -= shift;
   }

@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/zero.h"
 #include "linkwright/planar/linkage/quality.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double full_turn = 2 * std::numbers::pi;
 constexpr int nodes = 240;
 
 // A branch one way from the start. Pieces follow each other along `sense`; joints[i] is where piece i ends.
@@ -216,7 +212,7 @@ std::vector<DeadCentre> dead_centres(const Linkage& linkage, const LinkagePlan& 
   if (path.period == 0 && path.low.kind == EndKind::bound) look(path.low.value);
   for (const BranchPiece& p : path.pieces)
     for (int i = 0; i < nodes; ++i)
-      look((p.from + p.to) / 2 - (p.to - p.from) / 2 * std::cos((i + 0.5) * std::numbers::pi / nodes));
+      look((p.from + p.to) / 2 - (p.to - p.from) / 2 * std::cos((i + 0.5) * pi / nodes));
   if (path.period == 0 && path.high.kind == EndKind::bound) look(path.high.value);
   if (path.period > 0 && !rates.empty())
     rates.emplace_back(rates.front().first + path.period, rates.front().second);

@@ -5,13 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
+
 namespace linkwright::planar {
-namespace {
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 std::string group_key(std::string name) {
   for (std::size_t i; (i = name.find(" + ")) != std::string::npos;) name.replace(i, 3, "_");
   return identifier(name);

@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/zero.h"
-#include "linkwright/planar/linkage/curve_equations.h"
+#include "linkwright/planar/linkage/detail/curve_equations.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Lengths of steps, in units of the scaled displacement (see CurveEquations).
 constexpr double longest_step = 0.15, shortest_step = 1e-10;

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // Free inputs from which on the joint forces are the cheaper route (measured).
 constexpr std::size_t many_inputs = 9;
 

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/band_solve.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // Rows are scaled to about one: a pivot below is rounding.
 constexpr double no_pivot = 1e-13;
 

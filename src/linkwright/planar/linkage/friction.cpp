@@ -4,10 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
+
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 double sign_of(double x) { return x > 0 ? 1.0 : x < 0 ? -1.0 : 0.0; }
 
 // What the friction of a joint is proportional to, times its coefficient: N m of a pin, N of a slide.

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
-#include "linkwright/planar/linkage/joint_rows.h"
+#include "linkwright/planar/linkage/detail/joint_rows.h"
 
 namespace linkwright::planar {
 
 namespace {
 using Index = Eigen::Index;
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 struct GeneralGroupMemory {
@@ -67,7 +67,7 @@ GeneralGroupPointer general_group_memory(const LinkagePlan& plan, const Group& g
     memory->column[at(group.parts[i])] = static_cast<int>(3 * i);
   const auto n = static_cast<Index>(3 * group.parts.size());
   memory->jacobian.resize(n, n);
-  memory->factored = Eigen::MatrixXd::Constant(n, n, std::numeric_limits<double>::quiet_NaN());
+  memory->factored = Eigen::MatrixXd::Constant(n, n, nan);
   memory->residual.resize(n);
   memory->solution.resize(n);
   memory->factors = Eigen::PartialPivLU<Eigen::MatrixXd>(n);
@@ -105,7 +105,7 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
   for (const PlanJoint& j : g.joints)
     reach = std::max(reach, norm(point_on(motion.parts[at(j.before.part)], j.before.at)));
   const double rounding = 64 * tolerance::epsilon * reach;
-  double last = std::numeric_limits<double>::infinity();
+  double last = infinity;
   double largest = last;
   bool small_step = false;
   for (int iteration = 0; iteration < 60; ++iteration) {
@@ -136,7 +136,7 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
       share = std::min(share, plan.size / std::max(way, plan.size));
     }
     if (!(share > 0)) {
-      largest = std::numeric_limits<double>::infinity();
+      largest = infinity;
       break;
     }
     small_step = m.solution.cwiseAbs().maxCoeff() < 1e-3 * plan.size;
@@ -147,7 +147,7 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
       part.direction = tidy_unit(turn(part.direction, unit(-share * m.solution[c + 2] / plan.size)));
     }
   }
-  const double residual = std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
+  const double residual = std::isfinite(largest) ? largest : infinity;
   if (residual > 1e3 * rounding) {
     motion.gap = residual;
     return Status::not_converged;
@@ -242,7 +242,7 @@ void general_forces(const LinkagePlan& plan, const Group& g, const LinkageMotion
     const bool driven = g.inputs[k] >= 0;
     const JointRows r = joint_rows(j, driven, motion.parts);
     Wrench<double> w{{0, 0}, 0};
-    drives[k] = std::numeric_limits<double>::quiet_NaN();
+    drives[k] = nan;
     for (int i = 0; i < r.count; ++i, ++row) {
       const JointEquation& e = r.rows[at(i)];
       const double multiplier = m.solution[row];

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr double full_turn = 2 * std::numbers::pi;
 constexpr std::size_t most_ranges = 4096;
 // Ends are computed twice at most by different routes: rounding times a few.
 constexpr double same_place = 1e-9;

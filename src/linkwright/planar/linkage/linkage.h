@@ -92,8 +92,8 @@ struct LinkageJoint {
 ///   slide between two pins (RPR): plus = `second`'s pin lies forward of `first`'s, along the slide direction
 ///   of `first`.
 /// Of two bodies with a drive between them that hold an arm (a cylinder that raises a boom) `first` is one of
-/// the two and `second` the arm; as three pins: plus = the pin of the arm at the driven bodies lies to the left
-/// of the line from the other pin of the driven bodies to that of the arm.
+/// the two and `second` the arm; as three pins: plus = the pin of the arm at the driven bodies lies to the
+/// left of the line from the other pin of the driven bodies to that of the arm.
 enum class AssemblyMode { plus, minus };
 constexpr std::array<EnumName<AssemblyMode>, 2> names(AssemblyMode) {
   return {{{AssemblyMode::plus, "plus", "left, or forward"},

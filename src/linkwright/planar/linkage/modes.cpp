@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/planar/linkage/general.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double same = 1e-6;
 
 class Enumeration {
@@ -97,7 +96,7 @@ class Enumeration {
         for (int p : g.parts) {
           PartState<double>& part = motion_.parts[at(p)];
           part.origin = {random.uniform(-2, 2) * plan_.size, random.uniform(-2, 2) * plan_.size};
-          part.direction = unit(random.uniform(-std::numbers::pi, std::numbers::pi));
+          part.direction = unit(random.uniform(-pi, pi));
         }
       }
       ++out_.starts;

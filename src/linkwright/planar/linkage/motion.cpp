@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/planar/linkage/general.h"
 #include "linkwright/planar/linkage/triangle.h"
@@ -12,9 +12,6 @@
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // By how much (m) a dyad that was placed cannot close; 0 when it does.
 double gap_of(const Group& g, const LinkageMotion& m, const GroupState<double>& s) {

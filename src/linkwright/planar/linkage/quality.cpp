@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double right_angle = std::numbers::pi / 2;
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr double right_angle = pi / 2;
 
 bool placed(const LinkageMotion& motion, std::size_t group) {
   return motion.failed_group < 0 || group < at(motion.failed_group);
@@ -95,7 +92,7 @@ std::vector<TransmissionRange> transmission_ranges(const LinkagePlan& plan, std:
   std::vector<TransmissionRange> out;
   for (std::size_t g = 0; g < plan.groups.size(); ++g)
     if (plan.groups[g].type != GroupType::driver && plan.groups[g].type != GroupType::gear)
-      out.push_back({g, std::numeric_limits<double>::infinity(), nan, -1, nan, 0});
+      out.push_back({g, infinity, nan, -1, nan, 0});
   std::vector<double> angles(samples * out.size());
   for (std::size_t i = 0; i < samples; ++i) {
     solve_position(plan, one(value_at(from, to, i, samples), 0), motion);

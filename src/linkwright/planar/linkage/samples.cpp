@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 using std::complex;
 
 // A crank OA along its own x axis, pinned at ground.O and driven.

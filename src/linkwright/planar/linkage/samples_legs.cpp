@@ -1,15 +1,13 @@
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/samples.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // The third corner of a triangle on the base (0,0)-(base,0), to its left.
 std::complex<double> corner(double base, double from_start, double from_end) {

@@ -1,13 +1,11 @@
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/samples.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // A four-bar O A B B0 with a point C of the coupler and a point D of the rocker, driven at its crank.
 Linkage four_bar_with_points(std::vector<LinkagePoint> more_ground) {

@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/zero.h"
 #include "linkwright/planar/linkage/triangle.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int nodes = 240;
 constexpr double touching = 1e-11;
 
@@ -123,7 +120,7 @@ std::vector<Stretch> GroupScan::stretches(std::size_t k, std::span<const double>
              touch_to = !slides_only(type) && touches_at_end(k, to, -inward);
   if (!touch_from) found.push_back({from, closure(k, from)});
   for (int i = 0; i < nodes; ++i) {
-    const double x = input_of((i + 0.5) * std::numbers::pi / nodes);
+    const double x = input_of((i + 0.5) * pi / nodes);
     const Node next{x, closure(k, x)};
     if (!std::isfinite(next.closure.value)) continue;
     if (i > 0 && !found.empty() && !slides_only(type) && std::isfinite(found.back().closure.slope) &&

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
+
 namespace linkwright::planar {
-namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-}
+namespace {}
 
 ChangeZone::Weights ChangeZone::interpolation(double x) {
   Weights out;
@@ -24,7 +22,7 @@ ChangeZone::Weights ChangeZone::interpolation(double x) {
 
 SmoothBranch::SmoothBranch(const LinkagePlan& plan, double value, std::span<const double> modes) {
   const double unit = plan.rotary[0] ? 1 : plan.size;
-  const double reach = plan.rotary[0] ? 4 * std::numbers::pi : 4 * plan.size;
+  const double reach = plan.rotary[0] ? 4 * pi : 4 * plan.size;
   path_ =
       branch_path(plan, std::span(&value, 1), 0, modes, value - reach, value + reach, AtChangePoint::smooth);
   half_width_ = ChangeZone::width * unit;
@@ -161,7 +159,7 @@ bool limit_at_change(const LinkagePlan& plan, const BranchPath& path, double val
   each_number(forces, [&](double& v) {
     const std::size_t i = next++;
     const bool finite = loaded && !loads->has_pole(i);
-    v = finite ? loads->values()[i] : std::numeric_limits<double>::quiet_NaN();
+    v = finite ? loads->values()[i] : nan;
     if (!finite) forces.status = Status::singular;
   });
   return true;

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <span>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/reactions.h"
 
@@ -37,7 +37,7 @@ class SmoothBranch {
   void set_modes(double value, LinkageMotion& motion) const { modes_at(path_, value, motion.modes); }
 
   struct Near {
-    double value = std::numeric_limits<double>::infinity();
+    double value = infinity;
     const RangeEnd* end = nullptr;  ///< null: there is none
   };
   /// The change point nearest to a value, whole turns included.

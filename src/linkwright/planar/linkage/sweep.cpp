@@ -3,33 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/assembly.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr std::size_t line = 8;  // doubles of a cache line, and lanes of the widest register
-
-struct Kernel {
-  SweepKernel run;
-  const char* name;
-};
-Kernel choose_kernel() {
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f")) return {sweep_avx512, "avx512"};
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return {sweep_avx2, "avx2"};
-  return {sweep_baseline, "baseline"};
-}
-const Kernel& kernel() {
-  static const Kernel chosen = choose_kernel();
+const NamedKernel<SweepKernel>& widest_sweep() {
+  static const NamedKernel<SweepKernel> chosen = widest(sweep_kernels());
   return chosen;
 }
+
+constexpr std::size_t line = 8;  // doubles of a cache line, and lanes of the widest register
 
 bool all_in_registers(const Linkage& l, const LinkagePlan& plan, bool forces) {
   if (plan.parts.size() > most_sweep_parts || plan.groups.size() > most_sweep_parts) return false;
@@ -47,6 +35,8 @@ double of(std::span<const double> row, std::size_t i) {
 }
 
 }  // namespace
+
+KernelSet<SweepKernel> sweep_kernels() { return LINKWRIGHT_KERNEL_SET(sweep); }
 
 struct LinkageSweep::Memory {
   Memory(Linkage l, LinkagePlan p, const SweepWanted& w)
@@ -227,7 +217,7 @@ void LinkageSweep::run(std::span<const SweepInput> inputs, std::span<const doubl
       for (std::size_t r = 0; r < 2; ++r)
         std::fill_n(&m.number(m.task.groups + 2 * k + r, 0), m.task.count, 1.0);
   m.task.modes = m.motion.modes.data();
-  const bool all_good = kernel().run(m.task);
+  const bool all_good = widest_sweep().run(m.task);
   std::fill(m.status.begin(), m.status.end(), Status::done);
   if (all_good) return;
   for (std::size_t i = 0; i < n; ++i)
@@ -267,6 +257,6 @@ std::span<const double> LinkageSweep::shaking(ShakingRow row) const {
 }
 
 bool LinkageSweep::batched() const { return memory_->batched; }
-const char* sweep_kernel_name() { return kernel().name; }
+const char* sweep_kernel_name() { return widest_sweep().name; }
 
 }  // namespace linkwright::planar

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "linkwright/core/kernels.h"
 #include "linkwright/core/status.h"
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/sweep_input.h"
@@ -110,5 +111,6 @@ using SweepKernel = bool (*)(const SweepTask&);
 bool sweep_baseline(const SweepTask& task);
 bool sweep_avx2(const SweepTask& task);
 bool sweep_avx512(const SweepTask& task);
+KernelSet<SweepKernel> sweep_kernels();
 
 }  // namespace linkwright::planar

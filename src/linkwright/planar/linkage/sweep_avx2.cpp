@@ -1,4 +1,4 @@
-#include "linkwright/planar/linkage/sweep_kernel.h"
+#include "linkwright/planar/linkage/detail/sweep_kernel.h"
 
 namespace linkwright::planar {
 

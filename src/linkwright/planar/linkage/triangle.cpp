@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/loop_gap.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 Vec<double> conj(const Vec<double>& a) { return {a.x, -a.y}; }
 
 }  // namespace

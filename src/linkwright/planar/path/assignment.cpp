@@ -4,18 +4,15 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/path/targets.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t grid = 720;        // crank angles, of a turn or of the interval of inputs
 constexpr std::size_t most_starts = 12;  // places of the first target that a search within a turn begins at
 

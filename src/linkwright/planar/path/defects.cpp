@@ -3,16 +3,14 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/classify.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // Whether the crank can go from `a` to `b` (unwrapped) within one interval of inputs that assemble.
 bool reachable(const FourBarClass& type, double a, double b) {

@@ -1,11 +1,11 @@
 #include "linkwright/planar/path/eighteen_points.h"
 
-#include <numbers>
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::planar {
 
 PathProblem eighteen_points() {
-  constexpr double turn = 2 * std::numbers::pi;
+  constexpr double turn = 2 * pi;
   PathProblem p;
   p.x = {0.50, 0.40, 0.30, 0.20, 0.10, 0.05, 0.02, 0.00, 0.00,
          0.03, 0.10, 0.15, 0.20, 0.30, 0.40, 0.50, 0.60, 0.60};

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
-#include <numbers>
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/four_bar/kernel.h"
 #include "linkwright/planar/path/targets.h"
 
@@ -16,8 +15,6 @@ namespace linkwright::planar {
 namespace {
 
 using P = FourBarParameter;
-constexpr double pi = std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Rows of the constraints; the order rows follow, one a point.
 constexpr std::size_t crank_rows = 0, transmission_rows = 3, packaging_rows = 7, region_rows = 11,

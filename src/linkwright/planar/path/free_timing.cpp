@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <optional>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/planar/four_bar/classify.h"
@@ -18,7 +18,6 @@ namespace linkwright::planar {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr int usual_starts = 40;           // local searches per kind, branch and sense
 constexpr int linkages_per_start = 48;     // random curves of which the best match starts a search
@@ -58,14 +57,14 @@ PathProblem thinned(const PathProblem& p, std::size_t count) {
   return out;
 }
 
-struct Candidate {
+struct TimedCandidate {
   FourBar linkage;
   double sense = 1;
   std::vector<double> angles;
   double merit = infinity;  // mean squared miss as a share of the squared size, with soft violations
 };
 
-bool alike(const Candidate& a, const Candidate& b) {
+bool alike(const TimedCandidate& a, const TimedCandidate& b) {
   if (a.sense != b.sense || a.linkage.branch != b.linkage.branch) return false;
   if (std::abs(a.merit - b.merit) > 1e-3 * std::max(a.merit, b.merit)) return false;
   const auto near = [](double x, double y) { return std::abs(x - y) <= 0.05 * std::max(x, y); };
@@ -73,9 +72,9 @@ bool alike(const Candidate& a, const Candidate& b) {
          near(a.linkage.coupler, b.linkage.coupler) && near(a.linkage.rocker, b.linkage.rocker);
 }
 
-class Search {
+class TimingSearch {
  public:
-  Search(const PathProblem& problem, const PathSynthesisOptions& options, RunContext& context)
+  TimingSearch(const PathProblem& problem, const PathSynthesisOptions& options, RunContext& context)
       : problem_(problem), options_(options), context_(context), coarse_(thinned(problem, coarse_points)) {}
 
   PathSynthesis run() {
@@ -99,11 +98,11 @@ class Search {
       context_.report({.stage = "recommended", .fraction = std::min(1.0, fraction), .best = best_so_far()});
   }
 
-  Candidate fitted(PathFitter& fitter, const PathProblem& problem, const FourBar& start,
-                   const std::vector<double>& angles, double sense, const PathFitOptions& how) {
+  TimedCandidate fitted(PathFitter& fitter, const PathProblem& problem, const FourBar& start,
+                        const std::vector<double>& angles, double sense, const PathFitOptions& how) {
     const PathFit fit = fitter.fit(start, angles, how);
     out_.evaluations += fit.evaluations;
-    Candidate c{fit.linkage, sense, fit.angles, infinity};
+    TimedCandidate c{fit.linkage, sense, fit.angles, infinity};
     if (!std::isfinite(fit.error)) return c;
     const double size = path_size(problem_);
     c.merit =
@@ -128,20 +127,20 @@ class Search {
         if (!(branch == Branch::open ? problem_.search_open : problem_.search_crossed)) continue;
         PathMatcher matcher(coarse_, branch, sense);
         for (RatioKind kind : kinds) {
-          std::vector<Candidate> found;
+          std::vector<TimedCandidate> found;
           for (int start = 0; start < count() && !stopped(); ++start) {
             RandomStream stream(
                 {.seed = options_.seed, .run = combination, .individual = static_cast<std::uint32_t>(start)});
             const auto match = matcher.best_of(linkages_per_start, kind, stream);
             if (match) {
-              Candidate c = fitted(fitter, coarse_, match->linkage, match->angles, sense, start_search);
+              TimedCandidate c = fitted(fitter, coarse_, match->linkage, match->angles, sense, start_search);
               if (std::isfinite(c.merit)) found.push_back(std::move(c));
             }
             tell(0.7 * ++told / all);
           }
-          for (Candidate& start : distinct(std::move(found), continued)) {
+          for (TimedCandidate& start : distinct(std::move(found), continued)) {
             if (stopped() && !found_.empty()) break;
-            Candidate c = fitted(fitter, coarse_, start.linkage, start.angles, sense, continued_search);
+            TimedCandidate c = fitted(fitter, coarse_, start.linkage, start.angles, sense, continued_search);
             found_.push_back(std::isfinite(c.merit) ? std::move(c) : std::move(start));
           }
           ++combination;
@@ -151,13 +150,13 @@ class Search {
   }
 
   // Best first, each kind of answer once, `most` at most.
-  static std::vector<Candidate> distinct(std::vector<Candidate> all, std::size_t most) {
+  static std::vector<TimedCandidate> distinct(std::vector<TimedCandidate> all, std::size_t most) {
     std::stable_sort(all.begin(), all.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.merit < b.merit; });
-    std::vector<Candidate> out;
-    for (Candidate& c : all) {
+                     [](const TimedCandidate& a, const TimedCandidate& b) { return a.merit < b.merit; });
+    std::vector<TimedCandidate> out;
+    for (TimedCandidate& c : all) {
       if (out.size() == most) break;
-      if (std::none_of(out.begin(), out.end(), [&](const Candidate& o) { return alike(o, c); }))
+      if (std::none_of(out.begin(), out.end(), [&](const TimedCandidate& o) { return alike(o, c); }))
         out.push_back(std::move(c));
     }
     return out;
@@ -165,7 +164,7 @@ class Search {
 
   // A linkage near another one, laid on the path: link ratios and tracing point changed by about `share`, the
   // crank angles moved along, scale and place fitted to them. Nothing when it does not assemble.
-  std::optional<Candidate> hop_from(const Candidate& c, double share, RandomStream& stream) const {
+  std::optional<TimedCandidate> hop_from(const TimedCandidate& c, double share, RandomStream& stream) const {
     FourBar l = c.linkage;
     l.ground *= std::exp(share * stream.normal());
     l.coupler *= std::exp(share * stream.normal());
@@ -208,7 +207,7 @@ class Search {
     l.pivot_x = pivot.real();
     l.pivot_y = pivot.imag();
     l.frame_angle = std::arg(a);
-    return Candidate{l, c.sense, std::move(angles), infinity};
+    return TimedCandidate{l, c.sense, std::move(angles), infinity};
   }
 
   void finish() {
@@ -218,11 +217,11 @@ class Search {
     const auto full = [&](double sense) -> PathFitter& { return sense > 0 ? full_forth : full_back; };
 
     const int hops = hops_per_start * count();
-    std::vector<Candidate> best = distinct(std::move(found_), 2 * finished);
+    std::vector<TimedCandidate> best = distinct(std::move(found_), 2 * finished);
     std::uint32_t chain = 0;
     std::size_t forth = 0, back = 0;
     for (std::size_t i = 0; i < best.size(); ++i) {
-      Candidate& c = best[i];
+      TimedCandidate& c = best[i];
       if (++(c.sense > 0 ? forth : back) > chains) continue;
       ++chain;
       for (int hop = 0; hop < hops && !stopped(); ++hop) {
@@ -232,7 +231,7 @@ class Search {
         const double share = 0.02 * std::exp(stream.uniform(0, 3.5));
         const auto start = hop_from(c, share, stream);
         if (!start) continue;
-        Candidate other =
+        TimedCandidate other =
             fitted(coarse(c.sense), coarse_, start->linkage, start->angles, c.sense, hop_search);
         if (other.merit < c.merit * (1 - 1e-6)) c = std::move(other);
         tell(0.7 + 0.2 * (chain - 1 + static_cast<double>(hop) / hops) / (2 * chains));
@@ -241,7 +240,7 @@ class Search {
     best = distinct(std::move(best), finished);
     // To all points.
     std::vector<PathDesign> designs;
-    for (const Candidate& c : best) {
+    for (const TimedCandidate& c : best) {
       if (stopped() && !out_.designs.empty()) break;
       std::vector<double> angles = c.angles;
       if (angles.size() != problem_.x.size()) {
@@ -249,7 +248,7 @@ class Search {
         if (!assigned) continue;
         angles = assigned->angles;
       }
-      const Candidate all = fitted(full(c.sense), problem_, c.linkage, angles, c.sense, full_search);
+      const TimedCandidate all = fitted(full(c.sense), problem_, c.linkage, angles, c.sense, full_search);
       if (!std::isfinite(all.merit)) continue;
       out_.designs.push_back(measure(problem_, all.linkage, c.sense, all.angles));
     }
@@ -266,7 +265,7 @@ class Search {
   const PathSynthesisOptions& options_;
   RunContext& context_;
   const PathProblem coarse_;
-  std::vector<Candidate> found_;
+  std::vector<TimedCandidate> found_;
   PathSynthesis out_;
 };
 
@@ -276,7 +275,7 @@ PathSynthesis search_free_timing(const PathProblem& problem, const PathSynthesis
                                  RunContext& context) {
   require_valid(problem);
   LINKWRIGHT_REQUIRE(problem.timing == Timing::free, "the timing is {}", name_of(problem.timing));
-  PathSynthesis answer = Search(problem, options, context).run();
+  PathSynthesis answer = TimingSearch(problem, options, context).run();
   if (problem.crank_rotates_fully || answer.status == Status::deadline || answer.status == Status::cancelled)
     return answer;
   // Where any linkage will do, those that turn fully are searched in the same way, and from the best of them
@@ -285,7 +284,7 @@ PathSynthesis search_free_timing(const PathProblem& problem, const PathSynthesis
   turning.crank_rotates_fully = true;
   PathSynthesisOptions quiet = options;
   quiet.progress = false;
-  PathSynthesis more = Search(turning, quiet, context).run();
+  PathSynthesis more = TimingSearch(turning, quiet, context).run();
   if (more.status != Status::done) answer.status = more.status;
   answer.evaluations += more.evaluations;
   std::size_t carried_on = 0;

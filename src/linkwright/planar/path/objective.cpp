@@ -2,32 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/path/targets.h"
 
 namespace linkwright::planar {
 namespace {
 
-struct Kernel {
-  PathKernel evaluate;
-  const char* name;
-};
-
-Kernel choose_kernel() {
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f")) return {evaluate_path_avx512, "avx512"};
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return {evaluate_path_avx2, "avx2"};
-  return {evaluate_path_baseline, "baseline"};
-}
-
-const Kernel& kernel() {
-  static const Kernel chosen = choose_kernel();
+const NamedKernel<PathKernel>& widest_evaluate_path() {
+  static const NamedKernel<PathKernel> chosen = widest(path_kernels());
   return chosen;
 }
 
 }  // namespace
+
+KernelSet<PathKernel> path_kernels() { return LINKWRIGHT_KERNEL_SET(evaluate_path); }
 
 PathObjective path_objective(const PathProblem& problem, Branch branch, double sense) {
   LINKWRIGHT_REQUIRE(sense == 1 || sense == -1, "sense must be +1 or -1, got {}", sense);
@@ -61,7 +51,7 @@ PathObjective path_objective(const PathProblem& problem, Branch branch, double s
     o.tolerance = problem.tolerance.empty() ? none : problem.tolerance;
   }
   if (!o.free_timing) {
-    o.least_offset = std::numeric_limits<double>::infinity();
+    o.least_offset = infinity;
     o.greatest_offset = -o.least_offset;
     for (std::size_t k = 0; k < o.x.size(); ++k) {
       const double offset = sense * point_angle(problem, k);
@@ -82,9 +72,9 @@ void evaluate(const PathObjective& objective, const optimise::PopulationView& ca
   LINKWRIGHT_REQUIRE(cost.size() >= candidates.size && violation.size() >= candidates.size,
                      "{} candidates, but room for {} costs and {} violations", candidates.size, cost.size(),
                      violation.size());
-  kernel().evaluate(objective, candidates, cost.data(), violation.data());
+  widest_evaluate_path().run(objective, candidates, cost.data(), violation.data());
 }
 
-const char* kernel_name() { return kernel().name; }
+const char* kernel_name() { return widest_evaluate_path().name; }
 
 }  // namespace linkwright::planar

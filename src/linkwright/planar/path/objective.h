@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "linkwright/core/kernels.h"
 #include "linkwright/optimise/population.h"
 #include "linkwright/planar/path/problem.h"
 
@@ -50,5 +51,6 @@ void evaluate_path_avx2(const PathObjective&, const optimise::PopulationView&, d
                         double* violation);
 void evaluate_path_avx512(const PathObjective&, const optimise::PopulationView&, double* cost,
                           double* violation);
+KernelSet<PathKernel> path_kernels();
 
 }  // namespace linkwright::planar

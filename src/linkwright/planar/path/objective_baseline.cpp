@@ -1,4 +1,4 @@
-#include "linkwright/planar/path/objective_kernel.h"
+#include "linkwright/planar/path/detail/objective_kernel.h"
 
 namespace linkwright::planar {
 

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/path/objective.h"
@@ -14,9 +13,6 @@
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr std::size_t start_index = index(FourBarParameter::start_angle);
 
@@ -225,7 +221,6 @@ PathErrors path_errors(const PathProblem& problem, const PathDesign& design) {
   for (std::size_t k = 0; k < problem.x.size(); ++k) {
     const FourBarPosition pose = position(design.linkage, design.angles[k]);
     const bool there = pose.status != Status::no_assembly;
-    const double nan = std::numeric_limits<double>::quiet_NaN();
     out.x.push_back(there ? pose.coupler_point.real() : nan);
     out.y.push_back(there ? pose.coupler_point.imag() : nan);
     const TargetMiss miss = target_miss(problem, k, out.x[k], out.y[k]);

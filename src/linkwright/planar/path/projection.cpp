@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/four_bar/kernel.h"
 
 namespace linkwright::planar {
@@ -229,11 +229,10 @@ PathDesign PathProjection::design(const PathProblem& problem, std::span<const do
   l.pivot_y = pivot_fixed_ ? pivot_.imag() : coefficient_[1];
   l.frame_angle =
       frame_fixed_ ? problem.bounds[index(FourBarParameter::frame_angle)].lower : std::arg(direction);
-  if (l.frame_angle < 0 && !frame_fixed_) l.frame_angle += 2 * std::numbers::pi;
+  if (l.frame_angle < 0 && !frame_fixed_) l.frame_angle += 2 * pi;
   l.branch = branch_;
   std::vector<double> angles(problem.x.size());
-  double start =
-      start_is_variable_ ? q[3] - 2 * std::numbers::pi * std::floor(q[3] / (2 * std::numbers::pi)) : 0.0;
+  double start = start_is_variable_ ? q[3] - 2 * pi * std::floor(q[3] / (2 * pi)) : 0.0;
   for (std::size_t k = 0; k < angles.size(); ++k) angles[k] = start + sense_ * point_angle(problem, k);
   return measure(problem, l, sense_, std::move(angles));
 }

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 
 namespace linkwright::planar {
-namespace {
-constexpr double pi = std::numbers::pi;
-}
+namespace {}
 
 std::optional<CrankInterval> crank_interval(const SliderCrankForm& f, double crank_angle) {
   const double size = f.rod + f.crank + std::abs(f.offset);

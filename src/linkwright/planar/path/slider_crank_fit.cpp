@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
-#include "linkwright/planar/path/slider_crank_kernel.h"
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/path/detail/slider_crank_kernel.h"
 
 namespace linkwright::planar {
 namespace {
 
 using P = SliderParameter;
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t count = slider_parameter_count;
 
 // Rows of the constraints; the order rows follow, one a point.

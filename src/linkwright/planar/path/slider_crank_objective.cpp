@@ -4,29 +4,19 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::planar {
 namespace {
 
-struct Kernel {
-  SliderPathKernel evaluate;
-  const char* name;
-};
-
-Kernel choose_kernel() {
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f")) return {evaluate_slider_path_avx512, "avx512"};
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    return {evaluate_slider_path_avx2, "avx2"};
-  return {evaluate_slider_path_baseline, "baseline"};
-}
-
-const Kernel& kernel() {
-  static const Kernel chosen = choose_kernel();
+const NamedKernel<SliderPathKernel>& widest_evaluate_slider_path() {
+  static const NamedKernel<SliderPathKernel> chosen = widest(slider_path_kernels());
   return chosen;
 }
 
 }  // namespace
+
+KernelSet<SliderPathKernel> slider_path_kernels() { return LINKWRIGHT_KERNEL_SET(evaluate_slider_path); }
 
 SliderPathObjective slider_path_objective(const SliderPathProblem& problem, SliderSide side, double sense) {
   LINKWRIGHT_REQUIRE(sense == 1 || sense == -1, "sense must be +1 or -1, got {}", sense);
@@ -44,7 +34,7 @@ SliderPathObjective slider_path_objective(const SliderPathProblem& problem, Slid
   o.greatest_stroke = problem.stroke.upper;
   o.size = path_size(problem);
   if (!o.free_timing) {
-    o.least_offset = std::numeric_limits<double>::infinity();
+    o.least_offset = infinity;
     o.greatest_offset = -o.least_offset;
     for (const double forward : problem.offsets) {
       const double offset = sense * forward;
@@ -63,9 +53,9 @@ void evaluate(const SliderPathObjective& objective, const optimise::PopulationVi
   LINKWRIGHT_REQUIRE(cost.size() >= costs && violation.size() >= candidates.size,
                      "{} candidates, but room for {} costs and {} violations", candidates.size, cost.size(),
                      violation.size());
-  kernel().evaluate(objective, candidates, cost.data(), violation.data());
+  widest_evaluate_slider_path().run(objective, candidates, cost.data(), violation.data());
 }
 
-const char* slider_path_kernel_name() { return kernel().name; }
+const char* slider_path_kernel_name() { return widest_evaluate_slider_path().name; }
 
 }  // namespace linkwright::planar

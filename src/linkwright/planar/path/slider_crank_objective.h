@@ -1,9 +1,10 @@
 #pragma once
 
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "linkwright/core/kernels.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/population.h"
 #include "linkwright/planar/path/slider_crank_problem.h"
 
@@ -21,7 +22,7 @@ struct SliderPathObjective {
   double sense = 1;  ///< +1 or -1
   bool crank_rotates_fully = true;
   double max_pressure_sine = 1;  ///< 1 = no limit
-  double least_stroke = 0, greatest_stroke = std::numeric_limits<double>::infinity();
+  double least_stroke = 0, greatest_stroke = infinity;
   double size = 1;           ///< of the path (m)
   bool with_stroke = false;  ///< two costs a candidate: error and stroke over their scales
   SliderPathScales scales{};
@@ -47,5 +48,6 @@ void evaluate_slider_path_avx2(const SliderPathObjective&, const optimise::Popul
                                double* violation);
 void evaluate_slider_path_avx512(const SliderPathObjective&, const optimise::PopulationView&, double* cost,
                                  double* violation);
+KernelSet<SliderPathKernel> slider_path_kernels();
 
 }  // namespace linkwright::planar

@@ -1,4 +1,4 @@
-#include "linkwright/planar/path/slider_crank_objective_kernel.h"
+#include "linkwright/planar/path/detail/slider_crank_objective_kernel.h"
 
 namespace linkwright::planar {
 

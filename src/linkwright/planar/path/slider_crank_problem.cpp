@@ -5,10 +5,11 @@
 #include <memory>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/four_bar.h"
-#include "linkwright/planar/path/slider_crank_kernel.h"
+#include "linkwright/planar/path/detail/slider_crank_kernel.h"
 #include "linkwright/planar/path/slider_crank_objective.h"
 
 namespace linkwright::planar {
@@ -16,9 +17,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using P = SliderParameter;
-constexpr double pi = std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 bool is_link(std::size_t j) { return j == index(P::crank) || j == index(P::rod); }
 

@@ -2,14 +2,13 @@
 
 #include <array>
 #include <complex>
-#include <limits>
-#include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/optimise/problem.h"
 #include "linkwright/planar/linkage/slider_crank.h"
@@ -60,9 +59,9 @@ struct SliderPathProblem {
   bool crank_rotates_fully = true;
   /// rad, greatest angle between rod and guide; pi/2 = no limit. Over the full turn where the crank turns
   /// fully, else over the arc from the first to the last crank angle.
-  double max_pressure_angle = std::numbers::pi / 2;
+  double max_pressure_angle = pi / 2;
   /// m, of the slider over a full turn; needs a crank that turns fully.
-  Range stroke{0, std::numeric_limits<double>::infinity()};
+  Range stroke{0, infinity};
 };
 
 /// Throws ContractError unless there are at least 3 finite points that do not all coincide, as many finite

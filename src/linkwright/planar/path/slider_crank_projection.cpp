@@ -2,20 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
-#include "linkwright/planar/path/slider_crank_kernel.h"
+#include "linkwright/planar/path/detail/slider_crank_kernel.h"
 
 namespace linkwright::planar {
 namespace {
 
 using Complex = std::complex<double>;
 using P = SliderParameter;
-constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
 // Columns closer to the span of the earlier ones than this are dropped: the unknown does not matter there.
-constexpr double rank_tolerance = 1e-10;
+constexpr double slider_rank_tolerance = 1e-10;
 constexpr double largest_ratio = 1e6;
 // The crank vanishes only for targets that need no motion of the crank pin; it stays a mechanism.
 constexpr double least_crank = 1e-9;
@@ -51,7 +50,7 @@ double normalise(std::vector<double>& re, std::vector<double>& im) {
   double square = 0;
   for (std::size_t k = 0; k < re.size(); ++k) square += re[k] * re[k] + im[k] * im[k];
   // The columns began as unit vectors.
-  const bool there = square > rank_tolerance * rank_tolerance * static_cast<double>(re.size());
+  const bool there = square > slider_rank_tolerance * slider_rank_tolerance * static_cast<double>(re.size());
   const double length = there ? std::sqrt(square) : 0, scale = there ? 1 / length : 0;
   for (std::size_t k = 0; k < re.size(); ++k) re[k] *= scale, im[k] *= scale;
   return length;

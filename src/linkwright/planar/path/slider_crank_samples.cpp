@@ -1,7 +1,6 @@
 #include "linkwright/planar/path/slider_crank_samples.h"
 
-#include <numbers>
-
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/path/eighteen_points.h"
 
 namespace linkwright::planar {
@@ -12,7 +11,7 @@ SliderPathProblem eighteen_slider_points() {
   p.x = points.x;
   p.y = points.y;
   for (std::size_t k = 0; k < p.x.size(); ++k) p.offsets.push_back(points.step * static_cast<double>(k));
-  const Range link{0, 50}, place{-50, 50}, turn{0, 2 * std::numbers::pi};
+  const Range link{0, 50}, place{-50, 50}, turn{0, 2 * pi};
   p.bounds = {link, link, link, turn, turn, place, place, place, turn};
   return p;
 }

@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "linkwright/planar/path/slider_crank_kernel.h"
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/path/detail/slider_crank_kernel.h"
 
 namespace linkwright::planar {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
-constexpr std::size_t curve_samples = 96;  // crank angles of a curve, and places along its length
-constexpr std::size_t most_compared = 24;  // target points that take part
-constexpr int open_arcs = 24;              // random arcs tried on each curve
+constexpr std::size_t slider_curve_samples = 96;  // crank angles of a curve, and places along its length
+constexpr std::size_t most_slider_compared = 24;  // target points that take part
+constexpr int slider_open_arcs = 24;              // random arcs tried on each curve
 
 // Phases at which the rod reaches the guide: |eta - sin phi| <= rho.
 struct Interval {
@@ -43,7 +42,7 @@ SliderPathMatcher::SliderPathMatcher(const SliderPathProblem& problem, SliderSid
   }
   fraction_.resize(n);
   for (double& f : fraction_) f /= length;
-  const std::size_t count = std::min(n, most_compared);
+  const std::size_t count = std::min(n, most_slider_compared);
   for (std::size_t i = 0; i < count; ++i) compared_.push_back(count == n ? i : i * (n - 1) / (count - 1));
   for (std::size_t k : compared_) mean_ += Complex(problem.x[k], problem.y[k]);
   mean_ /= static_cast<double>(count);
@@ -51,26 +50,26 @@ SliderPathMatcher::SliderPathMatcher(const SliderPathProblem& problem, SliderSid
     centred_.push_back(Complex(problem.x[k], problem.y[k]) - mean_);
     spread_ += std::norm(centred_.back());
   }
-  for (auto* v : {&raw_, &curve_}) v->resize(curve_samples + 1);
-  for (auto* v : {&raw_angle_, &raw_length_, &angle_}) v->resize(curve_samples + 1);
+  for (auto* v : {&raw_, &curve_}) v->resize(slider_curve_samples + 1);
+  for (auto* v : {&raw_angle_, &raw_length_, &angle_}) v->resize(slider_curve_samples + 1);
 }
 
 // Curve of a mechanism with a crank of length 1 over phases from..to, in the sense of rotation, resampled
 // equally along its length.
 void SliderPathMatcher::sample_curve(double from, double to, double rho, double eta, Complex point) {
-  const double start = sense_ > 0 ? from : to, step = sense_ * (to - from) / curve_samples;
-  for (std::size_t i = 0; i <= curve_samples; ++i) {
+  const double start = sense_ > 0 ? from : to, step = sense_ * (to - from) / slider_curve_samples;
+  for (std::size_t i = 0; i <= slider_curve_samples; ++i) {
     raw_angle_[i] = start + step * static_cast<double>(i);
     const Complex u = std::polar(1.0, raw_angle_[i]);
     const Vec<double> v = rod_direction(close_rod(u.imag(), eta, 1 / rho), sign(side_));
     raw_[i] = u + point * Complex(v.x, v.y);
     raw_length_[i] = i == 0 ? 0 : raw_length_[i - 1] + std::abs(raw_[i] - raw_[i - 1]);
   }
-  const double spacing = raw_length_[curve_samples] / curve_samples;
+  const double spacing = raw_length_[slider_curve_samples] / slider_curve_samples;
   std::size_t i = 1;
-  for (std::size_t s = 0; s <= curve_samples; ++s) {
+  for (std::size_t s = 0; s <= slider_curve_samples; ++s) {
     const double along = spacing * static_cast<double>(s);
-    while (i < curve_samples && raw_length_[i] < along) ++i;
+    while (i < slider_curve_samples && raw_length_[i] < along) ++i;
     const double piece = raw_length_[i] - raw_length_[i - 1];
     const double t = piece > 0 ? std::clamp((along - raw_length_[i - 1]) / piece, 0.0, 1.0) : 0.0;
     curve_[s] = raw_[i - 1] + t * (raw_[i] - raw_[i - 1]);
@@ -85,8 +84,8 @@ double SliderPathMatcher::compare(double first, double length, Complex& a, Compl
   double square = 0;
   for (std::size_t i = 0; i < compared_.size(); ++i) {
     double at = first + fraction_[compared_[i]] * length;
-    if (at >= curve_samples) at -= curve_samples;
-    const std::size_t s = std::min(static_cast<std::size_t>(at), curve_samples - 1);
+    if (at >= slider_curve_samples) at -= slider_curve_samples;
+    const std::size_t s = std::min(static_cast<std::size_t>(at), slider_curve_samples - 1);
     const Complex c = curve_[s] + (at - static_cast<double>(s)) * (curve_[s + 1] - curve_[s]);
     sum += c;
     square += std::norm(c);
@@ -121,12 +120,13 @@ std::optional<SliderPathStart> SliderPathMatcher::best_of(int mechanisms, Random
     const double inside = turns ? 0 : 1e-3 * (interval->to - interval->from);
     sample_curve(interval->from + inside, interval->to - inside, rho, eta, point);
 
-    const int tries = problem_.closed && turns ? static_cast<int>(curve_samples) / 2 : open_arcs;
+    const int tries =
+        problem_.closed && turns ? static_cast<int>(slider_curve_samples) / 2 : slider_open_arcs;
     for (int t = 0; t < tries; ++t) {
-      double first = 2.0 * t, length = curve_samples;
+      double first = 2.0 * t, length = slider_curve_samples;
       if (!(problem_.closed && turns)) {
-        length = curve_samples * stream.uniform(0.1, 0.97);
-        first = stream.uniform() * (turns ? double{curve_samples} : curve_samples - length);
+        length = slider_curve_samples * stream.uniform(0.1, 0.97);
+        first = stream.uniform() * (turns ? double{slider_curve_samples} : slider_curve_samples - length);
       }
       Complex a, p;
       const double mismatch = compare(first, length, a, p);
@@ -146,11 +146,11 @@ std::optional<SliderPathStart> SliderPathMatcher::best_of(int mechanisms, Random
       best.angles.resize(fraction_.size());
       for (std::size_t k = 0; k < fraction_.size(); ++k) {
         double at = first + fraction_[k] * length, turn = guide;
-        if (at >= curve_samples) {
-          at -= curve_samples;
+        if (at >= slider_curve_samples) {
+          at -= slider_curve_samples;
           turn += sense_ * 2 * pi;
         }
-        const std::size_t s = std::min(static_cast<std::size_t>(at), curve_samples - 1);
+        const std::size_t s = std::min(static_cast<std::size_t>(at), slider_curve_samples - 1);
         best.angles[k] = turn + angle_[s] + (at - static_cast<double>(s)) * (angle_[s + 1] - angle_[s]);
       }
     }

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/least_squares.h"
@@ -18,21 +17,20 @@ namespace linkwright::planar {
 namespace {
 
 using P = SliderParameter;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double pi = std::numbers::pi;
 
 // Local searches per side and sense when the options leave it open.
-constexpr int separable_starts = 30, joint_starts = 160;
-constexpr int tries_per_separable_start = 6;    // random ratios of which the best starts a search
-constexpr int mechanisms_per_joint_start = 48;  // random curves of which the best match starts a search
-constexpr std::size_t finished_starts = 48;     // of the searched ones, how many get their constraints met
-constexpr std::size_t followed_starts = 6;      // ... and how many are followed along a front
+constexpr int slider_separable_starts = 30, slider_joint_starts = 160;
+constexpr int slider_tries_per_separable_start = 6;  // random ratios of which the best starts a search
+constexpr int mechanisms_per_joint_start = 48;       // random curves of which the best match starts a search
+constexpr std::size_t slider_finished_starts =
+    48;                                     // of the searched ones, how many get their constraints met
+constexpr std::size_t followed_starts = 6;  // ... and how many are followed along a front
 
 bool better_design(const SliderPathDesign& a, const SliderPathDesign& b) {
   return optimise::better(a.error, total_violation(a), b.error, total_violation(b));
 }
 
-struct Candidate {
+struct SliderCandidate {
   SliderCrankMechanism mechanism;
   double sense = 1;
   std::vector<double> angles;
@@ -81,7 +79,7 @@ class SeparableSearch {
   std::vector<double> start(RandomStream& stream, std::int64_t& evaluations) {
     std::vector<double> best;
     double lowest = infinity;
-    for (int attempt = 0; attempt < tries_per_separable_start; ++attempt) {
+    for (int attempt = 0; attempt < slider_tries_per_separable_start; ++attempt) {
       std::vector<double> q = projection_.random(stream);
       ++evaluations;
       if (!projection_.evaluate(q, residual_, {})) continue;
@@ -114,9 +112,9 @@ class SeparableSearch {
   math::LeastSquaresOptions local_;
 };
 
-class Search {
+class SliderSearch {
  public:
-  Search(const SliderPathProblem& problem, const PathSynthesisOptions& options, RunContext& context)
+  SliderSearch(const SliderPathProblem& problem, const PathSynthesisOptions& options, RunContext& context)
       : problem_(problem), options_(options), context_(context), relaxed_(relax(problem)) {}
 
   SliderPathSynthesis path() {
@@ -206,10 +204,10 @@ class Search {
     out_.designs.push_back(std::move(design));
   }
 
-  std::vector<Candidate> separable(SliderSide side, double sense, std::uint32_t combination) {
+  std::vector<SliderCandidate> separable(SliderSide side, double sense, std::uint32_t combination) {
     SeparableSearch search(relaxed_, side, sense);
-    std::vector<Candidate> found;
-    const int count = starts(separable_starts);
+    std::vector<SliderCandidate> found;
+    const int count = starts(slider_separable_starts);
     for (int start = 0; start < count && !stopped(); ++start) {
       RandomStream random = stream(combination, static_cast<std::size_t>(start));
       std::vector<double> q = search.start(random, out_.evaluations);
@@ -224,15 +222,15 @@ class Search {
 
   // Starts of free timing by turns: a random curve laid on the path, and the best mechanism of a random
   // timing, for which the separable form knows more.
-  std::vector<Candidate> joint(SliderSide side, double sense, std::uint32_t combination,
-                               const Range& stroke) {
+  std::vector<SliderCandidate> joint(SliderSide side, double sense, std::uint32_t combination,
+                                     const Range& stroke) {
     SliderPathMatcher matcher(problem_, side, sense);
     const std::vector<double> along = path_fractions(problem_);
     SliderPathFitter fitter(problem_, sense);
     fitter.limit_stroke(stroke);
     const double size = path_size(problem_);
-    std::vector<Candidate> found;
-    const int count = starts(joint_starts);
+    std::vector<SliderCandidate> found;
+    const int count = starts(slider_joint_starts);
     for (int start = 0; start < count && !stopped(); ++start) {
       RandomStream random = stream(combination, static_cast<std::size_t>(start));
       const auto match = start % 2 == 0 ? matcher.best_of(mechanisms_per_joint_start, random)
@@ -302,23 +300,24 @@ class Search {
   }
 
   // The distinct ones, best first, at most `most`.
-  static std::vector<Candidate> distinct(std::vector<Candidate> found, std::size_t most) {
+  static std::vector<SliderCandidate> distinct(std::vector<SliderCandidate> found, std::size_t most) {
     std::sort(found.begin(), found.end(),
-              [](const Candidate& a, const Candidate& b) { return a.merit < b.merit; });
-    std::vector<Candidate> taken;
-    for (Candidate& candidate : found) {
+              [](const SliderCandidate& a, const SliderCandidate& b) { return a.merit < b.merit; });
+    std::vector<SliderCandidate> taken;
+    for (SliderCandidate& candidate : found) {
       if (taken.size() >= most) break;
-      if (std::none_of(taken.begin(), taken.end(),
-                       [&](const Candidate& c) { return same_mechanism(c.mechanism, candidate.mechanism); }))
+      if (std::none_of(taken.begin(), taken.end(), [&](const SliderCandidate& c) {
+            return same_mechanism(c.mechanism, candidate.mechanism);
+          }))
         taken.push_back(std::move(candidate));
     }
     return taken;
   }
 
   // Those that meet everything are taken as they are, the others go through the constrained search.
-  void finish_candidates(std::vector<Candidate> found, double sense) {
+  void finish_candidates(std::vector<SliderCandidate> found, double sense) {
     SliderPathFitter fitter(problem_, sense);
-    for (const Candidate& candidate : distinct(std::move(found), finished_starts)) {
+    for (const SliderCandidate& candidate : distinct(std::move(found), slider_finished_starts)) {
       if (!problem_.free_timing) {
         SliderPathDesign design = measure(problem_, candidate.mechanism, sense, candidate.angles);
         if (design.violations.empty()) {
@@ -359,7 +358,7 @@ class Search {
       const double found = search.descend(q, out_.evaluations);
       if (found < error[i]) error[i] = found, at[i] = std::move(q);
     };
-    const int count = starts(separable_starts);
+    const int count = starts(slider_separable_starts);
     for (std::size_t i = 0; i < n; ++i) {
       search.projection().limit_stroke(limited(strokes[i]));
       for (int start = 0; start < count && !stopped(); ++start) {
@@ -389,10 +388,10 @@ class Search {
 
   void follow_joint(SliderSide side, double sense, std::uint32_t combination,
                     const std::vector<double>& strokes, std::vector<SliderPathDesign>& best) {
-    std::vector<Candidate> followed =
+    std::vector<SliderCandidate> followed =
         distinct(joint(side, sense, combination, limited(strokes.front())), followed_starts);
     SliderPathFitter fitter(problem_, sense);
-    const auto fit_at = [&](std::size_t i, Candidate& candidate) {
+    const auto fit_at = [&](std::size_t i, SliderCandidate& candidate) {
       const SliderPathProblem here = limited_problem(strokes[i]);
       fitter.limit_stroke(here.stroke);
       const SliderPathFit fit =
@@ -405,11 +404,11 @@ class Search {
       take(std::move(design), best[i]);
     };
     for (std::size_t i = 0; i < strokes.size(); ++i)
-      for (Candidate& candidate : followed)
+      for (SliderCandidate& candidate : followed)
         if (!stopped()) fit_at(i, candidate);
     for (std::size_t i = strokes.size() - 1; i-- > 0;) {
       if (stopped() || best[i + 1].angles.empty() || best[i + 1].sense != sense) continue;
-      Candidate neighbour{best[i + 1].mechanism, sense, best[i + 1].angles, 0};
+      SliderCandidate neighbour{best[i + 1].mechanism, sense, best[i + 1].angles, 0};
       fit_at(i, neighbour);
     }
   }
@@ -443,7 +442,7 @@ SliderPathSynthesis synthesise_slider_path(const SliderPathProblem& problem,
   require_valid(problem);
   LINKWRIGHT_REQUIRE(options.starts >= 0 && options.max_solutions >= 1, "starts {}, max_solutions {}",
                      options.starts, options.max_solutions);
-  return Search(problem, options, context).path();
+  return SliderSearch(problem, options, context).path();
 }
 
 SliderPathSynthesis synthesise_slider_front(const SliderPathProblem& problem, std::span<const double> strokes,
@@ -454,7 +453,7 @@ SliderPathSynthesis synthesise_slider_front(const SliderPathProblem& problem, st
   LINKWRIGHT_REQUIRE(problem.crank_rotates_fully, "the stroke is that of a full turn");
   for (const double stroke : strokes)
     LINKWRIGHT_REQUIRE(stroke > 0 && std::isfinite(stroke), "a stroke of {}", stroke);
-  return Search(problem, options, context).front(strokes);
+  return SliderSearch(problem, options, context).front(strokes);
 }
 
 std::vector<SliderPathDesign> slider_front_of(std::vector<SliderPathDesign> designs) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/four_bar/kernel.h"
 
@@ -11,7 +11,6 @@ namespace linkwright::planar {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
 constexpr std::size_t raw_samples = 96;    // crank angles a curve is computed at
 constexpr std::size_t curve_samples = 96;  // places along its length it is compared at
 constexpr std::size_t most_compared = 24;  // target points that take part

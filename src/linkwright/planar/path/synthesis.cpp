@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/least_squares.h"
@@ -107,7 +108,7 @@ class Search {
   }
 
   double lowest_feasible() const {
-    double lowest = std::numeric_limits<double>::infinity();
+    double lowest = infinity;
     for (const PathDesign& d : out_.designs)
       if (d.violations.empty()) lowest = std::min(lowest, d.error);
     return lowest;
@@ -115,9 +116,7 @@ class Search {
 
   int starts(int usual) const { return options_.starts > 0 ? options_.starts : usual; }
 
-  double best_so_far() const {
-    return out_.history.empty() ? std::numeric_limits<double>::infinity() : out_.history.back().best;
-  }
+  double best_so_far() const { return out_.history.empty() ? infinity : out_.history.back().best; }
 
   void tell(double fraction) {
     if (options_.progress)
@@ -153,7 +152,7 @@ class Search {
       RandomStream stream(
           {.seed = options_.seed, .run = combination, .individual = static_cast<std::uint32_t>(start)});
       std::vector<double> best;
-      double lowest = std::numeric_limits<double>::infinity();
+      double lowest = infinity;
       for (int attempt = 0; attempt < tries_per_separable_start; ++attempt) {
         std::vector<double> q = random_ratios(kind, n, stream);
         ++out_.evaluations;
@@ -227,7 +226,7 @@ class Search {
   const PathSynthesisOptions& options_;
   RunContext& context_;
   const PathProblem relaxed_;
-  double lowest_failed_ = std::numeric_limits<double>::infinity();  // error of a candidate beyond some limit
+  double lowest_failed_ = infinity;  // error of a candidate beyond some limit
   PathSynthesis out_;
 };
 

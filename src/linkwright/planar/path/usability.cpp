@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/classify.h"
@@ -14,7 +14,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 // A limit that the usable problem meets is met to rounding, with a design measured another way.
 constexpr double slack = 1e-6;
 constexpr std::array<double FourBar::*, 4> lengths = {&FourBar::ground, &FourBar::crank, &FourBar::coupler,

@@ -1,6 +1,6 @@
 #include "linkwright/planar/serial_arm/samples.h"
 
-#include <numbers>
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::planar {
 
@@ -12,7 +12,6 @@ TwoRods two_link_arm() {
 }
 
 std::array<math::MotionLaw, 2> two_link_motion() {
-  constexpr double pi = std::numbers::pi;
   return {math::CycloidalMotion{0, pi, 0, 10}, math::CycloidalMotion{0, 3 * pi / 2, 0, 10}};
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/dynamics.h"
@@ -15,7 +16,6 @@ namespace linkwright::planar {
 namespace {
 
 using Index = Eigen::Index;
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // A point and a direction of a joint on a part, in the frame of the part.
 struct Side {
@@ -385,7 +385,7 @@ class Coordinates {
     if (!plan_.closed_form()) rows_.parts = motion_.parts;
     for (std::size_t g = 0; g < plan_.groups.size(); ++g) {
       if (!has_modes(plan_.groups[g].type)) continue;
-      double nearest = std::numeric_limits<double>::infinity(), best = 1;
+      double nearest = infinity, best = 1;
       for (const double mode : {1.0, -1.0}) {
         rows_.modes[g] = mode;
         solve_position(plan_, inputs_, rows_);

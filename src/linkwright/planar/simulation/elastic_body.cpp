@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/plan.h"
 
 namespace linkwright::planar {
@@ -14,7 +14,6 @@ namespace {
 
 constexpr int most_segments = 64;
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 bool positive(double x) { return x > 0 && std::isfinite(x); }
 bool not_negative(double x) { return x >= 0 && std::isfinite(x); }
 
@@ -357,8 +356,7 @@ SegmentErrors segment_errors(int segments) {
     even = std::max(even, 4 * x * (1 - x));
     rising = std::max(rising, 1.5 * std::sqrt(3.0) * x * (1 - x * x));
   }
-  const double n = segments, s = std::sin(std::numbers::pi / (2 * n)),
-               full = n * n / (std::numbers::pi * std::numbers::pi);
+  const double n = segments, s = std::sin(pi / (2 * n)), full = n * n / (pi * pi);
   return {.moment = std::max(1 - even, 1 - rising),
           .frequency = 1 - full * 4 * s * s / std::sqrt(1 - 2 * s * s / 3)};
 }
@@ -376,8 +374,7 @@ int enough_segments() {
 }
 
 double first_frequency(const ElasticBody& b, double length) {
-  return std::pow(std::numbers::pi / length, 2) *
-         std::sqrt(b.elastic_modulus * b.second_moment / (b.density * b.area));
+  return std::pow(pi / length, 2) * std::sqrt(b.elastic_modulus * b.second_moment / (b.density * b.area));
 }
 double highest_frequency(const ElasticBody& b, double length) {
   return std::pow(b.segments / length, 2) *

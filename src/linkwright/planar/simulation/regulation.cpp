@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/interruption.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/ode.h"
 #include "linkwright/planar/linkage/branch.h"
@@ -17,8 +16,6 @@
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double full_turn = 2 * std::numbers::pi;
 
 void require(const Linkage& l, const LinkagePlan& plan, const RegulationSetup& s) {
   LINKWRIGHT_REQUIRE(plan.inputs() == 1 && plan.closed_form() && periodic(plan, 0),
@@ -156,7 +153,7 @@ CycleRegulation regulate(const Linkage& linkage, const LinkagePlan& plan, const 
   } catch (const Interrupted& why) {
     out.status = why.status();
     out.message = "interrupted before the flywheel was found";
-    out.flywheel = std::numeric_limits<double>::quiet_NaN();
+    out.flywheel = nan;
     out.regulated.assign(out.speed.size(), out.flywheel);
   }
   for (std::vector<double>* s : {&out.speed, &out.regulated})

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/dynamics.h"
@@ -18,8 +17,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // The motion ends when a group is so near to its dead point: the time left is then known to a millionth.
 constexpr double dead_sine = 1e-3;
 // From here on a group is watched for its dead point.

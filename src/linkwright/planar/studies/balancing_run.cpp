@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/optimise/statistics.h"
 #include "linkwright/planar/balancing/force_balance.h"
@@ -16,8 +16,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // A seed succeeds when it comes this close to the best of all seeds, relative.
 constexpr double success_share = 1e-4;
 // Solutions with a drawing of their own.

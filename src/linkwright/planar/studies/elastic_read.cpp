@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/elastic.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
@@ -12,7 +12,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // Beyond it the mass that a file gives is not that of the beam.
 constexpr double other_mass = 0.01;
 

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/spectrum.h"
 #include "linkwright/planar/studies/elastic.h"
@@ -12,8 +11,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
 constexpr double poor_balance = 1e-5;
 // Of the length of a beam: beyond it the straight theory of its bending is off by some per cent.
@@ -21,7 +18,7 @@ constexpr double far_bent = 0.1;
 // Explicit steps of a fast vibration: at least so many a period.
 constexpr double steps_a_period = 2;
 
-double hertz(double frequency) { return frequency / (2 * std::numbers::pi); }
+double hertz(double frequency) { return frequency / (2 * pi); }
 
 class ElasticReporter {
  public:

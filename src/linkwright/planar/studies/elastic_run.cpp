@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/simulation/coordinates.h"
 #include "linkwright/planar/studies/elastic.h"
@@ -11,8 +11,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 class ElasticRecorder {
  public:
   ElasticRecorder(const LinkageSimulationStudy& s, RunContext& context) : s_(s), context_(context) {

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/drawn_scale.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // Of the size of the linkage: as far as a deflection is drawn.
 constexpr double drawn_share = 0.05;
 

@@ -21,7 +21,7 @@ const std::vector<Word>& quantity_words() {
   return words;
 }
 
-ReactionsQuantities chosen_quantities(const std::vector<std::string>& listed) {
+ReactionsQuantities chosen_four_bar_quantities(const std::vector<std::string>& listed) {
   const auto has = [&](std::string_view word) {
     return listed.empty() || std::find(listed.begin(), listed.end(), word) != listed.end();
   };
@@ -53,7 +53,7 @@ void check_lengths(study::ObjectReader& mechanism, const FourBar& l, const study
 ReactionsStudy read_reactions_study(study::ObjectReader& document, const study::Common& common) {
   ReactionsStudy s;
   s.units = common.units;
-  s.quantities = chosen_quantities(common.output.quantities);
+  s.quantities = chosen_four_bar_quantities(common.output.quantities);
   if (auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true})) {
     mechanism->read(s.mechanism);
     check_lengths(*mechanism, s.mechanism.linkage, common.units);

@@ -4,13 +4,12 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/branch.h"
 #include "linkwright/planar/four_bar/classify.h"
@@ -20,8 +19,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double pi = std::numbers::pi;
 constexpr const char* scene_name = "motion";
 constexpr JointNames joint_names = {"O1", "O2", "O3", "O4"};
 

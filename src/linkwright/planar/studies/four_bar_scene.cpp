@@ -4,20 +4,16 @@
 
 #include <cmath>
 #include <complex>
-#include <limits>
-#include <numbers>
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/path/targets.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Order of the points of a four_bar_scene; C is there only when the coupler point is drawn.
 enum { O, B0, A, B, C };

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/samples.h"
@@ -17,12 +17,12 @@
 namespace linkwright::planar {
 namespace {
 
-struct Environment {
+struct LinkageEnvironment {
   double gravity = 9.81;
-  double direction = -std::numbers::pi / 2;
+  double direction = -pi / 2;
 };
 template <class Visitor>
-void fields(Visitor&& visit, Environment& e) {
+void fields(Visitor&& visit, LinkageEnvironment& e) {
   visit(Field{.key = "gravity",
               .summary = "acceleration of free fall",
               .dimension = Dimension::acceleration,
@@ -107,7 +107,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
                                                bool needs_masses) {
   LinkageDescription out;
   auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
-  Environment environment;
+  LinkageEnvironment environment;
   auto surroundings = document.table("environment");
   if (surroundings) surroundings->read(environment);
   auto drives = document.tables("drive");
@@ -187,7 +187,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
   if (surroundings || out.sample.empty()) {
     l.gravity = std::polar(environment.gravity, environment.direction);
     // Straight down is exactly down.
-    if (environment.direction == Environment{}.direction) l.gravity = {0, -environment.gravity};
+    if (environment.direction == LinkageEnvironment{}.direction) l.gravity = {0, -environment.gravity};
   }
   if (!good || document.document().has_errors()) return std::nullopt;
   PlanResult planned = plan(l);
@@ -218,7 +218,7 @@ bool require_masses(study::ObjectReader& document, LinkageType type, const Linka
 
 void write_linkage(const LinkageDescription& d, Value& canonical) {
   canonical["mechanism"] = study::write_fields(form_of(d.linkage));
-  Environment environment;
+  LinkageEnvironment environment;
   environment.gravity = std::abs(d.linkage.gravity);
   if (environment.gravity > 0) environment.direction = std::arg(d.linkage.gravity);
   canonical["environment"] = study::write_fields(environment);
@@ -246,7 +246,7 @@ void describe_linkage(study::SchemaWriter& document, LinkageType type) {
                       std::move(mechanism).finish());
   }
   document.property(Field{.key = "environment", .summary = "what acts from outside"},
-                    study::schema_fields<Environment>());
+                    study::schema_fields<LinkageEnvironment>());
   study::SchemaWriter trace;
   trace(
       Field{.key = "point", .summary = "a point whose path is of interest, \"body.point\"", .required = true},
@@ -273,7 +273,7 @@ std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& l
 namespace {
 
 template <study::JointKind kind>
-std::optional<math::MotionLaw> read_law(study::ObjectReader& drive, bool required, Value& canonical) {
+std::optional<math::MotionLaw> read_law_of(study::ObjectReader& drive, bool required, Value& canonical) {
   study::DrivenLaw<kind> law;
   if (!drive(Field{.key = "law", .summary = "motion law", .required = required}, law)) return std::nullopt;
   study::ObjectWriter writer(canonical);
@@ -287,8 +287,8 @@ std::optional<math::MotionLaw> read_law(study::ObjectReader& drive, bool require
 
 std::optional<math::MotionLaw> read_law(study::ObjectReader& drive, bool rotary, bool required,
                                         Value& canonical) {
-  return rotary ? read_law<study::JointKind::rotary>(drive, required, canonical)
-                : read_law<study::JointKind::linear>(drive, required, canonical);
+  return rotary ? read_law_of<study::JointKind::rotary>(drive, required, canonical)
+                : read_law_of<study::JointKind::linear>(drive, required, canonical);
 }
 
 }  // namespace linkwright::planar

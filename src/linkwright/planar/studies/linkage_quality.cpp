@@ -1,8 +1,8 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/branch.h"
@@ -13,9 +13,6 @@
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 double value_at(const InputSamples& axis, int i) {
   return axis.from + (axis.to - axis.from) * i / (axis.samples - 1);

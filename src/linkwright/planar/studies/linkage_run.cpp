@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <numbers>
 #include <optional>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/branch.h"
@@ -20,9 +19,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double pi = std::numbers::pi;
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // Below it a dyad is said to transmit force badly: reactions grow like the reciprocal of its sine.
 constexpr double poor_transmission = 5 * pi / 180;
 

@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/link_mass.h"
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Corners of the convex hull in order; two points when all lie on a line.
 std::vector<int> hull(const std::vector<LinkagePoint>& points) {

@@ -6,25 +6,21 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/balancing/mass_redistribution.h"
 #include "linkwright/planar/studies/four_bar.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/serial_arm.h"
 
 namespace linkwright::planar {
-namespace {
-
-constexpr double pi = std::numbers::pi;
-
 // Numbers of a mass that may be designed.
-enum class Part { mass, inertia, distance, angle, x, y };
+enum class MassPart { mass, inertia, distance, angle, x, y };
 
 // A mass on a link: its own, or one attached to it. Its place is polar (distance and angle from the link
 // line) or given by x and y, in the frame of the link.
-struct Holder {
+struct MassHolder {
   std::size_t link = 0;
   bool attached = false;
   bool polar = true;
@@ -41,13 +37,15 @@ struct Holder {
   }
 };
 
+namespace {
+
 // Where the numbers of masses stand: [owner] under "mass" by name, under "body" or "link" by number; own
 // numbers, then attached masses by number.
 struct Found {
   std::string owner_key;
   std::size_t owner_number = 0;
   std::optional<std::size_t> attached;
-  Part part = Part::mass;
+  MassPart part = MassPart::mass;
 };
 std::optional<Found> find_mass(const std::vector<study::DesignedStep>& steps, std::string_view type) {
   if (steps.size() < 4 || steps[0].key != "mechanism") return std::nullopt;
@@ -68,15 +66,15 @@ std::optional<Found> find_mass(const std::vector<study::DesignedStep>& steps, st
   const std::string base = study::base_of(steps[at].key);
   const bool component = steps.size() == at + 2 && steps[at + 1].element.has_value();
   if (base == "mass")
-    out.part = Part::mass;
+    out.part = MassPart::mass;
   else if (base == "inertia" && !out.attached)
-    out.part = Part::inertia;
+    out.part = MassPart::inertia;
   else if (base == (out.attached ? "distance" : "centre_distance"))
-    out.part = Part::distance;
+    out.part = MassPart::distance;
   else if (base == (out.attached ? "angle" : "centre_angle"))
-    out.part = Part::angle;
+    out.part = MassPart::angle;
   else if (base == (out.attached ? "at" : "centre") && component)
-    out.part = steps[at + 1].element == std::size_t{0} ? Part::x : Part::y;
+    out.part = steps[at + 1].element == std::size_t{0} ? MassPart::x : MassPart::y;
   else
     return std::nullopt;
   return out;
@@ -87,12 +85,12 @@ std::optional<Found> find_mass(const std::vector<study::DesignedStep>& steps, st
 class MassStudy {
  public:
   LinearForces forces;
-  std::vector<Holder> holders;
+  std::vector<MassHolder> holders;
   std::vector<study::DesignedNumber> numbers;
 
   std::vector<BaseParameters> bases(std::span<const double> x) const {
     std::vector<BaseParameters> out(forces.links.size());
-    for (Holder h : holders) {
+    for (MassHolder h : holders) {
       for (std::size_t p = 0; p < h.designed.size(); ++p)
         if (h.designed[p]) h.numbers[p] = si(*h.designed[p], x[*h.designed[p]]);
       const BaseParameters own = h.base();
@@ -147,13 +145,13 @@ class Maker {
   }
 
  private:
-  Holder& add(std::size_t link, std::string name, const LinkMass& m) {
+  MassHolder& add(std::size_t link, std::string name, const LinkMass& m) {
     out_->holders.push_back({.link = link, .name = std::move(name)});
     out_->holders.back().numbers = {m.mass, m.inertia, m.centre_distance, m.centre_angle, 0, 0};
     return out_->holders.back();
   }
-  Holder& add(std::size_t link, std::string name, const PointMass& m) {
-    Holder& h = add(link, std::move(name), LinkMass{m.mass, 0, 0, 0});
+  MassHolder& add(std::size_t link, std::string name, const PointMass& m) {
+    MassHolder& h = add(link, std::move(name), LinkMass{m.mass, 0, 0, 0});
     h.attached = true;
     h.numbers[2] = m.distance;
     h.numbers[3] = m.angle;
@@ -161,7 +159,7 @@ class Maker {
   }
   // Which numbers of the study belong to an owner, by name or by number.
   template <class Owns>
-  void bind(Holder& h, std::optional<std::size_t> attached, Owns&& owns) {
+  void bind(MassHolder& h, std::optional<std::size_t> attached, Owns&& owns) {
     for (std::size_t j = 0; j < found_.size(); ++j)
       if (owns(found_[j]) && found_[j].attached == attached)
         h.designed[static_cast<std::size_t>(found_[j].part)] = j;
@@ -187,12 +185,12 @@ class Maker {
     for (std::size_t k = 0; k < arm.links.size(); ++k) {
       const auto owns = [k](const Found& f) { return f.owner_number == k; };
       const Value& entry = s_.designed.tables.find("mechanism")->find("link")->as_array()[k];
-      Holder& own = add(k, s.mechanism.links[k].name, arm.links[k].body);
+      MassHolder& own = add(k, s.mechanism.links[k].name, arm.links[k].body);
       bind(own, std::nullopt, owns);
       if (own.designed[0] && !has(entry, "inertia")) return uniform(own.name);
       std::vector<PointMass> stay;
       for (std::size_t a = 0; a < arm.links[k].attached.size(); ++a) {
-        Holder& h =
+        MassHolder& h =
             add(k, fmt::format("{} mass {}", s.mechanism.links[k].name, a + 1), arm.links[k].attached[a]);
         bind(h, a, owns);
         if (is_open(h)) continue;
@@ -238,7 +236,7 @@ class Maker {
                                         : s_.designed.tables.find("mechanism")->find("body")->as_array()[b];
       LinkMass own_mass{body.mass->mass, body.mass->inertia, std::abs(body.mass->centre),
                         std::arg(body.mass->centre)};
-      Holder& own = add(link, body.name, own_mass);
+      MassHolder& own = add(link, body.name, own_mass);
       own.polar = slider_crank;
       own.numbers[4] = body.mass->centre.real();
       own.numbers[5] = body.mass->centre.imag();
@@ -246,8 +244,8 @@ class Maker {
       if (own.designed[0] && !has(entry, "inertia")) return uniform(body.name);
       for (std::size_t a = 0; a < body.attached.size(); ++a) {
         AttachedMass& m = body.attached[a];
-        Holder& h = add(link, m.name.empty() ? fmt::format("{} mass {}", body.name, a + 1) : m.name,
-                        PointMass{m.mass, std::abs(m.at), std::arg(m.at)});
+        MassHolder& h = add(link, m.name.empty() ? fmt::format("{} mass {}", body.name, a + 1) : m.name,
+                            PointMass{m.mass, std::abs(m.at), std::arg(m.at)});
         h.polar = slider_crank;
         h.numbers[4] = m.at.real();
         h.numbers[5] = m.at.imag();
@@ -283,7 +281,7 @@ class Maker {
     }
     return otherwise;
   }
-  static bool is_open(const Holder& h) {
+  static bool is_open(const MassHolder& h) {
     return std::any_of(h.designed.begin(), h.designed.end(), [](const auto& d) { return d.has_value(); });
   }
   bool uniform(const std::string& name) {
@@ -310,31 +308,31 @@ bool has_quantity(const LinearForces& forces, const std::string& name) {
 std::optional<MassBalancing> programme(const MassStudy& s, const BalancingProblem& p, std::string& why) {
   MassBalancing out;
   out.forces = s.forces;
-  const auto range = [&](const Holder& h, Part part) {
+  const auto range = [&](const MassHolder& h, MassPart part) {
     const auto k = static_cast<std::size_t>(part);
     if (!h.designed[k]) return Range{h.numbers[k], h.numbers[k]};
     const study::DesignedNumber& n = s.numbers[*h.designed[k]];
     return Range{s.si(*h.designed[k], n.lower), s.si(*h.designed[k], n.upper)};
   };
-  const auto full_turn = [](const Range& r) { return r.upper - r.lower >= 2 * pi * (1 - 1e-9); };
-  for (const Holder& h : s.holders) {
+  const auto whole_turn = [](const Range& r) { return r.upper - r.lower >= 2 * pi * (1 - 1e-9); };
+  for (const MassHolder& h : s.holders) {
     if (std::none_of(h.designed.begin(), h.designed.end(), [](const auto& d) { return d.has_value(); })) {
       // A link with counterweights keeps its own mass: as an open link without freedom its base is constant.
       continue;
     }
-    if (range(h, Part::mass).upper <= 0) {
+    if (range(h, MassPart::mass).upper <= 0) {
       why = fmt::format("'{}' has no mass", h.name);
       return std::nullopt;
     }
-    const Range angle = h.polar ? range(h, Part::angle) : Range{0, 0};
-    if (h.polar && !angle.fixed() && !full_turn(angle)) {
+    const Range angle = h.polar ? range(h, MassPart::angle) : Range{0, 0};
+    if (h.polar && !angle.fixed() && !whole_turn(angle)) {
       why = fmt::format("the angle of '{}' is limited; only a fixed one or a full turn is convex", h.name);
       return std::nullopt;
     }
     if (h.attached) {
-      Counterweight w{.name = h.name, .link = h.link, .mass = range(h, Part::mass)};
+      Counterweight w{.name = h.name, .link = h.link, .mass = range(h, MassPart::mass)};
       if (h.polar) {
-        w.radius = range(h, Part::distance);
+        w.radius = range(h, MassPart::distance);
         if (angle.fixed()) w.angle = angle.lower;
         if (w.radius.upper <= 0 && w.radius.lower < 0) {  // behind the joint
           w.radius = {-w.radius.upper, -w.radius.lower};
@@ -345,7 +343,7 @@ std::optional<MassBalancing> programme(const MassStudy& s, const BalancingProble
           return std::nullopt;
         }
       } else {
-        w.rectangle = {range(h, Part::x), range(h, Part::y)};
+        w.rectangle = {range(h, MassPart::x), range(h, MassPart::y)};
       }
       out.counterweights.push_back(std::move(w));
       continue;
@@ -356,15 +354,15 @@ std::optional<MassBalancing> programme(const MassStudy& s, const BalancingProble
       return std::nullopt;
     }
     const Range distance =
-        h.polar ? range(h, Part::distance) : Range{std::abs(h.place()), std::abs(h.place())};
+        h.polar ? range(h, MassPart::distance) : Range{std::abs(h.place()), std::abs(h.place())};
     if (angle.fixed() && distance.upper > 0) {
       why = fmt::format("the mass centre of '{}' lies in one direction; only a full turn is convex", h.name);
       return std::nullopt;
     }
     out.links.push_back({.link = h.link,
-                         .mass = range(h, Part::mass),
+                         .mass = range(h, MassPart::mass),
                          .centre_distance = distance,
-                         .inertia = range(h, Part::inertia)});
+                         .inertia = range(h, MassPart::inertia)});
   }
   if (!p.task.constraints.empty()) {
     why = "constraints beyond caps on the objectives are not part of the cone programme";
@@ -422,35 +420,35 @@ ExactBalancing exact_balancing(std::shared_ptr<const MassStudy> masses, const Ba
     if (answer.status != Status::done) return design;
     design.x.resize(masses->numbers.size());
     std::size_t weight = 0;  // counterweights come in the order of the holders
-    const auto put = [&](const Holder& h, Part part, double value) {
+    const auto put = [&](const MassHolder& h, MassPart part, double value) {
       const auto& j = h.designed[static_cast<std::size_t>(part)];
       if (!j) return;
       const study::DesignedNumber& n = masses->numbers[*j];
       double x = masses->from_si(*j, value);
-      if (part == Part::angle) {  // into the bounds
+      if (part == MassPart::angle) {  // into the bounds
         const double turn = masses->from_si(*j, 2 * pi);
         x -= turn * std::floor((x - n.lower) / turn);
       }
       design.x[*j] = std::clamp(x, n.lower, n.upper);
     };
-    for (const Holder& h : masses->holders) {
+    for (const MassHolder& h : masses->holders) {
       if (std::none_of(h.designed.begin(), h.designed.end(), [](const auto& d) { return d.has_value(); }))
         continue;
       if (h.attached) {
         const PointMass& m = answer.counterweights[weight++].mass;
-        put(h, Part::mass, m.mass);
-        const auto& d = h.designed[static_cast<std::size_t>(Part::distance)];
+        put(h, MassPart::mass, m.mass);
+        const auto& d = h.designed[static_cast<std::size_t>(MassPart::distance)];
         const bool behind = d && masses->numbers[*d].upper <= 0 && masses->numbers[*d].lower < 0;
-        put(h, Part::distance, behind ? -m.distance : m.distance);
-        put(h, Part::angle, m.angle);
-        put(h, Part::x, m.distance * std::cos(m.angle));
-        put(h, Part::y, m.distance * std::sin(m.angle));
+        put(h, MassPart::distance, behind ? -m.distance : m.distance);
+        put(h, MassPart::angle, m.angle);
+        put(h, MassPart::x, m.distance * std::cos(m.angle));
+        put(h, MassPart::y, m.distance * std::sin(m.angle));
       } else {
         const LinkMass& m = answer.links[h.link];
-        put(h, Part::mass, m.mass);
-        put(h, Part::inertia, m.inertia);
-        put(h, Part::distance, m.centre_distance);
-        put(h, Part::angle, m.centre_angle);
+        put(h, MassPart::mass, m.mass);
+        put(h, MassPart::inertia, m.inertia);
+        put(h, MassPart::distance, m.centre_distance);
+        put(h, MassPart::angle, m.centre_angle);
       }
     }
     for (const ActiveBound& a : answer.active)

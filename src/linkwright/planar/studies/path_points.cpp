@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/csv.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/beside.h"
 
@@ -164,7 +164,7 @@ bool repeats_first_point(const std::vector<double>& x, const std::vector<double>
   return x.size() > 1 && x.size() == y.size() && same_point(x, y, 0, x.size() - 1);
 }
 
-bool is_one_turn(double turned) { return std::abs(std::abs(turned) - 2 * std::numbers::pi) < 1e-6; }
+bool is_one_turn(double turned) { return std::abs(std::abs(turned) - 2 * pi) < 1e-6; }
 
 void read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
                       std::vector<double>& x, std::vector<double>& y) {

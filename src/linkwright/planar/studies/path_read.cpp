@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/path.h"
 #include "linkwright/study/bind_write.h"
 
@@ -19,7 +18,7 @@ void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, 
     if (!t.step) {
       target.error("timing", "equal_steps needs step_deg",
                    "for example timing = { mode = \"equal_steps\", step_deg = 20.0 }");
-    } else if (*t.step == 0 || std::abs(*t.step) > 2 * std::numbers::pi) {
+    } else if (*t.step == 0 || std::abs(*t.step) > 2 * pi) {
       target.error("timing", fmt::format("the step is {}, it must not be zero nor more than a turn",
                                          units.text(*t.step, Dimension::angle, 6)));
     } else {
@@ -161,7 +160,7 @@ void set_rocker_pivot(PathStudy& s) {
   const std::optional<Range>&x = s.mechanism.parameters.rocker_pivot_x,
         &y = s.mechanism.parameters.rocker_pivot_y;
   if (!x && !y) return;
-  constexpr double far = std::numeric_limits<double>::infinity();
+  constexpr double far = infinity;
   const Range anywhere{-far, far}, across = x.value_or(anywhere), up = y.value_or(anywhere);
   s.problem.rocker_pivot = PackagingBox{across.lower, across.upper, up.lower, up.upper};
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/optimise/statistics.h"
@@ -19,9 +19,6 @@
 
 namespace linkwright::planar {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // A seed succeeds when it comes this close to the best of all seeds: a share of the best, or, where zero is
 // within reach, a share of the squared size of the path.
@@ -168,8 +165,7 @@ study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t
     double value = values[j];
     const Range& range = p.bounds[j];
     if (angle) {
-      const double turned =
-          value - 2 * std::numbers::pi * std::floor((value - range.lower) / (2 * std::numbers::pi));
+      const double turned = value - 2 * pi * std::floor((value - range.lower) / (2 * pi));
       if (turned <= range.upper) value = turned;
     }
     out.parameters.push_back({std::string(name(FourBarParameter(j))) + (angle ? "_rad" : "_m"),

@@ -1,8 +1,8 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/planar/studies/regulation.h"
@@ -10,7 +10,7 @@
 namespace linkwright::planar {
 namespace {
 
-double rpm(double speed) { return speed * 30 / std::numbers::pi; }
+double rpm(double speed) { return speed * 30 / pi; }
 
 void warn(study::Result& result, std::string message) {
   result.diagnostics.push_back({Diagnostic::Severity::warning, {}, {}, {}, std::move(message), {}});

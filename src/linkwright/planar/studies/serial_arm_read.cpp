@@ -25,7 +25,7 @@ const std::vector<Word>& quantity_words() {
   return words;
 }
 
-ArmQuantities chosen_quantities(const std::vector<std::string>& listed) {
+ArmQuantities chosen_arm_quantities(const std::vector<std::string>& listed) {
   const auto has = [&](std::string_view word) {
     return listed.empty() || std::find(listed.begin(), listed.end(), word) != listed.end();
   };
@@ -124,7 +124,7 @@ SerialArm serial_arm(const ArmMechanism& mechanism) {
 
 SerialArmStudy read_serial_arm_study(study::ObjectReader& document, const study::Common& common) {
   SerialArmStudy s;
-  s.quantities = chosen_quantities(common.output.quantities);
+  s.quantities = chosen_arm_quantities(common.output.quantities);
   bool links = false;
   if (auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true})) {
     mechanism->read(s.mechanism);

@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/serial_arm/reactions.h"
 #include "linkwright/planar/studies/serial_arm.h"
 
 namespace linkwright::planar {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* scene_name = "motion";
 
 struct Row {

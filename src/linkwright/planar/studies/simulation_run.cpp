@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/simulation/coordinates.h"
 #include "linkwright/planar/studies/linkage_scene.h"
@@ -13,8 +13,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
 constexpr double poor_balance = 1e-5;
 

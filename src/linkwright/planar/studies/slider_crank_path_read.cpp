@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <numeric>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
 #include "linkwright/study/bind_write.h"
 
@@ -13,7 +12,6 @@ namespace linkwright::planar {
 namespace {
 
 using P = SliderParameter;
-constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
 
 void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, SliderPathStudy& s) {
   const SliderPathTiming& t = s.target.timing;

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/optimise/statistics.h"
@@ -17,8 +16,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // A seed succeeds when it comes this close to the best of all seeds: a share of the best, or, where zero is
 // within reach, a share of the squared size of the path; of a front, when so little of what the front of all
 // seeds dominates is missing.

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/optimise/combine.h"
 #include "linkwright/optimise/statistics.h"
@@ -13,7 +13,6 @@
 namespace linkwright::planar {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // A front goes down to this share of the stroke of the design with the least error, unless limits say more.
 constexpr double shortest_stroke = 0.4;
 

@@ -1,9 +1,9 @@
 #include "linkwright/planar/studies/slider_crank_path_scene.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/path/slider_crank_defects.h"
@@ -14,7 +14,7 @@ namespace linkwright::planar {
 std::vector<double> shown_angles(const SliderPathDesign& design, int samples) {
   LINKWRIGHT_REQUIRE(samples >= 2, "needs at least 2 samples, got {}", samples);
   const SliderCrankForm& f = design.mechanism.parameters;
-  double from = design.angles[0], to = from + design.sense * 2 * std::numbers::pi;
+  double from = design.angles[0], to = from + design.sense * 2 * pi;
   if (std::isnan(stroke(f)))
     if (const auto reach = crank_interval(f, from)) {
       from = design.sense > 0 ? reach->from : reach->to;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/suspension/compliance/elastic_assembly.h"
 
 namespace linkwright::suspension {
@@ -20,7 +21,7 @@ using Solution = Eigen::Ref<const VectorXd>;  ///< displacements of the bodies, 
 using Row12 = Eigen::Matrix<double, 12, 1>;   ///< a relative displacement: by the first body, by the second
 
 /// Reciprocal condition below which an answer would be rounding.
-constexpr double no_rank = 1e-14;
+constexpr double no_rank_of_stiffness = 1e-14;
 
 Eigen::Vector3d eigen(const Vec3& a) { return {a.x, a.y, a.z}; }
 Matrix3d skew(const Vec3& a) { return (Matrix3d() << 0, -a.z, a.y, a.z, 0, -a.x, -a.y, a.x, 0).finished(); }
@@ -103,7 +104,7 @@ class Saddle {
     const int n = of_.displacements();
     matrix_.topLeftCorner(n, n) /= scale_;
     lu_.compute(matrix_);
-    if (lu_.rcond() > no_rank) return true;
+    if (lu_.rcond() > no_rank_of_stiffness) return true;
     reason = weakness();
     return false;
   }
@@ -397,7 +398,7 @@ Compliance solve_compliance(const WheelGuide& guide, const GuidePlace& place, do
         out.rack_stiffness += dot(force, guide.rack_direction);
     }
   }
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  constexpr double none = nan;
   out.couplers.resize(assembly.couplers.size());
   for (int load = 0; load < 7; ++load) {
     for (std::size_t i = 0; i < assembly.couplers.size(); ++i)

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/suspension/guide/suspension.h"
 
 /// How stiff the joints of a wheel guide are. Links are rigid; what is elastic lies in their joints.
@@ -14,7 +14,7 @@ namespace linkwright::suspension {
 using Matrix6 = std::array<std::array<double, 6>, 6>;
 
 /// A component that gives way by nothing; it is kept exactly, not by a large number.
-inline constexpr double rigid = std::numeric_limits<double>::infinity();
+inline constexpr double rigid = infinity;
 
 /// A joint as an elastic element in axes of its own: 0 leaves a component free, `rigid` holds it.
 struct JointStiffness {

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 
 #include "linkwright/core/check.h"
-#include "linkwright/suspension/guide/constraints_kernel.h"
+#include "linkwright/suspension/guide/detail/constraints_kernel.h"
 #include "linkwright/suspension/guide/structure.h"
 #include "linkwright/suspension/indirect/link_poses.h"
 

@@ -9,11 +9,12 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/least_squares.h"
 #include "linkwright/optimise/cone_programme.h"
 #include "linkwright/optimise/parallel.h"
-#include "linkwright/suspension/direct/synthesis_model.h"
+#include "linkwright/suspension/direct/detail/synthesis_model.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -196,7 +197,7 @@ std::int64_t minimise_largest_of(const DirectModel& model, const DirectOptions& 
            objectives.end();
   };
   const auto merit = [&](const DirectPoint& at) {
-    if (!at.assembled) return std::numeric_limits<double>::infinity();
+    if (!at.assembled) return infinity;
     double most = 0, over = 0;
     for (std::size_t r = 0; r < model.rows(); ++r) {
       if (among(these, r)) most = std::max(most, std::abs(at.deviations[r]));
@@ -385,11 +386,11 @@ DirectSynthesis synthesise(const DirectTask& task, const DirectOptions& options,
       if (start.assembled) used[i] += descend(model, options, start);
     });
     for (const std::int64_t n : used) evaluations += n;
-    double best = std::numeric_limits<double>::infinity();
+    double best = infinity;
     for (const DirectStart& start : starts) best = std::min(best, start.cost);
     context.report({.stage = "starts",
                     .fraction = static_cast<double>(starts.size()) / options.starts,
-                    .best = std::isfinite(best) ? best : std::numeric_limits<double>::quiet_NaN()});
+                    .best = std::isfinite(best) ? best : nan});
     stop = context.interruption();
   }
 

@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/optimise/priorities.h"
 #include "linkwright/suspension/direct/guide_targets.h"
@@ -48,7 +48,7 @@ struct DirectStart {
   int draws = 0;       ///< until it assembled
   bool moved = false;  ///< towards the given design, since no draw assembled
   bool assembled = false;
-  double cost = std::numeric_limits<double>::infinity();  ///< half the sum of squares at its end
+  double cost = infinity;  ///< half the sum of squares at its end
   std::vector<double> x;
 };
 
@@ -68,12 +68,12 @@ struct DirectSynthesis {
   /// The same in shares of their ranges: what the design is made from, to the bit.
   std::vector<double> shares;
   TargetPositions positions;
-  TargetAnswer answer;                                       ///< at x, without derivatives
-  std::vector<double> objectives;                            ///< largest deviation of each, in tolerances
-  double largest = std::numeric_limits<double>::infinity();  ///< of all
-  double half_sum_of_squares = std::numeric_limits<double>::infinity();  ///< of the deviations
-  optimise::PriorityKey key;         ///< objectives met, and how the next stands
-  std::vector<ActiveTarget> active;  ///< within 1e-4 of the largest of what was minimised
+  TargetAnswer answer;                    ///< at x, without derivatives
+  std::vector<double> objectives;         ///< largest deviation of each, in tolerances
+  double largest = infinity;              ///< of all
+  double half_sum_of_squares = infinity;  ///< of the deviations
+  optimise::PriorityKey key;              ///< objectives met, and how the next stands
+  std::vector<ActiveTarget> active;       ///< within 1e-4 of the largest of what was minimised
   std::vector<LimitAnswer> limits;
   /// Of the deviations by the designed numbers, each in units of its range, descending; with the direction
   /// (unit, in those units) of each. A small one is a direction that the targets hardly determine.

@@ -1,10 +1,10 @@
 #include <cmath>
-#include <limits>
 #include <memory>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/combine.h"
 #include "linkwright/optimise/minimise.h"
-#include "linkwright/suspension/direct/synthesis_model.h"
+#include "linkwright/suspension/direct/detail/synthesis_model.h"
 
 namespace linkwright::suspension {
 
@@ -26,7 +26,7 @@ DirectEvolution evolve(const DirectTask& task, const DirectOptions& options, std
       if (!found.assembled) {
         // More than any limit of an assembled design is missed by, and less the further it gets.
         violation[i] = 1e3 * (2 - found.reached);
-        for (std::size_t k = 0; k < count; ++k) cost[i * count + k] = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < count; ++k) cost[i * count + k] = infinity;
         continue;
       }
       const std::vector<double> values =

@@ -1,4 +1,4 @@
-#include "linkwright/suspension/direct/synthesis_model.h"
+#include "linkwright/suspension/direct/detail/synthesis_model.h"
 
 #include <algorithm>
 #include <cmath>

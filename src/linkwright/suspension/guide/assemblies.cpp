@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/small_lu.h"
 
@@ -92,7 +92,7 @@ std::vector<Assembly> assemblies(const GuidePlan& plan, Driver driver, const Gui
       const auto shift = [&] { return random.uniform(-far / 2, far / 2); };
       const double x = shift(), y = shift(), z = shift();
       place.carrier.centre += Vec3{x, y, z};
-      const auto turn = [&] { return random.uniform(-std::numbers::pi, std::numbers::pi); };
+      const auto turn = [&] { return random.uniform(-pi, pi); };
       const double a = turn(), b = turn(), c = turn();
       place.carrier.rotation = math::turn_z(a) * math::turn_x(b) * math::turn_z(c);
       place.arm = turn();

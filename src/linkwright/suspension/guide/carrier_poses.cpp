@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
 
 namespace linkwright::suspension {
@@ -94,8 +94,7 @@ std::optional<CarrierTargets> carrier_targets(CarrierTargets targets, const Tabl
     targets.poses.push_back(
         {.rack = values[rack].empty() ? 0 : values[rack][i],
          .centre = {values[x][i], values[y][i], values[z][i]},
-         .angles = {values[toe][i], values[camber][i],
-                    values[spin].empty() ? std::numeric_limits<double>::quiet_NaN() : values[spin][i]}});
+         .angles = {values[toe][i], values[camber][i], values[spin].empty() ? nan : values[spin][i]}});
   return targets;
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
-#include "linkwright/suspension/guide/constraints_kernel.h"
+#include "linkwright/suspension/guide/detail/constraints_kernel.h"
 #include "linkwright/suspension/guide/structure.h"
 
 namespace linkwright::suspension {

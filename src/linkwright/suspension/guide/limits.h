@@ -1,10 +1,10 @@
 #pragma once
 
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/suspension/guide/design_numbers.h"
 #include "linkwright/suspension/guide/point_box.h"
 #include "linkwright/suspension/guide/position.h"
@@ -24,8 +24,8 @@ struct KeepOut {
 /// Distance of the first body point of a link from its first carrier point.
 struct LengthLimit {
   int link = 0;
-  double least = 0;                                           ///< m
-  double greatest = std::numeric_limits<double>::infinity();  ///< m
+  double least = 0;            ///< m
+  double greatest = infinity;  ///< m
 };
 
 /// Least distance (m) of the lines of two links: their radii and what is to be left between.

@@ -24,7 +24,7 @@ constexpr double longest_turn = 0.3;    ///< rad
 // can be assemblies for which the determinant has the same sign, but before it the direction grows beyond
 // bounds.
 constexpr double sharpest_bend = 0.5;
-constexpr double no_rank = 1e-12;  ///< of the squareness: some thousand roundings
+constexpr double no_squareness = 1e-12;  ///< of the squareness: some thousand roundings
 
 /// Newton's method for plans with N unknowns.
 template <int N>
@@ -162,7 +162,7 @@ GuidePosition follow(const GuidePlan& plan, Driver driver, const GuideInput& inp
     out.reason = limit_reason(plan, out, start, input);
     return out;
   };
-  if (!(solver.squareness() > no_rank)) return stop(Status::singular, 0);
+  if (!(solver.squareness() > no_squareness)) return stop(Status::singular, 0);
   const bool orientation = solver.orientation();
   const double rise = input.value - start.value, way = input.rack - start.rack;
   const double length = std::max(std::abs(rise), std::abs(way));

@@ -6,7 +6,7 @@
 #include <set>
 #include <string_view>
 
-#include "linkwright/suspension/guide/wheel_kernel.h"
+#include "linkwright/suspension/guide/detail/wheel_kernel.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -14,9 +14,7 @@ namespace {
 /// Points nearer than this (m) do not make a length.
 constexpr double no_length = 1e-6;
 
-bool finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
-
-struct Findings {
+struct GuideFindings {
   Diagnostics list;
   void add(std::string key, std::string message, std::string hint = {}) {
     list.push_back({.key = std::move(key), .message = std::move(message), .hint = std::move(hint)});
@@ -27,7 +25,7 @@ double off_line(const Vec3& point, const Vec3& from, const Vec3& to) {
   return norm(cross(point - from, unit(to - from)));
 }
 
-void check_link(const WheelGuide& guide, int index, Findings& found) {
+void check_link(const WheelGuide& guide, int index, GuideFindings& found) {
   const GuideLink& link = guide.links[index];
   const std::string key = "link." + link_label(guide, index);
   const std::string_view type = name_of(link.type);
@@ -133,7 +131,7 @@ std::string link_label(const WheelGuide& guide, int link) {
 }
 
 Diagnostics check(const WheelGuide& guide) {
-  Findings found;
+  GuideFindings found;
   const GuideWheel& wheel = guide.wheel;
   if (!finite(wheel.centre) || !std::isfinite(wheel.toe) || !std::isfinite(wheel.camber))
     found.add("wheel", "a number is not finite");

@@ -1,6 +1,6 @@
 #include "linkwright/suspension/guide/wheel.h"
 
-#include "linkwright/suspension/guide/wheel_kernel.h"
+#include "linkwright/suspension/guide/detail/wheel_kernel.h"
 
 namespace linkwright::suspension {
 

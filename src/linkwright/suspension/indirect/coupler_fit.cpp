@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/least_squares.h"
 
 namespace linkwright::suspension {
@@ -99,7 +100,7 @@ Vec3 best_in_box(const Track& track, double l, const PointBox& box) {
   const Eigen::Vector3d lower(box.lower.x, box.lower.y, box.lower.z),
       upper(box.upper.x, box.upper.y, box.upper.z);
   Eigen::Vector3d best = 0.5 * (lower + upper);
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   for (int sides = 0; sides < 27; ++sides) {  // each coordinate free, at its lower, at its upper limit
     const std::array side{sides % 3, sides / 3 % 3, sides / 9};
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -182,7 +183,7 @@ CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink>
   CouplerFit fit;
   fit.coupler = {.name = task.name, .first = task.first, .second = task.second};
   // The best of a row of offsets, then Gauss-Newton with the exact derivative.
-  double offset = length, least = std::numeric_limits<double>::infinity();
+  double offset = length, least = infinity;
   for (int k = 0; k < offsets_tried; ++k) {
     const double l = task.least_offset + (length - task.least_offset) * (k + 0.5) / offsets_tried;
     const double square = fit_sphere(track, l).residual.squaredNorm();
@@ -208,7 +209,7 @@ CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink>
   set_point(track.origin + back * Vec3{centre.x(), centre.y(), centre.z()});
   const auto errors = [&] {
     std::vector<double> e(n - 1);
-    fit.rms = fit.largest = std::numeric_limits<double>::infinity();
+    fit.rms = fit.largest = infinity;
     if (!coupler_errors(track, x, e, {})) return;
     double square = 0;
     fit.largest = 0;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <limits>
 #include <span>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/suspension/guide/carrier_poses.h"
 #include "linkwright/suspension/indirect/link_task.h"
@@ -13,8 +13,8 @@ namespace linkwright::suspension {
 struct CouplerFit {
   Status status = Status::infeasible;  ///< as LinkFit::status; infeasible also when a link is not there
   Coupler coupler;
-  double offset = 0;  ///< m, from the body point of the first link
-  double rms = std::numeric_limits<double>::infinity(), largest = rms;  ///< m: change of its length
+  double offset = 0;                     ///< m, from the body point of the first link
+  double rms = infinity, largest = rms;  ///< m: change of its length
 };
 
 /// Finds a coupler between links that are known: seen from the second link, the point on the first one moves

@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::array axes{"x", "y", "z"};
 
-double component(const Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
-
 Mat3 turn_rate_y(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {{Vec3{-s, 0, c}, Vec3{0, 0, 0}, Vec3{-c, 0, -s}}};

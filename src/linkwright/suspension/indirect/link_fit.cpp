@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/least_squares.h"
 #include "linkwright/suspension/indirect/link_fit_direct.h"
 #include "linkwright/suspension/indirect/link_fit_projected.h"
@@ -22,7 +23,7 @@ constexpr double rounded_rms = 1e-12;    // m: what exact positions leave
 constexpr int further_starts = 32;
 
 struct Errors {
-  double rms = std::numeric_limits<double>::infinity(), largest = rms;
+  double rms = infinity, largest = rms;
 };
 
 /// One search for a link, with its memory.
@@ -298,7 +299,7 @@ double fewest_positions(int unknowns, int equations, int pose_parameters, bool l
   LINKWRIGHT_REQUIRE(unknowns >= 0 && equations >= 0 && pose_parameters >= 0 && pose_parameters <= 6,
                      "{} unknowns, {} equations, {} pose parameters", unknowns, equations, pose_parameters);
   const int gained = equations + pose_parameters - 6;
-  if (gained <= 0) return std::numeric_limits<double>::infinity();
+  if (gained <= 0) return infinity;
   return static_cast<double>(unknowns) / gained + (lengths_given ? 0 : 1);
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
@@ -46,10 +46,10 @@ struct LinkFit {
   /// cancelled: as not_converged.
   Status status = Status::infeasible;
   GuideLink link;
-  double rms = std::numeric_limits<double>::infinity();      ///< m, of all equations and positions
-  double largest = std::numeric_limits<double>::infinity();  ///< m
-  int starts = 0;                                            ///< local searches made
-  int duplicates = 0;  ///< exact links refused because they were known already
+  double rms = infinity;      ///< m, of all equations and positions
+  double largest = infinity;  ///< m
+  int starts = 0;             ///< local searches made
+  int duplicates = 0;         ///< exact links refused because they were known already
   std::int64_t evaluations = 0;
 };
 

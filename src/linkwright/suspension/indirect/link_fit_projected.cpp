@@ -8,7 +8,6 @@ namespace linkwright::suspension {
 namespace {
 
 double& component(Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
-double component(const Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -50,8 +51,7 @@ optimise::Problem problem_of(const GuideErrors& errors, ErrorTotal total) {
       const bool there = evaluator->evaluate(x, rows, {});
       const double shortfall = evaluator->shortfall();
       violation[i] = there ? 0 : shortfall > 0 ? shortfall : 1;
-      cost[i] =
-          there ? objective_of(evaluator->totals(rows), total) : std::numeric_limits<double>::infinity();
+      cost[i] = there ? objective_of(evaluator->totals(rows), total) : infinity;
     }
     pool->give_back(std::move(evaluator));
   };
@@ -90,7 +90,7 @@ double link_objective(const CarrierTargets& targets, const GuideLink& link, Erro
   const LinkTask task = given_link(link);
   GuideErrors errors(targets, {&task, 1});
   std::vector<double> rows(errors.rows());
-  if (!errors.evaluate({}, rows, {})) return std::numeric_limits<double>::infinity();
+  if (!errors.evaluate({}, rows, {})) return infinity;
   return objective_of(errors.totals(rows), total);
 }
 
@@ -124,7 +124,7 @@ Evolution evolve_links(const CarrierTargets& targets, std::span<const LinkTask> 
   for (std::size_t l = 0; l < out.links.size(); ++l) out.link_errors.push_back(errors.link_totals(l, rows));
   for (std::size_t k = 0; k < out.couplers.size(); ++k)
     out.coupler_errors.push_back(errors.coupler_totals(k, rows));
-  out.objective = there ? errors.totals(rows).mean() : std::numeric_limits<double>::infinity();
+  out.objective = there ? errors.totals(rows).mean() : infinity;
   return out;
 }
 

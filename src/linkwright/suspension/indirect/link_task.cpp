@@ -9,8 +9,6 @@ namespace {
 
 constexpr double in_box = 1e-9;  // m: a point this far outside is at the bound
 
-double component(const Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
-
 template <class Link>
 auto& point_of(Link& link, int place) {
   const std::size_t point = static_cast<std::size_t>(place) / 3;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/suspension/guide/point_box.h"
 #include "linkwright/suspension/guide/suspension.h"
 
@@ -26,7 +26,7 @@ struct CouplerTask {
   int first = 0;   ///< KS link
   int second = 0;  ///< SR link
   /// m: of its point on the first link from that link's body point; at most that link's length.
-  double least_offset = 0, most_offset = std::numeric_limits<double>::infinity();
+  double least_offset = 0, most_offset = infinity;
   PointBox point;  ///< of its point on the second link, in the reference pose
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/suspension/guide/wheel.h"
 
@@ -12,7 +13,6 @@ namespace linkwright::suspension {
 namespace {
 
 double& component(Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
-double component(const Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
 bool is_angle(PoseParameter p) { return p >= PoseParameter::toe; }
 
@@ -193,7 +193,7 @@ std::vector<SettlingStep> settling_order(const CarrierTargets& targets, PosePara
   const Point origin = point(reference_of(targets));
   std::vector<Point> at(n);
   std::vector<bool> settled(n, false);
-  std::vector<double> nearest(n, std::numeric_limits<double>::infinity());
+  std::vector<double> nearest(n, infinity);
   std::vector<int> before(n, -1);
   for (std::size_t i = 0; i < n; ++i) {
     at[i] = point(targets.poses[i]);

@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/suspension/guide/carrier_poses.h"
 #include "linkwright/suspension/guide/suspension.h"
@@ -40,7 +40,7 @@ struct RodSolution {
 /// sin = C for an angle. `expected` chooses between the solutions; NaN = the value of the reference pose.
 /// Throws ContractError for other links, and when another parameter is missing, too.
 RodSolution solve_for(const CarrierTargets& targets, const CarrierTarget& pose, const GuideLink& rod,
-                      PoseParameter parameter, double expected = std::numeric_limits<double>::quiet_NaN());
+                      PoseParameter parameter, double expected = nan);
 
 /// In which order positions that miss a parameter are settled: each after the one that it is nearest to, the
 /// reference pose first. Where a rod passes a dead point both solutions meet, and only where the motion comes

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/suspension/guide/carrier_poses.h"
 #include "linkwright/suspension/guide/suspension.h"
 #include "linkwright/suspension/indirect/link_task.h"
@@ -13,7 +13,7 @@
 /// Examples 1 to 4 of Poznanovic 2016 (sections 6.2 to 6.5) as printed: facts to compare with.
 namespace linkwright::suspension {
 
-inline constexpr double not_printed = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double not_printed = nan;
 
 /// A row of tables 6-1, 6-5, 6-9, 6-13: m and degrees, five decimals.
 struct PublishedPosition {

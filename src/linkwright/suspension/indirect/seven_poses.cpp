@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/suspension/indirect/link_fit_direct.h"
 
@@ -134,7 +134,7 @@ Complex3 body_point(const Equations& equations, const Complex3& x) {
 bool polish(const Equations& equations, Point<Complex>& p) {
   Complex6 f;
   ComplexSystem jacobian;
-  double best = std::numeric_limits<double>::infinity();
+  double best = infinity;
   for (int step = 0; step < newton_steps; ++step) {
     const double error = evaluate(equations, p, f, jacobian);
     if (!std::isfinite(error) || p.x.norm() > farthest || p.y.norm() > farthest) return false;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/suspension/guide/structure.h"
 #include "linkwright/suspension/indirect/link_fit_motion.h"
 #include "linkwright/suspension/indirect/pose_completion.h"
@@ -354,7 +355,7 @@ IndirectSynthesis synthesise(const IndirectTask& task, const IndirectOptions& op
     if (options.link.progress)
       context.report({.stage = "links",
                       .fraction = static_cast<double>(l + 1) / static_cast<double>(task.links.size()),
-                      .best = std::isfinite(fit.rms) ? fit.rms : std::numeric_limits<double>::quiet_NaN()});
+                      .best = std::isfinite(fit.rms) ? fit.rms : nan});
   }
   std::vector<GuideLink> links;
   for (const LinkFit& fit : result.links) links.push_back(fit.link);

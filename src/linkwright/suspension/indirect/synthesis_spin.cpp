@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/math/least_squares.h"
 #include "linkwright/suspension/indirect/link_fit_motion.h"
@@ -48,10 +49,10 @@ class JointSearch {
     const auto report = math::minimise_least_squares(function, problem_.rows(), x, problem_.lower(),
                                                      problem_.upper(), local_, workspace_);
     fit.evaluations += report.evaluations;
-    return report.status != Status::infeasible ? take(x, fit) : std::numeric_limits<double>::infinity();
+    return report.status != Status::infeasible ? take(x, fit) : infinity;
   }
   double take(std::span<const double> x, SpinFit& fit) {
-    if (!problem_.evaluate(x, errors_, {})) return std::numeric_limits<double>::infinity();
+    if (!problem_.evaluate(x, errors_, {})) return infinity;
     const double rms = problem_.totals(errors_).rms();
     if (!(rms < fit.rms)) return rms;
     const std::vector<GuideLink> links = problem_.links();
@@ -60,7 +61,7 @@ class JointSearch {
         if (links[a].type == links[b].type && links[a].moved_by_rack == links[b].moved_by_rack &&
             largest_distance(links[a], links[b]) <= options_.distinct_links) {
           ++fit.refused;
-          return std::numeric_limits<double>::infinity();
+          return infinity;
         }
     fit.rms = rms;
     fit.largest = problem_.totals(errors_).largest;
@@ -104,7 +105,7 @@ SpinFit fit_with_unknown_spin(const CarrierTargets& targets, std::span<const Lin
     if (options.progress)
       context.report({.stage = "all links",
                       .fraction = starts_done / (options.starts + 1),
-                      .best = fit.links.empty() ? std::numeric_limits<double>::quiet_NaN() : fit.rms});
+                      .best = fit.links.empty() ? nan : fit.rms});
   };
   // Each start as far as it takes to rank them, then one after the other to its end, the best first, until
   // one is good enough: which of them ends best, in narrow valleys cut off by limits, their ranks do not

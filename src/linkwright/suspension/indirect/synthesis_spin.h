@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "linkwright/core/field.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
 #include "linkwright/suspension/indirect/guide_errors.h"
@@ -62,7 +62,7 @@ struct SpinFit {
   std::vector<Coupler> couplers;
   CarrierTargets targets;  ///< with the spins found, continuing those given
   std::vector<ErrorTotals> link_errors, coupler_errors;
-  double rms = std::numeric_limits<double>::infinity(), largest = rms;  ///< m
+  double rms = infinity, largest = rms;  ///< m
   int starts = 0;
   int refused = 0;  ///< ends with equal links, which leave the carrier a freedom more
   std::int64_t evaluations = 0;

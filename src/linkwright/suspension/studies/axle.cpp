@@ -12,8 +12,6 @@
 namespace linkwright::suspension {
 namespace {
 
-constexpr double missing = WheelParameters::missing;
-
 bool is_steered(const WheelGuide& guide) {
   return std::any_of(guide.links.begin(), guide.links.end(),
                      [](const GuideLink& l) { return l.moved_by_rack; });
@@ -31,7 +29,7 @@ class Rows {
   void add(std::string key, std::string label, Value&& value) {
     std::vector<double> column;
     for (const AxleRow& r : rows_)
-      column.push_back(r.position.status == Status::done ? value(r.parameters) : missing);
+      column.push_back(r.position.status == Status::done ? value(r.parameters) : WheelParameters::missing);
     table_.add(std::move(key), std::move(label), std::move(column));
   }
   void add_values(std::string key, std::string label) {
@@ -84,14 +82,15 @@ Table steer_table(std::span<const AxleRow> rows, const AxleParameters& straight,
   out.add("left_camber_rad", "left camber (rad)", [](const P& p) { return p.left.angles.camber; });
   out.add("right_camber_rad", "right camber (rad)", [](const P& p) { return p.right.angles.camber; });
   const auto of_left = [&](std::string key, std::string label, double SteeringParameters::*member) {
-    out.add(std::move(key), std::move(label),
-            [=](const P& p) { return p.steering_left ? *p.steering_left.*member : missing; });
+    out.add(std::move(key), std::move(label), [=](const P& p) {
+      return p.steering_left ? *p.steering_left.*member : WheelParameters::missing;
+    });
   };
   of_left("left_steer_by_rack_rad_per_m", "left steer angle by rack (rad/m)",
           &SteeringParameters::steer_by_rack);
   if (form.rack_per_turn)
     out.add("steering_ratio", "steering ratio, steering wheel by mean steer angle", [&](const P& p) {
-      if (!p.steering_left || !p.steering_right) return missing;
+      if (!p.steering_left || !p.steering_right) return WheelParameters::missing;
       return steering_ratio((p.steering_left->steer_by_rack + p.steering_right->steer_by_rack) / 2,
                             *form.rack_per_turn);
     });
@@ -109,11 +108,11 @@ Table steer_table(std::span<const AxleRow> rows, const AxleParameters& straight,
     };
     out.add("ackermann_percent", "Ackermann (%), track at the contacts", [&](const P& p) {
       const auto a = ackermann_of(p);
-      return a ? a->percent : missing;
+      return a ? a->percent : WheelParameters::missing;
     });
     out.add("ackermann_error_rad", "inner steer angle less the ideal one (rad)", [&](const P& p) {
       const auto a = ackermann_of(p);
-      return a ? a->error : missing;
+      return a ? a->error : WheelParameters::missing;
     });
   }
   return out.take();
@@ -179,7 +178,7 @@ void add_anti_features(study::Result& result, const VehicleForm& vehicle,
   const bool front = vehicle.axle == AxlePlace::front;
   std::array<std::vector<double>, 3> columns;
   for (const WheelParameters& w : wheels) {
-    AntiFeatures a{missing, missing, missing};
+    AntiFeatures a{WheelParameters::missing, WheelParameters::missing, WheelParameters::missing};
     if (w.status == Status::done) a = anti_features(w, vehicle.axle, vehicle.layout);
     columns[0].push_back(a.outboard_brake);
     columns[1].push_back(a.inboard_brake);

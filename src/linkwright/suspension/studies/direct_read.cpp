@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linkwright/core/csv.h"
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
@@ -270,9 +271,7 @@ PointBox box_of(const Range& x, const Range& y, const Range& z) {
 void add_limit(study::ObjectReader& table, const LengthConstraint& c, DirectStudy& s) {
   const auto link = find_link(table, "link", s.description.guide, c.link);
   if (!c.min && !c.max) table.error("min", "no limit is given", "write min_mm, max_mm or both");
-  if (link)
-    s.task.limits.lengths.push_back(
-        {*link, c.min.value_or(0), c.max.value_or(std::numeric_limits<double>::infinity())});
+  if (link) s.task.limits.lengths.push_back({*link, c.min.value_or(0), c.max.value_or(infinity)});
 }
 void add_limit(study::ObjectReader& table, const LinkClearanceConstraint& c, DirectStudy& s) {
   const auto first = find_link(table, "first", s.description.guide, c.first);

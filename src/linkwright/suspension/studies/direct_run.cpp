@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/designed.h"
 #include "linkwright/study/run_seeds.h"
@@ -16,7 +17,6 @@
 namespace linkwright::suspension {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A seed succeeds when it comes this close to the best of all, as a share of it.
 constexpr double success_share = 1e-4;
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/vector3.h"
 #include "linkwright/suspension/indirect/link_poses.h"
 
@@ -11,7 +11,6 @@ namespace linkwright::suspension {
 namespace {
 
 using study::Scene;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double tyre_width_by_diameter = 0.3;  ///< for the drawing only
 
 class Drawing {

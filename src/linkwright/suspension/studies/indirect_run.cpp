@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/study/run_seeds.h"
 #include "linkwright/suspension/guide/hard_points.h"
@@ -21,7 +22,6 @@ namespace {
 
 /// m: a rod of seven positions with errors below this fits all the others as well.
 constexpr double fits_all = 1e-8;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
 double coordinate(const Vec3& v, std::size_t i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
 

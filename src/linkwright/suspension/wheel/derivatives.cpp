@@ -6,12 +6,10 @@
 #include <span>
 
 #include "linkwright/math/small_lu.h"
-#include "linkwright/suspension/wheel/parameters_kernel.h"
+#include "linkwright/suspension/wheel/detail/parameters_kernel.h"
 
 namespace linkwright::suspension {
 namespace {
-
-constexpr double missing = WheelParameters::missing;
 
 /// Numbers with the derivatives of one pass.
 constexpr int W = derivative_width;
@@ -198,14 +196,15 @@ class Linearised {
 void take_apart(const BasicWheelParameters<T>& from, WheelParameters& values, std::span<WheelParameters> by) {
   kernel::for_each_number(from, values, [](const T& a, double& to) { to = a.value; });
   for (std::size_t k = 0; k < by.size(); ++k)
-    kernel::for_each_number(from, by[k],
-                            [k](const T& a, double& to) { to = std::isfinite(a.value) ? a.by[k] : missing; });
+    kernel::for_each_number(from, by[k], [k](const T& a, double& to) {
+      to = std::isfinite(a.value) ? a.by[k] : WheelParameters::missing;
+    });
 }
 
 WheelParameters unknown(Status status) {
   WheelParameters out;
   const BasicWheelParameters<double> nothing;
-  kernel::for_each_number(nothing, out, [](double, double& to) { to = missing; });
+  kernel::for_each_number(nothing, out, [](double, double& to) { to = WheelParameters::missing; });
   out.status = status;
   return out;
 }
@@ -220,8 +219,8 @@ WheelDerivatives by_numbers(const DerivativePlan& plan, const GuidePosition& pos
   if (!linear.moves()) {
     out.status = Status::singular;
     for (WheelParameters& by : out.by) by = unknown(out.status);
-    const Vec3 none{missing, missing, missing};
-    for (Twist& shift : out.shift) shift = {none, none, missing};
+    const Vec3 none{WheelParameters::missing, WheelParameters::missing, WheelParameters::missing};
+    for (Twist& shift : out.shift) shift = {none, none, WheelParameters::missing};
     return out;
   }
   const T rack(position.input.rack);

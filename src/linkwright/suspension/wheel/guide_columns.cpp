@@ -40,7 +40,7 @@ constexpr std::array columns{
     column("half_track_change_m", "half-track change (m)", "track", half_track_change),
     column("track_m", "track of the symmetric axle (m)", "track", track),
     column("wheelbase_change_m", "wheelbase change at the contact point (m)", "wheelbase", wheelbase_change),
-    column("recession_m", "wheel centre forward (m)", "wheelbase", recession),
+    column("recession_m", "recession: wheel centre rearward (m)", "wheelbase", recession),
     column("toe_by_travel_rad_per_m", "bump steer, toe by travel (rad/m)", "gains", toe_by_travel),
     column("camber_by_travel_rad_per_m", "camber by travel (rad/m)", "gains", camber_by_travel),
     column("roll_centre_height_m", "roll-centre height, kinematic (m)", "roll_centre", roll_centre_height),

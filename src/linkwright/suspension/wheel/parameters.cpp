@@ -1,6 +1,6 @@
 #include "linkwright/suspension/wheel/parameters.h"
 
-#include "linkwright/suspension/wheel/parameters_kernel.h"
+#include "linkwright/suspension/wheel/detail/parameters_kernel.h"
 
 namespace linkwright::suspension {
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <optional>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/suspension/guide/position.h"
 #include "linkwright/suspension/guide/wheel.h"
 
@@ -39,7 +39,7 @@ using SteeringAxis = BasicSteeringAxis<double>;
 /// a guide without two planes, see GuideConstruction; a centre of parallel arms lies at infinity.
 template <class T>
 struct BasicArmCentres {
-  static constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double missing = nan;
   T roll_centre_height = missing;            ///< m above the ground line
   std::array<T, 2> front{missing, missing};  ///< (y, z), m
   std::array<T, 2> side{missing, missing};   ///< (x, z), m
@@ -55,7 +55,7 @@ template <class T>
 struct BasicWheelParameters {
   /// singular: at a limit of travel, where only angles and points are known and the rest is NaN.
   Status status = Status::done;
-  static constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double missing = nan;
   BasicWheelAngles<T> angles;
   /// rad, > 0: top of the wheel away from the vehicle; the angle of the wheel's plane with the vehicle's
   /// vertical as the front view shows it, tan = tan(camber) / cos(toe). `angles.camber` is that of the
@@ -65,7 +65,7 @@ struct BasicWheelParameters {
   T track = missing;              ///< m, twice the contact point's distance from the middle plane (26)
   T half_track_change = missing;  ///< m, contact point outboard of that at the reference (26)
   T wheelbase_change = missing;   ///< m, contact point forward of that at the reference
-  T recession = missing;          ///< m, wheel centre forward of that at the reference
+  T recession = missing;          ///< m, wheel centre rearward of that at the reference
   T toe_by_travel = missing;      ///< rad/m, bump steer: > 0 toes in when it rises
   T camber_by_travel = missing;   ///< rad/m
   Vector3<T> velocity, turning;   ///< of the wheel centre (m/m) and of the carrier (rad/m)

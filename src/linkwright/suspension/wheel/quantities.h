@@ -96,7 +96,7 @@ constexpr std::array<EnumName<WheelQuantity>, 71> names(WheelQuantity) {
        {track, "track", "track of a symmetric axle"},
        {half_track_change, "half_track_change", "contact point outboard of that at the reference"},
        {wheelbase_change, "wheelbase_change", "contact point forward of that at the reference"},
-       {recession, "recession", "wheel centre forward of that at the reference"},
+       {recession, "recession", "wheel centre rearward of that at the reference"},
        {toe_by_travel, "toe_by_travel", "bump steer"},
        {camber_by_travel, "camber_by_travel", "camber gain"},
        {roll_centre_height, "roll_centre_height", "roll centre above the ground, wheel held by the carrier"},

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/numbers.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -47,7 +47,7 @@ std::optional<SteeringParameters> steering_parameters(const GuidePlan& plan, con
 double steering_ratio(double steer_by_rack, double rack_per_turn) {
   LINKWRIGHT_REQUIRE(rack_per_turn > 0, "rack travel by a turn of the pinion {} m, needs to be positive",
                      rack_per_turn);
-  return 2 * std::numbers::pi / (std::abs(steer_by_rack) * rack_per_turn);
+  return 2 * pi / (std::abs(steer_by_rack) * rack_per_turn);
 }
 
 }  // namespace linkwright::suspension

@@ -12,7 +12,6 @@
 namespace linkwright::suspension {
 namespace {
 
-constexpr double missing = WheelParameters::missing;
 constexpr int most_of_block = 64;      ///< samples of a task of a thread
 constexpr int solved_by_block = 2048;  ///< about so many positions, if one sample has fewer
 constexpr int round_blocks = 16;       ///< tasks between reports of the progress
@@ -36,7 +35,7 @@ void draw(const ToleranceTask& task, const MonteCarlo& options, int sample,
   for (const auto& [number, tolerance] : task.numbers)
     at(guide, number) +=
         tolerance * (options.scatter == Scatter::uniform ? random.uniform(-1, 1) : random.normal() / 3);
-  std::fill(out.begin(), out.end(), missing);
+  std::fill(out.begin(), out.end(), WheelParameters::missing);
   if (!check(guide).empty()) return;
   const GuidePlan plan = prepare(guide);
   for (std::size_t i = 0; i < nominal.size(); ++i) {
@@ -95,11 +94,11 @@ ToleranceBands tolerance_bands(const ToleranceTask& task, const MonteCarlo& opti
     if (!there || exact.status != Status::done) out.status = there ? exact.status : nominal[i].status;
     for (std::size_t c = 0; c < curves; ++c) {
       Band& band = out.bands[c][i];
-      band.nominal = there ? value_of(exact.parameters, task.curves[c]) : missing;
-      band.mean = band.standard_deviation = band.least = band.greatest = missing;
+      band.nominal = there ? value_of(exact.parameters, task.curves[c]) : WheelParameters::missing;
+      band.mean = band.standard_deviation = band.least = band.greatest = WheelParameters::missing;
       if (!there) {
-        band.worst_case = band.root_sum_square = missing;
-        band.shares.assign(numbers.size(), missing);
+        band.worst_case = band.root_sum_square = WheelParameters::missing;
+        band.shares.assign(numbers.size(), WheelParameters::missing);
         continue;
       }
       double squares = 0;

@@ -3,7 +3,7 @@
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/simd.h"
 #include "linkwright/math/sincos.h"
-#include "linkwright/planar/four_bar/forces_kernel.h"
+#include "linkwright/planar/four_bar/detail/forces_kernel.h"
 #include "linkwright/planar/four_bar/sweep.h"
 
 namespace linkwright::planar {

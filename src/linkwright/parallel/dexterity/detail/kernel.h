@@ -6,7 +6,7 @@
 #include "linkwright/math/simd.h"
 #include "linkwright/math/singular_values.h"
 #include "linkwright/parallel/dexterity/dexterity.h"
-#include "linkwright/parallel/robot/legs_kernel.h"
+#include "linkwright/parallel/robot/detail/legs_kernel.h"
 
 /// Indices of a pose and their derivatives by the dimensions of a robot, written once for numbers and for
 /// SIMD batches of poses.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "linkwright/parallel/dexterity/synthesis_model.h"
+#include "linkwright/parallel/dexterity/detail/synthesis_model.h"
 
 /// One local search of dexterity_synthesis.h, and the search between nodes.
 namespace linkwright::parallel {

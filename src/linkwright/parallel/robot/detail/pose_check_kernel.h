@@ -1,13 +1,13 @@
 #pragma once
 
 #include <array>
-#include <limits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/simd.h"
 #include "linkwright/math/singular_values.h"
 #include "linkwright/math/small_inverse.h"
 #include "linkwright/parallel/pi_joint/kernel.h"
-#include "linkwright/parallel/robot/legs_kernel.h"
+#include "linkwright/parallel/robot/detail/legs_kernel.h"
 #include "linkwright/parallel/robot/pose_check.h"
 
 namespace linkwright::parallel {
@@ -43,7 +43,7 @@ LINKWRIGHT_KERNEL void check_register(const PoseCheckTask& task, std::size_t k) 
   using Vector = math::Vector3<Batch>;
   using Mask = typename Batch::batch_bool_type;
   using I = PoseIndex;
-  const Batch zero(0.0), one(1.0), not_known(std::numeric_limits<double>::quiet_NaN());
+  const Batch zero(0.0), one(1.0), not_known(nan);
   const auto wanted = [&](PoseIndex index) __attribute__((always_inline)) {
     return task.wanted[static_cast<std::size_t>(index)];
   };

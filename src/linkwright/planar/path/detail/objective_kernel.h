@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <type_traits>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/simd.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/planar/four_bar/kernel.h"
@@ -91,7 +91,7 @@ template <bool free_timing, class T, class Load>
 LINKWRIGHT_KERNEL void judge(const PathObjective& o, const PathLinkage<T>& l, const Load& load_row,
                              const T& sum, T nearest, T farthest, T& cost, T& violation) {
   using S = math::Scalar<T>;
-  constexpr double pi = std::numbers::pi, two_pi = 2 * pi;
+  constexpr double two_pi = 2 * pi;
   constexpr std::size_t first = index(FourBarParameter::start_angle);
   const T reach = l.l3 + l.l4, fold = l.l3 - l.l4;
   const T total = l.l1 + l.l2 + reach;

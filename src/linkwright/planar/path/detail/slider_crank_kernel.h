@@ -34,9 +34,9 @@ LINKWRIGHT_KERNEL Vec<T> rod_direction(const RodClosure<T>& closure, const T& si
   return {side * sqrt(math::Scalar<T>::positive_part(closure.radicand)), closure.sine};
 }
 
-/// How far the slider goes from the pin-in-line position away from the crank pivot to the one towards it, over
-/// a full turn of the crank: 4 L2 L3 / (s1 + s2) with s1,2 = sqrt((L2 +- L3)^2 - offset^2), which loses no
-/// digits of a short crank.
+/// How far the slider goes from the pin-in-line position away from the crank pivot to the one towards it,
+/// over a full turn of the crank: 4 L2 L3 / (s1 + s2) with s1,2 = sqrt((L2 +- L3)^2 - offset^2), which loses
+/// no digits of a short crank.
 template <class T>
 LINKWRIGHT_KERNEL T slider_stroke(const T& crank, const T& rod, const T& offset) {
   using S = math::Scalar<T>;

@@ -7,7 +7,7 @@
 
 #include "linkwright/math/scalar.h"
 #include "linkwright/suspension/guide/constraints.h"
-#include "linkwright/suspension/guide/wheel_kernel.h"
+#include "linkwright/suspension/guide/detail/wheel_kernel.h"
 
 /// The equations of a wheel guide, written once for numbers and for numbers with derivatives.
 namespace linkwright::suspension::kernel {

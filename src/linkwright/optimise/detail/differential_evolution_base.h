@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/optimise/optimiser.h"
 
 namespace linkwright::optimise {
@@ -17,8 +18,8 @@ class DifferentialEvolutionBase : public Optimiser {
   DifferentialEvolutionBase(std::span<const Variable> variables, std::size_t population, const Seed& seed)
       : Optimiser(variables, population, seed),
         members_(dimension(), population),
-        cost_(shape().stride, std::numeric_limits<double>::infinity()),
-        violation_(shape().stride, std::numeric_limits<double>::infinity()),
+        cost_(shape().stride, infinity),
+        violation_(shape().stride, infinity),
         chosen_(shape().stride, 0) {}
 
   /// All duels of a generation.

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <numbers>
-
+#include "linkwright/core/numbers.h"
 #include "linkwright/math/simd.h"
 #include "linkwright/math/sincos.h"
-#include "linkwright/planar/path/slider_crank_kernel.h"
+#include "linkwright/planar/path/detail/slider_crank_kernel.h"
 #include "linkwright/planar/path/slider_crank_objective.h"
 
 namespace linkwright::planar {
@@ -16,7 +15,7 @@ LINKWRIGHT_KERNEL void evaluate_slider_candidates(const SliderPathObjective& o, 
                                                   T& error, T& stroke, T& violation) {
   using S = math::Scalar<T>;
   using P = SliderParameter;
-  constexpr double pi = std::numbers::pi, two_pi = 2 * pi;
+  constexpr double two_pi = 2 * pi;
   constexpr std::size_t first = index(P::start_angle);
   const auto load = [&](P parameter) __attribute__((always_inline)) { return load_row(index(parameter)); };
   const T crank = load(P::crank), rod = load(P::rod), offset = load(P::offset);

@@ -3,15 +3,15 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/curve.h"
-#include "linkwright/planar/linkage/joint_rows.h"
+#include "linkwright/planar/linkage/detail/joint_rows.h"
 
 namespace linkwright::planar {
 
@@ -153,11 +153,11 @@ class CurveEquations {
   double correct(CurveNode& y, const Eigen::VectorXd& direction) {
     Eigen::VectorXd total = Eigen::VectorXd::Zero(n_ + 1);
     const double rounding_level = rounding(y);
-    double last_step = 1, last = std::numeric_limits<double>::infinity();
+    double last_step = 1, last = infinity;
     for (int i = 0; i < 20; ++i) {
       factorise(y, direction);
       const double largest = largest_residual();
-      if (!std::isfinite(largest)) return std::numeric_limits<double>::quiet_NaN();
+      if (!std::isfinite(largest)) return nan;
       if (largest <= rounding_level && (i > 0 || largest == 0)) return length(total);
       if (largest <= 1e3 * rounding_level && largest > 0.25 * last) return length(total);
       last = largest;
@@ -166,13 +166,12 @@ class CurveEquations {
       const Eigen::VectorXd step = lu_.solve(right_);
       const double s = length(step);
       // Newton's method far from converging would lead anywhere.
-      if (!(s <= 0.3) || (i > 0 && s > 0.5 * last_step && s > 1e-9))
-        return std::numeric_limits<double>::quiet_NaN();
+      if (!(s <= 0.3) || (i > 0 && s > 0.5 * last_step && s > 1e-9)) return nan;
       last_step = s;
       move(y, step);
       total += step;
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    return nan;
   }
   // Tangent at y, where the factors are of y, along `direction`.
   Eigen::VectorXd tangent_along(const Eigen::VectorXd& direction) {
@@ -219,7 +218,7 @@ class CurveEquations {
         step.head(m) = -(scaled.transpose() * Eigen::PartialPivLU<Eigen::MatrixXd>(normal).solve(residual_));
       }
       const double s = length(step);
-      if (!std::isfinite(s)) return std::numeric_limits<double>::quiet_NaN();
+      if (!std::isfinite(s)) return nan;
       if (s > 0.3) step *= 0.3 / s;
       CurveNode next = y;
       move(next, step);

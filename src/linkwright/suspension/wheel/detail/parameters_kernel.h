@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "linkwright/suspension/guide/constraints_kernel.h"
+#include "linkwright/suspension/guide/detail/constraints_kernel.h"
 #include "linkwright/suspension/wheel/parameters.h"
 
 /// The wheel parameters, written once for numbers and for numbers with derivatives.
@@ -198,7 +198,7 @@ BasicWheelParameters<T> parameters_at_rest(const BasicGuidePlan<T>& plan, const 
   out.track = (2 * outward) * out.contact.y;
   out.half_track_change = outward * (out.contact.y - plan.contact.y);
   out.wheelbase_change = out.contact.x - plan.contact.x;
-  out.recession = carrier.centre.x - wheel.centre.x;
+  out.recession = wheel.centre.x - carrier.centre.x;
   if (plan.spring)
     out.spring_length = plan.spring->length + kernel::driver_value(plan, place, rack, Driver::spring);
   return out;

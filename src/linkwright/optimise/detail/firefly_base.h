@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "linkwright/optimise/detail/swarm_base.h"
 #include "linkwright/optimise/firefly.h"
-#include "linkwright/optimise/swarm_base.h"
 
 namespace linkwright::optimise {
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+// Kernels that are compiled once for every processor and, where LINKWRIGHT_X86_KERNELS is on, again for the
+// wide registers of newer ones; the program takes the widest that its processor has.
+namespace linkwright {
+
+/// A kernel, once an instruction set; null where it was not compiled for one.
+template <class Kernel>
+struct KernelSet {
+  Kernel baseline = nullptr, avx2 = nullptr, avx512 = nullptr;
+};
+
+/// A kernel and its instruction set: "avx512", "avx2" or "baseline".
+template <class Kernel>
+struct NamedKernel {
+  Kernel run = nullptr;
+  const char* name = "";
+};
+
+bool has_avx2();  ///< and fused multiply-add
+bool has_avx512();
+
+/// Those that this processor can run, narrowest first.
+template <class Kernel>
+std::vector<NamedKernel<Kernel>> runnable(const KernelSet<Kernel>& set) {
+  std::vector<NamedKernel<Kernel>> out{{set.baseline, "baseline"}};
+  if (set.avx2 && has_avx2()) out.push_back({set.avx2, "avx2"});
+  if (set.avx512 && has_avx512()) out.push_back({set.avx512, "avx512"});
+  return out;
+}
+template <class Kernel>
+NamedKernel<Kernel> widest(const KernelSet<Kernel>& set) {
+  return runnable(set).back();
+}
+
+}  // namespace linkwright
+
+/// The set of `name`_baseline, `name`_avx2 and `name`_avx512.
+#ifdef LINKWRIGHT_X86_KERNELS
+#define LINKWRIGHT_KERNEL_SET(name) \
+  { name##_baseline, name##_avx2, name##_avx512 }
+#else
+#define LINKWRIGHT_KERNEL_SET(name) \
+  { name##_baseline }
+#endif

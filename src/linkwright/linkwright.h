@@ -1,0 +1,13 @@
+#pragma once
+
+// Everything but study files and reports.
+
+#include "linkwright/clearance.h"
+#include "linkwright/core.h"
+#include "linkwright/flexible.h"
+#include "linkwright/math.h"
+#include "linkwright/optimise.h"
+#include "linkwright/parallel.h"
+#include "linkwright/planar.h"
+#include "linkwright/suspension.h"
+#include "linkwright/version.h"

@@ -1,0 +1,6 @@
+# pkg_config.sh FOLDER COMPILER SOURCE PROGRAM: builds an example by what pkg-config says of the installed package, and runs it.
+PKG_CONFIG_PATH=$1
+export PKG_CONFIG_PATH
+# shellcheck disable=SC2046  # flags
+"$2" -O1 "$3" -o "$4" $(pkg-config --cflags --libs linkwright)
+"$4"

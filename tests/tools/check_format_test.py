@@ -1,0 +1,22 @@
+import unittest
+
+from scratch import ScratchCase
+import check_format
+
+
+class CheckFormat(ScratchCase):
+    def test_formatted_code_passes(self):
+        self.write(".clang-format", "BasedOnStyle: Google\n")
+        self.write("src/linkwright/core/a.cpp", "int a() { return 1; }\n")
+        self.assertEqual(check_format.check(self.root), [])
+
+    def test_names_the_file_that_is_not(self):
+        self.write(".clang-format", "BasedOnStyle: Google\n")
+        self.write("src/linkwright/core/a.cpp", "int a()  {return 1 ;}\n")
+        self.write("src/linkwright/core/b.h", "int b();\n")
+        [finding] = check_format.check(self.root)
+        self.assertIn("src/linkwright/core/a.cpp: is not formatted", finding)
+
+
+if __name__ == "__main__":
+    unittest.main()
