@@ -16,8 +16,6 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * pi;
-
 // Position, rates and forces at one instant.
 void clearance_four_bar_instant(benchmark::State& state) {
   const ClearanceFourBar model = published_design_2();
@@ -72,7 +70,7 @@ void clearance_contact_slider_crank(benchmark::State& state) {
                            .law = {.stiffness = pin_stiffness(0.01, 0.0095),
                                    .restitution = 0.9,
                                    .damping = ContactDamping::lankarani_nikravesh}};
-  const planar::InputCourse crank{math::ConstantSpeed{0, 5000 * turn / 60}, 0, 0};
+  const planar::InputCourse crank{math::ConstantSpeed{0, 5000 * full_turn / 60}, 0, 0};
   const std::vector<double> times{0, 0.012};
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
   std::size_t contacts = 0;
@@ -134,13 +132,13 @@ void clearance_automatic_four_bar(benchmark::State& state) {
                                      .bush_radius = 0.01,
                                      .law = {.stiffness = pin_stiffness(0.01, 0.009, {2e9, 0.4}, {2e9, 0.4}),
                                              .restitution = 0.5}},
-                         .angle = turn / 36,
+                         .angle = full_turn / 36,
                          .rate = 10};
   const planar::InputCourse crank{math::ConstantSpeed{0, 10}, 0, 0};
   AutomaticContactRun run;
   for (auto _ : state)
-    run =
-        simulate_automatic_contact(l, std::span(&pin, 1), std::span(&crank, 1), std::vector{0.0, turn / 10});
+    run = simulate_automatic_contact(l, std::span(&pin, 1), std::span(&crank, 1),
+                                     std::vector{0.0, full_turn / 10});
   state.counters["contacts"] = static_cast<double>(run.contact.events.size());
   state.counters["evaluations"] = static_cast<double>(run.evaluations);
 }
@@ -153,7 +151,7 @@ void clearance_joint_orbit(benchmark::State& state) {
   const planar::InputCourse crank{math::ConstantSpeed{0, 10}, 0, 0};
   long evaluations = 0;
   for (auto _ : state)
-    evaluations = find_joint_orbit(l, std::span(&pin, 1), std::span(&crank, 1), 0, turn / 10,
+    evaluations = find_joint_orbit(l, std::span(&pin, 1), std::span(&crank, 1), 0, full_turn / 10,
                                    {.relative_tolerance = 1e-10, .absolute_tolerance = 1e-12})
                       .evaluations;
   state.counters["evaluations"] = static_cast<double>(evaluations);
@@ -187,7 +185,7 @@ void clearance_sensitivity_leg(benchmark::State& state) {
   for (std::size_t j = 0; j < leg.linkage.joints.size(); ++j)
     tolerances.pins.push_back({static_cast<int>(j), 1e-4});
   std::vector<planar::InputMotion> samples;
-  for (int k = 0; k < 72; ++k) samples.push_back({leg.from[0] + turn * k / 72, 0, 0});
+  for (int k = 0; k < 72; ++k) samples.push_back({leg.from[0] + full_turn * k / 72, 0, 0});
   for (auto _ : state)
     benchmark::DoNotOptimize(
         clearance_sensitivity(leg.linkage, tolerances, {.points = {leg.traces[0]}}, samples));

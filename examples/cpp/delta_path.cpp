@@ -16,6 +16,7 @@ int main() {
     return 1;
   }
   const parallel::ToolMotion motion(path, limits, start);
+  parallel::Pose last = start;
   double lowest = infinity, highest = -infinity, error = 0;
   for (const auto& [time, tool] : motion.samples(0.002)) {
     const parallel::Pose pose{tool.position, tool.rotation};
@@ -28,8 +29,9 @@ int main() {
       lowest = std::min(lowest, arms.angle[leg]);
       highest = std::max(highest, arms.angle[leg]);
     }
-    const parallel::Placed back = parallel::direct_near(robot, arms.angle, pose);
+    const parallel::Placed back = parallel::direct_near(robot, arms.angle, last);
     error = std::max(error, math::norm(back.pose.position - pose.position));
+    last = pose;
   }
   std::printf("%.0f ms, arms from %.1f to %.1f deg, inverse and direct kinematics agree to %.0e m\n",
               motion.duration() * 1000, lowest * 180 / pi, highest * 180 / pi, error);

@@ -10,7 +10,7 @@ int main() {
   using namespace linkwright;
   flexible::Beam beam;
   beam.length = 1.8, beam.density = 2766, beam.area = 2.5e-4;
-  beam.second_moment = 1.3021e-10, beam.elastic_modulus = 69e9;
+  beam.second_moment = 5.2e-9, beam.elastic_modulus = 69e9;
   beam.tip_mass = 0.085;
   const flexible::Chain chain = flexible::discretise(beam, 4);
   const math::MotionCurve turn(math::Polynomial345{.from = 0, .to = pi / 3, .duration = 1});

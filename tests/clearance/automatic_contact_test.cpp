@@ -13,8 +13,6 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * pi;
-
 AutomaticPin steel_pin(const planar::Linkage& l, const char* joint, double angle, double rate) {
   return {.contact = {.joint = planar::joint_index(l, joint),
                       .clearance = 1e-3,
@@ -27,9 +25,9 @@ AutomaticPin steel_pin(const planar::Linkage& l, const char* joint, double angle
 // Where contact holds it is continuous contact, to the bit.
 TEST(AutomaticContact, IsContinuousContactWhereThatHolds) {
   const planar::Linkage l = as_linkage(published_four_bar("gamma-design2-table3-g0-w10"));
-  const AutomaticPin pin = steel_pin(l, "A", turn / 36, 10);
+  const AutomaticPin pin = steel_pin(l, "A", full_turn / 36, 10);
   const planar::InputCourse crank = even_crank(10);
-  const std::vector<double> times = evenly_spaced(0, turn / 10, 73);
+  const std::vector<double> times = evenly_spaced(0, full_turn / 10, 73);
   std::vector<double> angles, tensions;
   const AutomaticContactRun run =
       simulate_automatic_contact(l, std::span(&pin, 1), std::span(&crank, 1), times, {},
@@ -56,9 +54,9 @@ TEST(AutomaticContact, IsContinuousContactWhereThatHolds) {
 
 struct Lost {
   planar::Linkage linkage = as_linkage(published_four_bar("gamma-design1-table2-g0-w10"));
-  AutomaticPin pin = steel_pin(linkage, "A", turn / 36, 10);
+  AutomaticPin pin = steel_pin(linkage, "A", full_turn / 36, 10);
   planar::InputCourse crank = even_crank(10);
-  std::vector<double> times = evenly_spaced(0, turn / 10, 721);
+  std::vector<double> times = evenly_spaced(0, full_turn / 10, 721);
 };
 
 // From the loss on it is the contact model, started where continuous contact ended; and the contact model
@@ -133,7 +131,7 @@ TEST(AutomaticContact, RowsChangeNothing) {
   const Lost lost;
   const auto run = [&](int rows) {
     return simulate_automatic_contact(lost.linkage, std::span(&lost.pin, 1), std::span(&lost.crank, 1),
-                                      evenly_spaced(0, 0.3 * turn / 10, rows));
+                                      evenly_spaced(0, 0.3 * full_turn / 10, rows));
   };
   const AutomaticContactRun few = run(3), many = run(301);
   EXPECT_EQ(few.switched, many.switched);
@@ -176,7 +174,7 @@ TEST(AutomaticContact, SeveralPinsGoOverTogether) {
 TEST(AutomaticContact, StartsInFlightWhereThereIsNoTension) {
   Lost lost;
   const AutomaticContactRun until = simulate_automatic_contact(
-      lost.linkage, std::span(&lost.pin, 1), std::span(&lost.crank, 1), std::vector{0.0, turn / 10});
+      lost.linkage, std::span(&lost.pin, 1), std::span(&lost.crank, 1), std::vector{0.0, full_turn / 10});
   ASSERT_GE(until.pin, 0);
   lost.crank = {math::ConstantSpeed{10 * (until.switched + 1e-5), 10}, 0, 0};
   const ClearanceState& end = until.continuous.end[0];

@@ -13,15 +13,13 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * pi;
-
 TEST(ContactAnalysis, SpectrumFindsAmplitudes) {
   for (const std::size_t n : {360u, 361u, 512u}) {
     const double interval = 1e-3, duration = interval * static_cast<double>(n);
     std::vector<double> samples;
     for (std::size_t k = 0; k < n; ++k) {
       const double t = interval * static_cast<double>(k) / duration;
-      samples.push_back(2 + 3 * std::sin(turn * 5 * t + 1) + 0.5 * std::cos(turn * 40 * t));
+      samples.push_back(2 + 3 * std::sin(full_turn * 5 * t + 1) + 0.5 * std::cos(full_turn * 40 * t));
     }
     const Spectrum s = amplitude_spectrum(samples, interval);
     ASSERT_EQ(s.amplitude.size(), n / 2 + 1);
@@ -66,10 +64,10 @@ TEST(ContactAnalysis, SectionOfPeriodicAndOfRestlessMotion) {
   joint.start.eccentricity = -1e-3;
   const planar::InputCourse crank = even_crank(10);
   const PoincareSection calm =
-      poincare_section(l, std::span(&joint, 1), std::span(&crank, 1), 0, turn / 10, 5, 7);
+      poincare_section(l, std::span(&joint, 1), std::span(&crank, 1), 0, full_turn / 10, 5, 7);
   ASSERT_EQ(calm.run.status, Status::done) << calm.run.message;
   ASSERT_EQ(calm.joints[0].size(), 3u);
-  EXPECT_NEAR(calm.joints[0][2].time, 7 * turn / 10, 1e-12);
+  EXPECT_NEAR(calm.joints[0][2].time, 7 * full_turn / 10, 1e-12);
   EXPECT_LT(std::abs(calm.joints[0][2].eccentricity - calm.joints[0][1].eccentricity), 2e-6);
 
   const planar::Linkage slider = contact_slider_crank();

@@ -15,8 +15,6 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * pi;
-
 ContactRun slider_crank(double friction, double to, const ContactOptions& options = {}, int rows = 2,
                         const ContactOutput& output = {}) {
   const planar::Linkage l = contact_slider_crank();
@@ -75,7 +73,7 @@ TEST(ContactSimulation, RestitutionAndFlightOfASlider) {
       const double from = k == 0 ? 0 : run.events[k - 1].end,
                    way = k == 0 ? joint.clearance : 2 * joint.clearance;
       EXPECT_NEAR(event.start, from + way / event.approach, 1e-9);
-      EXPECT_NEAR(std::abs(event.angle), k % 2 == 0 ? turn / 2 : 0, 1e-9);
+      EXPECT_NEAR(std::abs(event.angle), k % 2 == 0 ? full_turn / 2 : 0, 1e-9);
     }
   }
 }
@@ -166,11 +164,11 @@ TEST(ContactSimulation, PressedContactIsContinuousContact) {
                              .restitution = 0.5,
                              .damping = ContactDamping::lankarani_nikravesh}};
   EXPECT_NEAR(joint.law.stiffness / test::number_at(wanted, "K"), 1, 1e-12);
-  const double angle = 10 * turn / 360;
+  const double angle = 10 * full_turn / 360;
   // From bush to pin, against the direction of the clearance link.
-  joint.start = {-std::polar(1e-3, angle), -std::polar(1e-3 * 10, angle + turn / 4)};
+  joint.start = {-std::polar(1e-3, angle), -std::polar(1e-3 * 10, angle + full_turn / 4)};
   const planar::InputCourse crank = even_crank(10);
-  const std::vector<double> times = evenly_spaced(0, turn / 10, 121);
+  const std::vector<double> times = evenly_spaced(0, full_turn / 10, 121);
   std::vector<double> link, tension;
   simulate_clearance(model, math::ConstantSpeed{0, 10}, {angle, 10}, times, {}, [&](const ClearanceRow& row) {
     link.push_back(row.link.angle);
@@ -208,7 +206,7 @@ TEST(ContactSimulation, TheIdealJointIsTheLimit) {
                        .law = {.stiffness = 1e10, .restitution = 0.5}};
     const double direction = force_direction(model, 0, 50, 0), h = 1e-5;
     const double pace = 50 * math::angle_difference(force_direction(model, h, 50, 0), direction) / h;
-    joint.start = {-std::polar(c, direction), -std::polar(c * pace, direction + turn / 4)};
+    joint.start = {-std::polar(c, direction), -std::polar(c * pace, direction + full_turn / 4)};
     const planar::InputCourse crank = even_crank(50);
     double worst = 0;
     const ContactRun run = simulate_contact(

@@ -15,7 +15,7 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double degree = pi / 180, turn = 2 * pi;
+constexpr double degree = pi / 180;
 
 struct Trajectory {
   ClearanceRun run;
@@ -64,7 +64,7 @@ TEST_P(PublishedDesign2, FollowsTheReferenceThroughATurn) {
 
   // Ranges of the reference are those of its own samples, which pass by the extremes.
   const Value& turned = test::at(computed(id), "one_rev");
-  const Trajectory fine = simulated(model, speed, start, evenly(0, turn, 3601));
+  const Trajectory fine = simulated(model, speed, start, evenly(0, full_turn, 3601));
   const auto [least, most] = std::minmax_element(fine.lead.begin(), fine.lead.end());
   EXPECT_NEAR(*least / degree, test::number_at(turned, "psi_min_deg"), 0.02);
   EXPECT_NEAR(*most / degree, test::number_at(turned, "psi_max_deg"), 0.02);
@@ -96,7 +96,7 @@ TEST_P(PublishedDesign2, HasThePeriodicOrbitOfTheReference) {
   const auto link = test::numbers(test::at(periodic, "gamma_rad"));
   const Trajectory t = simulated(model, speed, orbit.start({0, speed}), angles);
   for (std::size_t k = 0; k < link.size(); ++k) EXPECT_NEAR(t.link.at(k), link[k], 1e-6) << k;
-  EXPECT_NEAR(t.link.back() - t.link.front(), turn, 1e-9);
+  EXPECT_NEAR(t.link.back() - t.link.front(), full_turn, 1e-9);
 }
 
 // No work is done on a passive coupler over a turn: the mean of N sin(lead) is zero, so that the lead cannot
@@ -106,7 +106,7 @@ TEST_P(PublishedDesign2, DoesNoWorkOverAPeriod) {
   const ClearanceFourBar model = published_four_bar(id);
   const double speed = crank_speed(id);
   const ClearanceOrbit orbit = find_orbit(model, {0, speed}, 0.15, -0.3);
-  const Trajectory t = simulated(model, speed, orbit.start({0, speed}), evenly(0, turn, 2001));
+  const Trajectory t = simulated(model, speed, orbit.start({0, speed}), evenly(0, full_turn, 2001));
   double moment = 0, size = 0;  // trapezium rule of a periodic function: exact to rounding
   for (std::size_t k = 0; k + 1 < t.lead.size(); ++k) {
     moment += t.tension[k] * std::sin(t.lead[k]);
@@ -153,7 +153,7 @@ TEST(FourBarClearanceMotion, Design1LosesContact) {
     for (std::size_t k = 0; k < link.size() && angles[k] <= 2.1; ++k)
       EXPECT_NEAR(t.link.at(k), link[k], 1e-4) << id << k;
 
-    const ClearanceRun whole = simulated(model, speed, {10 * degree, speed}, {0, turn}).run;
+    const ClearanceRun whole = simulated(model, speed, {10 * degree, speed}, {0, full_turn}).run;
     EXPECT_EQ(whole.status, Status::done);
     EXPECT_GE(whole.sign_changes, 10);  // 14 to 18 elsewhere
     EXPECT_GT(whole.fastest_link / speed, 30);
@@ -174,7 +174,7 @@ TEST(FourBarClearanceMotion, Design1LosesContact) {
 
 TEST(FourBarClearanceMotion, WithoutWeightSpeedIsOnlyATimeScale) {
   const ClearanceFourBar model = published_four_bar("gamma-design2-table3-g0-w10");
-  const auto angles = evenly(0, turn, 13);
+  const auto angles = evenly(0, full_turn, 13);
   const Trajectory slow = simulated(model, 10, {0.2, 10}, angles),
                    fast = simulated(model, 250, {0.2, 250}, angles);
   for (std::size_t k = 0; k < angles.size(); ++k) {
@@ -189,7 +189,7 @@ TEST(FourBarClearanceMotion, SwingsAsOftenAsThePendulumDoes) {
   ClearanceFourBar model = published_four_bar("gamma-design1-table2-g0-w10");
   model.coupler = {1, 0, {0, 0}};
   model.rocker = {0, 0, {0, 0}};
-  const Trajectory t = simulated(model, 10, {1e-3, 10}, evenly(0, turn, 2001));
+  const Trajectory t = simulated(model, 10, {1e-3, 10}, evenly(0, full_turn, 2001));
   int changes = 0;
   for (std::size_t k = 1; k < t.lead.size(); ++k) changes += (t.lead[k] > 0) != (t.lead[k - 1] > 0);
   EXPECT_EQ(changes, 20);
@@ -206,8 +206,8 @@ TEST(FourBarClearanceMotion, TheForceOfTheIdealJointIsTheLimit) {
     const ClearanceOrbit orbit = find_orbit(model, {0, 50}, direction, 0);
     ASSERT_EQ(orbit.status, Status::done) << orbit.message;
     double worst = 0;
-    simulate_clearance(model, math::ConstantSpeed{0, 50}, orbit.start({0, 50}), evenly(0, turn / 50, 73), {},
-                       [&](const ClearanceRow& row) {
+    simulate_clearance(model, math::ConstantSpeed{0, 50}, orbit.start({0, 50}), evenly(0, full_turn / 50, 73),
+                       {}, [&](const ClearanceRow& row) {
                          const double limit = force_direction(model, row.crank.value, 50, 0);
                          worst = std::max(worst, std::abs(math::angle_difference(row.link.angle, limit)));
                          return true;
@@ -232,7 +232,7 @@ TEST(FourBarClearanceMotion, SettlesWithDamping) {
   ASSERT_EQ(orbit.status, Status::done) << orbit.message;
   EXPECT_NEAR(math::angle_difference(settled.lead, orbit.lead), 0, 1e-7);
   EXPECT_LT(std::abs(orbit.multipliers[0]), 0.999);
-  const Trajectory t = simulated(model, 10, orbit.start(crank), evenly(0, turn, 721));
+  const Trajectory t = simulated(model, 10, orbit.start(crank), evenly(0, full_turn, 721));
   double mean = 0;
   for (std::size_t k = 0; k + 1 < t.lead.size(); ++k) mean += t.lead[k] / 720;
   EXPECT_LT(mean, -1e-3);

@@ -18,8 +18,6 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * pi;
-
 struct Rows {
   JointClearanceRun run;
   std::vector<std::vector<ClearanceState>> joints;
@@ -49,7 +47,7 @@ TEST(JointClearance, FourBarAgreesWithItsClosedForm) {
       model.rocker_damping = 2e-5;
       model.link_damping = 1e-7;
     }
-    const std::vector<double> times = evenly_spaced(0, turn / 20, 73);
+    const std::vector<double> times = evenly_spaced(0, full_turn / 20, 73);
     const planar::Linkage l = as_linkage(model);
     const Rows rows = simulated(l,
                                 {{.joint = planar::joint_index(l, "A"),
@@ -81,7 +79,7 @@ TEST(JointClearance, FourBarAgreesWithItsClosedForm) {
 TEST(JointClearance, SeesSeparationAsTheClosedFormDoes) {
   const ClearanceFourBar model = published_four_bar("gamma-design1-table2-g9.81-w50");
   const planar::Linkage l = as_linkage(model);
-  const double to = 0.6 * turn / 50, degree = turn / 360;
+  const double to = 0.6 * full_turn / 50, degree = full_turn / 360;
   const std::vector<JointClearance> pin{
       {.joint = planar::joint_index(l, "A"), .clearance = 1e-3, .angle = 10 * degree, .rate = 50}};
   const ClearanceRun wanted =
@@ -109,8 +107,8 @@ TEST(JointClearance, StopsWhereContactIsLost) {
   const planar::Linkage l = as_linkage(model);
   const planar::InputCourse crank{math::ConstantSpeed{0, 50}, 0, 0};
   const JointClearance pin{
-      .joint = planar::joint_index(l, "A"), .clearance = 1e-3, .angle = 10 * turn / 360, .rate = 50};
-  const std::vector<double> times = evenly_spaced(0, turn / 50, 101);
+      .joint = planar::joint_index(l, "A"), .clearance = 1e-3, .angle = 10 * full_turn / 360, .rate = 50};
+  const std::vector<double> times = evenly_spaced(0, full_turn / 50, 101);
   std::size_t rows = 0;
   double last = -1;
   const auto run = [&](const JointClearance& from, double shift) {

@@ -16,7 +16,6 @@ namespace linkwright::clearance {
 namespace {
 
 using ::testing::HasSubstr;
-constexpr double turn = 2 * pi;
 constexpr planar::SimulationOptions fine{.relative_tolerance = 1e-11, .absolute_tolerance = 1e-12};
 
 JointOrbit orbit_of(const ClearanceFourBar& model, double speed, double lead, double slope) {
@@ -27,7 +26,7 @@ JointOrbit orbit_of(const ClearanceFourBar& model, double speed, double lead, do
                            .rate = speed * (1 + slope),
                            .damping = model.link_damping};
   const planar::InputCourse crank = even_crank(speed);
-  return find_joint_orbit(l, std::span(&pin, 1), std::span(&crank, 1), 0, turn / speed, fine);
+  return find_joint_orbit(l, std::span(&pin, 1), std::span(&crank, 1), 0, full_turn / speed, fine);
 }
 
 // The general model knows nothing of the closed form of the four-bar; figures printed to eight digits, and
@@ -81,13 +80,13 @@ TEST(JointOrbit, SeveralPinsAtOnce) {
   std::vector<JointClearance> pins{
       {.joint = planar::joint_index(l, "A"), .clearance = 5e-3, .angle = 0.1, .rate = 50, .damping = 1e-3},
       {.joint = planar::joint_index(l, "O4"), .clearance = 5e-3, .angle = 1.6, .rate = 0, .damping = 1e-3}};
-  const JointOrbit orbit = find_joint_orbit(l, pins, std::span(&crank, 1), 0, turn / 50, fine);
+  const JointOrbit orbit = find_joint_orbit(l, pins, std::span(&crank, 1), 0, full_turn / 50, fine);
   ASSERT_EQ(orbit.status, Status::done) << orbit.message;
   EXPECT_EQ(orbit.multipliers.size(), 4u);
   for (std::size_t k = 0; k < 2; ++k)
     pins[k].angle = orbit.start[k].angle, pins[k].rate = orbit.start[k].rate;
   const JointClearanceRun run =
-      simulate_joint_clearance(l, pins, std::span(&crank, 1), std::vector{0.0, 0.01, turn / 50}, fine);
+      simulate_joint_clearance(l, pins, std::span(&crank, 1), std::vector{0.0, 0.01, full_turn / 50}, fine);
   ASSERT_EQ(run.status, Status::done) << run.message;
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_NEAR(math::angle_difference(run.end[k].angle, pins[k].angle), 0, 1e-9);
@@ -98,14 +97,14 @@ TEST(JointOrbit, SeveralPinsAtOnce) {
 TEST(JointOrbit, PeriodsOfDrives) {
   using planar::InputCourse;
   const InputCourse even{math::ConstantSpeed{0, 10}}, twice{math::ConstantSpeed{1, -20}},
-      still{math::ConstantSpeed{1, 0}}, swing{math::HarmonicMotion{0, 0.1, 10 / turn * 1.5, 0}},
+      still{math::ConstantSpeed{1, 0}}, swing{math::HarmonicMotion{0, 0.1, 10 / full_turn * 1.5, 0}},
       once{math::CycloidalMotion{0, 1, 0, 1}}, free{{}, 1, 2};
   const auto period = [](std::vector<InputCourse> courses, bool rotary = true) {
     return drive_period(courses, std::vector<bool>(courses.size(), rotary));
   };
-  EXPECT_NEAR(period({even}).period, turn / 10, 1e-15);
-  EXPECT_NEAR(period({even, still, twice}).period, turn / 10, 1e-15);
-  EXPECT_NEAR(period({even, swing}).period, 2 * turn / 10, 1e-14);
+  EXPECT_NEAR(period({even}).period, full_turn / 10, 1e-15);
+  EXPECT_NEAR(period({even, still, twice}).period, full_turn / 10, 1e-15);
+  EXPECT_NEAR(period({even, swing}).period, 2 * full_turn / 10, 1e-14);
   EXPECT_EQ(period({even}, false).period, 0) << "a slide that never comes back";
   EXPECT_EQ(period({even, once}).period, 0);
   EXPECT_EQ(period({even, once}).input, 1);
@@ -113,7 +112,7 @@ TEST(JointOrbit, PeriodsOfDrives) {
   EXPECT_EQ(period({still}).period, 0);
   EXPECT_EQ(period({even, {math::ConstantSpeed{0, 10 * std::sqrt(2.0)}}}).period, 0);
   InputCourse table{
-      math::MotionTable{{0, 1, 2}, {0, 1, turn}, math::TableCurve::quintic, math::TableEnds::periodic}};
+      math::MotionTable{{0, 1, 2}, {0, 1, full_turn}, math::TableCurve::quintic, math::TableEnds::periodic}};
   EXPECT_EQ(period({table}).period, 2);
   EXPECT_EQ(period({table}, false).period, 0) << "a slide that has grown";
 }
@@ -143,7 +142,7 @@ TEST(JointOrbit, SaysWhatItCannotDo) {
   const planar::InputCourse crank = even_crank(10);
   const planar::Linkage wild = as_linkage(published_four_bar("gamma-design1-table2-g0-w10"));
   const JointOrbit none =
-      find_joint_orbit(wild, std::span(&pin, 1), std::span(&crank, 1), 0, turn / 10, fine);
+      find_joint_orbit(wild, std::span(&pin, 1), std::span(&crank, 1), 0, full_turn / 10, fine);
   if (none.status != Status::done) {
     EXPECT_FALSE(none.message.empty());
   }

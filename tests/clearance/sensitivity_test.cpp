@@ -17,11 +17,9 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double turn = 2 * pi;
-
 std::vector<planar::InputMotion> crank_motions(int samples, double speed = 0) {
   std::vector<planar::InputMotion> out;
-  for (int k = 0; k < samples; ++k) out.push_back({0.1 + turn * k / samples, speed, 0});
+  for (int k = 0; k < samples; ++k) out.push_back({0.1 + full_turn * k / samples, speed, 0});
   return out;
 }
 planar::BodyPoint tracing_point(const planar::Linkage& l) { return planar::point_named(l, "coupler.P"); }
@@ -44,7 +42,7 @@ TEST(ClearanceSensitivity, WorstPathErrorOfAFourBarOverAllDirections) {
     model.clearance = r;
     double worst = 0, sum = 0;
     for (int i = 0; i < 720; ++i) {
-      const auto off = clearance_position(model, crank, turn * i / 720).point - ideal;
+      const auto off = clearance_position(model, crank, full_turn * i / 720).point - ideal;
       worst = std::max(worst, std::abs(off));
       sum += off.real() * off.real() / 720;
     }
@@ -109,7 +107,7 @@ TEST(ClearanceSensitivity, WorstErrorIsThatOfTheWorstDirection) {
     const double *x = row.derivatives.data(), *y = x + 6;
     double worst = 0;
     for (int i = 0; i < 20000; ++i) {
-      const planar::Vec<double> n = planar::unit(turn / 2 * i / 20000);
+      const planar::Vec<double> n = planar::unit(full_turn / 2 * i / 20000);
       const auto along = [&](std::size_t j) { return n.x * x[j] + n.y * y[j]; };
       worst = std::max(worst, 2e-5 * std::hypot(along(0), along(1)) + 1e-5 * std::hypot(along(2), along(3)) +
                                   3e-5 * std::abs(along(4)) + 4e-5 * std::abs(along(5)));

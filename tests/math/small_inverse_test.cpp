@@ -23,7 +23,7 @@ Eigen::Matrix<double, N, N> eigen(const Square<N>& m) {
 }
 
 template <int N>
-void agrees_with_eigen() {
+void inverse_agrees_with_eigen() {
   RandomStream random({.seed = 7, .run = N});
   for (int n = 0; n < 200; ++n) {
     Square<N> m;
@@ -41,9 +41,9 @@ void agrees_with_eigen() {
 }
 
 TEST(SmallInverse, AgreesWithAnotherRoute) {
-  agrees_with_eigen<2>();
-  agrees_with_eigen<3>();
-  agrees_with_eigen<6>();
+  inverse_agrees_with_eigen<2>();
+  inverse_agrees_with_eigen<3>();
+  inverse_agrees_with_eigen<6>();
 }
 
 TEST(SmallInverse, OfASingularMatrixHasNoDeterminant) {

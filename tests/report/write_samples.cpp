@@ -27,73 +27,80 @@ int main(int count, char** arguments) {
   const std::filesystem::path folder = arguments[1];
   std::filesystem::create_directories(folder);
 
-  study::Result result = test::sample_result();
+  study::Result result = report::test::sample_result();
   ReportInput input{.result = result,
-                    .study_toml = test::sample_study(),
+                    .study_toml = report::test::sample_study(),
                     .title = "Four-bar through 18 points of a closed path",
                     .source = "Boskovic 2018, Eq. (4.27)-(4.30)",
                     .tool = "linkwright 0.1.0",
                     .command = "linkwright run fourbar-18-points.toml --out out/fourbar-18",
-                    .result_json = test::sample_json(result)};
+                    .result_json = report::test::sample_json(result)};
   write(folder / "report.html", html(input));
   write(folder / "scene.svg", svg(result.scenes.front()));
   write(folder / "scene.dxf", dxf(result.scenes.front()));
 
-  const study::Result simulation = test::sample_simulation();
+  const study::Result simulation = report::test::sample_simulation();
   write(folder / "simulation.html", html({.result = simulation,
                                           .study_toml = {},
                                           .title = "Slider-crank for two seconds",
                                           .source = {},
                                           .tool = "linkwright 0.1.0",
                                           .command = {},
-                                          .result_json = test::sample_json(simulation)}));
+                                          .result_json = report::test::sample_json(simulation)}));
 
-  const study::Result maps = test::sample_maps();
+  const study::Result maps = report::test::sample_maps();
   write(folder / "maps.html", html({.result = maps,
                                     .study_toml = {},
                                     .title = "Workspace of a robot",
                                     .source = {},
                                     .tool = "linkwright 0.1.0",
                                     .command = {},
-                                    .result_json = test::sample_json(maps)}));
+                                    .result_json = report::test::sample_json(maps)}));
 
-  const study::Result diagrams = test::sample_diagrams();
+  const study::Result diagrams = report::test::sample_diagrams();
   write(folder / "diagrams.html", html({.result = diagrams,
                                         .study_toml = {},
                                         .title = "Diagrams over a turn",
                                         .source = {},
                                         .tool = "linkwright 0.1.0",
                                         .command = {},
-                                        .result_json = test::sample_json(diagrams)}));
+                                        .result_json = report::test::sample_json(diagrams)}));
 
-  const study::Result spatial = test::sample_spatial();
+  const study::Result spatial = report::test::sample_spatial();
   write(folder / "spatial.html", html({.result = spatial,
                                        .study_toml = {},
                                        .title = "Double wishbone over travel and rack",
                                        .source = {},
                                        .tool = "linkwright 0.1.0",
                                        .command = {},
-                                       .result_json = test::sample_json(spatial)}));
+                                       .result_json = report::test::sample_json(spatial)}));
   write(folder / "spatial.svg", svg(spatial.scenes.front()));
   write(folder / "spatial.dxf", dxf(spatial.scenes.front()));
 
-  study::Result broken = test::sample_result();
-  broken.headline = broken.facts[0].label = broken.facts[0].text = test::hostile;
-  broken.solutions[0].label = broken.solutions[0].parameters[0].label = test::hostile;
-  broken.scenes[0].title = broken.scenes[0].joints[0].name = broken.scenes[0].bodies[1].name = test::hostile;
-  broken.scenes[0].vectors = {
-      {test::hostile, study::Scene::Quantity::force, test::hostile, 0, {1}, {1}, test::hostile}};
-  broken.scenes[0].moments = {{test::hostile, test::hostile, 0, {1}, test::hostile}};
-  broken.tables[0].columns[0].label = broken.comparisons[0].note = broken.checks[0].quantity = test::hostile;
-  broken.diagnostics[0].message = test::hostile;
-  broken.log.as_array()[0]["status"] = test::hostile;
+  study::Result broken = report::test::sample_result();
+  broken.headline = broken.facts[0].label = broken.facts[0].text = report::test::hostile;
+  broken.solutions[0].label = broken.solutions[0].parameters[0].label = report::test::hostile;
+  broken.scenes[0].title = broken.scenes[0].joints[0].name = broken.scenes[0].bodies[1].name =
+      report::test::hostile;
+  broken.scenes[0].vectors = {{report::test::hostile,
+                               study::Scene::Quantity::force,
+                               report::test::hostile,
+                               0,
+                               {1},
+                               {1},
+                               report::test::hostile}};
+  broken.scenes[0].moments = {{report::test::hostile, report::test::hostile, 0, {1}, report::test::hostile}};
+  broken.tables[0].columns[0].label = broken.comparisons[0].note = broken.checks[0].quantity =
+      report::test::hostile;
+  broken.diagnostics[0].message = report::test::hostile;
+  broken.log.as_array()[0]["status"] = report::test::hostile;
   write(folder / "hostile.html", html({.result = broken,
-                                       .study_toml = test::hostile,
-                                       .title = test::hostile,
-                                       .source = test::hostile,
-                                       .tool = test::hostile,
-                                       .command = test::hostile,
-                                       .result_json = test::sample_json(broken)}));
+                                       .study_toml = report::test::hostile,
+                                       .title = report::test::hostile,
+                                       .source = report::test::hostile,
+                                       .tool = report::test::hostile,
+                                       .command = report::test::hostile,
+                                       .result_json = report::test::sample_json(broken)}));
 
   study::Result nothing;
   nothing.status = Status::no_assembly;

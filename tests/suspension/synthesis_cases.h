@@ -22,7 +22,7 @@ struct Example {
   std::vector<GuideLink> links;  ///< of the guide, with names
 };
 
-inline Example example(std::string_view id) {
+inline Example published_example(std::string_view id) {
   using test::at, test::number_at;
   const Value& given = published(id);
   Example e;

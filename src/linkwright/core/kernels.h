@@ -22,7 +22,14 @@ struct NamedKernel {
 bool has_avx2();  ///< and fused multiply-add
 bool has_avx512();
 
-/// Those that this processor can run, narrowest first.
+/// The widest that this processor can run.
+template <class Kernel>
+NamedKernel<Kernel> widest(const KernelSet<Kernel>& set) {
+  if (set.avx512 && has_avx512()) return {set.avx512, "avx512"};
+  if (set.avx2 && has_avx2()) return {set.avx2, "avx2"};
+  return {set.baseline, "baseline"};
+}
+/// All that it can run, narrowest first.
 template <class Kernel>
 std::vector<NamedKernel<Kernel>> runnable(const KernelSet<Kernel>& set) {
   std::vector<NamedKernel<Kernel>> out{{set.baseline, "baseline"}};
@@ -30,11 +37,6 @@ std::vector<NamedKernel<Kernel>> runnable(const KernelSet<Kernel>& set) {
   if (set.avx512 && has_avx512()) out.push_back({set.avx512, "avx512"});
   return out;
 }
-template <class Kernel>
-NamedKernel<Kernel> widest(const KernelSet<Kernel>& set) {
-  return runnable(set).back();
-}
-
 }  // namespace linkwright
 
 /// The set of `name`_baseline, `name`_avx2 and `name`_avx512.

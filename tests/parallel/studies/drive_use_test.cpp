@@ -109,8 +109,8 @@ TEST(DriveUseStudy, DemandsTellHowFarLimitsAreKept) {
   EXPECT_DOUBLE_EQ(high.excess, 0.5);
   // Without limits an arm may turn as it likes; a Pi-joint stays within a right angle.
   EXPECT_LT(travel_demand(0, {}, drive_at({}, 0.3, 3)).excess, 0);
-  const Drive pi{.type = DriveType::pi_joint};
-  EXPECT_NEAR(travel_demand(0, pi, drive_at(pi, 0.3, 2)).excess, 2 - pi / 2, 1e-15);
+  const Drive joint{.type = DriveType::pi_joint};
+  EXPECT_NEAR(travel_demand(0, joint, drive_at(joint, 0.3, 2)).excess, 2 - pi / 2, 1e-15);
 }
 
 TEST(DriveUseStudy, GoodVerdictNamesTheTightestLimit) {

@@ -59,7 +59,7 @@ TEST(LinkageCheck, WantsFiniteNumbers) {
   EXPECT_THAT(after([](Linkage& l) {
                 l.bodies[1].attached.push_back({"weight", infinity, 0});
               }),
-              ElementsAre("body.crank.attached.weight: mass infinity must be finite and not negative; "));
+              ElementsAre("body.crank.attached.weight: mass inf must be finite and not negative; "));
   EXPECT_THAT(after([](Linkage& l) { l.gravity = std::nan(""); }),
               ElementsAre("environment.gravity: is not finite; "));
   EXPECT_THAT(after([](Linkage& l) { l.joints[1].slide_first = std::nan(""); }),

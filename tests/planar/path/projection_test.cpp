@@ -23,7 +23,7 @@ using P = FourBarParameter;
 
 constexpr RatioKind kinds[] = {RatioKind::crank_rocker, RatioKind::double_crank, RatioKind::any};
 
-struct Case {
+struct LinkProjectionCase {
   Timing timing;
   bool pivot_fixed, frame_fixed;
   RatioKind kind;
@@ -31,8 +31,8 @@ struct Case {
   double sense;
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> out;
+std::vector<LinkProjectionCase> link_projection_cases() {
+  std::vector<LinkProjectionCase> out;
   for (Timing timing : {Timing::equal_steps, Timing::given})
     for (bool pivot : {false, true})
       for (bool frame : {false, true})
@@ -42,7 +42,7 @@ std::vector<Case> cases() {
   return out;
 }
 
-PathProblem problem_of(const Case& c) {
+PathProblem link_projection_problem(const LinkProjectionCase& c) {
   PathProblem p = printed_eighteen_points();
   p.timing = c.timing;
   for (std::size_t k = 0; k < p.x.size(); ++k) p.angles.push_back(0.7 + p.step * static_cast<double>(k));
@@ -59,11 +59,11 @@ double sum_of_squares(const std::vector<double>& r) {
 }
 
 // Random ratios that assemble at every point, clear of the toggles; none for kinds that seldom do.
-std::vector<std::vector<double>> usable_ratios(PathProjection& projection, const Case& c, std::size_t count,
-                                               double clearance) {
+std::vector<std::vector<double>> usable_ratios(PathProjection& projection, const LinkProjectionCase& c,
+                                               std::size_t count, double clearance) {
   std::vector<std::vector<double>> out;
   RandomStream stream({.seed = 11, .run = static_cast<std::uint32_t>(c.kind)});
-  const PathProblem p = problem_of(c);
+  const PathProblem p = link_projection_problem(c);
   std::vector<double> r(projection.residuals());
   for (int attempt = 0; attempt < 3000 && out.size() < count; ++attempt) {
     auto q = random_ratios(c.kind, projection.variables(), stream);
@@ -79,8 +79,8 @@ std::vector<std::vector<double>> usable_ratios(PathProjection& projection, const
 
 TEST(PathProjection, ResidualsAreThoseOfTheRecoveredDesign) {
   int compared = 0, turned_round = 0;
-  for (const Case& c : cases()) {
-    const PathProblem p = problem_of(c);
+  for (const LinkProjectionCase& c : link_projection_cases()) {
+    const PathProblem p = link_projection_problem(c);
     PathProjection projection(p, c.kind, c.branch, c.sense);
     std::vector<double> r(projection.residuals());
     for (const auto& q : usable_ratios(projection, c, 20, 0.02)) {
@@ -114,7 +114,7 @@ TEST(PathProjection, ResidualsAreThoseOfTheRecoveredDesign) {
 TEST(PathProjection, LinearUnknownsAreOptimal) {
   const PathProblem p = printed_eighteen_points();
   PathProjection projection(p, RatioKind::crank_rocker, Branch::open, 1);
-  const Case c{Timing::equal_steps, false, false, RatioKind::crank_rocker, Branch::open, 1};
+  const LinkProjectionCase c{Timing::equal_steps, false, false, RatioKind::crank_rocker, Branch::open, 1};
   for (const auto& q : usable_ratios(projection, c, 10, 0.05)) {
     const PathDesign best = projection.design(p, q);
     for (double delta : {-1e-4, 1e-4}) {
@@ -134,8 +134,8 @@ TEST(PathProjection, LinearUnknownsAreOptimal) {
 
 TEST(PathProjection, GradientAgreesWithDifferences) {
   int compared = 0;
-  for (const Case& c : cases()) {
-    const PathProblem p = problem_of(c);
+  for (const LinkProjectionCase& c : link_projection_cases()) {
+    const PathProblem p = link_projection_problem(c);
     PathProjection projection(p, c.kind, c.branch, c.sense);
     const std::size_t n = projection.variables(), m = projection.residuals();
     std::vector<double> r(m), jacobian(n * m);
@@ -166,8 +166,8 @@ TEST(PathProjection, GradientAgreesWithDifferences) {
 // (r1, r3, r4) on one branch and (r1, r4, r3) on the other are timed cognates: the same curves.
 TEST(PathProjection, CognatesHaveTheSameError) {
   for (RatioKind kind : kinds) {
-    const Case c{Timing::equal_steps, false, false, kind, Branch::open, 1};
-    const PathProblem p = problem_of(c);
+    const LinkProjectionCase c{Timing::equal_steps, false, false, kind, Branch::open, 1};
+    const PathProblem p = link_projection_problem(c);
     PathProjection open(p, kind, Branch::open, 1), crossed(p, kind, Branch::crossed, 1);
     std::vector<double> a(open.residuals()), b(open.residuals());
     for (const auto& q : usable_ratios(open, c, 20, 0.02)) {
@@ -182,8 +182,8 @@ TEST(PathProjection, CognatesHaveTheSameError) {
 
 TEST(PathProjection, RatiosOfTheFirstTwoKindsTurnFully) {
   for (RatioKind kind : {RatioKind::crank_rocker, RatioKind::double_crank}) {
-    const Case c{Timing::equal_steps, false, false, kind, Branch::open, 1};
-    const PathProblem p = problem_of(c);
+    const LinkProjectionCase c{Timing::equal_steps, false, false, kind, Branch::open, 1};
+    const PathProblem p = link_projection_problem(c);
     PathProjection projection(p, kind, Branch::open, 1);
     RandomStream stream({.seed = 4});
     for (int i = 0; i < 200; ++i) {

@@ -108,7 +108,8 @@ TEST(SliderPathObjective, MeetsWhatMeasureSays) {
           for (std::size_t i = 0; i < count; ++i) {
             x.get(i, one);
             const SliderPathDesign design = slider_path_design(p, side, sense, one);
-            const std::string what = kernel.name + ", " + describe(c) + ", candidate " + std::to_string(i);
+            const std::string what =
+                std::string(kernel.name) + ", " + describe(c) + ", candidate " + std::to_string(i);
             // Between zero and the tolerance of measure() both answers are right.
             if (violation[i] == 0 || violation[i] > 1e-7) {
               EXPECT_EQ(violation[i] > 0, !design.violations.empty()) << what << ": " << violation[i];

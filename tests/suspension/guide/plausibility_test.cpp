@@ -44,7 +44,7 @@ TEST(Plausibility, GuidesThatAreMeantPassInSilence) {
     EXPECT_EQ(told(implausible(enlarged(sample.guide, 3, true))), "") << sample.name;
   }
   for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward"})
-    EXPECT_EQ(told(implausible(test::example(id).targets)), "") << id;
+    EXPECT_EQ(told(implausible(test::published_example(id).targets)), "") << id;
 }
 
 TEST(Plausibility, ATyreOfAnotherUnitIsTold) {
@@ -110,7 +110,7 @@ TEST(Plausibility, AxesThatChangePlacesAreTold) {
 }
 
 TEST(Plausibility, PositionsOfAnotherUnitOrAxisAreTold) {
-  const test::Example e = test::example("ex1-forward");
+  const test::Example e = test::published_example("ex1-forward");
   const auto changed = [&](auto&& change) {
     CarrierTargets targets = e.targets;
     for (CarrierTarget& pose : targets.poses) change(pose);

@@ -15,7 +15,7 @@ using linkwright::test::message;
 using ::testing::HasSubstr;
 
 TEST(CouplerFit, IsFoundToTheNanometre) {
-  const test::Example e = test::example("ex3-forward");
+  const test::Example e = test::published_example("ex3-forward");
   const CouplerTask task{.second = 2, .least_offset = 0.1, .point = box_around({0.23, 0.6, -0.07}, 0.15)};
   const CouplerFit fit = fit_coupler(e.targets, e.links, task);
   EXPECT_EQ(fit.status, Status::done);
@@ -25,7 +25,7 @@ TEST(CouplerFit, IsFoundToTheNanometre) {
 }
 
 TEST(CouplerFit, KeepsToItsBox) {
-  const test::Example e = test::example("ex3-forward");
+  const test::Example e = test::published_example("ex3-forward");
   const CouplerTask task{.second = 2, .least_offset = 0.1, .point = box_around({0.3, 0.7, -0.07}, 0.1)};
   const CouplerFit fit = fit_coupler(e.targets, e.links, task);
   EXPECT_EQ(fit.status, Status::not_converged);
@@ -37,7 +37,7 @@ TEST(CouplerFit, KeepsToItsBox) {
 // Limits cut the valley of good couplers, and a search that starts outside of them ends where it first meets
 // one. No start of many random ones may end lower than the fit.
 TEST(CouplerFit, IsTheBestPlaceOfItsBox) {
-  const test::Example e = test::example("ex3-forward");
+  const test::Example e = test::published_example("ex3-forward");
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random({seed, 77});
     const auto off = [&] { return random.uniform(-0.2, 0.2); };
@@ -66,7 +66,7 @@ TEST(CouplerFit, IsTheBestPlaceOfItsBox) {
 }
 
 TEST(CouplerFit, RefusesLinksItCannotJoin) {
-  const test::Example e = test::example("ex3-forward");
+  const test::Example e = test::published_example("ex3-forward");
   const auto told = [&](const CouplerTask& task) {
     return message([&] { fit_coupler(e.targets, e.links, task); });
   };

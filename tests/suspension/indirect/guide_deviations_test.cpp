@@ -13,7 +13,7 @@ namespace {
 TEST(GuideDeviations, AreNoneForTheMechanismItself) {
   for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward", "mechanism-R",
                          "mechanism-RR-KS", "mechanism-S-2KS", "mechanism-2RS-KS", "mechanism-RS-SP-KS"}) {
-    const test::Example e = test::example(id);
+    const test::Example e = test::published_example(id);
     const ConstraintError error = constraint_error(e.guide, e.targets);
     EXPECT_LT(error.gap, 1e-13) << id;  // positions hold 1e-15
     const PoseDeviations d = pose_deviations(e.guide, e.targets);
@@ -25,7 +25,7 @@ TEST(GuideDeviations, AreNoneForTheMechanismItself) {
 }
 
 TEST(GuideDeviations, TellWhatIsWrongAndWhere) {
-  test::Example e = test::example("ex1-forward");
+  test::Example e = test::published_example("ex1-forward");
   e.targets.poses[3].centre.y += 1e-3;
   const ConstraintError error = constraint_error(e.guide, e.targets);
   EXPECT_EQ(error.position, 3);
@@ -38,7 +38,7 @@ TEST(GuideDeviations, TellWhatIsWrongAndWhere) {
 }
 
 TEST(GuideDeviations, DirectionsOfHingesCount) {
-  test::Example e = test::example("mechanism-R");
+  test::Example e = test::published_example("mechanism-R");
   // A turn about a line across the hinge, through the hinge's point: the points meet, the directions do not.
   e.targets.poses = {e.targets.poses[4]};
   ASSERT_LT(norm(e.targets.poses[0].centre - e.targets.wheel.centre), 1e-12);
@@ -51,7 +51,7 @@ TEST(GuideDeviations, DirectionsOfHingesCount) {
 }
 
 TEST(GuideDeviations, PositionsOutOfReachAreCounted) {
-  test::Example e = test::example("ex1-forward");
+  test::Example e = test::published_example("ex1-forward");
   e.targets.poses[2].centre.z = 2;
   const PoseDeviations d = pose_deviations(e.guide, e.targets);
   EXPECT_EQ(d.status, Status::no_assembly);
@@ -60,7 +60,7 @@ TEST(GuideDeviations, PositionsOutOfReachAreCounted) {
 }
 
 TEST(GuideDeviations, ASpinThatIsNotPrescribedIsNoDeviation) {
-  test::Example e = test::example("ex4-forward");
+  test::Example e = test::published_example("ex4-forward");
   for (CarrierTarget& pose : e.targets.poses) pose.angles.spin = nan;
   const PoseDeviations d = pose_deviations(e.guide, e.targets);
   EXPECT_EQ(d.spin.largest, 0);
@@ -69,7 +69,7 @@ TEST(GuideDeviations, ASpinThatIsNotPrescribedIsNoDeviation) {
 
 // The run in the appendix of the source: the points that it found, and what it reports of them.
 TEST(GuideDeviations, ThePublishedRun) {
-  test::Example e = test::example("ex1-forward");
+  test::Example e = test::published_example("ex1-forward");
   const Value& run = published("ex1-appendix-de-run");
   const auto off = test::numbers(test::at(run, "inputs.x_true_minus_x_found_m"));
   double sum = 0, largest = 0;

@@ -24,7 +24,7 @@ struct Case {
 };
 
 Case make_case(const char* id, double edge = 0.05) {
-  Case c{.example = test::example(id)};
+  Case c{.example = test::published_example(id)};
   c.open = c.example.targets;
   for (CarrierTarget& pose : c.open.poses) pose.angles.spin = nan;
   RandomStream random({3, 17});

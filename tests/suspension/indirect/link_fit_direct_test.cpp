@@ -15,7 +15,7 @@ TEST(LinkFitDirect, LinksOfEveryMechanismHaveNoErrors) {
   for (const char* id :
        {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward", "mechanism-R", "mechanism-RR-KS",
         "mechanism-S-2KS", "mechanism-2RS-KS", "mechanism-RS-SP-KS", "mechanism-2SR-KS"}) {
-    const test::Example e = test::example(id);
+    const test::Example e = test::published_example(id);
     for (const GuideLink& link : e.links) {
       const LinkMotion motion = link_motion(e.targets, link.moved_by_rack);
       std::vector<double> errors(error_rows(link.type, motion.size()), 1.0);
@@ -27,7 +27,7 @@ TEST(LinkFitDirect, LinksOfEveryMechanismHaveNoErrors) {
 }
 
 TEST(LinkFitDirect, DerivativesAreThoseOfTheErrors) {
-  const test::Example e = test::example("ex1-forward");
+  const test::Example e = test::published_example("ex1-forward");
   for (const LinkType type :
        {LinkType::KS, LinkType::RS, LinkType::SR, LinkType::RR, LinkType::SP, LinkType::S, LinkType::R}) {
     GuideLink link{.type = type};

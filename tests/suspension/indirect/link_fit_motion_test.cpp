@@ -11,7 +11,7 @@ namespace linkwright::suspension {
 namespace {
 
 TEST(LinkFitMotion, PlacesPointsAsTheCarrierDoes) {
-  const test::Example e = test::example("ex1-forward");
+  const test::Example e = test::published_example("ex1-forward");
   const Vec3 p{-0.188, 0.647, -0.023};
   const LinkMotion still = link_motion(e.targets, false), racked = link_motion(e.targets, true);
   ASSERT_EQ(still.size(), 14u);  // 15 positions, one of them the reference
@@ -28,7 +28,7 @@ TEST(LinkFitMotion, PlacesPointsAsTheCarrierDoes) {
 }
 
 TEST(LinkFitMotion, NeedsTheSpin) {
-  test::Example e = test::example("ex1-forward");
+  test::Example e = test::published_example("ex1-forward");
   e.targets.poses[3].angles.spin = nan;
   EXPECT_THAT(linkwright::test::message([&] { link_motion(e.targets, false); }),
               ::testing::HasSubstr("a position does not give the spin of the carrier"));

@@ -41,7 +41,7 @@ TEST(LinkFit, LinksOfTheExamplesAreFoundFromEveryBox) {
   // Positions hold 1e-15 m. The least singular values are 2e-4 in examples 1 and 2, 1e-7 in 3 and 4, where a
   // link can still be 1e-7 m off, and up to some 1e-6 m along valleys.
   for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward"}) {
-    const test::Example e = test::example(id);
+    const test::Example e = test::published_example(id);
     const bool well = id[2] < '3';
     for (const GuideLink& link : e.links) {
       const int boxes = well ? 1000 : 400;
@@ -56,7 +56,7 @@ TEST(LinkFit, LinksOfTheExamplesAreFoundFromEveryBox) {
 TEST(LinkFit, OtherTypesOfLinks) {
   for (const char* id : {"mechanism-RR-KS", "mechanism-2RS-KS", "mechanism-RS-SP-KS", "mechanism-2SR-KS",
                          "mechanism-S-2KS", "mechanism-R"}) {
-    const test::Example e = test::example(id);
+    const test::Example e = test::published_example(id);
     for (const GuideLink& link : e.links) {
       if (link.type == LinkType::KS && e.links.size() < 4 && e.targets.poses.size() < 10)
         continue;  // families
@@ -69,7 +69,7 @@ TEST(LinkFit, OtherTypesOfLinks) {
 
 TEST(LinkFit, TheSameSeedGivesTheSameBits) {
   RunContext context;
-  const test::Example e = test::example("ex4-forward");
+  const test::Example e = test::published_example("ex4-forward");
   RandomStream random({5});
   const LinkTask task = test::random_task(e.links[0], 0.15, random);
   const LinkFit a = fit_link(e.targets, task, {}, {}, 9, context),
@@ -81,7 +81,7 @@ TEST(LinkFit, TheSameSeedGivesTheSameBits) {
 
 TEST(LinkFit, AKnownLinkIsNotFoundAgain) {
   RunContext context;
-  const test::Example e = test::example("ex1-forward");
+  const test::Example e = test::published_example("ex1-forward");
   // Boxes that hold links 1 and 2: with the first known, the second is found.
   LinkTask task{.name = "either",
                 .body = {{{-0.3, 0.35, -0.15}, {0.3, 0.42, -0.05}}},
@@ -99,7 +99,7 @@ TEST(LinkFit, AKnownLinkIsNotFoundAgain) {
 
 TEST(LinkFit, TheBestPlaceOfInexactPositionsStaysInTheBox) {
   RunContext context;
-  test::Example e = test::example("ex1-forward");
+  test::Example e = test::published_example("ex1-forward");
   for (CarrierTarget& pose : e.targets.poses) pose.centre.x += 1e-3 * std::sin(50 * pose.centre.z);
   RandomStream random({6});
   const LinkTask task = test::random_task(e.links[2], 0.05, random);
@@ -117,7 +117,7 @@ TEST(LinkFit, RoundedTableGivesTheLeastSquaresOptimum) {
   // The positions of the printed tables, five decimals, and the optima that an independent program found.
   for (const auto& [forward, table] :
        {std::pair{"ex1-forward", "lsq-table-ex1"}, {"ex2-forward", "lsq-table-ex2"}}) {
-    test::Example e = test::example(forward);
+    test::Example e = test::published_example(forward);
     e.targets.poses.clear();
     for (const Value& row : test::at(published(forward), "published.rows").as_array()) {
       const std::vector<double> r = test::numbers(row);
@@ -145,7 +145,7 @@ TEST(LinkFit, RoundedTableGivesTheLeastSquaresOptimum) {
 }
 
 TEST(LinkFit, CanBeStopped) {
-  const test::Example e = test::example("ex4-forward");
+  const test::Example e = test::published_example("ex4-forward");
   RandomStream random({1});
   const LinkTask task = test::random_task(e.links[0], 0.15, random);
   RunContext context;
@@ -157,7 +157,7 @@ TEST(LinkFit, CanBeStopped) {
 }
 
 TEST(LinkFit, StartsAreTakenFromGivenLinks) {
-  const test::Example e = test::example("ex4-forward");
+  const test::Example e = test::published_example("ex4-forward");
   RandomStream random({1});
   const LinkTask task = test::random_task(e.links[0], 0.15, random);
   GuideLink near = e.links[0];
@@ -173,7 +173,7 @@ TEST(LinkFit, StartsAreTakenFromGivenLinks) {
 
 TEST(LinkFit, ConditioningTellsTheWeakDirection) {
   RunContext context;
-  const test::Example e = test::example("ex4-forward");
+  const test::Example e = test::published_example("ex4-forward");
   const GuideLink& link = e.links[0];
   const LinkTask task{.body = {box_around(link.body[0], 0.1)}, .carrier = {box_around(link.carrier[0], 0.1)}};
   const LinkConditioning c = conditioning(e.targets, task, link);
@@ -210,7 +210,7 @@ TEST(LinkFit, FewestPositionsArePublishedOnes) {
 
 TEST(LinkFit, RefusesWhatItCannotDo) {
   RunContext context;
-  const test::Example e = test::example("ex1-forward");
+  const test::Example e = test::published_example("ex1-forward");
   RandomStream random({1});
   LinkTask task = test::random_task(e.links[0], 0.15, random);
   const auto told = [&](const CarrierTargets& targets) {

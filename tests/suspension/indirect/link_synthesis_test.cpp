@@ -9,7 +9,7 @@ namespace {
 
 TEST(LinkSynthesis, ObjectiveOfThePublishedRun) {
   // The source's program divides by all 15 positions, the reference included.
-  const test::Example e = test::example("ex1-forward");
+  const test::Example e = test::published_example("ex1-forward");
   const Value& run = published("ex1-appendix-de-run");
   const auto off = test::numbers(test::at(run, "inputs.x_true_minus_x_found_m"));
   const auto wanted = test::numbers(test::at(run, "computed.f_per_link_mean_over_15_m"));
@@ -24,7 +24,7 @@ TEST(LinkSynthesis, ObjectiveOfThePublishedRun) {
 }
 
 TEST(LinkSynthesis, ProblemCostsWhatTheLinkCosts) {
-  const test::Example e = test::example("ex2-forward");
+  const test::Example e = test::published_example("ex2-forward");
   RandomStream random({2});
   const LinkTask task = test::random_task(e.links[3], 0.15, random);
   const optimise::Problem problem = link_problem(e.targets, task);
@@ -48,7 +48,7 @@ struct Course {
   double generations = 0, found = 0;
 };
 Course evolve(const std::string& id, int repeats) {
-  const test::Example e = test::example(id);
+  const test::Example e = test::published_example(id);
   Course course;
   RunContext context;
   for (const GuideLink& link : e.links)

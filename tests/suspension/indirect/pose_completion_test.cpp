@@ -26,7 +26,7 @@ const CarrierTarget& state(const test::Example& e, double travel, double rack) {
 
 TEST(PoseCompletion, DyadOfTheSource) {
   for (const Value& row : test::at(published("rs-dyad-spin"), "computed.rows").as_array()) {
-    const test::Example e = test::example(test::at(row, "mechanism").as_string() + "-forward");
+    const test::Example e = test::published_example(test::at(row, "mechanism").as_string() + "-forward");
     const GuideLink& rod = e.links[static_cast<std::size_t>(test::number_at(row, "link_1based")) - 1];
     const CarrierTarget& pose = state(e, test::number_at(row, "travel_m"), test::number_at(row, "rack_m"));
     const RsDyad dyad = rs_dyad(e.targets, pose, rod);
@@ -46,7 +46,7 @@ TEST(PoseCompletion, DyadOfTheSource) {
 
 TEST(PoseCompletion, DyadAndClosedFormTurnTheCarrierAlike) {
   for (const char* id : {"ex1-forward", "ex2-forward", "ex4-forward", "mechanism-5KS", "mechanism-RS-3KS"}) {
-    const test::Example e = test::example(id);
+    const test::Example e = test::published_example(id);
     for (const GuideLink& rod : e.links) {
       if (rod.type != LinkType::KS) continue;
       for (const CarrierTarget& pose : e.targets.poses) {
@@ -72,7 +72,7 @@ TEST(PoseCompletion, DyadAndClosedFormTurnTheCarrierAlike) {
 TEST(PoseCompletion, EveryParameterComesBack) {
   // All rods of the rear suspension, each parameter in turn, through the dead point of link 3 for the spin.
   // The dead point of links 1 and 4 for the height lies next to the reference: nothing tells the sides apart.
-  const test::Example e = test::example("ex4-forward");
+  const test::Example e = test::published_example("ex4-forward");
   for (const auto& parameter : names(PoseParameter{}))
     for (const GuideLink& rod : e.links) {
       if (parameter.value == PoseParameter::centre_z && (rod.name == "link 1" || rod.name == "link 4"))
@@ -89,7 +89,7 @@ TEST(PoseCompletion, EveryParameterComesBack) {
 }
 
 TEST(PoseCompletion, ARodOutOfReachIsTold) {
-  const test::Example e = test::example("ex4-forward");
+  const test::Example e = test::published_example("ex4-forward");
   GuideLink rod = e.links[0];
   rod.length = 0.2;  // half a metre is needed
   CarrierTargets open = e.targets;
@@ -106,14 +106,14 @@ TEST(PoseCompletion, ARodOutOfReachIsTold) {
 }
 
 TEST(PoseCompletion, ARodOnTheWheelsAxisSettlesNoSpin) {
-  const test::Example e = test::example("ex4-forward");
+  const test::Example e = test::published_example("ex4-forward");
   GuideLink rod = e.links[0];
   rod.carrier[0] = e.targets.wheel.centre - 0.1 * wheel_axis(Side::left, 0, e.targets.wheel.camber);
   EXPECT_EQ(solve_for(e.targets, e.targets.poses[2], rod, PoseParameter::spin).status, Status::singular);
 }
 
 TEST(PoseCompletion, WhatIsRefused) {
-  const test::Example e = test::example("ex2-forward");
+  const test::Example e = test::published_example("ex2-forward");
   EXPECT_THAT(message([&] {
                 complete(e.targets, e.links[3], PoseParameter::spin);
                 rs_dyad(e.targets, e.targets.poses[0], e.links[3]);

@@ -30,7 +30,7 @@ TEST(PublishedGuides, AreThoseOfTheReference) {
           EXPECT_TRUE(std::isnan(found[k]));
       }
     }
-    const test::Example e = test::example(id);
+    const test::Example e = test::published_example(id);
     const CarrierTargets targets = published_targets(guide);
     for (std::size_t i = 0; i < rows.size(); ++i)
       EXPECT_LT(norm(targets.poses[i].centre - e.targets.poses[i].centre), 1e-12);

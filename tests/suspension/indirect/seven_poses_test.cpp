@@ -22,7 +22,7 @@ double nearest(const SevenPoseReport& report, const GuideLink& link, double tole
 }
 
 TEST(SevenPoses, PublishedPositionsHaveTheirTwentySolutions) {
-  const test::Example e = test::example("ex1-forward");
+  const test::Example e = test::published_example("ex1-forward");
   for (const char* id : {"ss-seven-poses-unsteered", "ss-seven-poses-steered"}) {
     const Value& given = published(id);
     const bool moved = test::at(given, "inputs.body_point_moves_with_rack").as_bool();
@@ -46,7 +46,7 @@ TEST(SevenPoses, PublishedPositionsHaveTheirTwentySolutions) {
 // Each of the twenty keeps its length in all seven positions, complex ones too: by the equation itself,
 // |q_i - y|^2 = |q_0 - y|^2 without conjugates.
 TEST(SevenPoses, AllSolutionsAreKept) {
-  const test::Example e = test::example("ex1-forward");
+  const test::Example e = test::published_example("ex1-forward");
   const LinkMotion motion = link_motion(e.targets, false, e.targets.wheel.centre);
   const SevenPoseReport report = seven_pose_rods(e.targets, false);
   ASSERT_EQ(report.solutions, 20);
@@ -91,7 +91,7 @@ TEST(SevenPoses, AllSolutionsAreKept) {
 
 TEST(SevenPoses, LinksOfAMechanismAreWhatFitsAllPositions) {
   for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward", "mechanism-5KS"}) {
-    const test::Example e = test::example(id);
+    const test::Example e = test::published_example(id);
     for (const bool moved : {false, true}) {
       const SevenPoseReport report = seven_pose_rods(e.targets, moved);
       for (const GuideLink& link : e.links) {
@@ -104,7 +104,7 @@ TEST(SevenPoses, LinksOfAMechanismAreWhatFitsAllPositions) {
 }
 
 TEST(SevenPoses, EverySubsetOfPositionsTellsTheLinks) {
-  const test::Example e = test::example("ex1-forward");
+  const test::Example e = test::published_example("ex1-forward");
   const LinkMotion motion = link_motion(e.targets, false, e.targets.wheel.centre);
   int complete = 0, all_links = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
@@ -128,7 +128,7 @@ TEST(SevenPoses, EverySubsetOfPositionsTellsTheLinks) {
 
 TEST(SevenPoses, ArmsComeAsFamilies) {
   for (const char* id : {"mechanism-RS-3KS", "mechanism-2RS-KS", "mechanism-2SR-KS", "ex3-forward"}) {
-    const test::Example e = test::example(id);
+    const test::Example e = test::published_example(id);
     const SevenPoseReport report = seven_pose_rods(e.targets, false);
     EXPECT_EQ(report.status, Status::singular) << id;
     for (const GuideLink& link : e.links) {
@@ -150,7 +150,7 @@ TEST(SevenPoses, ArmsComeAsFamilies) {
 }
 
 TEST(SevenPoses, NeedsSevenPositions) {
-  test::Example e = test::example("ex1-forward");
+  test::Example e = test::published_example("ex1-forward");
   e.targets.poses.resize(6);
   EXPECT_THAT(linkwright::test::message([&] { seven_pose_rods(e.targets, false); }),
               ::testing::HasSubstr("needs six positions beside the reference, got 5"));

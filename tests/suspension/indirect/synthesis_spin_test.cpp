@@ -23,7 +23,7 @@ struct Case {
 };
 
 Case make_case(const char* id, std::uint64_t seed, double edge) {
-  Case c{.example = test::example(id)};
+  Case c{.example = test::published_example(id)};
   c.open = c.example.targets;
   for (CarrierTarget& pose : c.open.poses) pose.angles.spin = nan;
   RandomStream random({seed, 41});

@@ -27,7 +27,7 @@ IndirectTask whole(const test::Example& e, std::uint64_t seed) {
 TEST(IndirectSynthesis, WholeMechanismsOfTheSource) {
   RunContext context;
   for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward"}) {
-    const test::Example e = test::example(id);
+    const test::Example e = test::published_example(id);
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
       const IndirectSynthesis found = synthesise(whole(e, seed), {}, seed, context);
       ASSERT_EQ(found.status, Status::done)
@@ -43,7 +43,7 @@ TEST(IndirectSynthesis, WholeMechanismsOfTheSource) {
 
 TEST(IndirectSynthesis, TooFewPositionsAreTold) {
   RunContext context;
-  test::Example e = test::example("ex1-forward");
+  test::Example e = test::published_example("ex1-forward");
   e.targets.poses.resize(6);
   const IndirectSynthesis found = synthesise(whole(e, 1), {}, 1, context);
   EXPECT_EQ(found.fewest, 7);
@@ -56,7 +56,7 @@ TEST(IndirectSynthesis, TooFewPositionsAreTold) {
 
 TEST(IndirectSynthesis, OneLinkIsNotTakenTwice) {
   RunContext context;
-  const test::Example e = test::example("ex1-forward");
+  const test::Example e = test::published_example("ex1-forward");
   IndirectTask task = whole(e, 1);
   task.links[1] = task.links[0];  // the same boxes again: they hold one link only
   const IndirectSynthesis found = synthesise(task, {.link = {.starts = 20}}, 1, context);
@@ -66,7 +66,7 @@ TEST(IndirectSynthesis, OneLinkIsNotTakenTwice) {
 
 TEST(IndirectSynthesis, ExactRodsAreStartsWhereOthersFail) {
   // One start finds some rods of the rear suspension and not others; the rods of seven positions are exact.
-  const test::Example e = test::example("ex4-forward");
+  const test::Example e = test::published_example("ex4-forward");
   RunContext context;
   int failed = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -81,7 +81,7 @@ TEST(IndirectSynthesis, ExactRodsAreStartsWhereOthersFail) {
 }
 
 TEST(IndirectSynthesis, HingedArmsAreReported) {
-  const test::Example e = test::example("mechanism-RS-3KS");
+  const test::Example e = test::published_example("mechanism-RS-3KS");
   IndirectTask task{.targets = e.targets, .links = {given_link(e.links[1])}, .couplers = {}};
   task.links[0].body[0] = box_around({0.5, 0.5, 0.5}, 0.02);  // no rod is there
   RunContext context;
@@ -93,7 +93,7 @@ TEST(IndirectSynthesis, HingedArmsAreReported) {
 }
 
 TEST(IndirectSynthesis, LinksThatShareACouplerAreFittedTogetherAtLast) {
-  test::Example e = test::example("ex3-forward");
+  test::Example e = test::published_example("ex3-forward");
   for (CarrierTarget& pose : e.targets.poses) {  // five decimals, as the source prints them
     const auto round = [](double& v, double unit) { v = std::round(v / unit) * unit; };
     round(pose.centre.x, 1e-5), round(pose.centre.y, 1e-5);
@@ -130,7 +130,7 @@ TEST(IndirectSynthesis, LinksThatShareACouplerAreFittedTogetherAtLast) {
 
 TEST(IndirectSynthesis, AGivenRodSettlesTheSpin) {
   // Section 5.3.5.1: with one rod adopted the others are found one by one from complete positions.
-  const test::Example e = test::example("ex4-forward");
+  const test::Example e = test::published_example("ex4-forward");
   RunContext context;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     IndirectTask task = whole(e, seed);
@@ -150,7 +150,7 @@ TEST(IndirectSynthesis, AGivenRodSettlesTheSpin) {
 }
 
 TEST(IndirectSynthesis, AGivenRodThatDoesNotReachIsTold) {
-  const test::Example e = test::example("ex4-forward");
+  const test::Example e = test::published_example("ex4-forward");
   IndirectTask task = whole(e, 1);
   for (CarrierTarget& pose : task.targets.poses) pose.angles.spin = nan;
   GuideLink rod = e.links[2];
@@ -166,7 +166,7 @@ TEST(IndirectSynthesis, AGivenRodThatDoesNotReachIsTold) {
 }
 
 TEST(IndirectSynthesis, LinksAndSpinsTogether) {
-  const test::Example e = test::example("ex4-forward");
+  const test::Example e = test::published_example("ex4-forward");
   IndirectTask task = whole(e, 1);
   for (CarrierTarget& pose : task.targets.poses) pose.angles.spin = nan;
   RunContext context;
@@ -178,7 +178,7 @@ TEST(IndirectSynthesis, LinksAndSpinsTogether) {
 }
 
 TEST(IndirectSynthesis, CanBeStopped) {
-  const test::Example e = test::example("ex4-forward");
+  const test::Example e = test::published_example("ex4-forward");
   RunContext context;
   context.cancel();
   const IndirectSynthesis found = synthesise(whole(e, 1), {.link = {.tolerance = 1e-30}}, 1, context);
@@ -193,7 +193,7 @@ TEST(IndirectSynthesis, CanBeStopped) {
 }
 
 TEST(IndirectSynthesis, TellsItsProgress) {
-  const test::Example e = test::example("ex1-forward");
+  const test::Example e = test::published_example("ex1-forward");
   RunContext context;
   std::vector<double> fractions;
   context.set_progress([&](const Progress& p) { fractions.push_back(p.fraction); });
@@ -205,7 +205,7 @@ TEST(IndirectSynthesis, TellsItsProgress) {
 }
 
 TEST(IndirectSynthesis, DifferentialEvolutionFindsTheSame) {
-  const test::Example e = test::example("ex1-forward");
+  const test::Example e = test::published_example("ex1-forward");
   RunContext context;
   const IndirectSynthesis found = evolve(whole(e, 1), {}, 1, context);
   ASSERT_EQ(found.status, Status::done);
@@ -219,7 +219,7 @@ TEST(IndirectSynthesis, DifferentialEvolutionFindsTheSame) {
 }
 
 TEST(IndirectSynthesis, DifferentialEvolutionTakesLinksThatShareACouplerTogether) {
-  const test::Example e = test::example("ex3-forward");
+  const test::Example e = test::published_example("ex3-forward");
   IndirectTask task = whole(e, 2);
   task.couplers[0].most_offset = 0.286;
   RunContext context;
