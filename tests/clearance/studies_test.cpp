@@ -9,8 +9,8 @@ TEST(ClearanceStudies, AreThoseOfLinkagesWithClearance) {
   std::vector<std::string> names;
   for (const study::Kind& kind : studies()) names.push_back(study::name_of(kind));
   EXPECT_THAT(names, ::testing::ElementsAre("synthesis/clearance.four_bar/path_points",
-                                            "synthesis/clearance.four_bar/lead",
-                                            "synthesis/clearance.four_bar/path_points_and_lead",
+                                            "synthesis/clearance.four_bar/phase",
+                                            "synthesis/clearance.four_bar/path_points_and_phase",
                                             "simulation/clearance.linkage", "analysis/clearance.linkage"));
 }
 

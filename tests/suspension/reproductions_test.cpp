@@ -64,7 +64,7 @@ TEST(GuideReproductions, RearSuspension) {
   EXPECT_EQ(verdicts(table, "position "), (Counts{{"reproduced", 52}}));
   EXPECT_EQ(row(table, "links found exactly from random boxes of 150 mm, %").ours, 100);
   EXPECT_EQ(row(table, "generations of differential evolution, all links").verdict, "reproduced");
-  for (const char* technique : {"spin unknown, quadratic", "spin unknown, dyad"}) {
+  for (const char* technique : {"carrier pitch unknown, quadratic", "carrier pitch unknown, dyad"}) {
     const Counts counts = verdicts(table, technique);
     EXPECT_EQ(counts.count("not reproduced"), 0u) << technique;
   }

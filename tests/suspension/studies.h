@@ -56,7 +56,7 @@ inline const std::vector<double>& column(const study::Result& result, std::strin
 
 /// The beginning of a study of a wheel guide, one of a sample, and sweeps to go on with.
 inline const std::string head =
-    "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\n";
+    "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\n";
 inline std::string sample(const std::string& name, const std::string& rest) {
   return head + "sample = \"" + name + "\"\n" + rest;
 }

@@ -16,11 +16,11 @@ TEST(Studies, AreThoseOfWheelGuides) {
     names.push_back(study::name_of(kind));
     if (kind.seeded) seeded.push_back(names.back());
   }
-  EXPECT_THAT(names, ::testing::ElementsAre("analysis/suspension.wheel_guide",
-                                            "synthesis/suspension.wheel_guide/carrier_poses",
-                                            "synthesis/suspension.wheel_guide/wheel_parameters"));
-  EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/suspension.wheel_guide/carrier_poses",
-                                             "synthesis/suspension.wheel_guide/wheel_parameters"));
+  EXPECT_THAT(
+      names, ::testing::ElementsAre("analysis/suspension.corner", "synthesis/suspension.corner/carrier_poses",
+                                    "synthesis/suspension.corner/wheel_parameters"));
+  EXPECT_THAT(seeded, ::testing::ElementsAre("synthesis/suspension.corner/carrier_poses",
+                                             "synthesis/suspension.corner/wheel_parameters"));
 }
 
 }  // namespace

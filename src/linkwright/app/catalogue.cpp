@@ -14,6 +14,7 @@
 #include "linkwright/parallel/studies.h"
 #include "linkwright/planar/reproductions.h"
 #include "linkwright/planar/studies.h"
+#include "linkwright/study/renamed.h"
 #include "linkwright/study/study.h"
 #include "linkwright/suspension/reproductions.h"
 #include "linkwright/suspension/studies.h"
@@ -41,12 +42,13 @@ std::span<const study::Kind> catalogue() {
 
 const study::Kind* find_kind(std::string_view name, std::span<const study::Kind> kinds,
                              Diagnostics& diagnostics) {
+  const std::string today = study::todays_kind(name);
   std::vector<const study::Kind*> fitting;
   std::vector<std::string> names;
   for (const study::Kind& kind : kinds) {
     names.push_back(name_of(kind));
-    if (names.back() == name) return &kind;
-    if (names.back().starts_with(std::string(name) + "/")) fitting.push_back(&kind);
+    if (names.back() == today) return &kind;
+    if (names.back().starts_with(today + "/")) fitting.push_back(&kind);
   }
   if (fitting.size() == 1) return fitting.front();
   Diagnostic problem;

@@ -70,6 +70,9 @@ Arguments parse_arguments(int argc, const char* const* argv) {
       app.add_subcommand("schema", "print the JSON Schema of studies, or of result.json (`schema result`)");
   schema->add_option("KIND", arguments.kind, "one kind only, see `linkwright catalogue`; or: result");
   CLI::App* catalogue = app.add_subcommand("catalogue", "list the kinds of studies");
+  catalogue->add_flag("--renamed", arguments.renamed,
+                      "list instead what is called otherwise than in the last version");
+  catalogue->add_flag("--json", arguments.json, "print for machines");
   CLI::App* reproduce =
       app.add_subcommand("reproduce", "compute published tables anew: published, ours, verdict");
   reproduce->add_option("ID", arguments.table, "id of a table, its beginning, or all; without it, list them");
@@ -98,7 +101,6 @@ Arguments parse_arguments(int argc, const char* const* argv) {
                       : *schema    ? Command::schema
                       : *reproduce ? Command::reproduce
                                    : Command::catalogue;
-  (void)catalogue;
   return arguments;
 }
 

@@ -25,6 +25,7 @@ struct Arguments {
   std::optional<double> time_limit;  ///< s
   bool resume = false;
   bool json = false;
+  bool renamed = false;  ///< of catalogue
 
   std::string text;   ///< for nothing: what to print (help, version or what is wrong)
   int exit_code = 0;  ///< for nothing

@@ -20,6 +20,7 @@
 #include "linkwright/app/run.h"
 #include "linkwright/cli/arguments.h"
 #include "linkwright/cli/progress.h"
+#include "linkwright/study/renamed.h"
 #include "linkwright/study/study.h"
 #include "linkwright/study/write.h"
 
@@ -229,6 +230,26 @@ int schema(const Arguments& arguments, std::span<const study::Kind> kinds) {
   return kind ? 0 : bad_input;
 }
 
+int renamed(bool json) {
+  if (json) {
+    Value::Array all;
+    for (const study::Renamed& r : study::renamed()) {
+      Value one;
+      one["of"] = name_of(r.of);
+      one["before"] = r.before;
+      one["now"] = r.now;
+      if (!r.mechanism.empty()) one["mechanism"] = std::string(r.mechanism) + "*";
+      all.push_back(std::move(one));
+    }
+    fmt::print("{}", study::to_json_readable(Value(std::move(all))));
+    return 0;
+  }
+  for (const study::Renamed& r : study::renamed())
+    fmt::print("{:<10} {:<24} is now {:<24}{}\n", name_of(r.of), r.before, r.now,
+               r.mechanism.empty() ? std::string() : fmt::format(" in {}*", r.mechanism));
+  return 0;
+}
+
 int catalogue(std::span<const study::Kind> kinds) {
   for (const study::Kind& kind : kinds) fmt::print("{}\n    {}\n", name_of(kind), kind.summary);
   return 0;
@@ -306,7 +327,7 @@ int program(int argc, const char* const* argv, std::span<const study::Kind> kind
     case Arguments::Command::schema:
       return schema(arguments, kinds);
     case Arguments::Command::catalogue:
-      return catalogue(kinds);
+      return arguments.renamed ? renamed(arguments.json) : catalogue(kinds);
     case Arguments::Command::reproduce:
       return reproduce(arguments, reproductions);
   }

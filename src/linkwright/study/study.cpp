@@ -11,6 +11,7 @@
 #include "linkwright/core/units.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/memory.h"
+#include "linkwright/study/renamed.h"
 
 namespace linkwright::study {
 namespace {
@@ -193,10 +194,10 @@ void require_room_for_candidates(ObjectReader& root, const Value& document, cons
 
 }  // namespace
 
-std::optional<Study> prepare(const Value& document, const std::string& file,
-                             const std::filesystem::path& folder, std::span<const Kind> kinds,
-                             Diagnostics& diagnostics) {
-  LINKWRIGHT_REQUIRE(document.is_object(), "a study is a table, got {}", document.type_name());
+std::optional<Study> prepare(const Value& given, const std::string& file, const std::filesystem::path& folder,
+                             std::span<const Kind> kinds, Diagnostics& diagnostics) {
+  LINKWRIGHT_REQUIRE(given.is_object(), "a study is a table, got {}", given.type_name());
+  const Value document = with_todays_names(given, file, diagnostics);
   DocumentReader reader(document, file, diagnostics);
   ObjectReader root = reader.root();
   Study study;

@@ -24,7 +24,7 @@ constexpr int evolutions = 20;
 
 std::string source_of(const PublishedGuide& guide) { return fmt::format("Poznanovic 2016, {}", guide.table); }
 
-constexpr std::array quantities{"x in m", "y in m", "toe in deg", "camber in deg", "spin in deg"};
+constexpr std::array quantities{"x in m", "y in m", "toe in deg", "camber in deg", "carrier pitch in deg"};
 
 std::array<double, 5> found_at(const GuidePlan& plan, const PublishedPosition& row) {
   const GuidePosition at =
@@ -213,7 +213,7 @@ void add_run_of_the_appendix(study::Comparisons& rows) {
   add("largest error of the wheel centre, m", 1.3e-8, std::max(d.x.largest, d.y.largest), 5e-10);
   add("largest error of toe, deg", 4.5e-6, math::degrees(d.toe.largest), 1e-7);
   add("largest error of camber, deg", 2.7e-6, math::degrees(d.camber.largest), 5e-8);
-  add("largest error of spin, deg", 4.0e-6, math::degrees(d.spin.largest), 5e-8);
+  add("largest error of carrier pitch, deg", 4.0e-6, math::degrees(d.spin.largest), 5e-8);
   rows.push_back({"objective of the quasi-Newton run", source, 0.02, not_printed, "not reproduced",
                   "the point that is listed has 4.19e-4"});
 }
@@ -229,7 +229,7 @@ void add_open_spin(study::Comparisons& rows, RunContext& context) {
                             context);
         });
     if (means.repeats == 0) return;
-    const std::string what = fmt::format("spin unknown, {}", name_of(technique));
+    const std::string what = fmt::format("carrier pitch unknown, {}", name_of(technique));
     add_deviations(rows, what, "Poznanovic 2016, Tab. 6-14", printed.deviations, means);
     rows.push_back({what + ": mean error of coordinates, m", "Poznanovic 2016, Tab. 6-15",
                     printed.coordinate_error, means.coordinate_error,
@@ -331,16 +331,18 @@ std::vector<study::Reproduction> reproductions() {
         repeats_note},
        [](RunContext& context) { return example(3, context); }},
       {"poznanovic-2016-example-4",
-       "five-link rear suspension: positions, synthesis with and without the spin of the carrier",
+       "five-link rear suspension: positions, synthesis with and without the carrier pitch",
        "Poznanovic 2016, section 6.5, Fig. 6-8, Tabs. 6-13 to 6-16",
        {"The turn of the dyad (73) is not the spin of (50), as the text has it, but the carrier that it "
         "turns "
         "(74) is right; (67) lacks the length of the rod.",
-        "With the quadratic of the spin three boxes are searched here; over forty its largest deviations of "
+        "With the quadratic of the carrier pitch three boxes are searched here; over forty its largest "
+        "deviations of "
         "toe and "
         "camber, 0.032 and 0.0098 deg, are more than the published 0.019 and 0.005 deg "
         "(docs/suspension-statistics.md).",
-        "Without the spin every solution of some micrometres is as good as another: their coordinates "
+        "Without the carrier pitch every solution of some micrometres is as good as another: their "
+        "coordinates "
         "scatter "
         "over the boxes.",
         repeats_note},

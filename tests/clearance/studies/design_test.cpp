@@ -93,8 +93,8 @@ TEST(ClearanceDesignStudy, MassesFollowTheCrank) {
   EXPECT_THAT(r.diagnostics, IsEmpty());
   EXPECT_THAT(r.headline, HasSubstr("pin and bush stay in contact, with 2.0"));
   EXPECT_LT(objective(r, "orbit_error_rad"), 4.3e-5);
-  const std::vector<double>&lead = values(r, "turn", "lead_rad"), &tension = values(r, "turn", "tension_N"),
-        &before = values(r, "reference", "lead_rad");
+  const std::vector<double>&lead = values(r, "turn", "phase_rad"), &tension = values(r, "turn", "tension_N"),
+        &before = values(r, "reference", "phase_rad");
   ASSERT_EQ(lead.size(), 361u);
   for (std::size_t i = 0; i < lead.size(); ++i)
     EXPECT_NEAR(lead[i], 0, 1.5e-3) << i;  // a twelfth of a degree
@@ -103,7 +103,7 @@ TEST(ClearanceDesignStudy, MassesFollowTheCrank) {
   // The periodic orbit of Table 3: 17 degrees either way.
   EXPECT_NEAR(*std::max_element(before.begin(), before.end()), 17.8 * full_turn / 360, 1e-2);
   EXPECT_THAT(fact(r, "contact"), HasSubstr("kept: least tension 2.0"));
-  EXPECT_THAT(fact(r, "mean sine of the lead, by tension"), HasSubstr("the work of the pin over a turn"));
+  EXPECT_THAT(fact(r, "mean sine of the phase, by tension"), HasSubstr("the work of the pin over a turn"));
   expect_plots_have_columns(r);
 }
 
@@ -163,7 +163,7 @@ TEST(ClearanceDesignStudy, TheDesignCanBeTakenOn) {
 // Both stages with free crank angles, by the swarm of the source, and what is told when a lead is asked for.
 TEST(ClearanceDesignStudy, BothStagesInTurn) {
   std::string text = replaced(kind_example(DesignTarget::both), "at_once", "in_turn");
-  text = replaced(text, "lead_deg  = 0.0", "lead_deg = 10.0");
+  text = replaced(text, "phase_deg  = 0.0", "phase_deg = 10.0");
   text = replaced(text, "step_deg = 30.0", "step_deg = 30.0, free_within_deg = 5.0");
   text = replaced(text, "method = \"recommended\"\nstarts = 6\nseeds  = { first = 1, count = 2 }",
                   "method = \"particle_swarm\"\npopulation = 20\ngenerations = 30");

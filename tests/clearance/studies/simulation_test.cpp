@@ -62,7 +62,7 @@ TEST(ClearanceStudy, ReportsContactsMotionAndTheEnergyAudit) {
   const study::Result r = run_text(one_turn());
   ASSERT_EQ(r.status, Status::done) << r.headline;
   for (const char* key : {"time_s", "O_angle_rad", "rod_angle_rad", "slider_B_x_m", "slider_B_ideal_x_m",
-                          "guide_way_m", "A_N", "B_N", "O_drive_torque_N_m", "energy_drift_J"})
+                          "guide_displacement_m", "A_N", "B_N", "O_drive_torque_N_m", "energy_drift_J"})
     EXPECT_EQ(values(r, "motion", key).size(), 1201u) << key;
   for (const char* key : {"B_eccentricity_x_m", "B_depth_m", "B_contact_N", "B_friction_N", "B_touches"})
     EXPECT_EQ(values(r, "pins", key).size(), 1201u) << key;

@@ -67,7 +67,7 @@ TEST(ToleranceStudy, WayOfASliderInClosedForm) {
     EXPECT_GT(drawn[i], worst[i] * 0.7) << i;
   }
   // Half of the nominal stroke beyond the crank pivot at 90 degrees and the like: values and their bands.
-  const std::vector<double>&way = values(r, "values", "guide_way_m"),
+  const std::vector<double>&way = values(r, "values", "guide_displacement_m"),
         &upper = values(r, "values", "guide_way_upper_m");
   EXPECT_NEAR(way[0], 0.2, 1e-15);
   EXPECT_NEAR(upper[0], 0.20013, 1e-12);

@@ -21,7 +21,8 @@ TEST(LinkageColumns, AreThoseOfTheQuantities) {
   EXPECT_THAT(keys({"drive"}), ::testing::ElementsAre("O_drive_torque_N_m", "closure_residual_m"));
   EXPECT_THAT(keys({"transmission_angle"}),
               ::testing::ElementsAre("rod_slider_transmission_angle_rad", "closure_residual_m"));
-  EXPECT_THAT(keys({"position"}), ::testing::IsSupersetOf({"rod_angle_rad", "slider_x_m", "guide_way_m"}));
+  EXPECT_THAT(keys({"position"}),
+              ::testing::IsSupersetOf({"rod_angle_rad", "slider_x_m", "guide_displacement_m"}));
   // Each quantity has its own columns, and all of them are those of an empty list.
   std::size_t sum = 1;
   for (const Word& w : linkage_quantity_words()) sum += keys({std::string(w.name)}).size() - 1;
@@ -39,7 +40,7 @@ TEST(LinkageColumns, HoldValuesOfAnInstant) {
       EXPECT_NEAR(c.value(now), 0.5, 1e-15);
     } else if (c.key == "crank_speed_rad_per_s") {
       EXPECT_NEAR(c.value(now), 2, 1e-15);
-    } else if (c.key == "guide_way_m") {
+    } else if (c.key == "guide_displacement_m") {
       EXPECT_EQ(c.value(now), place_of(s.linkage, p, m, "slider.B").x);
     }
   }

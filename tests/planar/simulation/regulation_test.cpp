@@ -172,9 +172,9 @@ TEST(SteadyCycle, TellsWhyThereIsNone) {
   EXPECT_THAT(r.message, ::testing::HasSubstr("the cycle goes through a change point at "));
   const Linkage two = pendulum(2);
   const LinkagePlan plan_of_two = planned(two);
-  EXPECT_THAT(
-      test::message([&] { regulate(two, plan_of_two, {}); }),
-      ::testing::HasSubstr("regulation needs one input that turns, in closed form, and 2 inputs are here"));
+  EXPECT_THAT(test::message([&] { regulate(two, plan_of_two, {}); }),
+              ::testing::HasSubstr(
+                  "a speed fluctuation needs one input that turns, in closed form, and 2 inputs are here"));
   Linkage timed = wheel();
   timed.torques[0].factor = {LoadArgument::time, {0, 1}, {0, 1}};
   const LinkagePlan plan_of_timed = planned(timed);

@@ -345,7 +345,7 @@ TEST(LinkageStudy, AShockDrivesABicyclesRearLinkage) {
     const Table& sweep = r.tables[0];
     for (std::size_t i = 0; i < sweep.rows(); ++i) {
       if (sweep.status[i] != "done") continue;
-      const double rocker = by_hand.rocker_at(sweep.find("shock_way_m")->values[i]);
+      const double rocker = by_hand.rocker_at(sweep.find("shock_displacement_m")->values[i]);
       EXPECT_NEAR(sweep.find("rocker_angle_rad")->values[i], rocker, 1e-12) << i;
       const RearLinkage::Point axle = by_hand.at(rocker).axle;
       EXPECT_NEAR(sweep.find("seatstay_axle_x_m")->values[i], axle.real(), 1e-13) << i;
@@ -503,7 +503,7 @@ quantities = ["position", "rates"]
     const double way = 0.4 * std::cos(angle - delta) + 1.1 * std::cos(rod - delta);
     const auto c = std::complex<double>(0.3, 0) + std::polar(0.4, angle) +
                    std::polar(1.0, rod) * std::complex<double>(0.5, 0.2);
-    EXPECT_NEAR(r.tables[0].find("guide_way_m")->values[static_cast<std::size_t>(i)], way, 1e-14);
+    EXPECT_NEAR(r.tables[0].find("guide_displacement_m")->values[static_cast<std::size_t>(i)], way, 1e-14);
     EXPECT_NEAR(r.tables[0].find("rod_C_x_m")->values[static_cast<std::size_t>(i)], c.real(), 1e-14);
     EXPECT_NEAR(r.tables[0].find("rod_C_y_m")->values[static_cast<std::size_t>(i)], c.imag(), 1e-14);
   }

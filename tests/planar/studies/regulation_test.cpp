@@ -76,7 +76,7 @@ TEST(LinkageRegulationStudy, NamesWhatIsWrong) {
   const std::string driven_ram = replaced(text, "[[drive]]\njoint = \"O\"", "[[drive]]\njoint = \"guide\"");
   EXPECT_THAT(
       problems_of(replaced(driven_ram, "bodies = [\"rod\", \"ram\"]", "bodies = [\"crank\", \"rod\"]")),
-      HasSubstr("regulation needs one input that turns"));
+      HasSubstr("a speed fluctuation needs one input that turns"));
 }
 
 TEST(LinkageRegulationStudy, ExamplePassesItsChecks) {

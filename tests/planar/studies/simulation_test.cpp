@@ -59,7 +59,7 @@ TEST(LinkageSimulationStudy, TakesEitherRoute) {
   const study::Result free = run_text(text), all = run_text(text + "route = \"all_coordinates\"\n");
   ASSERT_EQ(free.status, Status::done);
   ASSERT_EQ(all.status, Status::done);
-  for (const char* key : {"O_angle_rad", "guide_way_m", "B_N", "kinetic_energy_J"}) {
+  for (const char* key : {"O_angle_rad", "guide_displacement_m", "B_N", "kinetic_energy_J"}) {
     const std::vector<double>&a = free.tables[0].find(key)->values, &b = all.tables[0].find(key)->values;
     for (std::size_t i = 0; i < a.size(); ++i)
       EXPECT_NEAR(a[i], b[i], 1e-6 * (1 + std::abs(a[i]))) << key << " " << i;

@@ -195,7 +195,7 @@ branch = ")" + r.solutions[0].classification.find("branch")->as_string() +
   const Table& points = r.tables.at(0);
   ASSERT_EQ(points.name, "points");
   const Column *x = motion.find("rod_C_x_m"), *y = motion.find("rod_C_y_m"),
-               *way = motion.find("guide_way_m");
+               *way = motion.find("guide_displacement_m");
   ASSERT_TRUE(x && y && way);
   for (std::size_t k = 0; k < 18; ++k) {
     EXPECT_NEAR(x->values[40 * k], points.find("x_m")->values[k], 1e-12);

@@ -30,7 +30,7 @@ std::optional<CarrierTargets> read(const std::string& text, Diagnostics& found) 
 TEST(CarrierPoses, AreReadFromColumnsInAnyUnit) {
   Diagnostics found;
   const auto targets = read(
-      "travel_m,rack_mm,centre_x_m,centre_y_mm,centre_z_m,toe_deg,camber_rad,spin_deg\n"
+      "travel_m,rack_mm,centre_x_m,centre_y_mm,centre_z_m,toe_deg,camber_rad,carrier_pitch_deg\n"
       "0.05,25,-0.0027,765.7,0.05,180,-0.03,-0.5\n0,0,0,768,0,0,-0.01,0\n",
       found);
   ASSERT_TRUE(targets) << to_string(found.at(0));

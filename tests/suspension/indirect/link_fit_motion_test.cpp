@@ -31,7 +31,7 @@ TEST(LinkFitMotion, NeedsTheSpin) {
   test::Example e = test::published_example("ex1-forward");
   e.targets.poses[3].angles.spin = nan;
   EXPECT_THAT(linkwright::test::message([&] { link_motion(e.targets, false); }),
-              ::testing::HasSubstr("a position does not give the spin of the carrier"));
+              ::testing::HasSubstr("a position does not give the carrier pitch"));
 }
 
 TEST(LinkFitMotion, LinksAreComparedPointByPoint) {

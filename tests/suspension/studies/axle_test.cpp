@@ -17,8 +17,8 @@ using test::table;
 using ::testing::HasSubstr;
 
 std::string study(const std::string& sample, const std::string& rest) {
-  return "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\nsample = \"" +
-         sample + "\"\n[sweep.travel]\nvalues_mm = [0]\n" + rest;
+  return "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\nsample = \"" + sample +
+         "\"\n[sweep.travel]\nvalues_mm = [0]\n" + rest;
 }
 const std::string vehicle =
     "[vehicle]\nwheelbase_m = 2.7\ncentre_height_m = 0.55\nfront_brake_share = 0.65\n";

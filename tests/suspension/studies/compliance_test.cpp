@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 // The sample 5KS with the stiffness of its spring.
 std::string compliance_study(const std::string& rest, const std::string& stiffness = "") {
   std::string text =
-      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\n"
+      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\n"
       "[mechanism.wheel]\ncentre_m = [0, 0.75, 0]\ntoe_deg = 0.12\ncamber_deg = -0.6\ntyre_diameter_m = "
       "0.65\n"
       "[mechanism.spring]\nbody_m = [0.02, 0.5, 0.42]\nmoving_m = [0, 0.6, -0.11]\n" +
@@ -84,7 +84,7 @@ TEST(ComplianceStudyRead, NamesWhatIsWrong) {
                   "[[compliance.joint]]\nlink = \"tie rod\"\nend = \"body\"\naxial_N_per_mm = 1\n")),
               HasSubstr("compliance.joint[0].radial: is missing; a bushing has both"));
   const std::string wishbone =
-      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\nsample = \"2RS-KS\"\n"
+      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\nsample = \"2RS-KS\"\n"
       "[sweep.travel]\nvalues_mm = [0]\n[compliance]\n";
   EXPECT_THAT(problems_of(wishbone + rods()),
               HasSubstr("no link is called 'lower front rod'; there are: lower wishbone"));

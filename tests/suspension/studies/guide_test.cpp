@@ -82,9 +82,9 @@ attached_to = "lower wishbone"
   const study::Result right = run_text(text, folder);
   const study::Result known = run_text(sample("2RS-KS", sweep + racks));
   ASSERT_EQ(right.status, Status::done);
-  for (const char* key : {"toe_rad", "camber_rad", "spin_rad", "half_track_change_m", "roll_centre_height_m",
-                          "caster_rad", "kingpin_inclination_rad", "trail_m", "scrub_radius_m",
-                          "motion_ratio", "wheelbase_change_m", "support_tangent"})
+  for (const char* key : {"toe_rad", "camber_rad", "carrier_pitch_rad", "half_track_change_m",
+                          "roll_centre_height_m", "caster_rad", "kingpin_inclination_rad", "trail_m",
+                          "scrub_radius_m", "motion_ratio", "wheelbase_change_m", "anti_pitch_tangent"})
     for (std::size_t rack = 0; rack < 3; ++rack)
       for (std::size_t i = 0; i < 5; ++i)
         EXPECT_NEAR(column(right, key).at(5 * rack + i), column(known, key).at(5 * (2 - rack) + i), 1e-12)

@@ -78,7 +78,7 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
   const WheelGuide& guide = guide_sample("RS-3KS").guide;
   const GuidePlan plan = prepare(guide);
   const auto at = [](const Vec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); };
-  std::string text = "schema = 1\nkind = \"synthesis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\n";
+  std::string text = "schema = 1\nkind = \"synthesis\"\n[mechanism]\ntype = \"suspension.corner\"\n";
   text +=
       fmt::format("[mechanism.wheel]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\ntyre_diameter_m = {}\n",
                   at(guide.wheel.centre), guide.wheel.toe, guide.wheel.camber, guide.wheel.tyre_diameter);
@@ -99,8 +99,9 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
     const GuidePosition p =
         solve_position(plan, Driver::wheel_centre_z, {travel, 0}, reference_position(plan));
     const WheelAngles a = wheel_angles(Side::left, guide.wheel, p.place.carrier.rotation);
-    text += fmt::format("[[target.pose]]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\nspin_rad = {}\n",
-                        at(p.place.carrier.centre), a.toe, a.camber, a.spin);
+    text +=
+        fmt::format("[[target.pose]]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\ncarrier_pitch_rad = {}\n",
+                    at(p.place.carrier.centre), a.toe, a.camber, a.spin);
   }
   const study::Result result = run_text(text);
   const Table& arms = test::table(result, "seven_pose_arms");
@@ -180,8 +181,9 @@ TEST(IndirectStudyRead, NamesWhatIsWrongWithTheTarget) {
   EXPECT_THAT(told("file = \"nowhere.csv\"\n"), HasSubstr("target.file: cannot read './nowhere.csv'"));
   EXPECT_THAT(told("pose = [ { centre_m = [0, 0.7, 0.1], camber_deg = 0 } ]\n"),
               HasSubstr("target.pose[0].toe_rad: this key is missing"));
-  EXPECT_THAT(told("pose = [ { centre_mm = [0, 768, 0], toe_deg = 0, camber_deg = -0.7, spin_deg = 0 } ]\n"),
-              HasSubstr("target.pose: no position besides the reference"));
+  EXPECT_THAT(
+      told("pose = [ { centre_mm = [0, 768, 0], toe_deg = 0, camber_deg = -0.7, carrier_pitch_deg = 0 } ]\n"),
+      HasSubstr("target.pose: no position besides the reference"));
 }
 
 TEST(IndirectStudyRead, NamesWhatIsWrongWithTheMechanism) {

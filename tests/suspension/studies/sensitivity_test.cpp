@@ -18,7 +18,7 @@ using test::table;
 using ::testing::HasSubstr;
 
 std::string study(const std::string& rest) {
-  return "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.wheel_guide\"\nsample = "
+  return "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\nsample = "
          "\"2RS-KS\"\n"
          "[sweep.travel]\nfrom_mm = -60\nto_mm = 60\nstep_mm = 30\n" +
          rest;
@@ -28,7 +28,7 @@ double toe(double travel, double shift) {
   const std::string text = R"(schema = 1
 kind = "analysis"
 [mechanism]
-type = "suspension.wheel_guide"
+type = "suspension.corner"
 [mechanism.wheel]
 centre_m = [0, 0.76, 0]
 toe_deg = 0.1

@@ -22,14 +22,14 @@ namespace linkwright::clearance {
 /// What a study designs: its `target.type`.
 enum class DesignTarget {
   lengths,  ///< "path_points": lengths for a path, the clearance link at a presumed lead
-  masses,   ///< "lead": masses that make the clearance link keep its lead
-  both      ///< "path_points_and_lead"
+  masses,   ///< "phase": masses that make the clearance link keep its lead
+  both      ///< "path_points_and_phase"
 };
 
 /// How lengths and masses are found when a study asks for both.
 enum class DesignStages { in_turn, at_once };
 constexpr std::array<EnumName<DesignStages>, 2> names(DesignStages) {
-  return {{{DesignStages::in_turn, "in_turn", "lengths for the presumed lead, then masses that keep it"},
+  return {{{DesignStages::in_turn, "in_turn", "lengths for the presumed phase, then masses that keep it"},
            {DesignStages::at_once, "at_once",
             "after that both together, for the path on the motion that repeats itself"}}};
 }
@@ -201,7 +201,7 @@ struct DesignTargetForm : planar::PathPointsForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignTargetForm& t) {
-  visit(Field{.key = "lead",
+  visit(Field{.key = "phase",
               .summary = "by how much the clearance link is to be ahead of the crank",
               .dimension = Dimension::angle,
               .minimum = -3.2,
@@ -209,7 +209,7 @@ void fields(Visitor&& visit, DesignTargetForm& t) {
         t.lead);
   if (t.target != DesignTarget::lengths)
     visit(Field{.key = "samples",
-                .summary = "points of the turn at which the lead is compared",
+                .summary = "points of the turn at which the phase is compared",
                 .minimum = 8,
                 .maximum = 10000},
           t.samples);
@@ -304,7 +304,7 @@ struct CostName {
 };
 CostName cost_name(const ClearanceDesignStudy& study);
 
-/// "synthesis" of "clearance.four_bar" for "path_points", "lead" and "path_points_and_lead".
+/// "synthesis" of "clearance.four_bar" for "path_points", "phase" and "path_points_and_phase".
 std::vector<study::Kind> clearance_design_kinds();
 
 std::optional<ClearanceDesignStudy> read_clearance_design(study::ObjectReader& document,

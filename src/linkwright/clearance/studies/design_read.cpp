@@ -185,8 +185,8 @@ void read_reference(study::ObjectReader& table, const DesignReferenceForm& form,
 
 const char* target_name(DesignTarget target) {
   return target == DesignTarget::lengths  ? "path_points"
-         : target == DesignTarget::masses ? "lead"
-                                          : "path_points_and_lead";
+         : target == DesignTarget::masses ? "phase"
+                                          : "path_points_and_phase";
 }
 
 constexpr const char* lengths_example = R"(branch       = "open"
@@ -254,7 +254,7 @@ frame_angle_deg   = 0.0
     out += std::string(masses_example) +
            "\n[drive]\nspeed_rpm = 100.0\n\n[environment]\ngravity_m_per_s2 = 0.0\n";
   out += fmt::format(
-      "\n[target]\ntype      = \"{}\"\nlead_deg  = 0.0                     # of the "
+      "\n[target]\ntype      = \"{}\"\nphase_deg = 0.0                     # of the "
       "clearance link before the crank\n",
       target_name(target));
   if (target == DesignTarget::both)

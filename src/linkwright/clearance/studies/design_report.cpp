@@ -312,8 +312,8 @@ class DesignReporter {
            Style::points);
     }
     if (!s_.has_masses()) return;
-    plot("lead", "Lead of the clearance link before the crank" + pale, "turn", "crank_angle_rad",
-         {"lead_rad", "wanted_lead_rad"})
+    plot("phase", "Phase of the clearance link from the crank" + pale, "turn", "crank_angle_rad",
+         {"phase_rad", "wanted_phase_rad"})
         .baseline = before;
     // Not with the scene, where the last row is the first one again: this angle is larger there by a turn.
     study::Plot& angle = plot("contact-angle", "Contact angle over the turn" + pale, "turn",
@@ -344,13 +344,13 @@ class DesignReporter {
       std::size_t worst = 0;
       for (std::size_t k = 0; k < d_.reached.size(); ++k)
         if (off(k) > off(worst)) worst = k;
-      fact(s_.has_masses() ? "path error on the motion" : "path error with the presumed lead",
+      fact(s_.has_masses() ? "path error on the motion" : "path error with the presumed phase",
            std::isfinite(d_.rms) ? fmt::format("root mean square {}, at most {} at point {}", metres(d_.rms),
                                                metres(d_.largest), worst + 1)
                                  : std::string("not known: the motion does not reach every point"),
            feasible_ ? Verdict::good : Verdict::bad);
       if (s_.has_masses())
-        fact("path error with the presumed lead",
+        fact("path error with the presumed phase",
              fmt::format("root mean square {}", metres(d_.presumed.rms)));
       else
         fact("path objective F1", metres(d_.presumed.objective));
@@ -362,18 +362,18 @@ class DesignReporter {
     if (s_.has_masses()) {
       fact("contact", contact_text(d_), lost(d_) ? Verdict::bad : Verdict::good);
       const auto [low, high] = leads(d_);
-      fact("lead of the clearance link",
+      fact("phase of the clearance link",
            fmt::format("{:.2f}° to {:.2f}° over the turn, wanted {:.4g}°", math::degrees(low),
                        math::degrees(high), math::degrees(s_.lead())));
       if (d_.repeats)
-        fact("lead objective F2",
+        fact("phase objective F2",
              fmt::format(
-                 "{:.4g} rad on the motion that repeats, {:.4g} rad in the first turn from the wanted lead",
+                 "{:.4g} rad on the motion that repeats, {:.4g} rad in the first turn from the wanted phase",
                  d_.motion.orbit_error, d_.motion.transient_error));
       else
-        fact("lead objective F2",
-             fmt::format("{:.4g} rad in the first turn from the wanted lead", d_.motion.transient_error));
-      fact("mean sine of the lead, by tension",
+        fact("phase objective F2",
+             fmt::format("{:.4g} rad in the first turn from the wanted phase", d_.motion.transient_error));
+      fact("mean sine of the phase, by tension",
            fmt::format("{:.2g}: the work of the pin over a turn", d_.work_mean));
       fact("to simulate it", "tables linkage-points, linkage-masses, linkage-start for clearance.linkage");
     }
@@ -402,9 +402,9 @@ class DesignReporter {
       add("distance_m", "path error (m)", "max", before_->largest, d_.largest, false);
     }
     if (!s_.has_masses()) return;
-    add("lead_rad", "lead objective F2 on the motion that repeats (rad)", "rms", before_->motion.orbit_error,
-        d_.motion.orbit_error, true);
-    add("lead_rad", "lead objective F2 of the first turn (rad)", "rms", before_->motion.transient_error,
+    add("phase_rad", "phase objective F2 on the motion that repeats (rad)", "rms",
+        before_->motion.orbit_error, d_.motion.orbit_error, true);
+    add("phase_rad", "phase objective F2 of the first turn (rad)", "rms", before_->motion.transient_error,
         d_.motion.transient_error, true);
     add("tension_N", "tension (N)", "min", before_->run.least_tension, d_.run.least_tension, false);
   }
@@ -420,19 +420,19 @@ class DesignReporter {
       const double least = s_.lead() / std::sqrt(double(s_.mass.samples));
       warn(fmt::format(
                "a lead of {:.4g}° throughout cannot be had: over a turn that repeats itself the pin does "
-               "no work on a passive coupler in contact, so the sine of the lead, weighted by the "
+               "no work on a passive coupler in contact, so the sine of the phase, weighted by the "
                "tension, has the mean 0{}",
                math::degrees(s_.lead()),
                s_.has_masses() ? fmt::format("; no masses come far below F2 = lead / sqrt({}) = {:.4g} rad",
                                              s_.mass.samples, least)
                                : ", and the path is another one than presumed here"),
-           "lead_deg = 0 is what masses can do");
+           "phase_deg = 0 is what masses can do");
     }
     if (!s_.has_masses()) return;
     if (!d_.repeats)
       warn(
           "no motion that repeats itself was found; tables and tension are of the first turn from the wanted "
-          "lead",
+          "phase",
           "allow more mass at the loose pin");
     if (d_.run.status != Status::done) warn(fmt::format("the turn ends early: {}", d_.run.message));
     if (lost(d_))

@@ -89,8 +89,8 @@ Table design_turn(const ClearanceDesignStudy& s, const DesignMeasures& d, std::s
       [](const DesignRow& r) { return r.link.angle; });
   add("wanted_contact_angle_rad", "wanted direction (rad)",
       [&](const DesignRow& r) { return r.crank + s.lead(); });
-  add("lead_rad", "lead of the clearance link (rad)", [&](const DesignRow& r) { return lead_of(s, r); });
-  add("wanted_lead_rad", "wanted lead (rad)", [&](const DesignRow&) { return s.lead(); });
+  add("phase_rad", "phase of the clearance link (rad)", [&](const DesignRow& r) { return lead_of(s, r); });
+  add("wanted_phase_rad", "wanted phase (rad)", [&](const DesignRow&) { return s.lead(); });
   if (s.has_masses()) {
     add("link_speed_rad_per_s", "speed of the clearance link (rad/s)",
         [](const DesignRow& r) { return r.link.rate; });

@@ -156,10 +156,10 @@ Table orbit_table(const ClearanceStudy& s, const JointOrbit& orbit) {
   add("link_speed_rad_per_s", "its speed (rad/s)", [](const ClearanceState& c) { return c.rate; });
   if (s.plan.inputs() != 1 || !s.plan.rotary[0] || !s.courses[0].law) return table;
   const math::Motion crank = math::MotionCurve(*s.courses[0].law)(s.from);
-  add("lead_rad", "lead before the drive (rad)",
+  add("phase_rad", "phase from the drive (rad)",
       [&](const ClearanceState& c) { return math::angle_difference(c.angle, crank.value); });
   if (crank.rate != 0)
-    add("lead_slope", "its slope by the angle of the drive",
+    add("phase_slope", "its slope by the angle of the drive",
         [&](const ClearanceState& c) { return c.rate / crank.rate - 1; });
   return table;
 }

@@ -32,8 +32,9 @@ std::vector<ToleranceQuantity> quantities_of(const planar::LinkageStudy& s, cons
   for (const int j : o.coordinates) {
     const planar::LinkageJoint& joint = l.joints[at(j)];
     const bool turns = joint.type == planar::JointType::revolute;
-    add(turns ? Kind::angle : Kind::way, planar::identifier(joint.name) + (turns ? "_angle" : "_way"),
-        (turns ? "angle of " : "way of ") + joint.name);
+    add(turns ? Kind::angle : Kind::way,
+        planar::identifier(joint.name) + (turns ? "_angle" : "_displacement"),
+        (turns ? "angle of " : "displacement of ") + joint.name);
   }
   for (const int j : o.forces)
     add(Kind::force, planar::identifier(l.joints[at(j)].name) + "_force", "force at " + l.joints[at(j)].name);

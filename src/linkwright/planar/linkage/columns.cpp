@@ -45,10 +45,11 @@ std::string identifier(std::string_view name) {
 }
 const LinkageJoint& input_joint(const Linkage& l, std::size_t input) { return l.joints[at(l.driven[input])]; }
 std::string input_key(const Linkage& l, const LinkagePlan& plan, std::size_t input) {
-  return identifier(input_joint(l, input).name) + (plan.rotary[input] ? "_angle_rad" : "_way_m");
+  return identifier(input_joint(l, input).name) + (plan.rotary[input] ? "_angle_rad" : "_displacement_m");
 }
 std::string input_label(const Linkage& l, const LinkagePlan& plan, std::size_t input) {
-  return fmt::format("{} {}", input_joint(l, input).name, plan.rotary[input] ? "angle (rad)" : "way (m)");
+  return fmt::format("{} {}", input_joint(l, input).name,
+                     plan.rotary[input] ? "angle (rad)" : "displacement (m)");
 }
 
 std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& plan,
@@ -100,7 +101,8 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
     });
     slides([&](std::size_t j, const std::string& key, const std::string& name) {
       if (std::find(l.driven.begin(), l.driven.end(), static_cast<int>(j)) != l.driven.end()) return;
-      add(key + "_way_m", name + " way (m)", [way, j](const LinkageInstant& i) { return way(i, j, 0); });
+      add(key + "_displacement_m", name + " displacement (m)",
+          [way, j](const LinkageInstant& i) { return way(i, j, 0); });
     });
     traced([&](int b, std::complex<double> p, const std::string& key, const std::string& name) {
       add(key + "_x_m", name + " x (m)",

@@ -19,9 +19,9 @@ namespace {
 
 void require(const Linkage& l, const LinkagePlan& plan, const RegulationSetup& s) {
   LINKWRIGHT_REQUIRE(plan.inputs() == 1 && plan.closed_form() && periodic(plan, 0),
-                     "regulation needs one input that turns, in closed form, and {} inputs are here",
+                     "a speed fluctuation needs one input that turns, in closed form, and {} inputs are here",
                      plan.inputs());
-  LINKWRIGHT_REQUIRE(plan.has_masses, "regulation needs the mass of every body: '{}' has none",
+  LINKWRIGHT_REQUIRE(plan.has_masses, "a speed fluctuation needs the mass of every body: '{}' has none",
                      plan.massless[0]);
   LINKWRIGHT_REQUIRE(
       std::isfinite(s.start + s.mean_speed) && s.mean_speed != 0 && s.fluctuation > 0 && s.samples >= 16,

@@ -167,7 +167,7 @@ class ElasticRecorder {
                                body,
                                {}});
       else if (joint.type == JointType::prismatic)
-        out_.errors.push_back({identifier(joint.name) + "_way_error_m",
+        out_.errors.push_back({identifier(joint.name) + "_displacement_error_m",
                                joint.name + " way error (m)",
                                OutputError::Of::way,
                                j,

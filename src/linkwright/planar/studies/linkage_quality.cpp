@@ -120,8 +120,8 @@ void dead_centres_table(const LinkageStudy& s, const InputSamples& axis,
   const bool slide = s.linkage.joints[at(joint)].type == JointType::prismatic ||
                      s.linkage.joints[at(joint)].type == JointType::pin_in_slot;
   table.add(input_key(s.linkage, s.plan, 0), input_label(s.linkage, s.plan, 0), std::move(input));
-  table.add(identifier(s.quality.output_joint) + (slide ? "_way_m" : "_angle_rad"),
-            s.quality.output_joint + (slide ? " way (m)" : " angle (rad)"), std::move(coordinate));
+  table.add(identifier(s.quality.output_joint) + (slide ? "_displacement_m" : "_angle_rad"),
+            s.quality.output_joint + (slide ? " displacement (m)" : " angle (rad)"), std::move(coordinate));
   result.facts.push_back({"dead centres of " + s.quality.output_joint, text.empty() ? "none" : "at " + text});
   result.tables.push_back(std::move(table));
 }

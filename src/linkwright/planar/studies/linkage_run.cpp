@@ -318,12 +318,12 @@ class Runner {
     if (q.transmission_angle)
       plot("transmission", "Transmission angles", columns_ending("_transmission_angle_rad", 8));
     if (q.position) {
-      std::vector<std::string> angles, ways = columns_ending("_way_m", 8);
+      std::vector<std::string> angles, ways = columns_ending("_displacement_m", 8);
       for (const LinkageColumn& c : columns_)
         if (c.angle && angles.size() < 8) angles.push_back(c.key);
       plot("angles", "Angles of the bodies", angles);
       if (s_.plan.inputs() == 1 && !s_.plan.rotary[0] && !ways.empty()) ways.erase(ways.begin());
-      plot("ways", "Ways of the slides", ways);
+      plot("displacements", "Displacements of the slides", ways);
       std::vector<std::string> paths;
       for (const BodyPoint& t : s_.traces) {
         const LinkageBody& b = s_.linkage.bodies[at(t.body)];

@@ -34,7 +34,7 @@ study::Prepared prepare(study::ObjectReader& document, LinkageType type) {
   study::Prepared prepared;
   LinkageRegulationStudy s;
   auto description = read_linkage(document, type, true);
-  if (auto table = document.table(Field{.key = "regulation", .summary = {}, .required = true})) {
+  if (auto table = document.table(Field{.key = "speed_fluctuation", .summary = {}, .required = true})) {
     table->read(s.setup);
     if (s.setup.mean_speed == 0)
       table->error("mean_speed", "a machine at rest has no cycle", "give its speed");
@@ -43,7 +43,7 @@ study::Prepared prepare(study::ObjectReader& document, LinkageType type) {
   const Linkage& l = description->linkage;
   if (description->plan.inputs() != 1 || !description->plan.closed_form() || !periodic(description->plan, 0))
     document.error("mechanism",
-                   "regulation needs one input that turns, in a linkage of pairs with closed forms",
+                   "a speed fluctuation needs one input that turns, in a linkage of pairs with closed forms",
                    "take kind = \"simulation\" for others");
   const auto by_time = [&](const char* list, const auto& loads) {
     for (const auto& load : loads)
@@ -58,7 +58,7 @@ study::Prepared prepare(study::ObjectReader& document, LinkageType type) {
   if (!l.driven.empty()) drive["joint"] = input_joint(l, 0).name;
   write_linkage(*description, prepared.canonical);
   prepared.canonical["drive"] = Value(Value::Array{std::move(drive)});
-  prepared.canonical["regulation"] = study::write_fields(s.setup);
+  prepared.canonical["speed_fluctuation"] = study::write_fields(s.setup);
   s.has_motor = std::any_of(l.torques.begin(), l.torques.end(),
                             [](const BodyTorque& t) { return t.factor.against == LoadArgument::speed; });
   s.linkage = std::move(description->linkage);
@@ -70,16 +70,17 @@ study::Prepared prepare(study::ObjectReader& document, LinkageType type) {
 
 study::Kind kind_of(LinkageType type) {
   study::Kind kind;
-  kind.kind = "regulation";
+  kind.kind = "speed_fluctuation";
   kind.schema = [type](study::SchemaWriter& document) {
     describe_linkage(document, type);
     study::SchemaWriter drive;
     drive(Field{.key = "joint", .summary = "joint of the input"}, std::string());
     document.property(Field{.key = "drive", .summary = "the input that turns"},
                       study::schema_array(std::move(drive).finish()));
-    document.property(
-        Field{.key = "regulation", .summary = "the cycle and how even it is to be", .required = true},
-        study::schema_fields<RegulationSetup>());
+    document.property(Field{.key = "speed_fluctuation",
+                            .summary = "the cycle and the coefficient of speed fluctuation that it may have",
+                            .required = true},
+                      study::schema_fields<RegulationSetup>());
   };
   kind.prepare = [type](study::ObjectReader& document, const study::Common&) {
     return prepare(document, type);
@@ -96,7 +97,7 @@ study::Kind linkage_regulation_kind() {
       "evenness of a planar linkage that goes round: reduced inertia, flywheel, cycle with a motor";
   kind.example = R"(# linkwright study: flywheel and motor of a planar linkage
 schema = 1
-kind   = "regulation"
+kind   = "speed_fluctuation"
 title  = "Flywheel of my press"
 
 [mechanism]
@@ -169,7 +170,7 @@ factor     = [0.9, 1.0, 0.0]
 [[drive]]
 joint = "O"
 
-[regulation]
+[speed_fluctuation]
 mean_speed_rpm = 180.0
 fluctuation    = 0.05
 )";
@@ -182,7 +183,7 @@ study::Kind slider_crank_regulation_kind() {
   kind.summary = "evenness of a slider-crank that goes round: reduced inertia and flywheel";
   kind.example = R"(# linkwright study: how evenly a slider-crank runs
 schema = 1
-kind   = "regulation"
+kind   = "speed_fluctuation"
 title  = "Flywheel of my engine"
 
 [mechanism]
@@ -207,7 +208,7 @@ mass_kg            = 0.5
 inertia_kg_m2      = 1.5e-3
 centre_distance_mm = 50.0           # from A
 
-[regulation]
+[speed_fluctuation]
 mean_speed_rpm = 600.0
 fluctuation    = 0.02
 )";

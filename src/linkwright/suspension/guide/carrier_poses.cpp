@@ -16,10 +16,11 @@ struct Wanted {
   Dimension dimension;
   bool needed;
 };
-constexpr Wanted columns[] = {{"travel", Dimension::length, false},  {"rack", Dimension::length, false},
-                              {"centre_x", Dimension::length, true}, {"centre_y", Dimension::length, true},
-                              {"centre_z", Dimension::length, true}, {"toe", Dimension::angle, true},
-                              {"camber", Dimension::angle, true},    {"spin", Dimension::angle, false}};
+constexpr Wanted columns[] = {
+    {"travel", Dimension::length, false},  {"rack", Dimension::length, false},
+    {"centre_x", Dimension::length, true}, {"centre_y", Dimension::length, true},
+    {"centre_z", Dimension::length, true}, {"toe", Dimension::angle, true},
+    {"camber", Dimension::angle, true},    {"carrier_pitch", Dimension::angle, false}};
 enum Place { travel, rack, x, y, z, toe, camber, spin, places };
 
 // Travel is written beside the centre for people; a file in which they disagree by more than what rounding to
@@ -29,7 +30,7 @@ constexpr double travel_tolerance = 1e-6;
 }  // namespace
 
 Mat3 target_rotation(const CarrierTargets& targets, const CarrierTarget& pose) {
-  LINKWRIGHT_REQUIRE(std::isfinite(pose.angles.spin), "a position does not give the spin of the carrier");
+  LINKWRIGHT_REQUIRE(std::isfinite(pose.angles.spin), "a position does not give the carrier pitch");
   return carrier_rotation(Side::left, targets.wheel, pose.angles);
 }
 
@@ -50,12 +51,14 @@ std::optional<CarrierTargets> carrier_targets(CarrierTargets targets, const Tabl
   for (const Column& column : table.columns) {
     const auto key = split_unit(column.key);
     const Wanted* wanted = nullptr;
+    std::string_view base = key ? key->base : std::string_view(column.key);
+    if (base == "spin") base = "carrier_pitch";  // as it was called before
     for (const Wanted& w : columns)
-      if (column.key == w.base || (key && key->base == w.base)) wanted = &w;
+      if (base == w.base) wanted = &w;
     if (!wanted) {
-      complain(
-          column.key, "unknown column",
-          "columns are travel, rack, centre_x, centre_y, centre_z, toe, camber and spin, each with its unit");
+      complain(column.key, "unknown column",
+               "columns are travel, rack, centre_x, centre_y, centre_z, toe, camber and carrier_pitch, each "
+               "with its unit");
       continue;
     }
     const Unit* unit = key ? find_unit(wanted->dimension, key->unit->suffix) : nullptr;
@@ -71,7 +74,7 @@ std::optional<CarrierTargets> carrier_targets(CarrierTargets targets, const Tabl
     }
     for (const double v : column.values) to.push_back(unit->to_si(v));
     for (std::size_t i = 0; i < to.size(); ++i)
-      if (!std::isfinite(to[i]) && wanted->base != "spin")
+      if (!std::isfinite(to[i]) && wanted->base != "carrier_pitch")
         complain(column.key, fmt::format("row {} holds no number", i + 1));
   }
   for (int k = 0; k < places; ++k)

@@ -168,7 +168,7 @@ Diagnostics check(const WheelGuide& guide) {
       found.add(key,
                 fmt::format("{} lies {:.3g} mm off the line of {}, which may turn about it", what, off * 1e3,
                             link_label(guide, link)),
-                "a KS link holds its spin by its K joint");
+                "a KS link holds the carrier pitch by its K joint");
     else if (!rod.cross_axis && is_upright(rod.carrier[0] - rod.body[0]))
       found.add(
           key,

@@ -79,13 +79,13 @@ optimise::Problem guide_problem(const CarrierTargets& targets, std::span<const L
 }
 
 optimise::Problem link_problem(const CarrierTargets& targets, const LinkTask& task, ErrorTotal total) {
-  LINKWRIGHT_REQUIRE(spin_is_given(targets), "link '{}': a position does not give the spin of the carrier",
+  LINKWRIGHT_REQUIRE(spin_is_given(targets), "link '{}': a position does not give the carrier pitch",
                      task.name);
   return guide_problem(targets, {&task, 1}, {}, SpinTechnique::each, 0.5, total);
 }
 
 double link_objective(const CarrierTargets& targets, const GuideLink& link, ErrorTotal total) {
-  LINKWRIGHT_REQUIRE(spin_is_given(targets), "link '{}': a position does not give the spin of the carrier",
+  LINKWRIGHT_REQUIRE(spin_is_given(targets), "link '{}': a position does not give the carrier pitch",
                      link.name);
   const LinkTask task = given_link(link);
   GuideErrors errors(targets, {&task, 1});

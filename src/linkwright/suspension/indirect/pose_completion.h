@@ -20,7 +20,7 @@ constexpr std::array<EnumName<PoseParameter>, 6> names(PoseParameter) {
            {PoseParameter::centre_z, "centre_z", "height of the wheel centre"},
            {PoseParameter::toe, "toe", "toe"},
            {PoseParameter::camber, "camber", "camber"},
-           {PoseParameter::spin, "spin", "turn of the carrier about the wheel's axis"}}};
+           {PoseParameter::spin, "carrier_pitch", "turn of the carrier about the wheel's axis"}}};
 }
 double value_of(const CarrierTarget& pose, PoseParameter parameter);
 void set_value(CarrierTarget& pose, PoseParameter parameter, double value);

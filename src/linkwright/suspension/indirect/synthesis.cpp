@@ -160,7 +160,7 @@ class Assembly {
              .key = fmt::format("link.{}", link.name),
              .message = fmt::format("cannot keep its length at position {}: it misses by {:.3g} m",
                                     made.position + 1, made.shortfall),
-             .hint = "move its points, or leave the spin to the synthesis"});
+             .hint = "move its points, or leave the carrier pitch to the synthesis"});
       return;
     }
   }

@@ -20,8 +20,8 @@ void require_options(const SpinFitOptions& o) {
   LINKWRIGHT_REQUIRE(
       o.starts >= 1 && o.iterations >= 1 && o.final_iterations >= 1 && o.tolerance > 0 &&
           o.largest_spin > 0 && o.distinct_links >= 0,
-      "{} starts, {} and {} iterations, tolerance {} m, spin of at most {} rad, links {} m apart", o.starts,
-      o.iterations, o.final_iterations, o.tolerance, o.largest_spin, o.distinct_links);
+      "{} starts, {} and {} iterations, tolerance {} m, carrier pitch of at most {} rad, links {} m apart",
+      o.starts, o.iterations, o.final_iterations, o.tolerance, o.largest_spin, o.distinct_links);
 }
 
 /// A search for everything, with its memory.

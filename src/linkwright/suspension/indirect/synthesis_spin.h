@@ -25,7 +25,7 @@ struct SpinFitOptions {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SpinFitOptions& o) {
-  visit(Field{.key = "technique", .summary = "what stands for the missing spin"}, o.technique);
+  visit(Field{.key = "technique", .summary = "what stands for the missing carrier pitch"}, o.technique);
   visit(Field{.key = "starts", .summary = "local searches at most", .minimum = 1, .maximum = 1e6}, o.starts);
   visit(Field{.key = "iterations", .summary = "steps of each search", .minimum = 1, .maximum = 1e6},
         o.iterations);
@@ -41,7 +41,7 @@ void fields(Visitor&& visit, SpinFitOptions& o) {
               .exclusive_minimum = true},
         o.tolerance);
   visit(Field{.key = "largest_spin",
-              .summary = "bound of the unknown spins",
+              .summary = "bound of the unknown carrier pitches",
               .dimension = Dimension::angle,
               .minimum = 0,
               .exclusive_minimum = true},

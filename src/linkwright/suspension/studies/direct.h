@@ -205,7 +205,7 @@ struct DirectStudy {
   study::DisplayUnits units;             ///< of its messages
 };
 
-/// "synthesis" of "suspension.wheel_guide" for "wheel_parameters".
+/// "synthesis" of "suspension.corner" for "wheel_parameters".
 study::Kind direct_kind();
 
 /// Reads the tables of the study and writes them into the canonical one; nothing when there are problems,

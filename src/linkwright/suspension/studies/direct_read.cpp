@@ -413,7 +413,7 @@ std::optional<DirectStudy> read_direct_study(study::ObjectReader& document, cons
 study::Kind direct_kind() {
   study::Kind kind;
   kind.kind = "synthesis";
-  kind.mechanism = "suspension.wheel_guide";
+  kind.mechanism = "suspension.corner";
   kind.target = "wheel_parameters";
   kind.summary =
       "wheel guide from what its wheel is to do: toe, camber, track, roll centre ... (direct synthesis)";
@@ -425,7 +425,7 @@ kind   = "synthesis"
 title  = "Less bump steer"
 
 [mechanism]
-type   = "suspension.wheel_guide"
+type   = "suspension.corner"
 sample = "2RS-KS"                   # or links with their points, as in an analysis
 
 # What is free: a box around the point. Also link = "tie rod", length_mm = { min = 250, max = 300 }

@@ -38,7 +38,8 @@ void fields(Visitor&& visit, PoseEntry& p) {
   };
   visit(angle("toe", "> 0: front of the wheel towards the vehicle", true), p.toe);
   visit(angle("camber", "> 0: top of the wheel away from the vehicle", true), p.camber);
-  visit(angle("spin", "of the carrier about the wheel's axis; left out: not prescribed", false), p.spin);
+  visit(angle("carrier_pitch", "of the carrier about the wheel's axis; left out: not prescribed", false),
+        p.spin);
 }
 
 /// `[target]`: positions listed, or in a CSV file with the columns rack, centre_x, centre_y, centre_z, toe,
@@ -59,7 +60,8 @@ struct RecommendedIndirect {
 template <class Visitor>
 void fields(Visitor&& visit, RecommendedIndirect& r) {
   fields(visit, r.options.link);
-  visit(Field{.key = "unknown_spin", .summary = "for positions that do not prescribe the spin"},
+  visit(Field{.key = "unknown_carrier_pitch",
+              .summary = "for positions that do not prescribe the carrier pitch"},
         r.options.spin);
 }
 constexpr Word choice_word(const RecommendedIndirect&) {
@@ -80,7 +82,8 @@ void fields(Visitor&& visit, PublishedIndirect& p) {
               .minimum = 1e-14,
               .maximum = 1},
         p.options.tolerance);
-  visit(Field{.key = "spin_technique", .summary = "what stands for spins that are not prescribed"},
+  visit(Field{.key = "carrier_pitch_technique",
+              .summary = "what stands for carrier pitches that are not prescribed"},
         p.options.method.technique);
 }
 constexpr Word choice_word(const PublishedIndirect&) {
@@ -103,7 +106,7 @@ struct IndirectStudy {
   IndirectOptimiser optimiser;
 };
 
-/// "synthesis" of "suspension.wheel_guide" for "carrier_poses".
+/// "synthesis" of "suspension.corner" for "carrier_poses".
 study::Kind indirect_kind();
 
 /// Reads the tables of the study and writes them into the canonical one; nothing when there are problems,

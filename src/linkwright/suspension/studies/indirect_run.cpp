@@ -220,7 +220,7 @@ Table poses_table(const CarrierTargets& targets, const WheelGuide& left) {
                                                                  {"centre_z_m", "wheel centre z"},
                                                                  {"toe_rad", "toe"},
                                                                  {"camber_rad", "camber"},
-                                                                 {"spin_rad", "spin"}}};
+                                                                 {"carrier_pitch_rad", "carrier pitch"}}};
   std::vector<std::vector<double>> columns(2 + 3 * keys.size());
   for (const CarrierTarget& t : targets.poses) {
     const double travel = t.centre.z - targets.wheel.centre.z;
@@ -481,7 +481,7 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
     deviations("place-deviations", "Deviations of the wheel centre from the prescribed positions",
                {"deviation_centre_x_m", "deviation_centre_y_m"});
     deviations("angle-deviations", "Deviations of the angles from the prescribed positions",
-               {"deviation_toe_rad", "deviation_camber_rad", "deviation_spin_rad"});
+               {"deviation_toe_rad", "deviation_camber_rad", "deviation_carrier_pitch_rad"});
   }
   result.tables.push_back(hard_point_table(points_of(guide)));
   result.tables.push_back(conditioning_table(s, best));
@@ -519,7 +519,7 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
                                   {},
                                   {},
                                   {},
-                                  "the positions do not prescribe the spin of the carrier: many guides move "
+                                  "the positions do not prescribe the carrier pitch: many guides move "
                                   "the wheel alike, this is one of them",
                                   {}});
   if (runs.answers.size() < static_cast<std::size_t>(common.seeds.count))

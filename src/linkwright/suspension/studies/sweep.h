@@ -70,7 +70,7 @@ struct SweepStudy {
   std::optional<TolerancesForm> tolerances;
 };
 
-/// "analysis" of "suspension.wheel_guide".
+/// "analysis" of "suspension.corner".
 study::Kind sweep_kind();
 
 /// Reads the tables of the study and writes them into the canonical one; nothing when there are problems,

@@ -67,14 +67,14 @@ std::vector<Word> quantity_words() {
   return {{"carrier", "place of the wheel centre"},
           {"toe", ""},
           {"camber", "angle of the vertical with the wheel's plane, and as the front view shows it"},
-          {"spin", "turn of the carrier about the wheel's axis"},
+          {"carrier_pitch", "turn of the carrier about the wheel's axis"},
           {"contact", "contact point of the tyre"},
           {"track", "half-track change"},
           {"wheelbase", "wheelbase change and recession"},
           {"gains", "bump steer and camber by travel"},
           {"roll_centre", "its height, both wheels travelling equally"},
           {"instant_centres", "front and side view, with swing arms"},
-          {"support", "support tangents of braking and driving"},
+          {"anti_pitch", "anti-dive, anti-lift and anti-squat tangents of braking and driving"},
           {"spring", "length and motion ratio"},
           {"steering_axis", "caster, kingpin inclination, trail, scrub radius, offsets, pitch of the screw"},
           {"steering", "toe by rack"},
@@ -155,7 +155,7 @@ std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const 
 study::Kind sweep_kind() {
   study::Kind kind;
   kind.kind = "analysis";
-  kind.mechanism = "suspension.wheel_guide";
+  kind.mechanism = "suspension.corner";
   kind.summary =
       "wheel guide over wheel travel and rack: toe, camber, track, roll centre, steering axis, ...";
   kind.quantities = quantity_words();
@@ -165,7 +165,7 @@ kind   = "analysis"
 title  = "My front suspension"
 
 [mechanism]
-type = "suspension.wheel_guide"     # frame: x forward, y to the left, z up
+type = "suspension.corner"     # frame: x forward, y to the left, z up
 side = "left"
 
 # Points by name. A list of another program: file = "points.csv" (name,x_mm,y_mm,z_mm) or plain text, and the

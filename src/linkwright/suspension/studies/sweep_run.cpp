@@ -145,7 +145,7 @@ void add_assemblies(study::Result& result, const SweepStudy& s, const GuidePlan&
        {"centre_z_m", "wheel centre z (m)"},
        {"toe_rad", "toe (rad)"},
        {"camber_rad", "camber (rad)"},
-       {"spin_rad", "spin of the carrier (rad)"},
+       {"carrier_pitch_rad", "carrier pitch (rad)"},
        {"hits", "random starts that ended here"}}};
   for (std::size_t i = 0; i < keys.size(); ++i) table.add(keys[i].first, keys[i].second, c[i]);
   result.facts.push_back({"ways to put it together, found", fmt::format("{}", table.rows())});
@@ -176,7 +176,7 @@ void add_plots(study::Result& result, const SweepStudy& s) {
   over_travel("scrub-radius", "Scrub radius over travel", {"scrub_radius_m"});
   over_travel("motion-ratio", "Motion ratio of the spring over travel", {"motion_ratio"});
   over_travel("wheel-rate", "Wheel rate over travel", {"wheel_rate_N_per_m"});
-  over_travel("spin", "Spin of the carrier over travel", {"spin_rad"});
+  over_travel("carrier_pitch", "Carrier pitch over travel", {"carrier_pitch_rad"});
 }
 
 /// The same table of the other guide, laid behind the diagrams.

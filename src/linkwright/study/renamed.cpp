@@ -1,0 +1,177 @@
+#include "linkwright/study/renamed.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <vector>
+
+#include "linkwright/core/units.h"
+
+namespace linkwright::study {
+namespace {
+
+constexpr std::string_view suspension = "suspension.", clearance = "clearance.", planar = "planar.";
+
+constexpr std::array all_renamed{
+    Renamed{NameOf::kind, "regulation", "speed_fluctuation", planar},
+    Renamed{NameOf::key, "regulation", "speed_fluctuation", planar},
+    Renamed{NameOf::column, "_way", "_displacement"},
+    Renamed{NameOf::mechanism, "suspension.wheel_guide", "suspension.corner"},
+    Renamed{NameOf::word, "spin", "carrier_pitch", suspension},
+    Renamed{NameOf::word, "support", "anti_pitch", suspension},
+    Renamed{NameOf::word, "support_tangent", "anti_pitch_tangent", suspension},
+    Renamed{NameOf::word, "support_tangent_free", "anti_pitch_tangent_free", suspension},
+    Renamed{NameOf::key, "spin", "carrier_pitch", suspension},
+    Renamed{NameOf::key, "unknown_spin", "unknown_carrier_pitch", suspension},
+    Renamed{NameOf::key, "spin_technique", "carrier_pitch_technique", suspension},
+    Renamed{NameOf::column, "spin", "carrier_pitch", suspension},
+    Renamed{NameOf::column, "deviation_spin", "deviation_carrier_pitch", suspension},
+    Renamed{NameOf::column, "support_tangent", "anti_pitch_tangent", suspension},
+    Renamed{NameOf::column, "support_tangent_free", "anti_pitch_tangent_free", suspension},
+    Renamed{NameOf::target, "lead", "phase", clearance},
+    Renamed{NameOf::target, "path_points_and_lead", "path_points_and_phase", clearance},
+    Renamed{NameOf::key, "lead", "phase", clearance},
+    Renamed{NameOf::column, "lead", "phase", clearance},
+    Renamed{NameOf::column, "wanted_lead", "wanted_phase", clearance},
+    Renamed{NameOf::column, "lead_slope", "phase_slope", clearance},
+};
+
+/// "spin" and "_deg" of "spin_deg".
+std::pair<std::string_view, std::string_view> base_and_unit(std::string_view key) {
+  const auto parts = split_unit(key);
+  if (!parts) return {key, {}};
+  return {key.substr(0, parts->base.size()), key.substr(parts->base.size())};
+}
+
+class Reader {
+ public:
+  Reader(const Value& document, const std::string& file, Diagnostics& diagnostics)
+      : file_(file), diagnostics_(diagnostics) {
+    if (const Value* mechanism = document.find("mechanism"))
+      if (const Value* type = mechanism->find("type"); type && type->is_string())
+        mechanism_ = type->as_string();
+  }
+
+  void read(Value& document) {
+    if (!document.is_object()) return;
+    visit(document, "");
+  }
+
+ private:
+  const Renamed* find(NameOf of, std::string_view name) const {
+    for (const Renamed& r : all_renamed)
+      if (r.of == of && mechanism_.starts_with(r.mechanism) &&
+          (r.before == name || (r.before.starts_with('_') && name.ends_with(r.before))))
+        return &r;
+    return nullptr;
+  }
+  static std::string changed(std::string_view name, const Renamed& r) {
+    return std::string(name.substr(0, name.size() - r.before.size())) + std::string(r.now);
+  }
+  void warn(const Position& at, std::string key, std::string_view before, std::string_view now) {
+    diagnostics_.push_back({.severity = Diagnostic::Severity::warning,
+                            .file = file_,
+                            .position = at,
+                            .key = std::move(key),
+                            .message = fmt::format("'{}' is now called '{}'", before, now),
+                            .hint = "the old name will be read until the next version"});
+  }
+  void text(Value& value, NameOf of, const std::string& path) {
+    if (!value.is_string()) return;
+    const std::string before = value.as_string();
+    if (const Renamed* r = find(of, before)) replace(value, changed(before, *r), before, path);
+  }
+  void replace(Value& value, std::string now, const std::string& before, const std::string& path) {
+    warn(value.position, path, before, now);
+    const Position position = value.position;
+    value = Value(std::move(now));
+    value.position = position;
+  }
+  /// "sweep.spin_deg.max": columns between dots, each with a unit.
+  std::optional<std::string> columns(std::string_view text) const {
+    std::string out;
+    bool any = false;
+    for (std::size_t from = 0; from <= text.size();) {
+      const std::size_t end = std::min(text.find('.', from), text.size());
+      const auto [base, unit] = base_and_unit(text.substr(from, end - from));
+      const Renamed* r = find(NameOf::column, base);
+      out += (r ? changed(base, *r) : std::string(base)) + std::string(unit);
+      any = any || r;
+      if (end < text.size()) out += '.';
+      from = end + 1;
+    }
+    if (!any) return std::nullopt;
+    return out;
+  }
+  void quantity(Value& value, const std::string& path) {
+    if (!value.is_string()) return;
+    const std::string before = value.as_string();
+    if (const Renamed* r = find(NameOf::word, before))
+      return replace(value, std::string(r->now), before, path);
+    if (auto now = columns(before)) replace(value, std::move(*now), before, path);
+  }
+  void visit(Value& table, const std::string& path) {
+    for (Value::Member& member : table.as_object()) {
+      const std::string at = path.empty() ? member.key : path + "." + member.key;
+      if (path.empty() && member.key == "kind") text(member.value, NameOf::kind, at);
+      if (member.key == "type")
+        text(member.value,
+             path == "mechanism" ? NameOf::mechanism
+             : path == "target"  ? NameOf::target
+                                 : NameOf::word,
+             at);
+      if (member.key == "quantity" || member.key == "parameter") quantity(member.value, at);
+      if (member.key == "quantities" && member.value.is_array())
+        for (Value& one : member.value.as_array()) quantity(one, at);
+      below(member.value, at);
+      // Keys of [[check]].at are columns, those of other tables keys.
+      const bool of_check = path.starts_with("check[") && path.ends_with(".at");
+      const auto [base, unit] = base_and_unit(member.key);
+      if (const Renamed* r = find(of_check ? NameOf::column : NameOf::key, base)) {
+        const std::string now = changed(base, *r) + std::string(unit);
+        if (table.find(now)) continue;
+        warn(member.key_position, at, member.key, now);
+        member.key = now;
+      }
+    }
+  }
+  void below(Value& value, const std::string& path) {
+    if (value.is_object()) visit(value, path);
+    if (value.is_array())
+      for (std::size_t i = 0; i < value.as_array().size(); ++i)
+        below(value.as_array()[i], fmt::format("{}[{}]", path, i));
+  }
+
+  std::string file_, mechanism_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+std::span<const Renamed> renamed() { return all_renamed; }
+
+Value with_todays_names(Value document, const std::string& file, Diagnostics& diagnostics) {
+  Reader(document, file, diagnostics).read(document);
+  return document;
+}
+
+std::string todays_kind(std::string_view name) {
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from <= name.size();) {
+    const std::size_t end = std::min(name.find('/', from), name.size());
+    parts.emplace_back(name.substr(from, end - from));
+    from = end + 1;
+  }
+  constexpr std::array of{NameOf::kind, NameOf::mechanism, NameOf::target};
+  const std::string mechanism = parts.size() > 1 ? parts[1] : std::string();
+  std::string out;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (const Renamed& r : all_renamed)
+      if (i < of.size() && r.of == of[i] && r.before == parts[i] && mechanism.starts_with(r.mechanism))
+        parts[i] = r.now;
+    out += (i ? "/" : "") + parts[i];
+  }
+  return out;
+}
+
+}  // namespace linkwright::study
