@@ -1,11 +1,11 @@
 #!/bin/sh
 # Prints how many compilers may run at once: one a processor and one more, but no more than memory holds at
-# 1.5 GB each, the most that a source of this project takes.
+# 2 GB each, the most that sources compiled together take.
 set -eu
 jobs=$(($(nproc 2>/dev/null || echo 2) + 1))
 available_kb=$(sed -n 's/^MemAvailable: *\([0-9]*\) kB$/\1/p' /proc/meminfo 2>/dev/null || true)
 if [ -n "$available_kb" ]; then
-  fit=$((available_kb / 1500000))
+  fit=$((available_kb / 2000000))
   [ "$fit" -ge 1 ] || fit=1
   [ "$jobs" -le "$fit" ] || jobs=$fit
 fi
