@@ -27,7 +27,7 @@ def studies(program):
         yield f"{path.parent.name}-{path.stem}", path
     kinds = subprocess.run([program, "catalogue"], capture_output=True, text=True, check=True).stdout
     for line in kinds.splitlines():
-        if re.match(r"^[a-z]+/", line):
+        if re.match(r"^[a-z_]+/", line):
             kind = line.split()[0]
             text = subprocess.run([program, "new", kind, "-"], capture_output=True, text=True, check=True).stdout
             yield "template-" + kind.replace("/", "-"), text

@@ -65,6 +65,15 @@ TEST(Renamed, ColumnsOfSlidesByTheEndOfTheirName) {
   const Today t = today(
       "[mechanism]\ntype = \"planar.linkage\"\n[[check]]\nquantity = \"motion.piston_way_mm.max_abs\"\n");
   EXPECT_EQ(at(t.document, {"check", "quantity"}), "motion.piston_displacement_mm.max_abs");
+  const auto quantity = [](const std::string& text) {
+    return at(
+        today("[mechanism]\ntype = \"clearance.linkage\"\n[[check]]\nquantity = \"" + text + "\"\n").document,
+        {"check", "quantity"});
+  };
+  EXPECT_EQ(quantity("errors.guide_way_worst_mm.max"), "errors.guide_displacement_worst_mm.max");
+  EXPECT_EQ(quantity("statistics.guide_way_yield"), "statistics.guide_displacement_yield");
+  // A joint may be called so.
+  EXPECT_EQ(quantity("reactions.run_way_x_N.max"), "reactions.run_way_x_N.max");
 }
 
 TEST(Renamed, BothNamesAtOnceAreLeftToTheReader) {

@@ -54,7 +54,7 @@ TEST(GuideReproductions, Strut) {
 TEST(GuideReproductions, InterconnectedLinks) {
   const auto table = rows("poznanovic-2016-example-3");
   EXPECT_EQ(verdicts(table, "position "), (Counts{{"corrected", 2}, {"reproduced", 53}}));
-  EXPECT_EQ(row(table, "position 9 (travel 0.06 m, rack 0 m): spin in deg").verdict, "corrected");
+  EXPECT_EQ(row(table, "position 9 (travel 0.06 m, rack 0 m): carrier pitch in deg").verdict, "corrected");
   EXPECT_EQ(row(table, "links found exactly from random boxes of 150 mm, %").ours, 100);
   EXPECT_LT(row(table, "mean error of coordinates, m").ours, 1e-5);
 }

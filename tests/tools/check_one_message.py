@@ -34,7 +34,7 @@ def spoilt(text):
 
 def main():
     kinds = [line.split()[0] for line in run("catalogue").stdout.splitlines()
-             if re.match(r"^[a-z]+/", line)]
+             if re.match(r"^[a-z_]+/", line)]
     count = failures = 0
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "study.toml"

@@ -24,7 +24,7 @@ def main():
     Draft202012Validator.check_schema(schema)
     validator = Draft202012Validator(schema)
     kinds = sys.argv[2:] or [line.split()[0] for line in run("catalogue").stdout.splitlines()
-                             if re.match(r"^[a-z]+/", line)]
+                             if re.match(r"^[a-z_]+/", line)]
     failures = 0
     with tempfile.TemporaryDirectory() as folder:
         for kind in kinds:

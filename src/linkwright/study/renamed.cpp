@@ -36,6 +36,11 @@ constexpr std::array all_renamed{
     Renamed{NameOf::column, "lead_slope", "phase_slope", clearance},
 };
 
+/// What columns of tolerances and errors add to the name of a quantity.
+constexpr std::array<std::string_view, 14> what_is_said_of_it{
+    "",       "_error",     "_worst",           "_across",     "_rms",         "_drawn",      "_lower",
+    "_upper", "_deviation", "_drawn_deviation", "_drawn_mean", "_drawn_least", "_drawn_most", "_yield"};
+
 /// "spin" and "_deg" of "spin_deg".
 std::pair<std::string_view, std::string_view> base_and_unit(std::string_view key) {
   const auto parts = split_unit(key);
@@ -60,13 +65,23 @@ class Reader {
  private:
   const Renamed* find(NameOf of, std::string_view name) const {
     for (const Renamed& r : all_renamed)
-      if (r.of == of && mechanism_.starts_with(r.mechanism) &&
-          (r.before == name || (r.before.starts_with('_') && name.ends_with(r.before))))
+      if (r.of == of && mechanism_.starts_with(r.mechanism) && place_in(name, r) != std::string_view::npos)
         return &r;
     return nullptr;
   }
+  /// Where the name of before begins in `name`.
+  static std::size_t place_in(std::string_view name, const Renamed& r) {
+    if (r.before == name) return 0;
+    if (r.before.starts_with('_'))
+      for (const std::string_view what : what_is_said_of_it)
+        if (name.ends_with(what) && name.substr(0, name.size() - what.size()).ends_with(r.before))
+          return name.size() - what.size() - r.before.size();
+    return std::string_view::npos;
+  }
   static std::string changed(std::string_view name, const Renamed& r) {
-    return std::string(name.substr(0, name.size() - r.before.size())) + std::string(r.now);
+    const std::size_t place = place_in(name, r);
+    return std::string(name.substr(0, place)) + std::string(r.now) +
+           std::string(name.substr(place + r.before.size()));
   }
   void warn(const Position& at, std::string key, std::string_view before, std::string_view now) {
     diagnostics_.push_back({.severity = Diagnostic::Severity::warning,

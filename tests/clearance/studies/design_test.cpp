@@ -163,7 +163,7 @@ TEST(ClearanceDesignStudy, TheDesignCanBeTakenOn) {
 // Both stages with free crank angles, by the swarm of the source, and what is told when a lead is asked for.
 TEST(ClearanceDesignStudy, BothStagesInTurn) {
   std::string text = replaced(kind_example(DesignTarget::both), "at_once", "in_turn");
-  text = replaced(text, "phase_deg  = 0.0", "phase_deg = 10.0");
+  text = replaced(text, "phase_deg = 0.0", "phase_deg = 10.0");
   text = replaced(text, "step_deg = 30.0", "step_deg = 30.0, free_within_deg = 5.0");
   text = replaced(text, "method = \"recommended\"\nstarts = 6\nseeds  = { first = 1, count = 2 }",
                   "method = \"particle_swarm\"\npopulation = 20\ngenerations = 30");

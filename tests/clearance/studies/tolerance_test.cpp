@@ -51,8 +51,9 @@ TEST(ToleranceStudy, WayOfASliderInClosedForm) {
   const study::Result r = run_text(tolerance_example("tolerances-slider-crank"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   const std::vector<double>&crank = values(r, "errors", "O_angle_rad"),
-        &worst = values(r, "errors", "guide_way_worst_m"), &rms = values(r, "errors", "guide_way_rms_m"),
-        &drawn = values(r, "errors", "guide_way_drawn_m");
+        &worst = values(r, "errors", "guide_displacement_worst_m"),
+        &rms = values(r, "errors", "guide_displacement_rms_m"),
+        &drawn = values(r, "errors", "guide_displacement_drawn_m");
   for (std::size_t i = 0; i < crank.size(); ++i) {
     const double rod = -std::asin(50 * std::sin(crank[i]) / 150),  // its angle
         by_rod = 1 / std::cos(rod), by_crank = std::abs(std::cos(crank[i] - rod) / std::cos(rod));
@@ -68,7 +69,7 @@ TEST(ToleranceStudy, WayOfASliderInClosedForm) {
   }
   // Half of the nominal stroke beyond the crank pivot at 90 degrees and the like: values and their bands.
   const std::vector<double>&way = values(r, "values", "guide_displacement_m"),
-        &upper = values(r, "values", "guide_way_upper_m");
+        &upper = values(r, "values", "guide_displacement_upper_m");
   EXPECT_NEAR(way[0], 0.2, 1e-15);
   EXPECT_NEAR(upper[0], 0.20013, 1e-12);
   EXPECT_THAT(fact(r, "error of force at A"), HasSubstr("of the largest there is, 1.38e+03 N"));
@@ -176,8 +177,8 @@ TEST(ToleranceStudy, OverTimeWithForces) {
   EXPECT_EQ(values(r, "errors", "time_s").back(), 0.04);
   // At 0.02 s, half a turn, the load is 500 N: it goes through the rod.
   EXPECT_NEAR(values(r, "values", "A_force_x_N")[90] - values(grid, "values", "A_force_x_N")[90], 500, 1e-9);
-  EXPECT_NEAR(values(r, "errors", "guide_way_worst_m")[90], values(grid, "errors", "guide_way_worst_m")[90],
-              1e-13);
+  EXPECT_NEAR(values(r, "errors", "guide_displacement_worst_m")[90],
+              values(grid, "errors", "guide_displacement_worst_m")[90], 1e-13);
   EXPECT_THAT(r.headline, HasSubstr("(worst case, at 0.01"));
 }
 

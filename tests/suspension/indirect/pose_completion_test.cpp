@@ -122,7 +122,7 @@ TEST(PoseCompletion, WhatIsRefused) {
   CarrierTarget pose = e.targets.poses[0];
   pose.angles.toe = pose.angles.spin = nan;
   EXPECT_THAT(message([&] { solve_for(e.targets, pose, e.links[0], PoseParameter::spin); }),
-              HasSubstr("link 'link 1' cannot settle spin: toe is missing, too"));
+              HasSubstr("link 'link 1' cannot settle carrier_pitch: toe is missing, too"));
 }
 
 }  // namespace
