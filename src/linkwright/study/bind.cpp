@@ -71,11 +71,14 @@ std::string list_of(std::span<const Word> words) {
   return text;
 }
 
+/// Whether `key` is `base`, '_' and something: a unit, perhaps.
+bool goes_on(std::string_view key, std::string_view base) {
+  return key.size() > base.size() + 1 && key.starts_with(base) && key[base.size()] == '_';
+}
 /// Whether `key` is `base` with a unit of the dimension, or plain `base` when there is none.
 bool names_field(std::string_view key, std::string_view base, Dimension dimension) {
   if (dimension == Dimension::none) return key == base;
-  return key.size() > base.size() + 1 && key.starts_with(base) && key[base.size()] == '_' &&
-         find_unit(dimension, key.substr(base.size() + 1));
+  return goes_on(key, base) && find_unit(dimension, key.substr(base.size() + 1));
 }
 
 /// A JSON Schema and what it is composed of: every schema that may describe the same value.
@@ -306,6 +309,8 @@ std::optional<ObjectReader::Found> ObjectReader::find(const Field& field) {
       if (member.key == field.key && !others()) {
         record_->used.push_back(&member);
         refuse(member, "the unit is missing", "write " + keys_with_units(field.key, dimension));
+      } else if (!goes_on(member.key, field.key)) {
+        continue;  // most keys: splitting off their units takes long
       } else if (const auto parts = split_unit(member.key);
                  parts && parts->base == field.key && parts->dimension != dimension && !others()) {
         record_->used.push_back(&member);
