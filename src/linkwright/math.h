@@ -4,6 +4,7 @@
 
 #include "linkwright/math/angles.h"
 #include "linkwright/math/band_solve.h"
+#include "linkwright/math/dense.h"
 #include "linkwright/math/differences.h"
 #include "linkwright/math/dual.h"
 #include "linkwright/math/function_ref.h"

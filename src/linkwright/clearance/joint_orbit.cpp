@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,6 +10,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/math/dense.h"
 
 namespace linkwright::clearance {
 namespace {
@@ -148,8 +149,7 @@ JointOrbit find_joint_orbit(const planar::Linkage& linkage, std::span<const Join
     }
     x += std::min(1.0, longest_step / step.norm()) * step;
   }
-  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(by, false).eigenvalues();
-  orbit.multipliers.assign(values.begin(), values.end());
+  orbit.multipliers = math::eigenvectors(math::numbers(by), false).values;
   std::stable_sort(orbit.multipliers.begin(), orbit.multipliers.end(),
                    [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   const double size = std::abs(orbit.multipliers.front());

@@ -1,13 +1,12 @@
 #include "linkwright/flexible/reference_beam.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/dense.h"
 #include "linkwright/math/ode.h"
 
 namespace linkwright::flexible {
@@ -16,6 +15,11 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
+
+Vector solved_symmetric(const Matrix& matrix, const Vector& right) {
+  const std::vector<double> x = math::solve_symmetric(math::numbers(matrix), math::numbers(right));
+  return Eigen::Map<const Vector>(x.data(), right.size());
+}
 
 // P_0 ... P_n at x.
 Vector legendre(int n, double x) {
@@ -198,11 +202,11 @@ class Elastica {
     Vector all(n + 1);
     if (given) {
       all[n] = *given;
-      all.head(n) = -mass.topLeftCorner(n, n).ldlt().solve(rest.head(n) + *given * mass.col(n).head(n));
+      all.head(n) = -solved_symmetric(mass.topLeftCorner(n, n), rest.head(n) + *given * mass.col(n).head(n));
       torque_ = rest[n] + mass.row(n) * all;
     } else {
       rest[n] -= torque;
-      all = -mass.ldlt().solve(rest);
+      all = -solved_symmetric(mass, rest);
       torque_ = torque;
     }
     acceleration_ = all.head(n);
@@ -300,7 +304,7 @@ ReferenceShape reference_shape(const Beam& beam, Vec2 tip_force, const Reference
       const Vector along = g.weight.array() * (x * c.array() + y * s.array());
       const Vector gradient = stiffness * a - angles.transpose() * around;
       const Matrix hessian = stiffness + angles.transpose() * along.asDiagonal() * angles;
-      const Vector step = hessian.ldlt().solve(gradient);
+      const Vector step = solved_symmetric(hessian, gradient);
       a -= step;
       met = (angles * step).cwiseAbs().maxCoeff() < 1e-13;
     }
@@ -330,9 +334,9 @@ std::vector<double> reference_frequencies(const Beam& beam, int count, double sp
       beam.bending_stiffness() * g.curvature.transpose() * g.weight.asDiagonal() * g.curvature +
       angles.transpose() * tension.asDiagonal() * angles - speed * speed * mass;
   const Matrix whole = mass + g.angle.transpose() * g.inertia.asDiagonal() * g.angle;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solved(stiffness, whole, Eigen::EigenvaluesOnly);
-  std::vector<double> out;
-  for (int k = 0; k < count; ++k) out.push_back(std::sqrt(std::max(solved.eigenvalues()[k], 0.0)));
+  std::vector<double> out = math::symmetric_eigenvalues(math::numbers(stiffness), math::numbers(whole));
+  out.resize(static_cast<std::size_t>(count));
+  for (double& square : out) square = std::sqrt(std::max(square, 0.0));
   return out;
 }
 

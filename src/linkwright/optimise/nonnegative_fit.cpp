@@ -1,10 +1,11 @@
 #include "linkwright/optimise/nonnegative_fit.h"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <vector>
 
 #include "linkwright/core/check.h"
+#include "linkwright/math/dense.h"
 
 namespace linkwright::optimise {
 
@@ -28,15 +29,14 @@ double fit_nonnegative(std::span<const double> columns, std::span<const double> 
     in.push_back(enters);
     while (!in.empty()) {
       const Eigen::MatrixXd part = a(Eigen::all, in);
-      const Eigen::VectorXd fit = part.colPivHouseholderQr().solve(wanted);
+      const std::vector<double> fit = math::linear_fit(math::numbers(part), in.size(), b);
       double share = 1;  // of the way to the fit that stays in x >= 0
       for (std::size_t k = 0; k < in.size(); ++k)
-        if (fit[static_cast<Index>(k)] <= 0)
-          share = std::min(share, now[in[k]] / (now[in[k]] - fit[static_cast<Index>(k)]));
+        if (fit[k] <= 0) share = std::min(share, now[in[k]] / (now[in[k]] - fit[k]));
       bool left = false;
       for (std::size_t k = in.size(); k-- > 0;) {
         double& value = now[in[k]];
-        const double target = fit[static_cast<Index>(k)];
+        const double target = fit[k];
         value += share * (target - value);
         if (target <= 0 && value <= 1e-15 * (1 + std::abs(target))) {
           value = 0;

@@ -4,13 +4,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
+#include "linkwright/math/dense.h"
 #include "linkwright/math/least_squares.h"
 #include "linkwright/optimise/cone_programme.h"
 #include "linkwright/optimise/parallel.h"
@@ -81,14 +81,14 @@ void complete(const DirectModel& model, const DirectOptions& options, std::span<
   if (!out.answer.assembled) return;
   DirectPoint at;
   model.evaluate(u, true, at);
-  const auto rows = static_cast<Eigen::Index>(model.rows()), n = static_cast<Eigen::Index>(model.size());
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Eigen::Map<const RowMajor>(at.by.data(), rows, n),
-                                              Eigen::ComputeFullV);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    out.singular_values.push_back(i < svd.singularValues().size() ? svd.singularValues()(i) : 0);
-    const Eigen::VectorXd direction = svd.matrixV().col(i);
-    out.directions.emplace_back(direction.data(), direction.data() + n);
+  const std::size_t rows = model.rows(), n = model.size();
+  std::vector<double> columns(rows * n);
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t c = 0; c < n; ++c) columns[c * rows + r] = at.by[r * n + c];
+  const math::SingularVectors svd = math::singular_vectors(columns, n);
+  for (std::size_t i = 0; i < n; ++i) {
+    out.singular_values.push_back(i < svd.values.size() ? svd.values[i] : 0);
+    out.directions.emplace_back(&svd.right[i * n], &svd.right[i * n] + n);
   }
   const auto counts = [&](std::size_t row) {
     return options.goal != DirectGoal::one ||

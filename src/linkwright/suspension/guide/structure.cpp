@@ -2,9 +2,9 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Core>
-#include <Eigen/SVD>
 #include <algorithm>
+
+#include "linkwright/math/dense.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -160,14 +160,14 @@ WeakMotion weakest_motion(const GuidePlan& plan, const GuidePlace& place, double
   GuideEquations equations;
   evaluate(plan, place, rack, driver, 0, equations);
   const double radius = plan.wheel.tyre_diameter / 2;
-  Eigen::MatrixXd scaled(plan.unknowns, plan.unknowns);
-  for (int i = 0; i < plan.unknowns; ++i)
-    for (int j = 0; j < plan.unknowns; ++j) scaled(i, j) = equations.jacobian[i][j] / (j < 3 ? 1 : radius);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeFullV);
-  const Eigen::VectorXd free = svd.matrixV().col(plan.unknowns - 1);
-  return {svd.singularValues()(plan.unknowns - 1),
-          {free(0), free(1), free(2)},
-          {free(3) / radius, free(4) / radius, free(5) / radius}};
+  const auto n = static_cast<std::size_t>(plan.unknowns);
+  std::vector<double> scaled;
+  for (int j = 0; j < plan.unknowns; ++j)
+    for (int i = 0; i < plan.unknowns; ++i) scaled.push_back(equations.jacobian[i][j] / (j < 3 ? 1 : radius));
+  const math::SingularVectors svd = math::singular_vectors(scaled, n);
+  const double* free = &svd.right[(n - 1) * n];
+  return {
+      svd.values.back(), {free[0], free[1], free[2]}, {free[3] / radius, free[4] / radius, free[5] / radius}};
 }
 
 int mobility(const Structure& structure, int couplers) {

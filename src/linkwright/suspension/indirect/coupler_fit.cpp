@@ -1,11 +1,12 @@
 #include "linkwright/suspension/indirect/coupler_fit.h"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/dense.h"
 #include "linkwright/math/least_squares.h"
 
 namespace linkwright::suspension {
@@ -56,6 +57,10 @@ struct Sphere {
   Eigen::VectorXd residual, derivative;
 };
 
+Eigen::Vector3d fitted(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  return Eigen::Vector3d(math::linear_fit(math::numbers(a), 3, math::numbers(b)).data());
+}
+
 Sphere fit_sphere(const Track& track, double l) {
   const auto n = static_cast<Eigen::Index>(track.size());
   Eigen::MatrixXd a(n, 3), da(n, 3);
@@ -69,15 +74,15 @@ Sphere fit_sphere(const Track& track, double l) {
     b[i] = (t - t0).dot(t + t0) / 2;
     db[i] = t.dot(u) - t0.dot(u0);
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
   Sphere s;
-  s.centre = qr.solve(b);
+  s.centre = fitted(a, b);
   s.residual = b - a * s.centre;
   const Eigen::VectorXd change = db - da * s.centre;
   // (I - Q Q') (db - dA y) - A+' dA' e
   const Eigen::Vector3d turned = da.transpose() * s.residual;
-  const Eigen::MatrixXd normal = a.transpose() * a;
-  s.derivative = change - a * qr.solve(change) - a * normal.ldlt().solve(turned);
+  const Eigen::Matrix3d normal = a.transpose() * a;
+  const std::vector<double> inner = math::solve_symmetric(math::numbers(normal), math::numbers(turned));
+  s.derivative = change - a * fitted(a, change) - a * Eigen::Vector3d(inner.data());
   return s;
 }
 
@@ -115,8 +120,10 @@ Vec3 best_in_box(const Track& track, double l, const PointBox& box) {
     if (count > 0) {
       Eigen::MatrixXd columns(n, count);
       for (int k = 0; k < count; ++k) columns.col(k) = a.col(free[static_cast<std::size_t>(k)]);
-      const Eigen::VectorXd at = columns.colPivHouseholderQr().solve(b - a * point);
-      for (int k = 0; k < count; ++k) point[free[static_cast<std::size_t>(k)]] = at[k];
+      const Eigen::VectorXd rest = b - a * point;
+      const std::vector<double> at =
+          math::linear_fit(math::numbers(columns), static_cast<std::size_t>(count), math::numbers(rest));
+      for (std::size_t k = 0; k < at.size(); ++k) point[free[k]] = at[k];
     }
     if ((point - lower).minCoeff() < 0 || (upper - point).minCoeff() < 0) continue;
     const double square = (b - a * point).squaredNorm();

@@ -1,11 +1,11 @@
 #include "linkwright/suspension/indirect/link_fit.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/dense.h"
 #include "linkwright/math/least_squares.h"
 #include "linkwright/suspension/indirect/link_fit_direct.h"
 #include "linkwright/suspension/indirect/link_fit_projected.h"
@@ -283,15 +283,11 @@ LinkConditioning conditioning(const CarrierTargets& targets, const LinkTask& tas
   if (n == 0 || rows == 0 ||
       !structural_errors(motion, shifted(link, -targets.wheel.centre), errors, unknowns.columns(), jacobian))
     return found;
-  const Eigen::Map<const Eigen::MatrixXd> j(jacobian.data(), static_cast<Eigen::Index>(rows),
-                                            static_cast<Eigen::Index>(n));
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(j, Eigen::ComputeFullV);
-  found.singular_values.assign(n, 0.0);
-  for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k)
-    found.singular_values[k] = svd.singularValues()[k];
+  const math::SingularVectors svd = math::singular_vectors(jacobian, n);
+  found.singular_values = svd.values;
+  found.singular_values.resize(n, 0.0);
   for (std::size_t k = 0; k < n; ++k)
-    LinkCoordinates::set(found.weakest, unknowns.free()[k],
-                         svd.matrixV()(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(n) - 1));
+    LinkCoordinates::set(found.weakest, unknowns.free()[k], svd.right[(n - 1) * n + k]);
   return found;
 }
 

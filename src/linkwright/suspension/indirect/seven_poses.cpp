@@ -2,8 +2,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,6 +9,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
+#include "linkwright/math/dense.h"
 #include "linkwright/suspension/indirect/link_fit_direct.h"
 
 namespace linkwright::suspension {
@@ -42,10 +41,12 @@ struct Bilinear {
 using Equations = std::array<Bilinear, 6>;
 
 Eigen::Matrix3d random_basis(RandomStream& random) {
+  const auto draw = [&] { return Eigen::Vector3d{random.normal(), random.normal(), random.normal()}; };
   Eigen::Matrix3d m;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) m(i, j) = random.normal();
-  return Eigen::HouseholderQR<Eigen::Matrix3d>(m).householderQ();
+  m.col(0) = draw().normalized();
+  m.col(2) = m.col(0).cross(draw()).normalized();
+  m.col(1) = m.col(2).cross(m.col(0));
+  return m;
 }
 
 template <class Scalar>
@@ -108,11 +109,11 @@ std::vector<Complex3> carrier_points(const Equations& equations, double shift, b
   const Eigen::MatrixXd reduced = lu.solve(m1).topRows<high>();
   std::vector<Complex3> found;
   if (!reduced.allFinite()) return found;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(reduced);
+  const math::Eigenvectors solved = math::eigenvectors(math::numbers(reduced));
   for (int k = 0; k < high; ++k) {
-    const Complex mu = solver.eigenvalues()[k];
+    const Complex mu = solved.values[at(k)];
     if (std::abs(mu) < 1.0 / farthest) continue;
-    const Eigen::VectorXcd w = solver.eigenvectors().col(k);
+    const Complex* w = &solved.vectors[at(k * high)];
     const Complex one = w[3];
     if (std::abs(one) < 1e-12) continue;
     found.emplace_back(w[4 * place[1][0] + 3] / one, w[4 * place[0][1] + 3] / one, shift - 1.0 / mu);
@@ -120,15 +121,26 @@ std::vector<Complex3> carrier_points(const Equations& equations, double shift, b
   return found;
 }
 
+/// What the columns of a complex matrix, times i as well, are to real numbers.
+template <int rows, int columns>
+Eigen::MatrixXd real_form(const Eigen::Matrix<Complex, rows, columns>& m) {
+  Eigen::MatrixXd out(2 * rows, 2 * columns);
+  out << m.real(), -m.imag(), m.imag(), m.real();
+  return out;
+}
+
 Complex3 body_point(const Equations& equations, const Complex3& x) {
   Eigen::Matrix<Complex, 6, 3> m;
-  Complex6 r;
+  Eigen::VectorXd r(12);
   for (int i = 0; i < 6; ++i) {
     const Bilinear& e = equations[static_cast<std::size_t>(i)];
     m.row(i) = (e.b.transpose().cast<Complex>() * x + e.t.cast<Complex>()).transpose();
-    r[i] = e.a[0] * x[0] + e.a[1] * x[1] + e.a[2] * x[2] + e.c;
+    const Complex right = e.a[0] * x[0] + e.a[1] * x[1] + e.a[2] * x[2] + e.c;
+    r[i] = right.real();
+    r[6 + i] = right.imag();
   }
-  return m.colPivHouseholderQr().solve(r);
+  const std::vector<double> y = math::linear_fit(math::numbers(real_form(m)), 6, math::numbers(r));
+  return Complex3(Complex(y[0], y[3]), Complex(y[1], y[4]), Complex(y[2], y[5]));
 }
 
 bool polish(const Equations& equations, Point<Complex>& p) {
@@ -140,9 +152,13 @@ bool polish(const Equations& equations, Point<Complex>& p) {
     if (!std::isfinite(error) || p.x.norm() > farthest || p.y.norm() > farthest) return false;
     if (error < converged && error >= best / 2) return true;
     best = std::min(best, error);
-    const Complex6 change = jacobian.partialPivLu().solve(f);
-    p.x -= change.head<3>();
-    p.y -= change.tail<3>();
+    Eigen::VectorXd parts(12);
+    parts << f.real(), f.imag();
+    const Eigen::VectorXd change = Eigen::PartialPivLU<Eigen::MatrixXd>(real_form(jacobian)).solve(parts);
+    for (int k = 0; k < 3; ++k) {
+      p.x[k] -= Complex(change[k], change[6 + k]);
+      p.y[k] -= Complex(change[3 + k], change[9 + k]);
+    }
   }
   return best < converged;
 }
@@ -151,8 +167,8 @@ bool on_family(const Equations& equations, const Point<Complex>& p) {
   Complex6 f;
   ComplexSystem jacobian;
   evaluate(equations, p, f, jacobian);
-  const auto values = Eigen::JacobiSVD<ComplexSystem>(jacobian).singularValues();
-  return values[5] <= singular_system * values[0];
+  const std::vector<double> values = math::singular_vectors(math::numbers(real_form(jacobian)), 12).values;
+  return values.back() <= singular_system * values.front();
 }
 
 /// Goes to the nearest real solution, on a family too; tells how singular the system is there.
@@ -162,13 +178,12 @@ bool polish_real(const Equations& equations, Point<double>& p, double& singulari
   for (int step = 0; step < newton_steps; ++step) {
     const double error = evaluate(equations, p, f, jacobian);
     if (!std::isfinite(error) || p.x.norm() > farthest || p.y.norm() > farthest) return false;
-    Eigen::JacobiSVD<System> svd(jacobian, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    singularity = svd.singularValues()[5] / svd.singularValues()[0];
+    const math::LeastNorm change =
+        math::least_norm(math::numbers(jacobian), 6, math::numbers(f), singular_system);
+    singularity = change.condition;
     if (error < converged) return true;
-    svd.setThreshold(singular_system);
-    const Eigen::Matrix<double, 6, 1> change = svd.solve(f);
-    p.x -= change.head<3>();
-    p.y -= change.tail<3>();
+    p.x -= Eigen::Vector3d(change.x.data());
+    p.y -= Eigen::Vector3d(change.x.data() + 3);
   }
   return false;
 }
