@@ -50,7 +50,7 @@ TEST(DrivenLaw, IsReadWithTheUnitsOfItsJoint) {
   const auto slide = read<LinearEntry>(
       "law = \"cycloidal\"\nfrom_mm = 90\nto_m = 0\nstart_s = 1\nduration_s = 0.5\n", messages);
   EXPECT_EQ(messages, "");
-  const auto& a = std::get<math::CycloidalMotion>(motion_law(turn.law));
+  const auto a = std::get<math::CycloidalMotion>(motion_law(turn.law));
   EXPECT_EQ(a.from, pi / 2);
   EXPECT_EQ(a.duration, 0.5);
   EXPECT_EQ(std::get<math::CycloidalMotion>(motion_law(slide.law)).from, 0.09);

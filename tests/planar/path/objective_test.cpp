@@ -259,7 +259,7 @@ TEST(PathObjective, AllocatesNothing) {
 
 TEST(PathObjective, UsesAKernelOfThisMachine) {
   const auto kernels = runnable(path_kernels());
-  EXPECT_EQ(kernel_name(), kernels.back().name);
+  EXPECT_STREQ(kernel_name(), kernels.back().name);
   const PathProblem p = printed_eighteen_points();
   const Population x = candidates(p, 1, 20, 1);
   const auto objective = path_objective(p, Branch::open, 1);

@@ -217,7 +217,7 @@ TEST(SliderPathObjective, AllocatesNothing) {
 
 TEST(SliderPathObjective, UsesAKernelOfThisMachineAndIsTheProblemOfTheMethods) {
   const auto kernels = runnable(slider_path_kernels());
-  EXPECT_EQ(slider_path_kernel_name(), kernels.back().name);
+  EXPECT_STREQ(slider_path_kernel_name(), kernels.back().name);
   const SliderPathProblem p = printed_eighteen_slider_points();
   const Population x = candidates(p, 1, 20, 1);
   std::vector<double> cost(20), violation(20), expected(20), front(40);
