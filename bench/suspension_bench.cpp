@@ -55,8 +55,8 @@ void guide_5KS_limits(benchmark::State& state) {
 }
 BENCHMARK(guide_5KS_limits)->Unit(benchmark::kMicrosecond);
 
-// A guide with rubber in every joint, elastic in all six directions but for balls, or with rods that give way
-// along their line only: the whole compliance with all joint forces at one position.
+// A suspension with rubber in every joint, elastic in all six directions but for balls, or with rods that
+// give way along their line only: the whole compliance with all joint forces at one position.
 enum Elastic { rubber, rods };
 void compliance(benchmark::State& state, const char* name, Elastic elastic, bool preloaded) {
   const WheelGuide& guide = guide_sample(name).guide;

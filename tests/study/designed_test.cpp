@@ -78,7 +78,7 @@ TEST(Designed, OnlyTheTablesAskedForAreTaken) {
 
 TEST(Designed, ProblemsTellWhereAndHow) {
   EXPECT_THAT(take("[mechanism]\nx_m = { min = 0, max = 1 }\n").messages,
-              HasSubstr("study.toml:2:7: error: mechanism.x_m: the designed number lacks `initial`"));
+              HasSubstr("study.toml:2:7: error: mechanism.x_m: the design variable lacks `initial`"));
   EXPECT_THAT(take("[mechanism]\nx_m = { min = 2, max = 1, initial = 1 }\n").messages,
               HasSubstr("mechanism.x_m: min is 2, more than max, which is 1"));
   EXPECT_THAT(take("[mechanism]\nx_m = { min = 0, max = \"1\", initial = 1 }\n").messages,

@@ -54,7 +54,7 @@ inline const std::vector<double>& column(const study::Result& result, std::strin
   return found ? found->values : none;
 }
 
-/// The beginning of a study of a wheel guide, one of a sample, and sweeps to go on with.
+/// The beginning of a study of a wheel suspension, one of a sample, and sweeps to go on with.
 inline const std::string head =
     "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\n";
 inline std::string sample(const std::string& name, const std::string& rest) {

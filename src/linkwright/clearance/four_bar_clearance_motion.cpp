@@ -22,7 +22,8 @@ std::string failure(const ClearanceInstant& now, double time, double crank) {
                        now.position.gap * 1e3);
   if (std::abs(now.position.sine) < singular_sine)
     return fmt::format("coupler and rocker are in line {}", place);
-  return fmt::format("the clearance link moves no mass {}, so that forces do not tell how it turns", place);
+  return fmt::format("the clearance link moves no mass {}, so its rotation does not follow from the forces",
+                     place);
 }
 
 // Whether the crank is about to come where no place of the pin in the bush lets the links meet: before it

@@ -49,7 +49,7 @@ struct PeriodOf {
 }  // namespace
 
 DrivePeriod drive_period(std::span<const planar::InputCourse> courses, const std::vector<bool>& rotary) {
-  LINKWRIGHT_REQUIRE(courses.size() == rotary.size(), "{} courses, {} inputs", courses.size(), rotary.size());
+  LINKWRIGHT_REQUIRE(courses.size() == rotary.size(), "{} drives, {} inputs", courses.size(), rotary.size());
   std::vector<double> periods;
   double longest = 0;
   for (std::size_t k = 0; k < courses.size(); ++k) {

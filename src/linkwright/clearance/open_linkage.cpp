@@ -190,7 +190,7 @@ OpenLinkage open_linkage(const Linkage& linkage, std::span<const int> joints,
   if (!plan) {
     out.status = Status::infeasible;
     out.message =
-        "once the pins are out no joints are left whose coordinates tell where all bodies are: " + problem;
+        "without the clearance joints no joint coordinates are left that place all bodies: " + problem;
     return out;
   }
   out.plan = std::move(*plan);

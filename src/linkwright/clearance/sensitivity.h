@@ -22,7 +22,7 @@ struct PinTolerance {
 struct LengthTolerance {
   int body = 0;
   int from = 0, to = 0;  ///< points of the body
-  double tolerance = 0;  ///< m, >= 0: the length errs by at most this
+  double tolerance = 0;  ///< m, >= 0: the length deviates by at most this
 };
 struct LinkageTolerances {
   std::vector<PinTolerance> pins;

@@ -24,7 +24,7 @@ struct StopCriteria {
   double target_cost = -infinity;  ///< a feasible candidate costs at most this
   int stagnation = 0;              ///< generations in a row without a new best candidate; 0 = no limit
   /// The best was improved or equalled in this generation and no member is further than this from it
-  /// (Euclidean, in the units of the variables); 0 = never. The criterion of the wheel-guide studies.
+  /// (Euclidean, in the units of the variables); 0 = never. The criterion of the wheel-suspension studies.
   double spread = 0;
   /// No two members are further apart than this (Euclidean, in the units of the variables); 0 = never.
   double diameter = 0;

@@ -63,7 +63,7 @@ class Taker {
         error(fmt::format("{} must be a number", name), {});
       } else {
         good = false;
-        error(fmt::format("the designed number lacks `{}`", name),
+        error(fmt::format("the design variable lacks `{}`", name),
               "write { min = ..., max = ..., initial = ... }: the initial design is what the answer is "
               "compared with");
       }
@@ -136,7 +136,8 @@ std::string base_of(std::string_view key) {
 }
 
 void put(Value& tables, std::span<const DesignedNumber> numbers, std::span<const double> x) {
-  LINKWRIGHT_REQUIRE(x.size() == numbers.size(), "{} numbers for {} designed ones", x.size(), numbers.size());
+  LINKWRIGHT_REQUIRE(x.size() == numbers.size(), "{} numbers for {} design variables", x.size(),
+                     numbers.size());
   for (std::size_t j = 0; j < x.size(); ++j) {
     Value& value = at(tables, numbers[j].place);
     const Position position = value.position;

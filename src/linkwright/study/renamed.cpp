@@ -10,12 +10,15 @@
 namespace linkwright::study {
 namespace {
 
-constexpr std::string_view suspension = "suspension.", clearance = "clearance.", planar = "planar.";
+constexpr std::string_view suspension = "suspension.", clearance = "clearance.", planar = "planar.",
+                           parallel = "parallel.";
 
 constexpr std::array all_renamed{
     Renamed{NameOf::kind, "regulation", "speed_fluctuation", planar},
     Renamed{NameOf::key, "regulation", "speed_fluctuation", planar},
+    Renamed{NameOf::column, "regulated_speed", "speed_with_flywheel", planar},
     Renamed{NameOf::column, "_way", "_displacement"},
+    Renamed{NameOf::key, "parts", "aspects", parallel},
     Renamed{NameOf::mechanism, "suspension.wheel_guide", "suspension.corner"},
     Renamed{NameOf::word, "spin", "carrier_pitch", suspension},
     Renamed{NameOf::word, "support", "anti_pitch", suspension},

@@ -237,7 +237,7 @@ Result run_study(const Study& study, RunContext& context) {
     result = study.run(context);
   } catch (const Interrupted& why) {
     result.status = why.status();
-    result.headline = "Interrupted before there was anything to tell.";
+    result.headline = "Interrupted before there was anything to report.";
   }
   for (Table& table : result.tables) make_unique(table, result.diagnostics);
   for (const CheckRequest& check : study.common.checks) result.checks.push_back(evaluate(check, result));

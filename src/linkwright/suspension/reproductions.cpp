@@ -234,7 +234,7 @@ void add_open_spin(study::Comparisons& rows, RunContext& context) {
     rows.push_back({what + ": mean error of coordinates, m", "Poznanovic 2016, Tab. 6-15",
                     printed.coordinate_error, means.coordinate_error,
                     better(printed.coordinate_error, means.coordinate_error),
-                    "motion hardly tells one mechanism from another"});
+                    "the motion hardly distinguishes one mechanism from another"});
   }
 }
 
@@ -327,13 +327,15 @@ std::vector<study::Reproduction> reproductions() {
        "Poznanovic 2016, section 6.4, Fig. 6-5, Tabs. 6-9 to 6-12",
        {"The hinge of link 3 points to 13 + (0.1 tan 9 deg, 0.1, 0); the other sign of the printed 9 deg "
         "misses the table by 5 mm.",
-        "Spins of positions 1 and 9 are printed as -6.12819 and 4.58125 and are -6.1281952 and 4.5812446.",
+        "The carrier pitches of positions 1 and 9 are printed as -6.12819 and 4.58125 and are -6.1281952 and "
+        "4.5812446.",
         repeats_note},
        [](RunContext& context) { return example(3, context); }},
       {"poznanovic-2016-example-4",
        "five-link rear suspension: positions, synthesis with and without the carrier pitch",
        "Poznanovic 2016, section 6.5, Fig. 6-8, Tabs. 6-13 to 6-16",
-       {"The turn of the dyad (73) is not the spin of (50), as the text has it, but the carrier that it "
+       {"The turn of the dyad (73) is not the carrier pitch of (50), as the text has it, but the carrier "
+        "that it "
         "turns "
         "(74) is right; (67) lacks the length of the rod.",
         "With the quadratic of the carrier pitch three boxes are searched here; over forty its largest "

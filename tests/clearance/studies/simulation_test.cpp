@@ -195,7 +195,7 @@ TEST(ClearanceStudy, DrawsThePlayEnlarged) {
   const study::Result r = run_text(one_turn());
   ASSERT_EQ(r.scenes.size(), 1u);
   const study::Scene& scene = r.scenes[0];
-  EXPECT_EQ(scene.title, "motion, play drawn 10 x");
+  EXPECT_EQ(scene.title, "motion, clearance drawn 10 x");
   EXPECT_LE(scene.samples(), 361u);
   ASSERT_EQ(scene.circles.size(), 1u);
   EXPECT_EQ(scene.circles[0].name, "clearance of B, 0.5 mm");
@@ -451,7 +451,7 @@ TEST(ClearanceStudy, WarnsOfALawThatDoesNotGiveItsRestitution) {
   EXPECT_THAT(messages(poor),
               HasSubstr("restitution = 0.05 of 'B': by flores_2011 an impact gives back 0.0"));
   EXPECT_THAT(messages(poor), HasSubstr("times the force and"));
-  EXPECT_THAT(messages(poor), HasSubstr("on the law is within 25 % of what it is told"));
+  EXPECT_THAT(messages(poor), HasSubstr("on the law is within 25 % of the given value"));
   EXPECT_THAT(messages(run_text(text)), Not(HasSubstr("restitution")));
 }
 

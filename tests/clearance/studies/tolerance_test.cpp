@@ -105,7 +105,7 @@ TEST(ToleranceStudy, BudgetsAddUpAndTellWhatToTighten) {
       run_text(replaced(four_bar(), "clearance_mm = 0.05  ", "clearance_mm = 0.045"));
   EXPECT_NEAR(parts - tighter.statistics.find("coupler_P_worst_m")->as_number(), 6.55e-6, 5e-8);
   EXPECT_THAT(r.headline,
-              HasSubstr("coupler.P errs by at most 0.143 mm (worst case, at 0°); 99 % of 2000 random "
+              HasSubstr("coupler.P deviates by at most 0.143 mm (worst case, at 0°); 99 % of 2000 random "
                         "linkages stay within 0.129 mm; 46 % of the worst case comes from pin A."));
 }
 
@@ -117,7 +117,7 @@ TEST(ToleranceStudy, BandOfAPath) {
         &across = values(r, "errors", "coupler_P_across_m"),
         &worst = values(r, "errors", "coupler_P_worst_m");
   ASSERT_EQ(r.scenes.size(), 1u);
-  EXPECT_THAT(r.scenes[0].title, "motion; play and bands drawn 50 x");
+  EXPECT_THAT(r.scenes[0].title, "motion; clearances and bands drawn 50 x");
   EXPECT_EQ(r.scenes[0].traces.size(), 3u);
   EXPECT_EQ(r.scenes[0].circles.size(), 2u);
   bool narrower = false;
@@ -201,7 +201,7 @@ TEST(ToleranceStudy, WarnsNearDeadPoints) {
   EXPECT_THAT(messages(r), HasSubstr("the transmission angle of crank + coupler falls to"));
   EXPECT_THAT(messages(r), HasSubstr("of 2000 random linkages do not assemble everywhere; at "));
   EXPECT_THAT(messages(r),
-              HasSubstr("coupler.P: the random linkages err otherwise than the linear theory says at "));
+              HasSubstr("coupler.P: the errors of the random linkages differ from the linear theory at "));
   EXPECT_LT(values(r, "errors", "assembled").back(), 2000);
   EXPECT_EQ(values(r, "errors", "assembled").front(), 2000);
   // Those that do not assemble everywhere are beyond every limit, and no share of 99 % is told.
@@ -226,7 +226,7 @@ TEST(ToleranceStudy, KeepsTheLinearTheoryWhenItIsStopped) {
   EXPECT_EQ(r.status, Status::cancelled);
   EXPECT_THAT(messages(r), HasSubstr("only 0 of 2000 random linkages were drawn (cancelled)"));
   EXPECT_THAT(r.headline,
-              "coupler.P errs by at most 0.143 mm (worst case, at 0°); 46 % of the worst case comes from "
+              "coupler.P deviates by at most 0.143 mm (worst case, at 0°); 46 % of the worst case comes from "
               "pin A.");
   EXPECT_TRUE(std::isnan(values(r, "errors", "coupler_P_drawn_m")[0]));
 }
@@ -356,7 +356,7 @@ TEST(ToleranceStudy, NamesWhatIsWrong) {
               HasSubstr("the coordinate of joint 'A' is not watched; add it to watch.coordinates"));
   EXPECT_THAT(problem("error_mm = 0.15", "error_deg = 0.15"), HasSubstr("error_deg"));
   EXPECT_THAT(problem("type = \"grid\"", "type = \"grid\"\nat_change_point = \"smooth\""),
-              HasSubstr("a linkage whose lengths err has no change points"));
+              HasSubstr("a linkage whose lengths deviate has no change points"));
   EXPECT_THAT(problem("[monte_carlo]", "[quality]\noutput_joint = \"B0\"\n[monte_carlo]"),
               HasSubstr("quality: belongs to the analysis of planar.linkage"));
   const std::string slider = tolerance_example("tolerances-slider-crank");
@@ -366,7 +366,8 @@ TEST(ToleranceStudy, NamesWhatIsWrong) {
   std::string rigid = four_bar(), blind = four_bar();
   const auto from = rigid.find("# Loose pins"), to = rigid.find("# What is looked at");
   rigid.erase(from, to - from);
-  EXPECT_THAT(problems_of(rigid), HasSubstr("nothing errs; add [[clearance]] tables for loose pins"));
+  EXPECT_THAT(problems_of(rigid),
+              HasSubstr("no errors are given; add [[clearance]] tables for joint clearances"));
   const auto watched = blind.find("# What is looked at");
   blind.erase(watched, blind.find("[monte_carlo]") - watched);
   EXPECT_THAT(problems_of(blind), HasSubstr("nothing is looked at; add [[trace]] with a point"));

@@ -126,11 +126,11 @@ TEST(MotionStudy, APathThroughAConstraintSingularityFails) {
   const auto result = run_text(clear + "[limits]\ntransmission = 0.5\n");
   EXPECT_EQ(result.status, Status::singular);
   EXPECT_EQ(result.headline,
-            "It fails: step 1 (line) at 0.222832 s, 90.29 % of its way: the rods of legs 2 and 3 lie level; "
+            "It fails: step 1 (line) at 0.222832 s, 90.29 % of its path: the rods of legs 2 and 3 lie level; "
             "the platform "
             "can turn about y (constraint singularity).");
   EXPECT_EQ(fact(result, "constraint index falls to"),
-            "0.001 in step 1 (line) at 0.222415 s, 90.15 % of its way");
+            "0.001 in step 1 (line) at 0.222415 s, 90.15 % of its path");
   EXPECT_THAT(fact(result, "judged up to"), HasSubstr("step 1 (line) at 0.222415 s"));
   EXPECT_NEAR(column(result, "motion", "constraint_index").front(), 0.5750328416639233, 1e-12);
   EXPECT_NEAR(column(result, "motion", "constraint_determinant").back(), -0.08832494325551095, 1e-9);
@@ -167,7 +167,7 @@ TEST(MotionStudy, VerdictsDoNotDependOnTheTable) {
   }
   const auto out = run_text(reach);
   EXPECT_EQ(out.status, Status::no_assembly);
-  EXPECT_THAT(out.headline, HasSubstr("step 1 (line) at 0.110088 s, 96.21 % of its way: leg 1 is straight"));
+  EXPECT_THAT(out.headline, HasSubstr("step 1 (line) at 0.110088 s, 96.21 % of its path: leg 1 is straight"));
 }
 
 // The use of a drive is the largest of the path: all rows of a fine table stay below it, and come close.

@@ -454,7 +454,7 @@ TEST(ToolMotion, TellsTheShareOfTheWayOfAStep) {
   EXPECT_NEAR(motion.share_at(first + 0.5).value_or(-1), -1, 0);
   EXPECT_NEAR(*motion.share_at(first * 1.5 + 1), 0.5, 1e-12);
   EXPECT_EQ(motion.share_at(motion.duration()), 1);
-  EXPECT_THAT(motion.where_exactly(first / 2), HasSubstr(" s, 50 % of its way"));
+  EXPECT_THAT(motion.where_exactly(first / 2), HasSubstr(" s, 50 % of its path"));
 }
 
 }  // namespace

@@ -453,7 +453,7 @@ TEST(ElasticBody, SaysWhatIsWrong) {
   EXPECT_THAT(with([](ElasticBody& b) { b.body = 9; }),
               HasSubstr("elastic_body.9: body number 9 does not exist"));
   EXPECT_THAT(with([](ElasticBody& b) { b.body = 0; }),
-              HasSubstr("elastic_body.ground: the ground does not bend"));
+              HasSubstr("elastic_body.ground: the ground cannot be flexible"));
   EXPECT_THAT(refusal(l, {strip(2, 4), strip(2, 3)}), HasSubstr("elastic_body.coupler: is given twice"));
   EXPECT_THAT(with([](ElasticBody& b) { b.area = 0; }), HasSubstr("area 0 m2 and density 7850 kg/m3 must be "
                                                                   "finite and above 0"));

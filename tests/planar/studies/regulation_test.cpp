@@ -45,7 +45,7 @@ TEST(LinkageRegulationStudy, InterruptedTellsTheCycleWithoutTheFlywheel) {
   EXPECT_THAT(r.headline, HasSubstr("of its mean of 180 rpm; interrupted before the flywheel was found."));
   ASSERT_EQ(r.tables.size(), 1u);
   EXPECT_FALSE(std::isnan(r.tables[0].find("speed_rad_per_s")->values[0]));
-  EXPECT_TRUE(std::isnan(r.tables[0].find("regulated_speed_rad_per_s")->values[0]));
+  EXPECT_TRUE(std::isnan(r.tables[0].find("speed_with_flywheel_rad_per_s")->values[0]));
 }
 
 TEST(LinkageRegulationStudy, TakesASliderCrankWithoutAMotor) {

@@ -89,7 +89,7 @@ TEST(SliderPathStudyRead, APathThatEndsWhereItBeginsIsClosed) {
 TEST(SliderPathStudyRead, ObjectivesLimitsAndMethodsMustFit) {
   const std::string path = target(std::string("closed = true\n") + square);
   EXPECT_THAT(problems_of(path + "[[objective]]\ntype = \"slider.stroke\"\n"),
-              HasSubstr("the stroke alone tells nothing of the path"));
+              HasSubstr("the stroke alone says nothing about the path"));
   EXPECT_THAT(problems_of(path + both + both), HasSubstr("an objective stands twice"));
   EXPECT_THAT(problems_of(path + "[optimiser]\nmethod = \"nsga2\"\n"),
               HasSubstr("nsga2 gives fronts of several objectives"));

@@ -116,7 +116,7 @@ TEST(AxleCompliance, ParallelAndOpposing) {
   }
   const AxleResponse parallel = respond(soft, LoadCase::lateral, Pairing::parallel);
   EXPECT_NEAR(respond(held, LoadCase::lateral, Pairing::parallel).left.toe, alone, 1e-15);
-  // The force on the rack by both sides over its stiffness; the guides themselves do not hold the rack.
+  // The force on the rack by both sides over its stiffness; the suspensions themselves do not hold the rack.
   double on_rack = 0;
   const WheelLoad load = unit_load(left, LoadCase::lateral);
   for (const JointForce& joint : respond(left, load).joints)

@@ -231,7 +231,7 @@ TEST(Compliance, TwoBushingsShareTheLoad) {
   const double first = dot(moved.joints[0].force, axis), second = dot(moved.joints[1].force, axis);
   EXPECT_GT(std::abs(first), 100);
   EXPECT_NEAR(first, 2 * second, 1e-8);
-  // With the links rigid against the same load the sums are the same: the guide is determinate.
+  // With the links rigid against the same load the sums are the same: the suspension is determinate.
   const GuideForces rigid_forces =
       solve_forces(guide, prepare(guide), here, {{1000, 0, 0}, {}}, Support::spring_held);
   EXPECT_LT(distance(moved.joints[0].force + moved.joints[1].force, rigid_forces.joints[0].force), 1e-8);
@@ -351,9 +351,9 @@ TEST(Compliance, Contract) {
   EXPECT_THAT(test::message([&] { solve_compliance(guide, here, 0, {.spring = -1}, Support::spring); }),
               ::testing::StartsWith("solve_compliance: 1 problems, the first: "));
   guide.spring.reset();
-  EXPECT_THAT(
-      test::message([&] { solve_compliance(guide, here, 0, {}, Support::spring_held); }),
-      ::testing::StartsWith("solve_compliance: the support is 'spring_held', and the guide has no spring"));
+  EXPECT_THAT(test::message([&] { solve_compliance(guide, here, 0, {}, Support::spring_held); }),
+              ::testing::StartsWith(
+                  "solve_compliance: the support is 'spring_held', and the suspension has no spring"));
   EXPECT_THAT(test::message([&] {
                 solve_compliance(guide, here, 0, {}, Support::contact_held, PointLoad{{}, {0, 0, 1}});
               }),

@@ -97,7 +97,7 @@ TEST(WheelRate, Contract) {
                 const GuidePlan bare = prepare(guide);
                 wheel_rate(guide, bare, reference_position(bare), {1, 0});
               }),
-              ::testing::StartsWith("wheel_rate: the guide has no spring"));
+              ::testing::StartsWith("wheel_rate: the suspension has no spring"));
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ TEST(GuideConstraints, Contract) {
   guide = guide_sample("interconnected").guide;
   const GuidePlan plan = prepare(guide);
   EXPECT_THAT(test::message([&] { driver_value(plan, {}, 0, Driver::spring); }),
-              ::testing::HasSubstr("the driver is the spring, and the guide has none"));
+              ::testing::HasSubstr("the driver is the spring, and the suspension has none"));
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ TEST(DesignNumbers, ThatAGuideDoesNotHaveAreRefused) {
     }
     return {};
   };
-  EXPECT_NE(message({DesignKind::length, 1}).find("the guide has no number length, index 1"),
+  EXPECT_NE(message({DesignKind::length, 1}).find("the suspension has no number length, index 1"),
             std::string::npos);
   EXPECT_NE(message({DesignKind::body, 5}).find("no number body, index 5"), std::string::npos);
   EXPECT_NE(message({DesignKind::body, 0, 1}).find("point 1"), std::string::npos);

@@ -122,9 +122,9 @@ TEST(GuideLimits, OfLinksThatAreNotThereAreRefused) {
   const WheelGuide guide = guide_sample("5KS").guide;
   GuideLimits limits;
   limits.links = {{0, 5, 0.01}};
-  EXPECT_THAT(
-      [&] { limit_answers(guide, limits, {}, {}, {}); },
-      ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("a limit for link 5, the guide has 5")));
+  EXPECT_THAT([&] { limit_answers(guide, limits, {}, {}, {}); },
+              ::testing::ThrowsMessage<ContractError>(
+                  ::testing::HasSubstr("a limit for link 5, the suspension has 5")));
   limits = {};
   limits.keep_out = {{0, true, 1, {}}};
   EXPECT_THAT([&] { limit_answers(guide, limits, {}, {}, {}); },

@@ -18,7 +18,7 @@ std::string told(const Diagnostics& found) {
   return out;
 }
 
-/// All lengths of a guide by a factor.
+/// All lengths of a suspension by a factor.
 WheelGuide enlarged(const WheelGuide& guide, double factor, bool tyre) {
   WheelGuide out = guide;
   out.wheel.centre = factor * guide.wheel.centre;
@@ -62,10 +62,10 @@ TEST(Plausibility, ATyreOfAnotherUnitIsTold) {
 TEST(Plausibility, PointsOfAnotherUnitAreTold) {
   const WheelGuide& guide = guide_sample("2RS-KS").guide;
   EXPECT_THAT(told(implausible(enlarged(guide, 1000, true))),
-              AllOf(HasSubstr("error: hard_points: the farthest point of the guide lies 443"),
+              AllOf(HasSubstr("error: hard_points: the farthest point of the suspension lies 443"),
                     HasSubstr("are these millimetres in keys of metres?")));
   EXPECT_THAT(told(implausible(enlarged(guide, 0.001, true))),
-              AllOf(HasSubstr("error: hard_points: the farthest point of the guide lies 0.44"),
+              AllOf(HasSubstr("error: hard_points: the farthest point of the suspension lies 0.44"),
                     HasSubstr("are these metres in keys of millimetres?")));
   // One point of a list.
   WheelGuide one = guide;

@@ -112,10 +112,10 @@ TEST(GuidePosition, ReasonsInWords) {
               ::testing::MatchesRegex(
                   "the rack cannot pass [0-9.]+ mm at height of the wheel centre 0.000 mm, [0-9.]+ "
                   "mm short of 500.000 mm: the motion turns back there .*"));
-  EXPECT_THAT(
-      solve(plan, 0.3, 0.1).reason,
-      ::testing::MatchesRegex("the way to height of the wheel centre 300.000 mm and rack 100.000 mm ends at "
-                              "[0-9.]+ mm and [0-9.]+ mm: the motion turns back there .*"));
+  EXPECT_THAT(solve(plan, 0.3, 0.1).reason,
+              ::testing::MatchesRegex(
+                  "the motion to height of the wheel centre 300.000 mm and rack 100.000 mm ends at "
+                  "[0-9.]+ mm and [0-9.]+ mm: the motion turns back there .*"));
   WheelGuide torn = guide_sample("5KS").guide;
   torn.links[2].name = "tie rod";
   torn.links[2].length = 2.0;
@@ -130,9 +130,9 @@ TEST(GuidePosition, FromALossOfRankThereIsNoWay) {
   guide.links[4].name = "double";
   const GuidePosition found = reference_position(prepare(guide));
   EXPECT_EQ(found.status, Status::singular);
-  EXPECT_THAT(found.reason,
-              ::testing::StartsWith("at height of the wheel centre 0.000 mm and rack 0.000 mm the way on "
-                                    "is not determined: the links lose rank (smallest singular value "));
+  EXPECT_THAT(found.reason, ::testing::StartsWith(
+                                "at height of the wheel centre 0.000 mm and rack 0.000 mm the motion beyond "
+                                "is not determined: the links lose rank (smallest singular value "));
 }
 
 TEST(GuidePosition, ALimitIsSymmetricInItsStart) {

@@ -61,7 +61,7 @@ TEST(Structure, WrongCountsAreToldWithTheirSum) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].message,
             "the links take 4 of the carrier's 6 freedoms (2 RS takes 4), 5 are to be taken");
-  EXPECT_EQ(found[0].hint, "the wheel could move in 2 ways: add links");
+  EXPECT_EQ(found[0].hint, "the wheel would have 2 degrees of freedom: add links");
 
   guide = guide_sample("5KS").guide;
   guide.links.push_back(guide.links[0]);

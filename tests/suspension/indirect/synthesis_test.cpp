@@ -144,7 +144,7 @@ TEST(IndirectSynthesis, AGivenRodSettlesTheSpin) {
       EXPECT_NEAR(found.targets.poses[i].angles.spin, e.targets.poses[i].angles.spin, 1e-10);
     EXPECT_LT(constraint_error(found.guide, found.targets).gap, 1e-8);
     const PoseDeviations d = pose_deviations(found.guide, e.targets);
-    EXPECT_LT(d.x.largest, 1e-7);  // errors of 1e-8 m at most, and what the guide makes of them
+    EXPECT_LT(d.x.largest, 1e-7);  // errors of 1e-8 m at most, and what the suspension makes of them
     EXPECT_LT(d.spin.largest, 1e-6);
   }
 }

@@ -74,7 +74,7 @@ TEST(IndirectStudy, ListsEveryRodThroughSevenPositions) {
 }
 
 TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
-  // Positions of a guide with a wishbone (RS), and rods that are asked for.
+  // Positions of a suspension with a wishbone (RS), and rods that are asked for.
   const WheelGuide& guide = guide_sample("RS-3KS").guide;
   const GuidePlan plan = prepare(guide);
   const auto at = [](const Vec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); };
@@ -123,7 +123,7 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
 TEST(IndirectStudy, GoesOnFromACheckpointWithTheSameBits) {
   ::linkwright::test::expect_resumed_alike(test::kinds(),
                                            replaced(poses_example(), "count = 10 }", "count = 3 }"), 3);
-  // Positions that no exact guide takes: the links keep what they miss.
+  // Positions that no exact suspension takes: the links keep what they miss.
   ::linkwright::test::expect_resumed_alike(
       test::kinds(),
       replaced(replaced(poses_example(), "toe_deg = -6.688676046", "toe_deg = -5.5"), "count = 10 }",
@@ -156,7 +156,7 @@ TEST(IndirectStudy, SaysWhatItLacksWhenPositionsCannotBeTaken) {
   const study::Result result =
       run_text(replaced(poses_example(), "toe_deg = -6.688676046", "toe_deg = -5.5"));
   EXPECT_NE(result.status, Status::done);
-  EXPECT_THAT(result.headline, HasSubstr("No exact wheel guide found"));
+  EXPECT_THAT(result.headline, HasSubstr("No exact wheel suspension found"));
   EXPECT_EQ(result.statistics.find("success_rate")->as_number(), 0);
 }
 

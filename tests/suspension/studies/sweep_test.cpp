@@ -147,7 +147,7 @@ TEST(SweepStudy, TellsWhyAQuantityHasNoValues) {
   EXPECT_THAT(to_string(result.diagnostics[2]), HasSubstr("'arm_planes' has no values: no link is an arm"));
   EXPECT_THAT(
       problems_of(sample("front_5KS", sweep + "[sensitivity]\nquantities = [\"geometric_caster\"]\n")),
-      HasSubstr("sensitivity.quantities: this guide has no 'geometric_caster': no ball joint"));
+      HasSubstr("sensitivity.quantities: this suspension has no 'geometric_caster': no ball joint"));
 }
 
 TEST(SweepStudyRead, NamesWhatIsWrongWithTheSweep) {

@@ -126,7 +126,7 @@ TEST(Steering, NothingToSteer) {
                 const GuidePlan bare = prepare(guide);
                 steering_parameters(bare, reference_position(bare), Driver::spring);
               }),
-              ::testing::StartsWith("steering_parameters: the spring is held, and the guide has none"));
+              ::testing::StartsWith("steering_parameters: the spring is held, and the suspension has none"));
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ struct DesignMassesForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignMassesForm& m) {
-  visit(Field{.key = "coupler", .summary = "from the loose pin to the rocker"}, m.coupler);
+  visit(Field{.key = "coupler", .summary = "from the clearance joint to the rocker"}, m.coupler);
   visit(Field{.key = "rocker", .summary = "from its pivot to the coupler"}, m.rocker);
 }
 
@@ -139,7 +139,7 @@ void fields(Visitor&& visit, DesignMechanismForm& m) {
     visit(Field{.key = "crank_rotates_fully", .summary = "the crank turns fully and is the shortest link"},
           m.crank_rotates_fully);
   visit(Field{.key = "parameters",
-              .summary = "lengths: numbers, or { min, max } where they are designed",
+              .summary = "lengths: fixed numbers, or { min, max } for design variables",
               .required = m.target == DesignTarget::masses},
         m.parameters);
   if (m.target == DesignTarget::lengths) return;
@@ -154,7 +154,7 @@ struct DesignDriveForm {
 template <class Visitor>
 void fields(Visitor&& visit, DesignDriveForm& d) {
   visit(Field{.key = "speed",
-              .summary = "of the crank, which turns evenly; counter-clockwise positive",
+              .summary = "of the crank, which rotates uniformly; counter-clockwise positive",
               .dimension = Dimension::speed_angular,
               .minimum = -1e6,
               .maximum = 1e6,

@@ -273,7 +273,7 @@ study::Kind kind_of(DesignTarget target) {
   kind.summary = target == DesignTarget::lengths
                      ? "lengths of a four-bar for a path although its crank pin has clearance"
                  : target == DesignTarget::masses
-                     ? "masses of a four-bar that keep a loose crank pin pressed into its bush"
+                     ? "masses of a four-bar that keep its crank pin, a clearance joint, in contact"
                      : "lengths and masses of a four-bar whose crank pin has clearance, in turn or at once";
   kind.example = example_of(target);
   kind.schema = [target](study::SchemaWriter& document) {

@@ -433,14 +433,15 @@ class DesignReporter {
       warn(
           "no motion that repeats itself was found; tables and tension are of the first turn from the wanted "
           "phase",
-          "allow more mass at the loose pin");
+          "allow more mass at the clearance joint");
     if (d_.run.status != Status::done) warn(fmt::format("the turn ends early: {}", d_.run.message));
     if (lost(d_))
       warn(fmt::format(
                "pin and bush part at a crank angle of {:.1f}° (least tension {:.4g} N at {:.1f}°): what "
                "follows is outside of the model",
                wrapped_degrees(separation_angle(d_)), d_.run.least_tension, wrapped_degrees(d_.least_at)),
-           "simulate it with model = \"contact\", or allow a heavier coupler with its mass at the loose pin");
+           "simulate it with model = \"contact\", or allow a heavier coupler with its mass at the clearance "
+           "joint");
   }
 
   void headline() {

@@ -149,7 +149,7 @@ class Facts {
     }
     fact("model", fmt::format("pin {} parted from its bush at {:.6g} s{}; from there on real contact{}",
                               name(at(r_.parted)), r_.switched, where_switched(),
-                              s_.pins() > 1 ? " of all loose pins" : ""));
+                              s_.pins() > 1 ? " of all clearance joints" : ""));
   }
   void contact_facts() {
     if (!(duration() > 0)) return;
@@ -211,7 +211,7 @@ class Facts {
              "restitution = {:g} of '{}': by {} an impact gives back {:.3g} of its speed, with {:.3g} "
              "times the force and {:.3g} times the depth of an elastic one",
              law.restitution, name(k), name_of(law.damping), shape.restitution, shape.force, shape.depth),
-         fmt::format("from {:g} on the law is within {:g} % of what it is told",
+         fmt::format("from {:g} on the law is within {:g} % of the given value",
                      least_restitution(law.damping, far_restitution), 100 * far_restitution));
   }
   void continuous_facts() {

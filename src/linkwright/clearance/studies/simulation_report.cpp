@@ -279,7 +279,7 @@ class SimulationReporter {
       for (const char* end : {"_time_share_x", "_time_share_y"}) times.push_back(key(k) + end);
       angles.push_back(key(k) + (contact() ? "_contact_angle_rad" : "_lead_rad"));
     }
-    plot("hodograph", "Ways of the pins in their bushes", "hodograph", "", hodograph, Style::polar);
+    plot("hodograph", "Paths of the pins in their bushes", "hodograph", "", hodograph, Style::polar);
     plot("contact-forces",
          contact() ? "Contact forces" : "Tension of the clearance links: contact while positive", "pins",
          "time_s", forces);

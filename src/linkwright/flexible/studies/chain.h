@@ -18,8 +18,7 @@ namespace linkwright::flexible {
 enum class StartForm { undeformed, equilibrium };
 constexpr std::array<EnumName<StartForm>, 2> names(StartForm) {
   return {{{StartForm::undeformed, "undeformed", "straight links"},
-           {StartForm::equilibrium, "equilibrium",
-            "links bent as their weight bends them with hub and hinges held"}}};
+           {StartForm::equilibrium, "equilibrium", "links bent by their weight, with hub and hinges held"}}};
 }
 
 /// `[simulation]`.
@@ -44,9 +43,9 @@ void fields(Visitor&& visit, SimulationForm& s) {
         s.tolerance);
   visit(Field{.key = "modes", .summary = "frequencies in the table of modes", .minimum = 1, .maximum = 20},
         s.modes);
-  visit(
-      Field{.key = "compare_divisions", .summary = "again with twice the divisions, and tell the difference"},
-      s.compare_divisions);
+  visit(Field{.key = "compare_divisions",
+              .summary = "repeat with twice the divisions and report the difference"},
+        s.compare_divisions);
   visit(
       Field{.key = "deflection_scale",
             .summary = "how many times as large the scene draws the bending; default: to scale where it can "

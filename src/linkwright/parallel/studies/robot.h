@@ -191,7 +191,7 @@ void fields(Visitor&& visit, DriveForm& d) {
   visit(Field{.key = "mirrored", .summary = "Pi-joint: theta turns against the arm angle"}, d.mirrored);
   visit(robot_fields::angle("travel", "lowest and highest angle: theta of a Pi-joint, or the arm's"),
         d.travel);
-  visit(positive("lead", "Pi-joint: way of the screw for one turn", Dimension::length), d.lead);
+  visit(positive("lead", "Pi-joint: travel of the screw for one turn", Dimension::length), d.lead);
   visit(positive("gear_ratio", "motor at the pivot: turns of the motor for one of the arm", Dimension::none),
         d.gear_ratio);
   visit(Field{.key = "efficiency",

@@ -48,7 +48,7 @@ class ToolMotion {
 
   /// Share of the way of its step that has been gone, in [0, 1]; nothing for a rest and for a table.
   std::optional<double> share_at(double t) const;
-  /// "step 3 (arc) at 0.412 s, 63.51 % of its way"
+  /// "step 3 (arc) at 0.412 s, 63.51 % of its path"
   std::string where_exactly(double t) const;
 
   /// Times between which the path and its law are smooth, from 0 to the duration, increasing.

@@ -133,7 +133,7 @@ std::vector<std::string> limit_texts(const BalancingProblem& p,
     if (a.kind == optimise::LimitKind::objective)
       text += fmt::format(" (share {:.2f})", a.price);
     else if (std::abs(a.price_per_cent) > least_price)
-      text += fmt::format(" (1 % more room: {:.3g} less)", a.price_per_cent);
+      text += fmt::format(" (relaxed by 1 %: {:.3g} less)", a.price_per_cent);
     out.push_back(std::move(text));
   }
   return out;

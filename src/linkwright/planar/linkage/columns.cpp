@@ -15,7 +15,7 @@ std::string group_key(std::string name) {
 
 const std::vector<Word>& linkage_quantity_words() {
   static const std::vector<Word> words = {
-      {"position", "angles and origins of the bodies, ways of the slides, traced points"},
+      {"position", "angles and origins of the bodies, displacements of the slides, traced points"},
       {"rates", "their speeds and accelerations"},
       {"reactions", "forces and moments in the joints"},
       {"drive", "torques and forces of the drives"},

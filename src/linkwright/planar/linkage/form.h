@@ -193,7 +193,7 @@ void fields(Visitor&& visit, AssemblyForm& a) {
                   "block of a slot",
               .required = true},
         a.bodies);
-  visit(Field{.key = "mode", .summary = "which of the two ways", .required = true}, a.mode);
+  visit(Field{.key = "mode", .summary = "which of the two assembly modes", .required = true}, a.mode);
 }
 template <class Visitor>
 void fields(Visitor&& visit, SpringForm& s) {

@@ -69,7 +69,7 @@ class Builder {
     ElasticBody beam = given_[e];
     if (beam.body < 0 || at(beam.body) >= rigid_.bodies.size())
       return error(beam, fmt::format("body number {} does not exist", beam.body), {});
-    if (beam.body == 0) return error(beam, "the ground does not bend", "name a moving body");
+    if (beam.body == 0) return error(beam, "the ground cannot be flexible", "name a moving body");
     for (std::size_t k = 0; k < e; ++k)
       if (given_[k].body == beam.body) return error(beam, "is given twice", "once a body is enough");
     const std::size_t before = out_.problems.size();

@@ -298,7 +298,7 @@ class Simulation {
     if (dynamics_.motion.failed_group >= 0)
       return "the start does not work: " + assembly_gap_text(plan_, dynamics_.motion, 0, inputs_[0].value);
     if (status == Status::singular)
-      return "a free joint moves no mass, so that forces do not tell how it goes";
+      return "a free joint moves no mass, so its motion does not follow from the forces";
     if (status == Status::self_locking)
       return fmt::format("friction locks the linkage at the start, with {}: {}", stands(), jams);
     if (status == Status::not_converged) return "the joint forces of the start do not settle";

@@ -30,7 +30,7 @@ void fields(Visitor&& visit, ElasticBodyForm& f) {
                 .required = true},
           value);
   };
-  visit(Field{.key = "body", .summary = "body that bends", .required = true}, f.body);
+  visit(Field{.key = "body", .summary = "flexible body", .required = true}, f.body);
   visit(Field{.key = "from", .summary = "its point where the beam begins; default: at a joint"}, f.from);
   visit(Field{.key = "to", .summary = "its point where the beam ends; default: at another joint"}, f.to);
   visit(Field{.key = "segments",

@@ -168,7 +168,7 @@ class ElasticRecorder {
                                {}});
       else if (joint.type == JointType::prismatic)
         out_.errors.push_back({identifier(joint.name) + "_displacement_error_m",
-                               joint.name + " way error (m)",
+                               joint.name + " displacement error (m)",
                                OutputError::Of::way,
                                j,
                                {}});

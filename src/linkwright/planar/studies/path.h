@@ -75,7 +75,7 @@ template <class Visitor>
 void fields(Visitor&& visit, PathMechanism& m) {
   visit(Field{.key = "branch", .summary = "assembly branch to search"}, m.branch);
   visit(Field{.key = "sense", .summary = "sense of crank rotation to search"}, m.sense);
-  visit(Field{.key = "parameters", .summary = "fixed numbers, or { min, max } for designed ones"},
+  visit(Field{.key = "parameters", .summary = "fixed numbers, or { min, max } for design variables"},
         m.parameters);
 }
 

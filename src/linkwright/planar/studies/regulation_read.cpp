@@ -94,7 +94,8 @@ study::Kind linkage_regulation_kind() {
   study::Kind kind = kind_of(LinkageType::linkage);
   kind.mechanism = "planar.linkage";
   kind.summary =
-      "evenness of a planar linkage that goes round: reduced inertia, flywheel, cycle with a motor";
+      "speed fluctuation of a planar linkage whose input rotates fully: reduced inertia, flywheel, cycle "
+      "with a motor";
   kind.example = R"(# linkwright study: flywheel and motor of a planar linkage
 schema = 1
 kind   = "speed_fluctuation"
@@ -180,7 +181,7 @@ fluctuation    = 0.05
 study::Kind slider_crank_regulation_kind() {
   study::Kind kind = kind_of(LinkageType::slider_crank);
   kind.mechanism = "planar.slider_crank";
-  kind.summary = "evenness of a slider-crank that goes round: reduced inertia and flywheel";
+  kind.summary = "speed fluctuation of a slider-crank that rotates fully: reduced inertia and flywheel";
   kind.example = R"(# linkwright study: how evenly a slider-crank runs
 schema = 1
 kind   = "speed_fluctuation"

@@ -57,22 +57,23 @@ study::Result run_linkage_regulation(const LinkageRegulationStudy& s, RunContext
   table.add(key, label, cycle.input);
   table.add("inertia_kg_m2", "reduced inertia (kg m2)", cycle.inertia);
   table.add("load_torque_N_m", "torque of weight and loads on the input (N m)", cycle.torque);
-  table.add("excess_energy_J", "energy brought in with an even motor torque (J)", cycle.energy);
+  table.add("excess_energy_J", "excess energy with a constant motor torque (J)", cycle.energy);
   table.add("speed_rad_per_s", "speed without flywheel (rad/s)", cycle.speed);
-  table.add("regulated_speed_rad_per_s", "speed with flywheel (rad/s)", cycle.regulated);
+  table.add("speed_with_flywheel_rad_per_s", "speed with flywheel (rad/s)", cycle.regulated);
   table.status.assign(cycle.input.size(), "done");
   result.tables.push_back(std::move(table));
   result.scenes.push_back(drawn(s, cycle));
   add_plot(result, "inertia", "Reduced inertia", "cycle", {"inertia_kg_m2"});
   add_plot(result, "torque", "Torque of weight and loads on the input", "cycle", {"load_torque_N_m"});
-  add_plot(result, "energy", "Excess of energy with an even motor torque", "cycle", {"excess_energy_J"});
+  add_plot(result, "energy", "Excess energy with a constant motor torque", "cycle", {"excess_energy_J"});
   add_plot(result, "speed", "Speed without and with the flywheel", "cycle",
-           {"speed_rad_per_s", "regulated_speed_rad_per_s"});
+           {"speed_rad_per_s", "speed_with_flywheel_rad_per_s"});
   const auto fact = [&](std::string name, std::string text) {
     result.facts.push_back({std::move(name), std::move(text), study::Fact::Verdict::plain});
   };
-  fact("motor torque, even", fmt::format("{:.6g} N m ({:.5g} W at {:.5g} rpm)", cycle.motor_torque,
-                                         cycle.motor_torque * s.setup.mean_speed, rpm(s.setup.mean_speed)));
+  fact("constant motor torque",
+       fmt::format("{:.6g} N m ({:.5g} W at {:.5g} rpm)", cycle.motor_torque,
+                   cycle.motor_torque * s.setup.mean_speed, rpm(s.setup.mean_speed)));
   fact("fluctuation of energy", fmt::format("{:.6g} J", cycle.energy_fluctuation));
   fact("coefficient of fluctuation without flywheel", fmt::format("{:.5g}", cycle.fluctuation));
   const bool found = cycle.status == Status::done;  // else interrupted, with the cycle, without the flywheel

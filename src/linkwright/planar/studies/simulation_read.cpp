@@ -37,8 +37,9 @@ void fields(Visitor&& visit, LinkageSimulationStudy& s) {
               .maximum = 1e-2},
         s.options.relative_tolerance);
   visit(Field{.key = "atol",
-              .summary = "absolute tolerance of a step: rad, rad/s; of ways times the size of the linkage; "
-                         "default with elastic bodies: 1e-7",
+              .summary =
+                  "absolute tolerance of a step: rad, rad/s; of displacements times the size of the linkage; "
+                  "default with elastic bodies: 1e-7",
               .minimum = 1e-16,
               .maximum = 1e-2},
         s.options.absolute_tolerance);
@@ -167,9 +168,10 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
     if (!(s.to > s.from) && !document.document().has_errors())
       table->error("to", fmt::format("the simulation ends at {} s, but starts at {} s", s.to, s.from), {});
     if (s.deflection_scale && !elastic)
-      table->error("deflection_scale", "no body bends", "add an [[elastic]] table, or leave the key out");
+      table->error("deflection_scale", "no body is flexible",
+                   "add an [[elastic]] table, or leave the key out");
     if (s.settle > 0 && !elastic)
-      table->error("settle", "no body bends", "add an [[elastic]] table, or start earlier by from");
+      table->error("settle", "no body is flexible", "add an [[elastic]] table, or start earlier by from");
   }
   if (s.route == SimulationRoute::all_coordinates && s.options.method == math::OdeMethod::adams)
     document.error("simulation", "all_coordinates are projected after every step, which adams does not allow",
@@ -192,7 +194,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
       std::any_of(s.courses.begin(), s.courses.end(), [](const InputCourse& c) { return !c.law; });
   if (!any_free && !elastic && !document.document().has_errors())
     document.error("drive", "every drive has a motion law: nothing is left for forces to move",
-                   "write free = true in a [[drive]], let a body bend by [[elastic]], or take kind = "
+                   "write free = true in a [[drive]], make a body flexible by [[elastic]], or take kind = "
                    "\"analysis\" with a sweep over time");
   if (s.settle > 0 && any_free)
     document.error("simulation.settle", "a joint is free: it would not be where its drive says at `from`",

@@ -108,9 +108,9 @@ class SimulationRunner {
           rates.push_back(identifier(input_joint(l, k).name) +
                           (rotary ? "_joint_speed_rad_per_s" : "_joint_speed_m_per_s"));
         }
-      plot(rotary ? "joint-angles" : "joint-ways", rotary ? "Joint angles" : "Joint ways", values);
-      plot(rotary ? "joint-speeds" : "joint-way-speeds", rotary ? "Joint speeds" : "Speeds of the ways",
-           rates);
+      plot(rotary ? "joint-angles" : "joint-displacements", rotary ? "Joint angles" : "Joint displacements",
+           values);
+      plot(rotary ? "joint-speeds" : "slide-speeds", rotary ? "Joint speeds" : "Slide speeds", rates);
     }
     plot("energies", "Energies", {"kinetic_energy_J", "potential_energy_J", "work_J"});
     plot("energy-audit", "Energy audit: what does not balance", {"energy_drift_J"});

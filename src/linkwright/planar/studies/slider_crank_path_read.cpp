@@ -170,7 +170,7 @@ void set_objectives(study::ObjectReader& document, SliderPathStudy& s) {
   if (paths > 1 || strokes > 1)
     document.error("objective", "an objective stands twice", "keep each of them once");
   else if (strokes == 1 && paths == 0)
-    document.error("objective", "the stroke alone tells nothing of the path",
+    document.error("objective", "the stroke alone says nothing about the path",
                    "add [[objective]] type = \"path.sum_squared_distance\", or limit the stroke by a "
                    "constraint instead");
   s.front = strokes == 1;

@@ -337,7 +337,7 @@ Compliance solve_compliance(const WheelGuide& guide, const GuidePlace& place, do
     LINKWRIGHT_REQUIRE(problems.empty(), "{} problems, the first: {}", problems.size(),
                        to_string(problems.front()));
   const bool by_spring = support == Support::spring || support == Support::spring_held;
-  LINKWRIGHT_REQUIRE(guide.spring || !by_spring, "the support is '{}', and the guide has no spring",
+  LINKWRIGHT_REQUIRE(guide.spring || !by_spring, "the support is '{}', and the suspension has no spring",
                      name_of(support));
   LINKWRIGHT_REQUIRE(guide.spring || !preload, "the preload needs a spring that carries it");
 

@@ -9,7 +9,7 @@
 #include "linkwright/suspension/compliance/elasticity.h"
 #include "linkwright/suspension/guide/constraints.h"
 
-/// The bodies and elastic elements of a guide at a position, as `solve_compliance` puts them together.
+/// The bodies and elastic elements of a suspension at a position, as `solve_compliance` puts them together.
 namespace linkwright::suspension {
 
 /// In the place of a body's number: the vehicle body, which stands still.
@@ -61,8 +61,8 @@ struct ElasticAssembly {
 };
 
 /// Bodies: the carrier with its origin at the wheel centre, then each link but R and S, its origin at the
-/// first body point as it stands. The stiffnesses have to be free of what `check` finds. The guide has to
-/// outlive the assembly.
+/// first body point as it stands. The stiffnesses have to be free of what `check` finds. The suspension has
+/// to outlive the assembly.
 ElasticAssembly assemble(const WheelGuide& guide, const GuidePlace& place, double rack,
                          const GuideElasticity& elasticity);
 

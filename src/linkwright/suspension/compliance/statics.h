@@ -4,7 +4,7 @@
 
 namespace linkwright::suspension {
 
-/// Forces in the joints of a guide with rigid links for a load on its carrier.
+/// Forces in the joints of a suspension with rigid links for a load on its carrier.
 struct GuideForces {
   Status status = Status::done;    ///< singular: at a fold
   std::vector<JointForce> joints;  ///< links in their order, joint at the body first; R and S have only that

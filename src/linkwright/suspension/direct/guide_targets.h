@@ -9,7 +9,7 @@
 #include "linkwright/suspension/wheel/derivatives.h"
 #include "linkwright/suspension/wheel/quantities.h"
 
-/// What a wheel guide is to show, and how near it comes.
+/// What a wheel suspension is to show, and how near it comes.
 namespace linkwright::suspension {
 
 /// Tolerance of a target value: `least` up to a size of `from`, `slope` more per unit above (Poznanovic 2016,

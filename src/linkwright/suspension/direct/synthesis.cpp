@@ -361,7 +361,7 @@ DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, con
 
 DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, std::span<const double> u) {
   const DirectModel model(task, options);
-  LINKWRIGHT_REQUIRE(u.size() == model.size(), "{} shares of {} designed numbers", u.size(), model.size());
+  LINKWRIGHT_REQUIRE(u.size() == model.size(), "{} shares of {} design variables", u.size(), model.size());
   DirectSynthesis out = assessed(model, u);
   complete(model, options, u, out);
   out.status = out.answer.assembled && missed(options, out) == 0 ? Status::done : Status::infeasible;

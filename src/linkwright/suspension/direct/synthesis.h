@@ -12,10 +12,10 @@
 #include "linkwright/suspension/direct/guide_targets.h"
 #include "linkwright/suspension/guide/limits.h"
 
-/// Wheel guides from what their wheels are to do (Poznanovic 2016, section 5.4).
+/// Wheel suspensions from what their wheels are to do (Poznanovic 2016, section 5.4).
 namespace linkwright::suspension {
 
-/// A wheel guide to be found: objectives, most important first, and limits.
+/// A wheel suspension to be found: objectives, most important first, and limits.
 struct DirectTask {
   WheelGuide guide;  ///< what is given; of designed numbers where a search may begin
   std::vector<DesignedNumber> designed;

@@ -82,7 +82,7 @@ double reach(const GuidePlan& plan) {
 std::vector<Assembly> assemblies(const GuidePlan& plan, Driver driver, const GuideInput& input,
                                  std::uint64_t seed, int starts) {
   LINKWRIGHT_REQUIRE(starts > 0, "{} starts", starts);
-  LINKWRIGHT_REQUIRE(driver != Driver::spring || plan.spring, "the guide has no spring");
+  LINKWRIGHT_REQUIRE(driver != Driver::spring || plan.spring, "the suspension has no spring");
   const double far = 2 * reach(plan);
   std::vector<Assembly> found;
   for (int i = 0; i < starts; ++i) {

@@ -11,7 +11,7 @@ namespace {
 
 void require_spring(const GuidePlan& plan, Driver driver) {
   LINKWRIGHT_REQUIRE(driver != Driver::spring || plan.spring,
-                     "the driver is the spring, and the guide has none");
+                     "the driver is the spring, and the suspension has none");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "linkwright/suspension/guide/constructions.h"
 #include "linkwright/suspension/guide/suspension.h"
 
-/// The equations of a wheel guide: residuals of its joints and of a driver, with exact derivatives.
+/// The equations of a wheel suspension: residuals of its joints and of a driver, with exact derivatives.
 namespace linkwright::suspension {
 
 /// Which coordinate is prescribed beside the rack, as a change from the reference (m).
@@ -18,8 +18,8 @@ constexpr std::array<EnumName<Driver>, 3> names(Driver) {
            {Driver::spring, "spring", "length of the spring, longer positive"}}};
 }
 
-/// Where a guide stands: the carrier, and the angle (rad, from the reference, right-handed from the first to
-/// the second body point) of its RR arm if it has one.
+/// Where a suspension stands: the carrier, and the angle (rad, from the reference, right-handed from the
+/// first to the second body point) of its RR arm if it has one.
 template <class T>
 struct BasicGuidePlace {
   BasicCarrierPose<T> carrier;
@@ -27,8 +27,8 @@ struct BasicGuidePlace {
 };
 using GuidePlace = BasicGuidePlace<double>;
 
-/// Rates of a guide: velocity of the wheel centre (m/s), angular velocity of the carrier (rad/s), rate of the
-/// arm.
+/// Rates of a suspension: velocity of the wheel centre (m/s), angular velocity of the carrier (rad/s), rate
+/// of the arm.
 template <class T>
 struct BasicTwist {
   Vector3<T> velocity;
@@ -88,7 +88,7 @@ struct BasicSpringConstants {
 };
 using SpringConstants = BasicSpringConstants<double>;
 
-/// A guide made ready for solving. Make it with `prepare`.
+/// A suspension made ready for solving. Make it with `prepare`.
 template <class T>
 struct BasicGuidePlan {
   Side side = Side::left;
@@ -105,7 +105,8 @@ struct BasicGuidePlan {
 };
 using GuidePlan = BasicGuidePlan<double>;
 
-/// Throws ContractError for a guide that `check` finds errors in, or whose constraints do not add up to five.
+/// Throws ContractError for a suspension that `check` finds errors in, or whose constraints do not add up to
+/// five.
 GuidePlan prepare(const WheelGuide& guide);
 
 inline constexpr int most_unknowns = 7;

@@ -7,7 +7,7 @@
 
 namespace linkwright::suspension {
 
-/// Kinds of numbers that a wheel guide is designed by.
+/// Kinds of numbers that a wheel suspension is designed by.
 enum class DesignKind {
   body,
   carrier,
@@ -35,7 +35,7 @@ constexpr std::array<EnumName<DesignKind>, 11> names(DesignKind) {
            {DesignKind::wheel_camber, "wheel_camber", "camber at the reference"}}};
 }
 
-/// One number of a wheel guide (m; rad for angles; a share for the fraction of a coupler).
+/// One number of a wheel suspension (m; rad for angles; a share for the fraction of a coupler).
 struct DesignNumber {
   DesignKind kind = DesignKind::body;
   int index = 0;  ///< of the link or coupler
@@ -45,8 +45,8 @@ struct DesignNumber {
   friend bool operator==(const DesignNumber&, const DesignNumber&) = default;
 };
 
-/// The place of a number in a guide. Throws ContractError for one that the guide does not have; a length has
-/// to be prescribed.
+/// The place of a number in a suspension. Throws ContractError for one that the suspension does not have; a
+/// length has to be prescribed.
 template <class T>
 T& at(BasicWheelGuide<T>& guide, const DesignNumber& number);
 double at(const WheelGuide& guide, const DesignNumber& number);
@@ -56,7 +56,7 @@ double at(const WheelGuide& guide, const DesignNumber& number);
 std::string label(const WheelGuide& guide, const DesignNumber& number);
 
 /// All coordinates of the points of links, prescribed lengths, couplers and the spring, in the order of the
-/// guide.
+/// suspension.
 std::vector<DesignNumber> hard_points(const WheelGuide& guide);
 
 }  // namespace linkwright::suspension

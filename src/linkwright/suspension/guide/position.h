@@ -15,7 +15,7 @@ struct GuideInput {
   double rack = 0;
 };
 
-/// Where a guide stands, or how far it got.
+/// Where a suspension stands, or how far it got.
 struct GuidePosition {
   /// done; no_assembly: the input lies beyond what the links reach, or the links do not meet at all;
   /// singular: at the start the links lose rank, so that no way on is determined.

@@ -207,7 +207,7 @@ Diagnostics check_structure(const WheelGuide& guide) {
     out.key = "links";
     out.message = fmt::format("the links take {} of the carrier's 6 freedoms ({}), 5 are to be taken", held,
                               structure.empty() ? "there are none" : count_of(structure, couplers));
-    out.hint = held < 5 ? fmt::format("the wheel could move in {} ways: add links", freedoms)
+    out.hint = held < 5 ? fmt::format("the wheel would have {} degrees of freedom: add links", freedoms)
                         : "redundant links need elastic joints: rigid ones would lock, or fit by luck";
     return found;
   }

@@ -8,7 +8,7 @@
 
 namespace linkwright::suspension {
 
-/// The links of a wheel guide by type, as in "SR-3KS".
+/// The links of a wheel suspension by type, as in "SR-3KS".
 using Structure = std::vector<LinkType>;
 
 struct ParsedStructure {
@@ -32,9 +32,9 @@ int design_parameters(LinkType type);
 /// One is needed; steering is a second input that moves body points and takes none.
 int mobility(const Structure& structure, int couplers = 0);
 
-/// The twelve basic wheel guides (chapter 3; its text says thirteen, its table has twelve): all sets of links
-/// with one freedom, at most one strut, and no ball joint beside a link that would be left free to turn about
-/// the line through both (S with RS, SR or SP). Fewest links first.
+/// The twelve basic wheel suspensions (chapter 3; its text says thirteen, its table has twelve): all sets of
+/// links with one freedom, at most one strut, and no ball joint beside a link that would be left free to turn
+/// about the line through both (S with RS, SR or SP). Fewest links first.
 std::vector<Structure> basic_structures();
 
 /// The motion that the equations hold least at a place: smallest singular value of their Jacobian, turns
@@ -46,11 +46,11 @@ struct WeakMotion {
 };
 WeakMotion weakest_motion(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver);
 
-/// Whether the guide moves as a wheel guide must: everything of `check`, then the count of freedoms, then the
-/// rank of the constraints with the height of the wheel centre held, at the reference position. A rank loss
-/// is an error that names what is left free; a guide within `poor_rank` of one (in metres a radian, turns
-/// taken at the tyre's radius) gets a warning. With prescribed lengths the reference is no position, and the
-/// rank there is a guide only.
+/// Whether the suspension moves as a wheel suspension must: everything of `check`, then the count of
+/// freedoms, then the rank of the constraints with the height of the wheel centre held, at the reference
+/// position. A rank loss is an error that names what is left free; a suspension within `poor_rank` of one (in
+/// metres a radian, turns taken at the tyre's radius) gets a warning. With prescribed lengths the reference
+/// is no position, and the rank there is a suspension only.
 Diagnostics check_structure(const WheelGuide& guide);
 
 inline constexpr double poor_rank = 0.01;  ///< singular value, see weakest_motion

@@ -9,9 +9,9 @@
 #include "linkwright/core/field.h"
 #include "linkwright/math/vector3.h"
 
-/// Wheel guides: the mechanisms between a vehicle body and a wheel carrier (Poznanovic 2016). The body is
-/// fixed. Frame of the vehicle: x forward, y to the left, z up, y = 0 in the middle; m, rad. All points are
-/// given in it, at the reference position. Templates take the scalar: plain numbers, or dual numbers that
+/// Wheel suspensions: the mechanisms between a vehicle body and a wheel carrier (Poznanovic 2016). The body
+/// is fixed. Frame of the vehicle: x forward, y to the left, z up, y = 0 in the middle; m, rad. All points
+/// are given in it, at the reference position. Templates take the scalar: plain numbers, or dual numbers that
 /// carry derivatives along.
 namespace linkwright::suspension {
 
@@ -92,7 +92,7 @@ struct BasicGuideWheel {
 };
 using GuideWheel = BasicGuideWheel<double>;
 
-/// A wheel guide: plain data.
+/// A wheel suspension: plain data.
 template <class T>
 struct BasicWheelGuide {
   Side side = Side::left;

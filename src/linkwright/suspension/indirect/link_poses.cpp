@@ -105,7 +105,7 @@ Vec3 coupler_begin(const WheelGuide& guide, const Coupler& coupler, const GuideP
 }
 
 Vec3 spring_end(const WheelGuide& guide, const GuidePlace& at, double rack) {
-  LINKWRIGHT_REQUIRE(guide.spring, "the guide has no spring");
+  LINKWRIGHT_REQUIRE(guide.spring, "the suspension has no spring");
   const GuideSpring& spring = *guide.spring;
   if (spring.link < 0) return place(at.carrier, spring.moving, guide.wheel.centre);
   const GuideLink& link = guide.links.at(spring.link);

@@ -59,7 +59,7 @@ WheelGuide strut_as_printed();
 std::span<const double> published_run();
 inline constexpr double published_run_objective = 2.2477179192e-9;
 
-/// Positions to be taken, computed from the guide at the inputs of its table, with all digits.
+/// Positions to be taken, computed from the suspension at the inputs of its table, with all digits.
 CarrierTargets published_targets(const PublishedGuide& guide);
 
 /// The tasks of the source: boxes of 150 mm, placed at random so that they hold the true coordinate. Given

@@ -14,8 +14,8 @@
 
 namespace linkwright::suspension {
 
-/// A wheel guide to be found from positions of its carrier. The wheel needs its tyre diameter: at its radius
-/// turns count in the check of the rank.
+/// A wheel suspension to be found from positions of its carrier. The wheel needs its tyre diameter: at its
+/// radius turns count in the check of the rank.
 struct IndirectTask {
   CarrierTargets targets;
   std::vector<LinkTask> links;
@@ -23,8 +23,8 @@ struct IndirectTask {
 };
 
 struct IndirectSynthesis {
-  /// done: all links are exact and the guide moves as it should; not_converged, infeasible: of the links or
-  /// couplers, or of a rod that cannot settle the spins; singular: exact links that leave the carrier a
+  /// done: all links are exact and the suspension moves as it should; not_converged, infeasible: of the links
+  /// or couplers, or of a rod that cannot settle the spins; singular: exact links that leave the carrier a
   /// further freedom, see `findings`; deadline, cancelled: the best so far.
   Status status = Status::infeasible;
   std::vector<LinkFit> links;  ///< each with its own status

@@ -68,7 +68,7 @@ struct SpinFit {
   std::int64_t evaluations = 0;
 };
 
-/// Finds all links and couplers of a wheel guide at once when positions do not prescribe the spin of the
+/// Finds all links and couplers of a wheel suspension at once when positions do not prescribe the spin of the
 /// carrier (Poznanovic 2016, section 5.3.5). Every spin that is NaN is an unknown, which enters the errors of
 /// its own position only, or follows from the source's quadratic or dyad, see SpinTechnique. Where positions
 /// are complete it is a least-squares fit of everything together.

@@ -136,7 +136,7 @@ class TargetReader {
     c.column = guide_column(bases[*which]);
     if (!s_.description.guide.links.empty())
       if (const std::string why = why_missing(s_.description.guide, *c.column); !why.empty())
-        table.error("quantity", fmt::format("this guide has no '{}': {}", bases[*which], why));
+        table.error("quantity", fmt::format("this suspension has no '{}': {}", bases[*which], why));
     if (c.objective.empty()) c.objective = bases[*which];
     const Dimension dimension = dimension_of(*c.column, c.measure);
     const auto number = [&](std::string_view key, double least) {
@@ -416,7 +416,7 @@ study::Kind direct_kind() {
   kind.mechanism = "suspension.corner";
   kind.target = "wheel_parameters";
   kind.summary =
-      "wheel guide from what its wheel is to do: toe, camber, track, roll centre ... (direct synthesis)";
+      "wheel suspension from what its wheel is to do: toe, camber, track, roll centre ... (direct synthesis)";
   kind.seeded = true;
   kind.example =
       R"(# linkwright study: less bump steer of a double wishbone, only the inner point of the tie rod being free
@@ -490,7 +490,7 @@ seeds  = { first = 1, count = 1 }
                       std::move(target).finish());
     document.property(Field{.key = "design", .summary = "what is free"},
                       study::schema_array(study::schema_fields<DesignForm>()));
-    document.property(Field{.key = "constraint", .summary = "room and lengths"},
+    document.property(Field{.key = "constraint", .summary = "clearances and lengths"},
                       study::schema_array(study::schema_fields<DirectConstraint>()));
     document.property(Field{.key = "optimiser", .summary = "how designs are searched"},
                       study::schema_fields<DirectOptimiser>());

@@ -383,7 +383,7 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
                                              : std::string()),
          best.objectives[i] <= 1 ? Verdict::good : Verdict::bad});
   result.facts.push_back({"half sum of squared deviations", fmt::format("{:.6f}", best.half_sum_of_squares)});
-  result.facts.push_back({"active targets", fmt::format("{} for {} designed numbers", best.active.size(),
+  result.facts.push_back({"active targets", fmt::format("{} for {} design variables", best.active.size(),
                                                         s.task.designed.size())});
   result.facts.push_back({"method", std::string(result.statistics.find("method")->as_string())});
   result.facts.push_back(

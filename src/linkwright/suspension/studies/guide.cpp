@@ -214,7 +214,7 @@ class GuideReader {
     wheel();
     if (!mechanism_.has("link"))
       mechanism_.unreadable("link", "there are no links",
-                            "add [[mechanism.link]], or sample = \"2RS-KS\" for a canned wheel guide");
+                            "add [[mechanism.link]], or sample = \"2RS-KS\" for a canned wheel suspension");
     std::vector<study::ObjectReader> tables = mechanism_.tables("link");
     for (std::size_t i = 0; i < form_.links.size() && i < tables.size(); ++i) link(form_.links[i], tables[i]);
     tables = mechanism_.tables("coupler");
@@ -423,7 +423,7 @@ class GuideReader {
     const PointForm& point = form.point->points[0];
     const GuideLink& rod = out_.guide.links[static_cast<std::size_t>(first)];
     if (rod.body.size() != 1 || rod.carrier.size() != 1)
-      return;  // told already, or by the check of the guide
+      return;  // told already, or by the check of the suspension
     const double length = rod.length.value_or(norm(rod.carrier[0] - rod.body[0]));
     if (form.fraction.has_value() + form.offset.has_value() + form.first_point.has_value() != 1)
       return table.error("fraction", "needs fraction, offset or first_point, one of them");
@@ -616,7 +616,7 @@ Value write_guide(const GuideDescription& d) {
 }
 
 void describe_guide(study::SchemaWriter& document) {
-  document.property(Field{.key = "mechanism", .summary = "the wheel guide", .required = true},
+  document.property(Field{.key = "mechanism", .summary = "the wheel suspension", .required = true},
                     study::schema_fields<GuideForm>());
 }
 

@@ -12,8 +12,8 @@
 #include "linkwright/suspension/guide/hard_points.h"
 #include "linkwright/suspension/indirect/synthesis.h"
 
-// What all studies of wheel guides read alike: the mechanism, with its points as coordinates, as names out of
-// a list of hard points, or as boxes in which they are to be found.
+// What all studies of wheel suspensions read alike: the mechanism, with its points as coordinates, as names
+// out of a list of hard points, or as boxes in which they are to be found.
 namespace linkwright::suspension {
 
 /// A point in a file: where it is, or where it begins and the box that it may lie in.
@@ -233,7 +233,7 @@ struct GuideForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, GuideForm& g) {
-  visit(Field{.key = "sample", .summary = "a canned wheel guide in the place of all else"}, g.sample);
+  visit(Field{.key = "sample", .summary = "a canned wheel suspension in the place of all else"}, g.sample);
   visit(Field{.key = "side", .summary = "of the vehicle; a sample is mirrored for the right one"}, g.side);
   visit(Field{.key = "hard_points", .summary = "named points, and the frame they are given in"},
         g.hard_points);
@@ -247,16 +247,16 @@ void fields(Visitor&& visit, GuideForm& g) {
 /// What may be left open in the points of a study.
 enum class OpenPoints { none, boxes };
 
-/// `[mechanism]` of any study of a wheel guide, resolved.
+/// `[mechanism]` of any study of a wheel suspension, resolved.
 struct GuideDescription {
-  WheelGuide guide;                   ///< open coordinates at their start
-  std::vector<LinkTask> links;        ///< the guide's, with boxes; all coordinates given where none are open
+  WheelGuide guide;             ///< open coordinates at their start
+  std::vector<LinkTask> links;  ///< the suspension's, with boxes; all coordinates given where none are open
   std::vector<CouplerTask> couplers;  ///< likewise
   std::optional<SpringLaw> spring;    ///< of the spring, if its stiffness is known
 };
 
-/// Reads it; nothing when there are problems, which go to the reader. A guide without open points that cannot
-/// move as a wheel guide must is refused.
+/// Reads it; nothing when there are problems, which go to the reader. A suspension without open points that
+/// cannot move as a wheel suspension must is refused.
 std::optional<GuideDescription> read_guide(study::ObjectReader& document, const study::Common& common,
                                            OpenPoints open);
 /// The table as a canonical study holds it: coordinates in the vehicle's frame, no names of points, no files.

@@ -8,8 +8,8 @@
 #include "linkwright/suspension/indirect/synthesis.h"
 #include "linkwright/suspension/studies/guide.h"
 
-// The synthesis of a wheel guide from positions of its carrier: what its file holds, how it is read, run and
-// reported.
+// The synthesis of a wheel suspension from positions of its carrier: what its file holds, how it is read, run
+// and reported.
 namespace linkwright::suspension {
 
 /// `[[target.pose]]`: one position that the carrier is to take.

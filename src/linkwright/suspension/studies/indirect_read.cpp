@@ -163,7 +163,7 @@ study::Kind indirect_kind() {
   kind.kind = "synthesis";
   kind.mechanism = "suspension.corner";
   kind.target = "carrier_poses";
-  kind.summary = "wheel guide whose carrier takes prescribed positions (indirect synthesis)";
+  kind.summary = "wheel suspension whose carrier takes prescribed positions (indirect synthesis)";
   kind.seeded = true;
   kind.example = R"(# linkwright study: three rods of a five-link suspension from positions of its carrier
 schema = 1

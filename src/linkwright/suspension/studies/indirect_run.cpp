@@ -44,7 +44,7 @@ IndirectSynthesis search(const PublishedIndirect& method, const IndirectTask& ta
   return evolve(task, options, seed, context);
 }
 
-/// What an answer is worth, turned to the side of the guide.
+/// What an answer is worth, turned to the side of the suspension.
 SeedRun measured(const IndirectStudy& s, IndirectSynthesis answer) {
   SeedRun out;
   out.answer = std::move(answer);
@@ -106,7 +106,8 @@ std::vector<double> restored_fit(const Value& value, std::size_t count, std::str
       (numbers.size() == 2 || numbers.size() == 2 + count) && is_error(numbers[0]) && is_error(numbers[1]) &&
       std::all_of(numbers.begin() + 2, numbers.end(), [](double x) { return std::abs(x) < 1e6; }) &&
       (numbers.size() > 2 || std::isinf(numbers[0]));
-  if (!sound) throw CheckpointError(fmt::format("{}: a link or coupler is none of this guide", what));
+  if (!sound)
+    throw CheckpointError(fmt::format("{}: a link or coupler does not belong to this suspension", what));
   return numbers;
 }
 
@@ -139,7 +140,7 @@ SeedRun restored(const Value& value, const IndirectStudy& s, std::string_view wh
     CouplerFit fit{.status = study::restored_status(one, what), .coupler = {}, .rms = v[0], .largest = v[1]};
     const Value& looked_for = kept_member(one, "looked_for", what);
     if (!looked_for.is_bool() || v.size() == 2)
-      throw CheckpointError(fmt::format("{}: coupler '{}' is not told", what, task.name));
+      throw CheckpointError(fmt::format("{}: coupler '{}' is incomplete", what, task.name));
     if (looked_for.as_bool()) fit.coupler = {.name = task.name, .first = task.first, .second = task.second};
     fit.offset = v[2];
     fit.coupler.fraction = v[3];
@@ -148,13 +149,14 @@ SeedRun restored(const Value& value, const IndirectStudy& s, std::string_view wh
   }
   const std::vector<double> spins = unpack_numbers(kept_member(value, "spins", what), what);
   if (spins.size() != ended.targets.poses.size())
-    throw CheckpointError(
-        fmt::format("{}: {} spins of {} positions", what, spins.size(), ended.targets.poses.size()));
+    throw CheckpointError(fmt::format("{}: {} carrier pitches of {} positions", what, spins.size(),
+                                      ended.targets.poses.size()));
   for (std::size_t i = 0; i < spins.size(); ++i) {
     double& spin = ended.targets.poses[i].angles.spin;
     // Only those that were not prescribed were found.
     if (std::isinf(spins[i]) || (!std::isnan(spin) && spin != spins[i]))
-      throw CheckpointError(fmt::format("{}: spin {} is none of this position", what, spins[i]));
+      throw CheckpointError(
+          fmt::format("{}: carrier pitch {} does not belong to this position", what, spins[i]));
     spin = spins[i];
   }
   ended.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
@@ -491,13 +493,13 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
   const bool good = best.answer.status == Status::done;
   const std::size_t poses = s.task.targets.poses.size();
   result.headline =
-      good ? fmt::format("A {} wheel guide takes all {} positions: its joints miss at most {}.",
+      good ? fmt::format("A {} wheel suspension takes all {} positions: its joints miss at most {}.",
                          structure_name(structure_of(guide)), poses, metres(best.error))
       : assembled
           ? fmt::format(
-                "No exact wheel guide found ({}): the best one misses the {} positions by {} at most.",
+                "No exact wheel suspension found ({}): the best one misses the {} positions by {} at most.",
                 to_string(best.answer.status), poses, metres(best.error))
-          : fmt::format("No wheel guide found ({}).", to_string(best.answer.status));
+          : fmt::format("No wheel suspension found ({}).", to_string(best.answer.status));
   result.facts = {
       {"largest constraint error at the positions", assembled ? metres(best.error) : "-",
        good ? Verdict::good : Verdict::bad},
@@ -519,7 +521,7 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
                                   {},
                                   {},
                                   {},
-                                  "the positions do not prescribe the carrier pitch: many guides move "
+                                  "the positions do not prescribe the carrier pitch: many suspensions move "
                                   "the wheel alike, this is one of them",
                                   {}});
   if (runs.answers.size() < static_cast<std::size_t>(common.seeds.count))

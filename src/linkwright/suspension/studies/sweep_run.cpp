@@ -148,7 +148,7 @@ void add_assemblies(study::Result& result, const SweepStudy& s, const GuidePlan&
        {"carrier_pitch_rad", "carrier pitch (rad)"},
        {"hits", "random starts that ended here"}}};
   for (std::size_t i = 0; i < keys.size(); ++i) table.add(keys[i].first, keys[i].second, c[i]);
-  result.facts.push_back({"ways to put it together, found", fmt::format("{}", table.rows())});
+  result.facts.push_back({"assembly modes found", fmt::format("{}", table.rows())});
   result.tables.push_back(std::move(table));
 }
 
@@ -179,7 +179,7 @@ void add_plots(study::Result& result, const SweepStudy& s) {
   over_travel("carrier_pitch", "Carrier pitch over travel", {"carrier_pitch_rad"});
 }
 
-/// The same table of the other guide, laid behind the diagrams.
+/// The same table of the other suspension, laid behind the diagrams.
 void add_baseline(study::Result& result, const SweepStudy& s, RunContext& context) {
   SweepStudy other = s;
   other.description = *s.baseline;
@@ -408,7 +408,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
            {},
            fmt::format("travel {:.6g} mm, rack {:.6g} mm: {}: {}", grid.travel(i) * 1e3, grid.rack(i) * 1e3,
                        to_string(p.status), p.reason),
-           "the table `limits` tells how far the links reach"});
+           "the table `limits` lists how far the links reach"});
   }
   if (lost > 5)
     result.diagnostics.push_back({Diagnostic::Severity::warning,
@@ -418,10 +418,11 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
                                   fmt::format("{} more positions are not reached", lost - 5),
                                   {}});
   result.headline =
-      lost == 0 ? fmt::format("{} wheel guide: all {} positions reached (largest closure residual {:.1g} m).",
-                              structure_name(structure_of(s.description.guide)), grid.rows(), worst)
-                : fmt::format("{} wheel guide: {} of {} positions are not reached.",
-                              structure_name(structure_of(s.description.guide)), lost, grid.rows());
+      lost == 0
+          ? fmt::format("{} wheel suspension: all {} positions reached (largest closure residual {:.1g} m).",
+                        structure_name(structure_of(s.description.guide)), grid.rows(), worst)
+          : fmt::format("{} wheel suspension: {} of {} positions are not reached.",
+                        structure_name(structure_of(s.description.guide)), lost, grid.rows());
   return result;
 }
 

@@ -5,7 +5,7 @@
 
 #include "linkwright/study/kind.h"
 
-// Values of an input as studies of wheel guides list them.
+// Values of an input as studies of wheel suspensions list them.
 namespace linkwright::suspension {
 
 /// Values of one input: from, to and step or samples; or listed (m, rad).

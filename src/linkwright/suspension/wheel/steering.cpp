@@ -21,7 +21,8 @@ bool is_steered(const GuidePlan& plan) {
 
 std::optional<SteeringParameters> steering_parameters(const GuidePlan& plan, const GuidePosition& position,
                                                       Driver lock) {
-  LINKWRIGHT_REQUIRE(lock != Driver::spring || plan.spring, "the spring is held, and the guide has none");
+  LINKWRIGHT_REQUIRE(lock != Driver::spring || plan.spring,
+                     "the spring is held, and the suspension has none");
   if (!is_steered(plan)) return std::nullopt;
   const GuideRates rates = solve_rates(plan, position, Driver::wheel_centre_z);
   if (rates.status != Status::done) return std::nullopt;

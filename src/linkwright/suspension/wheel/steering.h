@@ -29,11 +29,12 @@ struct SteeringParameters {
   double contact_rise_by_rack = 0;  ///< m/m, the same by rack
 };
 
-/// Nothing for a guide that no rack moves, at a limit of travel, and where the rack does not turn the wheel.
+/// Nothing for a suspension that no rack moves, at a limit of travel, and where the rack does not turn the
+/// wheel.
 std::optional<SteeringParameters> steering_parameters(const GuidePlan& plan, const GuidePosition& position,
                                                       Driver lock);
 
-/// Whether any link of the guide is on the rack.
+/// Whether any link of the suspension is on the rack.
 bool is_steered(const GuidePlan& plan);
 
 /// Turn of the steering wheel (with its pinion) by steer angle, > 0: from the rack travel by a turn of the

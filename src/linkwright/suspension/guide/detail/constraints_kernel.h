@@ -9,7 +9,7 @@
 #include "linkwright/suspension/guide/constraints.h"
 #include "linkwright/suspension/guide/detail/wheel_kernel.h"
 
-/// The equations of a wheel guide, written once for numbers and for numbers with derivatives.
+/// The equations of a wheel suspension, written once for numbers and for numbers with derivatives.
 namespace linkwright::suspension::kernel {
 
 /// One equation: a sum of weights on moving points.
@@ -352,7 +352,7 @@ T write_driver(const Placed<T>& placed, Driver driver, Row<T>& row) {
   return T(0);
 }
 
-/// `prepare` for a guide that has been checked, without labels.
+/// `prepare` for a suspension that has been checked, without labels.
 template <class T>
 BasicGuidePlan<T> prepare(const BasicWheelGuide<T>& guide) {
   BasicGuidePlan<T> plan{.side = guide.side,

@@ -1,4 +1,4 @@
-#include "linkwright/parallel/workspace/parts.h"
+#include "linkwright/parallel/workspace/aspects.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,7 +21,7 @@ struct Node {
 
 class Edges {
  public:
-  explicit Edges(const WorkspacePartsTask& task)
+  explicit Edges(const WorkspaceAspectsTask& task)
       : rotation_(task.rotation),
         task_{.robot = task.conditions.robot,
               .mode = task.conditions.mode,
@@ -46,7 +46,7 @@ class Edges {
 };
 
 // Half of the neighbours: the other half are the same edges.
-std::vector<std::array<int, 3>> directions(const WorkspacePartsTask& task) {
+std::vector<std::array<int, 3>> directions(const WorkspaceAspectsTask& task) {
   if (task.neighbours == Neighbours::along_axes) return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   std::vector<std::array<int, 3>> out;
   for (int k = -1; k <= 1; ++k)
@@ -73,12 +73,14 @@ std::size_t nearest_node(const WorkspaceMap& map, const Vec3& place) {
 
 }  // namespace
 
-std::size_t WorkspaceParts::all() const { return std::accumulate(size.begin(), size.end(), std::size_t{0}); }
+std::size_t WorkspaceAspects::all() const {
+  return std::accumulate(size.begin(), size.end(), std::size_t{0});
+}
 
-WorkspaceParts workspace_parts(const WorkspaceMap& map, const NodeSet& set, const WorkspacePartsTask& task,
-                               const RunContext& context) {
+WorkspaceAspects workspace_aspects(const WorkspaceMap& map, const NodeSet& set,
+                                   const WorkspaceAspectsTask& task, const RunContext& context) {
   LINKWRIGHT_REQUIRE(set.size() == map.count(), "a set of {} nodes for a map of {}", set.size(), map.count());
-  WorkspaceParts out;
+  WorkspaceAspects out;
   const auto stopped = [&](Status status) {
     out.status = status;
     return status != Status::done;
@@ -136,25 +138,25 @@ WorkspaceParts workspace_parts(const WorkspaceMap& map, const NodeSet& set, cons
     }
   out.edges = std::accumulate(edge_count.begin(), edge_count.end(), std::size_t{0});
   out.closed = std::accumulate(closed_count.begin(), closed_count.end(), std::size_t{0});
-  out.part.assign(map.count(), -1);
+  out.aspect.assign(map.count(), -1);
   for (std::size_t n = 0; n < map.count(); ++n) {
     if (!set[n]) continue;
     const std::size_t root = root_of(parent, n);
     if (root == n) {
-      out.part[n] = static_cast<std::int32_t>(out.size.size());
+      out.aspect[n] = static_cast<std::int32_t>(out.size.size());
       out.size.push_back(0);
     }
-    out.part[n] = out.part[root];
-    ++out.size[static_cast<std::size_t>(out.part[n])];
+    out.aspect[n] = out.aspect[root];
+    ++out.size[static_cast<std::size_t>(out.aspect[n])];
   }
   out.home_node = nearest_node(map, task.home);
-  out.home = out.part[out.home_node];
+  out.home = out.aspect[out.home_node];
   return out;
 }
 
-NodeSet nodes_of(const WorkspaceParts& parts, int part) {
-  NodeSet out(parts.part.size());
-  for (std::size_t n = 0; n < out.size(); ++n) out[n] = parts.part[n] == part;
+NodeSet nodes_of(const WorkspaceAspects& aspects, int aspect) {
+  NodeSet out(aspects.aspect.size());
+  for (std::size_t n = 0; n < out.size(); ++n) out[n] = aspects.aspect[n] == aspect;
   return out;
 }
 

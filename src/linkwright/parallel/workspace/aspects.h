@@ -6,8 +6,8 @@
 
 #include "linkwright/parallel/workspace/workspace.h"
 
-/// Which nodes of a workspace hang together without a singularity between them: passing at both ends of a
-/// path says nothing of the way.
+/// Aspects of a workspace, its singularity-free components: passing at both ends of a path says nothing of
+/// what lies between.
 namespace linkwright::parallel {
 
 /// Which nodes are neighbours: along an axis, or also across faces and corners of a cell.
@@ -17,12 +17,12 @@ constexpr std::array<EnumName<Neighbours>, 2> names(Neighbours) {
            {Neighbours::diagonal_too, "diagonal_too", "26 in space, 8 in the plane"}}};
 }
 
-/// Sets of nodes joined by regular edges.
-struct WorkspaceParts {
-  Status status = Status::done;    ///< cancelled or deadline: the rest is not to be used
-  std::vector<std::int32_t> part;  ///< of each node: number of its part; -1 outside the set
-  std::vector<std::size_t> size;   ///< nodes of each part; numbered in the order of their first nodes
-  int home = -1;                   ///< part of the node nearest to home; -1: that one is not in the set
+/// Aspects: sets of nodes joined by regular edges.
+struct WorkspaceAspects {
+  Status status = Status::done;      ///< cancelled or deadline: the rest is not to be used
+  std::vector<std::int32_t> aspect;  ///< of each node: number of its aspect; -1 outside the set
+  std::vector<std::size_t> size;     ///< nodes of each aspect; numbered in the order of their first nodes
+  int home = -1;                     ///< aspect of the node nearest to home; -1: that one is not in the set
   std::size_t home_node = 0;
   std::size_t edges = 0;  ///< between neighbours of the set
   std::size_t closed =
@@ -42,16 +42,16 @@ struct WorkspaceParts {
 ///
 /// Limits of drives, joints and indices are those of the nodes alone: between two nodes that pass they may be
 /// exceeded by what a step of the grid makes of them.
-struct WorkspacePartsTask {
+struct WorkspaceAspectsTask {
   PoseConditions conditions;  ///< those of the map
   Mat3 rotation{};            ///< that of the map
   Vec3 home;                  ///< m
   Neighbours neighbours = Neighbours::along_axes;
 };
-WorkspaceParts workspace_parts(const WorkspaceMap& map, const NodeSet& set, const WorkspacePartsTask& task,
-                               const RunContext& context);
+WorkspaceAspects workspace_aspects(const WorkspaceMap& map, const NodeSet& set,
+                                   const WorkspaceAspectsTask& task, const RunContext& context);
 
-/// Nodes of one part.
-NodeSet nodes_of(const WorkspaceParts& parts, int part);
+/// Nodes of one aspect.
+NodeSet nodes_of(const WorkspaceAspects& aspects, int aspect);
 
 }  // namespace linkwright::parallel
