@@ -8,7 +8,7 @@
 #include "linkwright/suspension/studies.h"
 #include "support/study_text.h"
 
-// Studies of this room as texts.
+// Studies of this module as texts.
 namespace linkwright::test {}
 namespace linkwright::suspension::test {
 using namespace linkwright::test;  // what the tests of all modules share

@@ -35,10 +35,10 @@ std::string example(const std::string& name) {
   EXPECT_FALSE(text.str().empty()) << name;
   // File names are relative to the study, which tests read from elsewhere.
   std::string out = text.str();
-  const std::string csv = "\"loose-four-bar-path.csv\"";
+  const std::string csv = "\"clearance-four-bar-path.csv\"";
   const auto found = out.find(csv);
   if (found != std::string::npos)
-    out.replace(found, csv.size(), "\"" LINKWRIGHT_SOURCE_DIR "/examples/studies/loose-four-bar-path.csv\"");
+    out.replace(found, csv.size(), "\"" LINKWRIGHT_SOURCE_DIR "/examples/studies/clearance-four-bar-path.csv\"");
   return out;
 }
 const std::string& kind_example(DesignTarget target) {
@@ -59,7 +59,7 @@ void expect_plots_have_columns(const study::Result& r) {
 }
 
 TEST(ClearanceDesignStudy, LengthsAreThoseOfTheLeastSquares) {
-  const study::Result r = run_text(replaced(example("loose-four-bar-lengths"), "count = 5", "count = 1"));
+  const study::Result r = run_text(replaced(example("clearance-four-bar-lengths"), "count = 5", "count = 1"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   // The global optimum, to the digits of the reference.
   EXPECT_NEAR(objective(r, "path_objective_m"), 0.0152133e-3, 1e-10);
@@ -79,7 +79,7 @@ TEST(ClearanceDesignStudy, LengthsAreThoseOfTheLeastSquares) {
 
 TEST(ClearanceDesignStudy, TheSwarmOfTheSourceSpreads) {
   const study::Result r =
-      run_text(replaced(example("loose-four-bar-lengths-swarm"), "count = 10", "count = 2"));
+      run_text(replaced(example("clearance-four-bar-lengths-swarm"), "count = 10", "count = 2"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   EXPECT_GT(objective(r, "path_objective_m"), 0.0152133e-3);
   EXPECT_LT(objective(r, "path_objective_m"), 0.4e-3);
@@ -88,7 +88,7 @@ TEST(ClearanceDesignStudy, TheSwarmOfTheSourceSpreads) {
 }
 
 TEST(ClearanceDesignStudy, MassesFollowTheCrank) {
-  const study::Result r = run_text(replaced(example("loose-four-bar-masses"), "count = 3", "count = 1"));
+  const study::Result r = run_text(replaced(example("clearance-four-bar-masses"), "count = 3", "count = 1"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   EXPECT_THAT(r.diagnostics, IsEmpty());
   EXPECT_THAT(r.headline, HasSubstr("pin and bush stay in contact, with 2.0"));
@@ -109,7 +109,7 @@ TEST(ClearanceDesignStudy, MassesFollowTheCrank) {
 
 // What the tables say of the design is what a simulation of it needs: the same motion, by other equations.
 TEST(ClearanceDesignStudy, TheDesignCanBeTakenOn) {
-  std::string text = replaced(example("loose-four-bar-masses"), "count = 3", "count = 1");
+  std::string text = replaced(example("clearance-four-bar-masses"), "count = 3", "count = 1");
   text = replaced(text, "gravity_m_per_s2 = 0.0", "gravity_m_per_s2 = 9.81");
   text = replaced(text, "speed_rad_per_s = 10.0", "speed_rad_per_s = 50.0\nstart_angle_deg = 30.0");
   text.erase(text.find("[[check]]"));
@@ -246,7 +246,7 @@ TEST(ClearanceDesignStudy, GoesOnFromACheckpointWithTheSameBits) {
   for (const DesignTarget target : {DesignTarget::lengths, DesignTarget::masses, DesignTarget::both})
     ::linkwright::test::expect_resumed_alike(std::vector<study::Kind>(clearance_design_kinds()),
                                              kind_example(target), 2);
-  std::string swarm = replaced(example("loose-four-bar-lengths-swarm"), "count = 10", "count = 2");
+  std::string swarm = replaced(example("clearance-four-bar-lengths-swarm"), "count = 10", "count = 2");
   ::linkwright::test::expect_resumed_alike(std::vector<study::Kind>(clearance_design_kinds()), swarm, 2);
 }
 

@@ -107,7 +107,7 @@ TEST(ClearanceStudy, ForcesAreThoseOfTheContact) {
 // A pin that stands on the ground, where a rocker is loose: the shaking force is that of all masses.
 TEST(ClearanceStudy, TheGroundFeelsItsContacts) {
   std::string text =
-      replaced(example("loose-four-bar-design-2"), "joint                = \"A\"", "joint = \"O4\"");
+      replaced(example("clearance-four-bar-design-2"), "joint                = \"A\"", "joint = \"O4\"");
   const auto from = text.find("model                = \"continuous\"");
   ASSERT_NE(from, std::string::npos) << text;
   const auto to = text.find("[", text.find("start_rate_rad_per_s", from));
@@ -130,7 +130,7 @@ TEST(ClearanceStudy, TheGroundFeelsItsContacts) {
 }
 
 TEST(ClearanceStudy, ContinuousContactKeepsToTheReference) {
-  const study::Result r = run_text(example("loose-four-bar-design-2"));
+  const study::Result r = run_text(example("clearance-four-bar-design-2"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   for (const study::Check& check : r.checks)
     EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
@@ -149,7 +149,7 @@ TEST(ClearanceStudy, ContinuousContactKeepsToTheReference) {
 }
 
 TEST(ClearanceStudy, WarnsWhereContinuousContactFails) {
-  const study::Result r = run_text(example("loose-four-bar-design-1"));
+  const study::Result r = run_text(example("clearance-four-bar-design-1"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   EXPECT_THAT(fact(r, "contact of A"), HasSubstr("lost at"));
   EXPECT_TRUE(std::any_of(r.facts.begin(), r.facts.end(), [](const study::Fact& f) {
@@ -164,7 +164,7 @@ TEST(ClearanceStudy, WarnsWhereContinuousContactFails) {
 // Without start the link begins where the ideal joint presses it, and settles about there: smaller swings
 // than from any other direction.
 TEST(ClearanceStudy, ContinuousContactStartsWhereTheJointPresses) {
-  const std::string given = example("loose-four-bar-design-2");
+  const std::string given = example("clearance-four-bar-design-2");
   const auto without = [](std::string text, const std::string& key) {
     const auto from = text.find(key);
     EXPECT_NE(from, std::string::npos) << text;
@@ -179,7 +179,7 @@ TEST(ClearanceStudy, ContinuousContactStartsWhereTheJointPresses) {
 
 TEST(ClearanceStudy, SectionsAndSpectraOfEvenDrives) {
   const study::Result r =
-      run_text(replaced(example("loose-four-bar-design-2"), "to_s    = 0.628318530717959", "to_s = 2.6"));
+      run_text(replaced(example("clearance-four-bar-design-2"), "to_s    = 0.628318530717959", "to_s = 2.6"));
   const std::vector<double>& turn = values(r, "section", "turn");
   ASSERT_EQ(turn.size(), 5u);  // 4.138 turns and the start
   EXPECT_NEAR(values(r, "section", "A_link_angle_rad")[1], 6.44656628 - 2 * 3.14159265358979, 1e-6);
@@ -230,7 +230,7 @@ TEST(ClearanceStudy, KeepsWhatItHasWhenTheMotionEnds) {
 }
 
 TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
-  const study::Result r = run_text(example("loose-four-bar-automatic"));
+  const study::Result r = run_text(example("clearance-four-bar-automatic"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   for (const study::Check& check : r.checks)
     EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
@@ -276,7 +276,7 @@ TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
 }
 
 TEST(ClearanceStudy, AutomaticContactIsContinuousWhereThatHolds) {
-  const std::string text = example("loose-four-bar-design-2");
+  const std::string text = example("clearance-four-bar-design-2");
   const study::Result continuous = run_text(text);
   std::string other =
       replaced(text, "model                = \"continuous\"", "model = \"automatic\"\nbush_radius_mm = 10.0");
@@ -293,7 +293,7 @@ TEST(ClearanceStudy, AutomaticContactIsContinuousWhereThatHolds) {
 }
 
 TEST(ClearanceStudy, FindsThePeriodicRegimeByShooting) {
-  const study::Result r = run_text(example("loose-four-bar-regime"));
+  const study::Result r = run_text(example("clearance-four-bar-regime"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   for (const study::Check& check : r.checks)
     EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
@@ -317,7 +317,7 @@ std::string regime_of(std::string text, const std::string& run) {
 }
 TEST(ClearanceStudy, GoesOnUntilContactsRepeat) {
   const study::Result r =
-      run_text(replaced(example("loose-slider-crank-regime"), "samples = 721", "samples = 361"));
+      run_text(replaced(example("clearance-slider-crank-regime"), "samples = 721", "samples = 361"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   EXPECT_THAT(r.headline, HasSubstr("The motion repeats every turn after"));
   EXPECT_THAT(fact(r, "periodic regime"), HasSubstr("repeats every turn (0.03 s) after"));
@@ -353,7 +353,7 @@ TEST(ClearanceStudy, SaysWhenTheMotionDoesNotBecomePeriodic) {
 
 // Of design 1 continuous contact has no motion that keeps it: it goes over to real contact turn after turn.
 TEST(ClearanceStudy, AutomaticRegimesGoOnWhereContactIsLost) {
-  const study::Result r = run_text(regime_of(example("loose-four-bar-automatic"),
+  const study::Result r = run_text(regime_of(example("clearance-four-bar-automatic"),
                                              "samples = 181\nmax_turns = 2\nregime_tolerance = 1e-9"));
   EXPECT_EQ(r.status, Status::not_converged) << r.headline;
   EXPECT_THAT(fact(r, "model"), HasSubstr("pin A parted from its bush at 0.153847 s"));
@@ -395,8 +395,8 @@ TEST(ClearanceStudy, NamesWhatRegimesCannotDo) {
 }
 
 TEST(ClearanceStudy, WritesWhatItReads) {
-  for (const std::string& text : {slider_crank(), example("loose-four-bar-design-2"),
-                                  example("loose-four-bar-automatic"), example("loose-four-bar-regime")}) {
+  for (const std::string& text : {slider_crank(), example("clearance-four-bar-design-2"),
+                                  example("clearance-four-bar-automatic"), example("clearance-four-bar-regime")}) {
     std::string messages;
     const auto first = prepare(text, messages);
     ASSERT_TRUE(first) << messages;

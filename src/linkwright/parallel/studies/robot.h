@@ -255,7 +255,7 @@ struct RobotDescription {
   bool tool_turns() const { return robot.freedom == Freedom::space; }
 };
 
-/// The mechanism types of this room whose robots have arms and rods.
+/// The mechanism types of this module whose robots have arms and rods.
 inline constexpr std::array robot_types{"parallel.delta", "parallel.hexa", "parallel.five_bar",
                                         "parallel.constant_orientation"};
 

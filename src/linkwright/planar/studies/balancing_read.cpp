@@ -91,7 +91,7 @@ study::Common plain(const study::Common& common) {
   return out;
 }
 
-// The `type` of a mechanism is read by the study room in a whole document.
+// The `type` of a mechanism is read by the study module in a whole document.
 void know_type(study::ObjectReader& root) {
   std::string type;
   if (auto mechanism = root.table("mechanism")) (*mechanism)(Field{.key = "type", .summary = {}}, type);
