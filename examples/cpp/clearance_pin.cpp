@@ -8,7 +8,7 @@
 int main() {
   using namespace linkwright;
   const clearance::ClearanceFourBar model = clearance::published_design_2();
-  const clearance::EvenCrank crank{.speed = 10};
+  const clearance::UniformCrank crank{.speed = 10};
   const clearance::ClearanceOrbit orbit = clearance::find_orbit(model, crank);
   if (orbit.status != Status::done) {
     std::printf("%s\n", orbit.message.c_str());

@@ -225,7 +225,7 @@ TEST(FourBarClearanceMotion, TheForceOfTheIdealJointIsTheLimit) {
 TEST(FourBarClearanceMotion, SettlesWithDamping) {
   ClearanceFourBar model = published_four_bar("gamma-design2-table3-g0-w10");
   model.link_damping = 1e-5;
-  const EvenCrank crank{0, 10};
+  const UniformCrank crank{0, 10};
   const ClearanceOrbit settled = settle(model, crank, {0.1, 10}, 100);
   ASSERT_EQ(settled.status, Status::done) << settled.message;
   const ClearanceOrbit orbit = find_orbit(model, crank, 0.1, -0.2);

@@ -25,7 +25,7 @@ JointOrbit orbit_of(const ClearanceFourBar& model, double speed, double lead, do
                            .angle = lead,
                            .rate = speed * (1 + slope),
                            .damping = model.link_damping};
-  const planar::InputCourse crank = even_crank(speed);
+  const planar::InputDrive crank = uniform_crank(speed);
   return find_joint_orbit(l, std::span(&pin, 1), std::span(&crank, 1), 0, full_turn / speed, fine);
 }
 
@@ -72,11 +72,11 @@ TEST(JointOrbit, DampedMotionSettlesOnIt) {
   EXPECT_NEAR(orbit.start[0].rate / 10 - 1, settled.slope, 1e-7);
 }
 
-// Two loose pins: four multipliers, and a turn from the start leads back to it.
+// Two clearance joints: four multipliers, and a turn from the start leads back to it.
 TEST(JointOrbit, SeveralPinsAtOnce) {
   ClearanceFourBar model = published_four_bar("gamma-design2-table3-g9.81-w50");
   const planar::Linkage l = as_linkage(model);
-  const planar::InputCourse crank = even_crank(50);
+  const planar::InputDrive crank = uniform_crank(50);
   std::vector<JointClearance> pins{
       {.joint = planar::joint_index(l, "A"), .clearance = 5e-3, .angle = 0.1, .rate = 50, .damping = 1e-3},
       {.joint = planar::joint_index(l, "O4"), .clearance = 5e-3, .angle = 1.6, .rate = 0, .damping = 1e-3}};
@@ -95,12 +95,12 @@ TEST(JointOrbit, SeveralPinsAtOnce) {
 }
 
 TEST(JointOrbit, PeriodsOfDrives) {
-  using planar::InputCourse;
-  const InputCourse even{math::ConstantSpeed{0, 10}}, twice{math::ConstantSpeed{1, -20}},
+  using planar::InputDrive;
+  const InputDrive even{math::ConstantSpeed{0, 10}}, twice{math::ConstantSpeed{1, -20}},
       still{math::ConstantSpeed{1, 0}}, swing{math::HarmonicMotion{0, 0.1, 10 / full_turn * 1.5, 0}},
       once{math::CycloidalMotion{0, 1, 0, 1}}, free{{}, 1, 2};
-  const auto period = [](std::vector<InputCourse> courses, bool rotary = true) {
-    return drive_period(courses, std::vector<bool>(courses.size(), rotary));
+  const auto period = [](std::vector<InputDrive> drives, bool rotary = true) {
+    return drive_period(drives, std::vector<bool>(drives.size(), rotary));
   };
   EXPECT_NEAR(period({even}).period, full_turn / 10, 1e-15);
   EXPECT_NEAR(period({even, still, twice}).period, full_turn / 10, 1e-15);
@@ -111,7 +111,7 @@ TEST(JointOrbit, PeriodsOfDrives) {
   EXPECT_EQ(period({free}).input, 0);
   EXPECT_EQ(period({still}).period, 0);
   EXPECT_EQ(period({even, {math::ConstantSpeed{0, 10 * std::sqrt(2.0)}}}).period, 0);
-  InputCourse table{
+  InputDrive table{
       math::MotionTable{{0, 1, 2}, {0, 1, full_turn}, math::TableCurve::quintic, math::TableEnds::periodic}};
   EXPECT_EQ(period({table}).period, 2);
   EXPECT_EQ(period({table}, false).period, 0) << "a slide that has grown";
@@ -134,12 +134,12 @@ TEST(JointOrbit, SaysWhatItCannotDo) {
   const ClearanceFourBar model = published_four_bar("gamma-design2-table3-g0-w10");
   const planar::Linkage l = as_linkage(model);
   const JointClearance pin{.joint = planar::joint_index(l, "A"), .clearance = 1e-3};
-  const planar::InputCourse free{{}, 0, 10};
+  const planar::InputDrive free{{}, 0, 10};
   EXPECT_THAT(
       test::message([&] { find_joint_orbit(l, std::span(&pin, 1), std::span(&free, 1), 0, 1, fine); }),
       HasSubstr("each must follow a law"));
   // Design 1 swings so violently that Newton's method finds nothing.
-  const planar::InputCourse crank = even_crank(10);
+  const planar::InputDrive crank = uniform_crank(10);
   const planar::Linkage wild = as_linkage(published_four_bar("gamma-design1-table2-g0-w10"));
   const JointOrbit none =
       find_joint_orbit(wild, std::span(&pin, 1), std::span(&crank, 1), 0, full_turn / 10, fine);

@@ -126,7 +126,7 @@ TEST(ClearanceMassSynthesis, InterruptedKeepsTheBestThatATrialHasShown) {
 
 TEST(ClearanceMassSynthesis, OrbitsAreInterrupted) {
   const ClearanceFourBar model = with_masses(published_mass_problem().model, published_masses());
-  const EvenCrank crank = published_mass_problem().crank;
+  const UniformCrank crank = published_mass_problem().crank;
   RunContext context;
   const LooksAllowed looks(30);
   const ClearanceOrbit orbit = find_orbit(model, crank, 0.15, -0.3, {}, &context);
@@ -141,7 +141,7 @@ TEST(ClearanceMassSynthesis, SaysWhatIsNotThere) {
   EXPECT_THAT(test::message([&] { require_valid(p); }),
               ::testing::HasSubstr("variable 3 of the masses lies between 0 and 1"));
   p = published_mass_problem();
-  p.model.linkage.coupler = 0.1;  // does not go round
+  p.model.linkage.coupler = 0.1;  // does not rotate fully
   EXPECT_TRUE(std::isinf(transient_lead_error(p, published_masses())));
   EXPECT_EQ(clearance_mass_problem(p).explain(published_masses()).at(0).reason, "goes_round");
   RunContext context;

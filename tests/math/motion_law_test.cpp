@@ -149,7 +149,7 @@ TEST(MotionLaw, MeetsItsEndConditionsAndNoOthers) {
                                       .end_jerk = -5});
   expect_motion(all(0.5), 1, 0.4, -1, 2);
   expect_motion(all(3.5), -2, -0.7, 0.6, -5);
-  // Even motion before and after.
+  // Uniform motion before and after.
   expect_motion(all(0), 1 - 0.2, 0.4, 0, 0);
   expect_motion(all(4.5), -2.7, -0.7, 0, 0);
   // A parabola: from, to and the speed at the start.

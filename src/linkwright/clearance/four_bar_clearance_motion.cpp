@@ -161,10 +161,10 @@ class FourBarMotion {
   bool apart_ = false, caught_ = false;
 };
 
-// The map of lead and slope over one turn of an even crank.
+// The map of lead and slope over one turn of a crank that rotates uniformly.
 class TurnMap {
  public:
-  TurnMap(const ClearanceFourBar& model, const EvenCrank& crank, const ClearanceTolerances& tolerances,
+  TurnMap(const ClearanceFourBar& model, const UniformCrank& crank, const ClearanceTolerances& tolerances,
           const RunContext* context)
       : model_(model), crank_(crank), tolerances_(tolerances), context_(context) {
     require_valid(model);
@@ -174,8 +174,8 @@ class TurnMap {
                        "the crank must turn, at {} rad/s", crank.speed);
   }
 
-  /// (lead, slope) after a turn; false, with status and message, when the linkage does not go round. `rows`
-  /// receive the lead at `samples` points of the turn, the first at its start.
+  /// (lead, slope) after a turn; false, with status and message, when the linkage does not rotate fully.
+  /// `rows` receive the lead at `samples` points of the turn, the first at its start.
   bool operator()(std::array<double, 2>& x, std::span<double> rows = {}) {
     const double way = crank_.speed > 0 ? full_turn : -full_turn;
     std::array<double, 2> y = x;
@@ -238,7 +238,7 @@ class TurnMap {
 
  private:
   const ClearanceFourBar& model_;
-  EvenCrank crank_;
+  UniformCrank crank_;
   ClearanceTolerances tolerances_;
   const RunContext* context_;
   math::OdeWorkspace workspace_;
@@ -260,7 +260,7 @@ ClearanceRun simulate_clearance(const ClearanceFourBar& model, const math::Motio
   return FourBarMotion(model, crank, output).run(start, times, tolerances, context);
 }
 
-ClearanceOrbit find_orbit(const ClearanceFourBar& model, const EvenCrank& crank, double lead, double slope,
+ClearanceOrbit find_orbit(const ClearanceFourBar& model, const UniformCrank& crank, double lead, double slope,
                           const ClearanceTolerances& tolerances, const RunContext* context) {
   constexpr int most = 50;
   constexpr double longest_step = 0.5, converged = 1e-10, difference = 1e-5;
@@ -303,7 +303,7 @@ ClearanceOrbit find_orbit(const ClearanceFourBar& model, const EvenCrank& crank,
   }
 }
 
-ClearanceOrbit follow_orbit(const ClearanceFourBar& model, const EvenCrank& crank,
+ClearanceOrbit follow_orbit(const ClearanceFourBar& model, const UniformCrank& crank,
                             const ClearanceOrbit& known, const ClearanceTolerances& tolerances,
                             const RunContext* context) {
   constexpr int most = 8;
@@ -329,7 +329,7 @@ ClearanceOrbit follow_orbit(const ClearanceFourBar& model, const EvenCrank& cran
   return find_orbit(model, crank, known.lead, known.slope, tolerances, context);
 }
 
-ClearanceOrbit settle(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start,
+ClearanceOrbit settle(const ClearanceFourBar& model, const UniformCrank& crank, const LinkState& start,
                       int turns, double tolerance, const ClearanceTolerances& tolerances,
                       const RunContext* context) {
   LINKWRIGHT_REQUIRE(turns >= 1, "needs 1 turn at least, got {}", turns);
@@ -351,8 +351,9 @@ ClearanceOrbit settle(const ClearanceFourBar& model, const EvenCrank& crank, con
   return orbit;
 }
 
-double lead_error(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start, double lead,
-                  int samples, const ClearanceTolerances& tolerances, const RunContext* context) {
+double lead_error(const ClearanceFourBar& model, const UniformCrank& crank, const LinkState& start,
+                  double lead, int samples, const ClearanceTolerances& tolerances,
+                  const RunContext* context) {
   LINKWRIGHT_REQUIRE(samples >= 1, "needs 1 sample at least, got {}", samples);
   TurnMap map(model, crank, tolerances, context);
   std::vector<double> rows(static_cast<std::size_t>(samples));

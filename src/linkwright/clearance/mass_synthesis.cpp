@@ -42,7 +42,7 @@ bool force_residuals(const ClearanceMassProblem& p, std::span<const double> x, s
 // An orbit that is followed from trial to trial.
 class OrbitFollower {
  public:
-  OrbitFollower(const EvenCrank& crank, const ClearanceTolerances& tolerances, const RunContext* context)
+  OrbitFollower(const UniformCrank& crank, const ClearanceTolerances& tolerances, const RunContext* context)
       : crank_(crank), tolerances_(tolerances), context_(context) {}
   bool begin(const ClearanceFourBar& model) {
     const double direction = force_direction(model, crank_.angle, crank_.speed, 0);
@@ -65,7 +65,7 @@ class OrbitFollower {
     orbit_ = found;
     return true;
   }
-  EvenCrank crank_;
+  UniformCrank crank_;
   ClearanceTolerances tolerances_;
   const RunContext* context_;
   ClearanceOrbit orbit_;
@@ -73,7 +73,7 @@ class OrbitFollower {
 
 // Rows of one turn of a motion.
 template <class Row>
-ClearanceRun over_a_turn(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start,
+ClearanceRun over_a_turn(const ClearanceFourBar& model, const UniformCrank& crank, const LinkState& start,
                          std::span<const double> crank_angles, const ClearanceTolerances& tolerances,
                          const RunContext* context, Row&& row) {
   // Rows in the order of time, each angle within the turn that begins with the orbit.
@@ -99,7 +99,7 @@ ClearanceRun over_a_turn(const ClearanceFourBar& model, const EvenCrank& crank, 
       context);
 }
 
-std::vector<double> even_angles(const EvenCrank& crank, int samples) {
+std::vector<double> even_angles(const UniformCrank& crank, int samples) {
   std::vector<double> out;
   for (int k = 0; k < samples; ++k)
     out.push_back(crank.angle + std::copysign(full_turn, crank.speed) * k / samples);
@@ -297,7 +297,7 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
     minimise_shares(on_orbit, m, x, lower, upper, integrated, options);
     interrupted = context.interruption();
   }
-  // An interrupted search tells its best as far as that takes no time of its own.
+  // An interrupted search reports its best as far as that takes no time of its own.
   RunContext last;
   last.set_time_limit(std::chrono::milliseconds(200));
   ClearanceMassDesign out = clearance_mass_design(p, x, interrupted == Status::done ? &context : &last);

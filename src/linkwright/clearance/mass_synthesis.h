@@ -12,7 +12,7 @@
 // al. 2014, and both stages at once.
 namespace linkwright::clearance {
 
-/// The designed quantities in the order of the variables, Eq. (29): mass, mass centre and inertia about it of
+/// The design variables in the order of the variables, Eq. (29): mass, mass centre and inertia about it of
 /// coupler (3) and rocker (4), in the frames of ClearanceFourBar.
 enum class ClearanceMass : std::size_t {
   coupler_mass,
@@ -28,7 +28,7 @@ inline constexpr std::size_t clearance_mass_count = 8;
 
 struct ClearanceMassProblem {
   ClearanceFourBar model;  ///< lengths, clearance, weight and damping; its masses do not count
-  EvenCrank crank;
+  UniformCrank crank;
   double lead = 0;   ///< rad: by how much the clearance link is to lead the crank, Eq. (34)
   int samples = 72;  ///< points of a turn at which the lead is compared
   std::array<Range, clearance_mass_count> bounds{};
@@ -41,7 +41,7 @@ void require_valid(const ClearanceMassProblem& problem);
 ClearanceFourBar with_masses(const ClearanceFourBar& model, std::span<const double> x);
 
 /// Objective of the source (rad), Eq. (30): of one turn that starts with the wanted lead at the speed of the
-/// crank. Infinite where the linkage does not go round, or the run is to stop.
+/// crank. Infinite where the linkage does not rotate fully, or the run is to stop.
 double transient_lead_error(const ClearanceMassProblem& problem, std::span<const double> x,
                             const RunContext* context = nullptr);
 

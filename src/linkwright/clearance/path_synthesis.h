@@ -16,7 +16,7 @@
 // stage of Varedi et al. 2014.
 namespace linkwright::clearance {
 
-/// The designed quantities in the order of the variables, Eq. (16): L1 ... L4, distance and angle of the
+/// The design variables in the order of the variables, Eq. (16): L1 ... L4, distance and angle of the
 /// tracing point in the coupler's frame, crank pivot, direction of the ground link.
 enum class ClearanceLength : std::size_t {
   ground,

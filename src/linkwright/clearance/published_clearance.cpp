@@ -123,7 +123,7 @@ std::vector<ClearanceComparison> compare_with_published_clearance() {
   add("objective of the best design, mm", "not printed", 1e3 * clearance_path_design(path, x).objective,
       "not reproduced", "four times less than design 2, by least squares from there");
 
-  const EvenCrank crank{0, 10};
+  const UniformCrank crank{0, 10};
   const LinkState start{lead, 10};
   const std::vector<double> times{0, full_turn / 10};
   const ClearanceRun calm =

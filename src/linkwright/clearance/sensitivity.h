@@ -39,8 +39,8 @@ struct ToleranceOutputs {
   bool drives = false;           ///< likewise
 };
 std::size_t value_count(const planar::Linkage& linkage, const ToleranceOutputs& outputs);
-/// What errs as one thing, in the same order: a point by a distance (m), a coordinate (rad or m), a force by
-/// the size of a vector (N), a drive (N m or N).
+/// What deviates as one thing, in the same order: a point by a distance (m), a coordinate (rad or m), a force
+/// by the size of a vector (N), a drive (N m or N).
 std::size_t quantity_count(const planar::Linkage& linkage, const ToleranceOutputs& outputs);
 
 /// First derivatives at one sample.

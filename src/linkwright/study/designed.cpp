@@ -105,7 +105,7 @@ DesignedTables take_designed(ObjectReader& document, std::span<const std::string
     for (const Value::Member& member : document.value().as_object()) {
       if (member.key != key) continue;
       out.tables.as_object().push_back(member);
-      // One of the two tells that the key is known; nothing more is read here.
+      // One of the two says that the key is known; nothing more is read here.
       if (member.value.is_array())
         for (ObjectReader& table : document.tables(key)) table.members();
       else if (auto table = document.table(key))

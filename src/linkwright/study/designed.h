@@ -34,8 +34,8 @@ struct DesignedTables {
 };
 
 /// Copies the tables with these keys, those that are there, and takes the open numbers out of them. In the
-/// document they count as read, so that unknown keys in them are for the reader of the copy to tell. Numbers
-/// that are no numbers, min > max and a missing initial number are errors.
+/// document they count as read, so that unknown keys in them are for the reader of the copy to report.
+/// Numbers that are no numbers, min > max and a missing initial number are errors.
 DesignedTables take_designed(ObjectReader& document, std::span<const std::string_view> keys);
 
 /// The way to a number: keys of tables, and numbers of the elements of arrays.

@@ -70,7 +70,7 @@ constexpr Dimension dimension(JointKind kind, int order) {
   return kind == JointKind::rotary ? rotary[order] : linear[order];
 }
 
-// Beyond it the digits of a double no longer tell neighbouring positions apart.
+// Beyond it the digits of a double no longer separate neighbouring positions.
 inline constexpr double most = 1e9;
 
 constexpr Field value(JointKind kind, std::string_view key, std::string_view summary, bool required = false,

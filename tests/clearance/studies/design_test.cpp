@@ -38,7 +38,8 @@ std::string example(const std::string& name) {
   const std::string csv = "\"clearance-four-bar-path.csv\"";
   const auto found = out.find(csv);
   if (found != std::string::npos)
-    out.replace(found, csv.size(), "\"" LINKWRIGHT_SOURCE_DIR "/examples/studies/clearance-four-bar-path.csv\"");
+    out.replace(found, csv.size(),
+                "\"" LINKWRIGHT_SOURCE_DIR "/examples/studies/clearance-four-bar-path.csv\"");
   return out;
 }
 const std::string& kind_example(DesignTarget target) {
@@ -160,7 +161,8 @@ TEST(ClearanceDesignStudy, TheDesignCanBeTakenOn) {
   }
 }
 
-// Both stages with free crank angles, by the swarm of the source, and what is told when a lead is asked for.
+// Both stages with free crank angles, by the swarm of the source, and what is reported when a lead is asked
+// for.
 TEST(ClearanceDesignStudy, BothStagesInTurn) {
   std::string text = replaced(kind_example(DesignTarget::both), "at_once", "in_turn");
   text = replaced(text, "phase_deg = 0.0", "phase_deg = 10.0");

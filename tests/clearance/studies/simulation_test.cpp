@@ -75,7 +75,7 @@ TEST(ClearanceStudy, ReportsContactsMotionAndTheEnergyAudit) {
   EXPECT_NEAR(values(r, "contacts", "approach_m_per_s")[0], 4.3857831, 4e-5);
   EXPECT_NEAR(values(r, "contacts", "force_N")[0], 45872.2, 0.5);
   EXPECT_EQ(table(r, "contacts").names[0], "B");
-  // No more play than clearance and depth.
+  // No more displacement than clearance and depth.
   const std::vector<double>&x = values(r, "pins", "B_eccentricity_x_m"),
         &y = values(r, "pins", "B_eccentricity_y_m"), &depth = values(r, "pins", "B_depth_m");
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(std::hypot(x[i], y[i]), 5e-4 + depth[i], 1e-12) << i;
@@ -104,7 +104,7 @@ TEST(ClearanceStudy, ForcesAreThoseOfTheContact) {
   EXPECT_GT(largest(values(rubbing, "pins", "B_friction_N")), 1);
 }
 
-// A pin that stands on the ground, where a rocker is loose: the shaking force is that of all masses.
+// A pin that stands on the ground, where a rocker has clearance: the shaking force is that of all masses.
 TEST(ClearanceStudy, TheGroundFeelsItsContacts) {
   std::string text =
       replaced(example("clearance-four-bar-design-2"), "joint                = \"A\"", "joint = \"O4\"");
@@ -395,8 +395,9 @@ TEST(ClearanceStudy, NamesWhatRegimesCannotDo) {
 }
 
 TEST(ClearanceStudy, WritesWhatItReads) {
-  for (const std::string& text : {slider_crank(), example("clearance-four-bar-design-2"),
-                                  example("clearance-four-bar-automatic"), example("clearance-four-bar-regime")}) {
+  for (const std::string& text :
+       {slider_crank(), example("clearance-four-bar-design-2"), example("clearance-four-bar-automatic"),
+        example("clearance-four-bar-regime")}) {
     std::string messages;
     const auto first = prepare(text, messages);
     ASSERT_TRUE(first) << messages;
@@ -421,7 +422,7 @@ TEST(ClearanceStudy, StepsAreFewAtOneMicrometreAndAtTenTurnsAMinute) {
   const std::string slow = replaced(replaced(slider_crank(), "speed_rpm = 5000.0", "speed_rpm = 10.0"),
                                     "to_s    = 0.036", "to_s = 6.0");
   EXPECT_LT(steps(slow), 50000);
-  // A thousand turns of it are out of reach: told after 20000 steps, not after all that are allowed.
+  // A thousand turns of it are out of reach: reported after 20000 steps, not after all that are allowed.
   const study::Result hopeless = run_text(replaced(slow, "to_s = 6.0", "to_s = 6000.0\nmax_steps = 100000"));
   EXPECT_THAT(fact(hopeless, "integration"), ::testing::StartsWith("20000 steps"));
   EXPECT_THAT(messages(hopeless),

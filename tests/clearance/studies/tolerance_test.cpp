@@ -109,7 +109,7 @@ TEST(ToleranceStudy, BudgetsAddUpAndTellWhatToTighten) {
                         "linkages stay within 0.129 mm; 46 % of the worst case comes from pin A."));
 }
 
-// Every way of the point within the band that is told.
+// Every displacement of the point within the band that is reported.
 TEST(ToleranceStudy, BandOfAPath) {
   const study::Result r = run_text(four_bar());
   const std::vector<double>&x = values(r, "band", "coupler_P_x_m"), &y = values(r, "band", "coupler_P_y_m"),
@@ -204,7 +204,7 @@ TEST(ToleranceStudy, WarnsNearDeadPoints) {
               HasSubstr("coupler.P: the errors of the random linkages differ from the linear theory at "));
   EXPECT_LT(values(r, "errors", "assembled").back(), 2000);
   EXPECT_EQ(values(r, "errors", "assembled").front(), 2000);
-  // Those that do not assemble everywhere are beyond every limit, and no share of 99 % is told.
+  // Those that do not assemble everywhere are beyond every limit, and no share of 99 % is reported.
   EXPECT_THAT(r.headline, ::testing::Not(HasSubstr("99 %")));
   EXPECT_EQ(r.statistics.find("coupler_P_99_percent_m"), nullptr);
   // Beyond it there is nothing, and the rest is kept.
@@ -301,7 +301,7 @@ draws = 100
   EXPECT_EQ(arm.status, Status::done) << messages(arm);
   EXPECT_EQ(table(arm, "errors").rows(), 12u);
   EXPECT_EQ(arm.scenes[0].input.size(), 4u);
-  // A loose elbow shifts the hand by its play.
+  // A clearance at the elbow shifts the hand by as much.
   EXPECT_THAT(table(arm, "errors").columns[2].values, Each(::testing::DoubleNear(1e-4, 1e-12)));
 }
 
@@ -362,7 +362,7 @@ TEST(ToleranceStudy, NamesWhatIsWrong) {
   const std::string slider = tolerance_example("tolerances-slider-crank");
   EXPECT_THAT(problems_of(replaced(slider, "joint        = \"B\"", "joint = \"guide\"")),
               HasSubstr("joint 'guide' is prismatic; only revolute joints have clearance"));
-  // Nothing errs, nothing is looked at.
+  // Nothing deviates, nothing is looked at.
   std::string rigid = four_bar(), blind = four_bar();
   const auto from = rigid.find("# Loose pins"), to = rigid.find("# What is looked at");
   rigid.erase(from, to - from);

@@ -99,7 +99,7 @@ TEST(VibrationStudy, FrequenciesAgainstTheContinuum) {
     EXPECT_LT(std::abs(column(result, "frequencies", "finer_change")[k]),
               1.1 * std::abs(column(result, "frequencies", "continuum_error")[k]) + 1e-9);
   }
-  // Too coarse: told.
+  // Too coarse: reported.
   const auto coarse =
       run(replaced(replaced(bare, "divisions = 4", "divisions = 1"), "modes = 2", "modes = 3"));
   EXPECT_THAT(

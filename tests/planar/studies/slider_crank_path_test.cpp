@@ -217,7 +217,7 @@ seeds = { first = 1, count = 2 }
   ASSERT_EQ(r.solutions.size(), 8u);
   EXPECT_NEAR(r.solutions.front().objectives.find("stroke_m")->as_number(), 0.721316, 1e-5);
   EXPECT_NEAR(r.solutions.back().objectives.find("stroke_m")->as_number(), 0.45, 1e-9);
-  // 0.036813 with both senses searched; the study searches the one that the steps tell.
+  // 0.036813 with both senses searched; the study searches the one that the steps give.
   EXPECT_LT(r.solutions.back().objectives.find("path_error_sum_sq_m2")->as_number(), 0.0369);
   EXPECT_EQ(r.statistics.find("success_rate")->as_number(), 1);
   EXPECT_EQ(r.plots.front().table, "front");
@@ -315,7 +315,7 @@ TEST(SliderPathStudyRun, TheDeadlineKeepsWhatThereIs) {
   EXPECT_FALSE(result.headline.empty());
 }
 
-// A guide whose direction is told leaves two sides for the slider: both are searched, and the answer says
+// A guide whose direction is given leaves two sides for the slider: both are searched, and the answer says
 // which.
 TEST(SliderPathStudyRun, BothSidesOfAFixedGuide) {
   const std::string fixed =

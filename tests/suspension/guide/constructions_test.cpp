@@ -121,7 +121,7 @@ TEST(Constructions, RodsThatShareAnEndAreAnArm) {
     const bool blade = guide.links[link].type == LinkType::SR;
     const WheelParameters one = at(guide, 0.04), other = at(rods, 0.04);
     // A blade as two rods from one body point keeps its plane, but the carrier turns about no ball joint
-    // there that a second look at the rods would tell.
+    // there that a second look at the rods would show.
     EXPECT_EQ(other.geometric_axis.has_value(), !blade) << name;
     if (!blade) {
       EXPECT_NEAR(one.geometric_axis->caster, other.geometric_axis->caster, 1e-12);

@@ -36,7 +36,7 @@ WheelGuide enlarged(const WheelGuide& guide, double factor, bool tyre) {
 
 TEST(Plausibility, GuidesThatAreMeantPassInSilence) {
   for (const GuideSample& sample : guide_samples()) {
-    if (sample.guide.wheel.centre.y == 0) continue;  // counted from the wheel centre: told below
+    if (sample.guide.wheel.centre.y == 0) continue;  // counted from the wheel centre: reported below
     EXPECT_EQ(told(implausible(sample.guide)), "") << sample.name;
     EXPECT_EQ(told(implausible(mirrored(sample.guide))), "") << sample.name;
     // A model car, a lorry.

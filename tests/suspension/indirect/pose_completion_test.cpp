@@ -71,7 +71,8 @@ TEST(PoseCompletion, DyadAndClosedFormTurnTheCarrierAlike) {
 
 TEST(PoseCompletion, EveryParameterComesBack) {
   // All rods of the rear suspension, each parameter in turn, through the dead point of link 3 for the spin.
-  // The dead point of links 1 and 4 for the height lies next to the reference: nothing tells the sides apart.
+  // The dead point of links 1 and 4 for the height lies next to the reference: nothing distinguishes the
+  // sides.
   const test::Example e = test::published_example("ex4-forward");
   for (const auto& parameter : names(PoseParameter{}))
     for (const GuideLink& rod : e.links) {

@@ -28,7 +28,7 @@ WheelParameters differenced(F f, double h) {
 }
 
 /// Largest difference of two sets, relative to numbers of at least 1; parameters of more than 5 (centres
-/// far away) are left out, differences cannot tell their derivatives.
+/// far away) are left out, differences cannot give their derivatives.
 double apart(const WheelParameters& a, const WheelParameters& b, const WheelParameters& values, int& count) {
   std::vector<double> sizes, first;
   WheelParameters scratch;

@@ -269,7 +269,7 @@ struct ClearanceDesignValues {
 struct ClearanceDesignStudy {
   DesignTarget target = DesignTarget::both;
   DesignStages stages = DesignStages::in_turn;
-  ClearancePathProblem path;  ///< without points when lengths are not designed
+  ClearancePathProblem path;  ///< without points when lengths are no design variables
   ClearanceMassProblem mass;  ///< its model has the fixed lengths when only masses are designed
   bool closed = false;        ///< the points go round with the crank
   DesignMethod method;
@@ -354,7 +354,7 @@ Table design_points(const ClearanceDesignStudy& study, const DesignMeasures& des
 Table design_turn(const ClearanceDesignStudy& study, const DesignMeasures& design, std::string name);
 /// All that a simulation of the design asks for: "linkage-points", "linkage-masses", "linkage-start".
 std::vector<Table> design_linkage_tables(const ClearanceDesignStudy& study, const DesignMeasures& design);
-/// The design in motion over its turn, play enlarged.
+/// The design in motion over its turn, the clearance drawn enlarged.
 study::Scene design_scene(const ClearanceDesignStudy& study, const DesignMeasures& design);
 
 study::Result report_clearance_design(const ClearanceDesignStudy& study, const study::Common& common,

@@ -34,7 +34,7 @@ std::array<Range, clearance_length_count> bounds_of_path(const std::vector<doubl
           Range{-pi, pi}};
 }
 
-// Eight ranges of two bodies; what is missing is told.
+// Eight ranges of two bodies; what is missing is reported.
 std::array<Range, clearance_mass_count> masses_of(study::ObjectReader& table, const DesignMassesForm& form,
                                                   bool fixed) {
   constexpr std::array<std::string_view, 4> keys = {"mass_kg", "centre_u_mm", "centre_v_mm", "inertia_kg_m2"};

@@ -116,7 +116,7 @@ ClearanceDesignAnswer answer_of(const ClearanceDesignStudy& s, std::uint64_t see
 }
 
 // The turn from `start`, its rows, and where the tracing point is at the angles of the path.
-void follow_turn(const ClearanceDesignStudy& s, const EvenCrank& crank, const LinkState& start,
+void follow_turn(const ClearanceDesignStudy& s, const UniformCrank& crank, const LinkState& start,
                  std::span<const double> angles, const RunContext* context, DesignMeasures& out) {
   const double sense = std::copysign(1.0, crank.speed), period = full_turn / std::abs(crank.speed);
   const auto count = static_cast<std::size_t>(s.samples);

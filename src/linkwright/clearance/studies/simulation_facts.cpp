@@ -14,7 +14,7 @@ namespace {
 constexpr double poor_balance = 1e-5;
 // Of the radius of the pin: depths beyond it are outside of the law of contact.
 constexpr double deep_share = 0.1;
-// Of the coefficient of restitution: a law that is off by more is told.
+// Of the coefficient of restitution: a law that is off by more is reported.
 constexpr double far_restitution = 0.25;
 
 std::string newtons(double force) {
@@ -202,7 +202,7 @@ class Facts {
                      depth > c.bush_radius ? ", which is more than the bush is wide" : ""),
          "stiffer bodies (modulus, stiffness), less mass or less speed; real bodies would yield or break");
   }
-  // A law that does not give the coefficient of restitution that it is told.
+  // A law that does not give the given coefficient of restitution.
   void poor_restitution(std::size_t k) {
     const ContactLaw& law = s_.contacts[k].law;
     const ImpactShape shape = impact_shape(law);

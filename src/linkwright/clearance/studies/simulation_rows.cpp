@@ -30,7 +30,7 @@ Vec<double> place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
 ClearanceRows::ClearanceRows(const ClearanceStudy& study, ClearanceRecording& out,
                              std::function<bool(RecordedRow&&)> keep)
     : s_(study), out_(out), keep_(std::move(keep)) {
-  out_.columns = planar::driven_columns(s_.linkage, s_.plan, s_.quantities, s_.traces, s_.courses);
+  out_.columns = planar::driven_columns(s_.linkage, s_.plan, s_.quantities, s_.traces, s_.drives);
 }
 
 // ---- columns of a linkage whose joints are others ---------------------------------------------------------
@@ -49,7 +49,7 @@ ClearanceRows::Value ClearanceRows::value_of(const planar::LinkageColumn& column
     if (column.key == key + "_N")
       return [k](const planar::LinkageInstant&, const RecordedRow& r) { return norm(r.pins[k].force); };
   }
-  for (std::size_t k = s_.courses.size(); k < plan.inputs(); ++k)
+  for (std::size_t k = s_.drives.size(); k < plan.inputs(); ++k)
     if (planar::input_key(linkage, plan, k) == column.key)
       return [k](const planar::LinkageInstant& i, const RecordedRow&) { return i.inputs[k].value; };
   const auto found = std::find_if(own.begin(), own.end(), [&](const auto& o) { return o.key == column.key; });
@@ -188,7 +188,7 @@ bool ClearanceRows::finish(RecordedRow row, const Stage& stage, std::span<const 
   const planar::LinkageInstant instant{row.time, {inputs.begin(), inputs.end()}, &motion, &forces_};
   for (const Value& value : stage.values)
     row.values.push_back(row.status == Status::done ? value(instant, row) : nan);
-  row.inputs.assign(inputs.begin(), inputs.begin() + static_cast<std::ptrdiff_t>(s_.courses.size()));
+  row.inputs.assign(inputs.begin(), inputs.begin() + static_cast<std::ptrdiff_t>(s_.drives.size()));
   row.record.status = row.status;
   row.record.input = row.time;
   for (int b = 0; b < static_cast<int>(s_.linkage.bodies.size()); ++b)
@@ -199,7 +199,7 @@ bool ClearanceRows::finish(RecordedRow row, const Stage& stage, std::span<const 
     for (std::size_t k = 0; k < s_.pins(); ++k)
       row.record.joints[at(s_.joint_of(k))].force = row.pins[k].force;
     row.record.drives.assign(forces_.drives.begin(),
-                             forces_.drives.begin() + static_cast<std::ptrdiff_t>(s_.courses.size()));
+                             forces_.drives.begin() + static_cast<std::ptrdiff_t>(s_.drives.size()));
   }
   return keep_(std::move(row));
 }

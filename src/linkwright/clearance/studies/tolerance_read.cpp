@@ -90,7 +90,7 @@ std::string hint_for(std::string_view name, const std::vector<std::string_view>&
   return nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest);
 }
 
-// ---- what is loose
+// ---- what has clearance
 // ----------------------------------------------------------------------------------------------------
 
 void read_pins(study::ObjectReader& document, ToleranceStudy& s, Value& canonical) {

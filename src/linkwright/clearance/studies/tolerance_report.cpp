@@ -299,7 +299,7 @@ class ToleranceReporter {
     for (std::size_t row = 0; row < rows(); ++row) {
       const MonteCarloSample& m = r_.random.samples[row];
       const double linear = r_.root_mean_square(row, q);
-      // Where the first order hardly errs at all the second one is all there is, and small.
+      // Where the first order hardly deviates at all the second one is all there is, and small.
       if (r_.linear[row].status != Status::done || m.assembled < 2 || linear < 0.05 * largest) continue;
       double squares = 0;
       for (std::size_t i = quantity.first; i < quantity.first + quantity.size; ++i)

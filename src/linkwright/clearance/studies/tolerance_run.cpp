@@ -190,7 +190,7 @@ ToleranceRecording record_tolerances(const ToleranceStudy& s, RunContext& contex
   for (const auto& row : r.rows.inputs) samples.insert(samples.end(), row.begin(), row.end());
   const planar::Linkage& l = s.motion.linkage;
   r.linear = clearance_sensitivity(l, s.tolerances, s.outputs, samples, r.rows.time, &context);
-  // Interrupted: everything is told of the samples that there are.
+  // Interrupted: everything is reported of the samples that there are.
   r.rows.time.resize(r.linear.size());
   r.rows.inputs.resize(r.linear.size());
   r.run_length = std::min(r.run_length, r.linear.size());

@@ -52,7 +52,7 @@ study::Scene tolerance_scene(const ToleranceStudy& s, const ToleranceRecording& 
       scene.traces.push_back({point, name, closed});
     }
   }
-  // A circle at each loose pin, as large as its play.
+  // A circle at each clearance joint, as large as its clearance.
   for (const PinTolerance& pin : s.tolerances.pins) {
     const planar::LinkageJoint& joint = l.joints[at(pin.joint)];
     int centre = joint.first.point;

@@ -16,7 +16,7 @@ namespace linkwright::flexible {
 namespace {
 
 constexpr double turn_of = 2 * pi;
-/// Share of a frequency by which twice the divisions, or the continuum, may change it before it is told.
+/// Share of a frequency by which twice the divisions, or the continuum, may change it before it is reported.
 constexpr double poor_frequency = 0.01;
 
 std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }

@@ -78,7 +78,7 @@ void add_drive_demands(std::vector<Demand>& out, int i, const PiDrive& motor, do
   };
   add(Asked::speed, std::abs(speed), fastest);
   const PowerFlow flow = effort * speed < 0 ? PowerFlow::load_drives : PowerFlow::motor_drives;
-  // Beyond its speed a motor has no force: the speed is told, then.
+  // Beyond its speed a motor has no force: the speed is reported, then.
   const double most =
       !geared || std::abs(speed) > fastest ? motor.force_limit : available_force(motor, speed, flow);
   add(Asked::effort, std::abs(effort), most);

@@ -118,7 +118,7 @@ void add_plots(study::Result& result) {
   plot("holding-force", "Force of the diagonal at rest", {"holding_force_N"});
 }
 
-/// Which bars the samples can tell.
+/// Which bars the samples can distinguish.
 void add_calibration(study::Result& result, const PiAnalysis& s) {
   std::vector<PiStiffnessSample> samples;
   const CalibrationForm& c = *s.calibration;

@@ -255,7 +255,7 @@ class Answers {
       q.goal = optimise::SmoothGoal::largest;
       for (std::size_t j = 0; j < m; ++j) {
         const double target = p_.task.objectives[j].target;
-        // What comes later hardly counts: it only tells equals apart.
+        // What comes later hardly counts: it only separates equals.
         q.weights[j] = (k == m || j == k ? 1 : least_share * least_share) / target;
         if (j < k) q.caps[j] = std::min(q.caps[j], target);
       }

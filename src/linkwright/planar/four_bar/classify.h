@@ -9,7 +9,7 @@
 namespace linkwright::planar {
 
 /// Type of a four-bar by the signs of T1 = L1-L2+L3-L4, T2 = L1-L2-L3+L4, T3 = L3+L4-L1-L2. The last four do
-/// not meet Grashof's condition; "0" and "pi" tell through which collinear position input (first) and output
+/// not meet Grashof's condition; "0" and "pi" say through which collinear position input (first) and output
 /// pass.
 enum class FourBarType {
   crank_rocker,

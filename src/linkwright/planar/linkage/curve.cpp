@@ -318,7 +318,7 @@ struct ModeCurve::Memory {
   void name_ends() {
     for (RangeEnd* end : {&low, &high}) {
       if (end->kind == EndKind::bound) continue;
-      // Beside the end, where the groups still tell.
+      // Beside the end, where the groups still say it.
       const double inside = end == &low ? 1 : -1;
       LinkageMotion motion(equations.plan());
       const double width = nodes.back().value - nodes.front().value;

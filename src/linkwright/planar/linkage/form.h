@@ -71,7 +71,7 @@ struct TorqueForm {
 };
 struct LinkageForm {
   /// The points of all bodies are given where they are in one drawn position, in the global frame: body
-  /// frames coincide with it there, and the drawing tells the assembly modes.
+  /// frames coincide with it there, and the drawing gives the assembly modes.
   bool drawn = false;
   std::vector<BodyForm> bodies;
   std::vector<JointForm> joints;

@@ -25,7 +25,7 @@ struct PartState {
   T angular_acceleration;
 };
 
-/// What a group tells of its closure.
+/// What a group knows of its closure.
 template <class T>
 struct GroupState {
   /// Of a dyad with two modes: what stands under its root, in m2 (RRP, RPR) or m4 (RRR): negative = it cannot
@@ -40,7 +40,7 @@ struct GroupState {
   T rate_x, rate_y, rate_zero;  ///< rates of the joints
 };
 
-/// What a dyad's type tells of its joints: which are slides, and which one, counted from 0, is the pin at R
+/// What a dyad's type says of its joints: which are slides, and which one, counted from 0, is the pin at R
 /// (`zero`) and which are the other two.
 struct DyadLayout {
   bool slide1, slide2, slide3;
@@ -140,7 +140,7 @@ LINKWRIGHT_KERNEL void place_driver(const Group& g, const T& value, PartState<T>
   }
 }
 
-// Each places both parts and tells R and the columns of the 2 x 2 equations; `per_length` is one
+// Each places both parts and gives R and the columns of the 2 x 2 equations; `per_length` is one
 // over the product of the columns' lengths.
 template <class T>
 LINKWRIGHT_KERNEL void place_rrr(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state,

@@ -40,7 +40,7 @@ struct LinkageBody {
   std::vector<LinkagePoint> points;
   std::optional<BodyMass> mass;
   std::vector<AttachedMass> attached;
-  /// About where the body stands at the start: tells the assembly mode of its group, and is where a search
+  /// About where the body stands at the start: gives the assembly mode of its group, and is where a search
   /// starts. Not needed for groups whose mode is given.
   std::optional<math::Pose> start;
 };

@@ -24,7 +24,7 @@ constexpr std::array<EnumName<Timing>, 3> names(Timing) {
            {Timing::given, "given", "the crank angle of each point is given"}}};
 }
 
-/// The designed quantities, in the order of the variables of the ten-unknown problem.
+/// The design variables, in the order of the variables of the ten-unknown problem.
 enum class FourBarParameter : std::size_t {
   ground,
   crank,

@@ -16,7 +16,7 @@
 // Path synthesis of the slider-crank with an inclined, offset guide: Boskovic 2018, section 4.3.
 namespace linkwright::planar {
 
-/// The designed quantities, in the order of Boskovic 2018, Eqs. (4.12) and (4.31): L2, L3, L4, beta, delta,
+/// The design variables, in the order of Boskovic 2018, Eqs. (4.12) and (4.31): L2, L3, L4, beta, delta,
 /// H (here counted the other way), x_A, y_A, theta2 of the first point.
 enum class SliderParameter : std::size_t {
   crank,
@@ -122,7 +122,7 @@ double total_violation(const SliderPathDesign& design);
 SliderCrankMechanism forward_form(SliderCrankMechanism mechanism);
 
 /// Whether two mechanisms are the same within tolerance::same_design of their size, whichever way their
-/// guides are told.
+/// guides are given.
 bool same_mechanism(const SliderCrankMechanism& a, const SliderCrankMechanism& b);
 
 /// Best first, by the feasibility rules.

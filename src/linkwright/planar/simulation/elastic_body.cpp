@@ -145,7 +145,7 @@ class Builder {
 
   // ---- the pieces ---------------------------------------------------------------------------------------
 
-  // Every body gets a start, so that assembly modes need not be told in terms of the pieces.
+  // Every body gets a start, so that assembly modes need not be given in terms of the pieces.
   void start(const LinkagePlan& plan, const LinkageMotion& motion) {
     for (std::size_t b = 1; b < rigid_.bodies.size(); ++b) {
       const PartState<double> s = body_state(plan, motion, static_cast<int>(b));

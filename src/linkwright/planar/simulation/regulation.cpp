@@ -33,7 +33,7 @@ void require(const Linkage& l, const LinkagePlan& plan, const RegulationSetup& s
                      l.forces.size() + l.torques.size());
 }
 
-// Whether the input goes round and round; else why not.
+// Whether the input rotates fully and round; else why not.
 template <class Answer>
 bool goes_round(const LinkagePlan& plan, const RegulationSetup& s, Answer& out) {
   const LinkageMotion motion(plan);

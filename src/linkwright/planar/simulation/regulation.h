@@ -6,7 +6,7 @@
 #include "linkwright/core/run_context.h"
 #include "linkwright/planar/linkage/plan.h"
 
-// How evenly a machine runs: a linkage with one turning input over its cycle, one turn.
+// Speed fluctuation of a machine: a linkage with one turning input over its cycle, one turn.
 namespace linkwright::planar {
 
 struct RegulationSetup {
@@ -38,7 +38,7 @@ struct CycleRegulation {
 /// the fluctuation. Torques that go by speed are taken for motors and left out. Loads act as at the mean
 /// speed.
 ///
-/// no_assembly, singular or infeasible (change points) when the linkage does not go round; cancelled,
+/// no_assembly, singular or infeasible (change points) when the linkage does not rotate fully; cancelled,
 /// deadline: without anything, or, when `speed` is not empty, without the flywheel and `regulated`, which are
 /// NaN. Throws ContractError when there is not one turning input whose turn is a cycle in closed form, a load
 /// goes by time, a body has no mass, or the setup is out of range.

@@ -95,9 +95,9 @@ void describe_elastic(study::SchemaWriter& document) {
                     study::schema_array(study::schema_fields<ElasticBodyForm>()));
 }
 
-std::vector<InputMotion> inputs_at(const std::vector<InputCourse>& courses, double time) {
+std::vector<InputMotion> inputs_at(const std::vector<InputDrive>& drives, double time) {
   std::vector<InputMotion> out;
-  for (const InputCourse& c : courses) {
+  for (const InputDrive& c : drives) {
     if (!c.law) {
       out.push_back({c.value, c.rate, 0});
       continue;

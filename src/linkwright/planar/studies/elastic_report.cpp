@@ -53,7 +53,7 @@ class ElasticReporter {
     return s_.linkage.bodies[at(p.beam.body)].name;
   }
   std::string beam_key(std::size_t e) const { return identifier(name_of_beam(r_.elastic.pieces[e])); }
-  bool is_free(std::size_t k) const { return !s_.courses[k].law; }
+  bool is_free(std::size_t k) const { return !s_.drives[k].law; }
 
   void add_spectrum() {
     const double step = (s_.to - s_.from) / (s_.samples - 1);

@@ -34,7 +34,7 @@ struct PathPoints {
 };
 
 /// The points of a target that has been read into `form` (m), three at least and none twice in a row.
-/// Problems are told at the keys of the target.
+/// Problems are reported at the keys of the target.
 void read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
                       std::vector<double>& x, std::vector<double>& y);
 
@@ -43,7 +43,7 @@ void read_path_points(study::ObjectReader& target, const study::Common& common, 
 void read_path_targets(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
                        PathPoints& targets);
 
-/// The same checks for targets from elsewhere; problems are told at `key`.
+/// The same checks for targets from elsewhere; problems are reported at `key`.
 void check_path_targets(study::ObjectReader& target, const char* key, const PathPoints& targets);
 
 /// A path that ends where it begins is a closed one, unless the study says that it is not: its last target is

@@ -42,7 +42,7 @@ PathSeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_
                      RunContext& context) {
   PathSynthesisOptions options = method.options;
   options.seed = seed;
-  options.progress = only_seed;  // several at once are told by the loop over them
+  options.progress = only_seed;  // several at once are reported by the loop over them
   PathSynthesis answer = synthesise_path(s.problem, options, context);
   return {answer.status, std::move(answer.designs), std::move(answer.history), answer.evaluations};
 }
@@ -54,7 +54,7 @@ PathSeedRun run_seed(const optimise::PopulationMethod<Options, optimise::Constra
   std::uint32_t part = 0;
   for (double sense : {1.0, -1.0}) {
     if (!(sense > 0 ? s.problem.search_positive : s.problem.search_negative)) continue;
-    // One branch tells all: the cognate on the other one has the same crank angles and the same error.
+    // One branch is enough: the cognate on the other one has the same crank angles and the same error.
     const Branch branch = s.problem.search_open ? Branch::open : Branch::crossed;
     const optimise::Problem problem = path_population_problem(s.problem, branch, sense);
     optimise::MinimiseOptions minimise = method.minimise;

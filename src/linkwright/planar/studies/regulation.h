@@ -5,7 +5,7 @@
 #include "linkwright/planar/simulation/regulation.h"
 #include "linkwright/planar/studies/linkage.h"
 
-// The regulation of a machine: what its file holds, how it is read, run and reported.
+// The speed fluctuation of a machine: what its file holds, how it is read, run and reported.
 namespace linkwright::planar {
 
 struct LinkageRegulationStudy {
@@ -16,7 +16,7 @@ struct LinkageRegulationStudy {
   bool has_motor = false;  ///< a torque goes by speed
 };
 
-/// "regulation" of "planar.linkage" and of "planar.slider_crank".
+/// "speed_fluctuation" of "planar.linkage" and of "planar.slider_crank".
 study::Kind linkage_regulation_kind();
 study::Kind slider_crank_regulation_kind();
 

@@ -66,7 +66,7 @@ void fields(Visitor&& visit, LinkageSimulationStudy& s) {
 
 namespace {
 
-// Of steps with bodies that bend, rtol and atol: pieces turn against each other by differences of large
+// Of steps with flexible bodies, rtol and atol: pieces turn against each other by differences of large
 // angles, whose rounding their stiffness makes accelerations of; below 1e-8 steps get shorter without being
 // better.
 constexpr double elastic_tolerance = 1e-7;
@@ -74,22 +74,22 @@ constexpr Field free_field{.key = "free", .summary = "no drive: forces move the 
 
 }  // namespace
 
-std::vector<InputCourse> read_courses(study::ObjectReader& document, const LinkageDescription& d,
-                                      Value::Array& canonical) {
+std::vector<InputDrive> read_input_drives(study::ObjectReader& document, const LinkageDescription& d,
+                                          Value::Array& canonical) {
   const Linkage& l = d.linkage;
-  std::vector<InputCourse> courses(l.driven.size());
+  std::vector<InputDrive> drives(l.driven.size());
   canonical.assign(l.driven.size(), Value::object());
   std::vector<bool> told(l.driven.size(), false);
   const auto write_start = [&](std::size_t i) {
     const bool rotary = d.plan.rotary[i];
     study::ObjectWriter writer(canonical[i]);
     writer(free_field, true);
-    writer(drive_field(rotary, 0, "start", {}), courses[i].value);
-    writer(drive_field(rotary, 1, "start_speed", {}), courses[i].rate);
+    writer(drive_field(rotary, 0, "start", {}), drives[i].value);
+    writer(drive_field(rotary, 1, "start_speed", {}), drives[i].rate);
   };
   for (std::size_t i = 0; i < l.driven.size(); ++i) {
     canonical[i]["joint"] = input_joint(l, i).name;
-    if (i < d.sample_from.size()) courses[i].value = d.sample_from[i];
+    if (i < d.sample_from.size()) drives[i].value = d.sample_from[i];
   }
   for (study::ObjectReader& drive : document.tables("drive")) {
     std::string joint = l.driven.size() == 1 ? input_joint(l, 0).name : std::string();
@@ -102,8 +102,8 @@ std::vector<InputCourse> read_courses(study::ObjectReader& document, const Linka
     bool free = false;
     if (!drive(free_field, free) && drive.has("free")) continue;
     if (free) {
-      drive(drive_field(rotary, 0, "start", "position at the start"), courses[i].value);
-      drive(drive_field(rotary, 1, "start_speed", "rate at the start"), courses[i].rate);
+      drive(drive_field(rotary, 0, "start", "position at the start"), drives[i].value);
+      drive(drive_field(rotary, 1, "start_speed", "rate at the start"), drives[i].rate);
       if (drive.has("law"))
         drive.error("law", fmt::format("joint '{}' is free and has a motion law", joint),
                     "remove one of them");
@@ -115,14 +115,14 @@ std::vector<InputCourse> read_courses(study::ObjectReader& document, const Linka
                   "free = true lets forces move it; law = \"constant_speed\" drives it");
       continue;
     }
-    courses[i].law = read_law(drive, rotary, false, canonical[i]);
+    drives[i].law = read_law(drive, rotary, false, canonical[i]);
   }
   for (std::size_t i = 0; i < told.size(); ++i)
     if (!told[i]) write_start(i);  // of samples and shorthands: free
-  return courses;
+  return drives;
 }
 
-void describe_courses(study::SchemaWriter& document) {
+void describe_input_drives(study::SchemaWriter& document) {
   study::SchemaWriter drive;
   drive(Field{.key = "joint", .summary = "joint whose coordinate it is"}, std::string());
   drive(free_field, false);
@@ -137,11 +137,11 @@ void describe_courses(study::SchemaWriter& document) {
 
 namespace {
 
-// The bodies that bend, with their masses, and how the motion is to be integrated.
+// The flexible bodies, with their masses, and how the motion is to be integrated.
 bool add_elastic(study::ObjectReader& document, LinkageType type, LinkageDescription& d,
                  LinkageSimulationStudy& s) {
   const std::vector<ElasticPieces> pieces =
-      place_elastic(document, d.linkage, s.elastic, inputs_at(s.courses, s.from - s.settle));
+      place_elastic(document, d.linkage, s.elastic, inputs_at(s.drives, s.from - s.settle));
   if (pieces.empty()) return false;
   d.plan = plan(d.linkage).plan;
   if (!require_masses(document, type, d.plan)) return false;
@@ -188,10 +188,10 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
                        fmt::format("joint '{}' has friction, which all_coordinates do not take", j.name),
                        "route = \"free_joints\" does");
   Value::Array drives, beams;
-  s.courses = read_courses(document, *description, drives);
+  s.drives = read_input_drives(document, *description, drives);
   s.elastic = read_elastic(document, description->linkage, beams);
   const bool any_free =
-      std::any_of(s.courses.begin(), s.courses.end(), [](const InputCourse& c) { return !c.law; });
+      std::any_of(s.drives.begin(), s.drives.end(), [](const InputDrive& c) { return !c.law; });
   if (!any_free && !elastic && !document.document().has_errors())
     document.error("drive", "every drive has a motion law: nothing is left for forces to move",
                    "write free = true in a [[drive]], make a body flexible by [[elastic]], or take kind = "
@@ -202,8 +202,8 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   if (elastic && !document.document().has_errors() && !add_elastic(document, type, *description, s))
     return prepared;
   if (auto table = document.table("simulation"); table && !document.document().has_errors()) {
-    // Of a linkage that bends there are the rows of the rigid one, too, some of each beam, and the places of
-    // its nodes, which are drawn.
+    // Of a linkage with flexible bodies there are the rows of the rigid one, too, some of each beam, and the
+    // places of its nodes, which are drawn.
     constexpr double of_motion = 10, of_beam = 10;
     const auto columns = static_cast<double>(
         linkage_columns(description->linkage, description->plan, s.quantities, description->traces).size());
@@ -235,7 +235,7 @@ study::Kind kind_of(LinkageType type) {
   kind.quantities = linkage_quantity_words();
   kind.schema = [type](study::SchemaWriter& document) {
     describe_linkage(document, type);
-    describe_courses(document);
+    describe_input_drives(document);
     describe_elastic(document);
     document.property(Field{.key = "simulation", .summary = "time and tolerances", .required = true},
                       study::schema_fields<LinkageSimulationStudy>());

@@ -156,7 +156,7 @@ void set_constraints(study::ObjectReader& document, const study::DisplayUnits& u
                                units.text(p.stroke.lower, Dimension::length, 6),
                                units.text(p.stroke.upper, Dimension::length, 6)),
                    "give min less than max");
-  // A closed path is traced by a crank that goes round.
+  // A closed path is traced by a crank that rotates fully.
   if (p.closed) p.crank_rotates_fully = true;
   if ((limited || s.front) && !p.crank_rotates_fully)
     document.error(limited ? "constraint" : "objective", "the stroke is that of a full turn of the crank",

@@ -13,7 +13,7 @@
 namespace linkwright::suspension {
 
 /// Tolerance of a target value: `least` up to a size of `from`, `slope` more per unit above (Poznanovic 2016,
-/// equation 75 with the sign of negative targets put right: |value| - from).
+/// equation 75 with the sign of negative targets corrected: |value| - from).
 struct ToleranceRule {
   double least = 1;
   double slope = 0;

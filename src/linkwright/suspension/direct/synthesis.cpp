@@ -183,7 +183,7 @@ struct Form {
 };
 
 /// Minimises the largest of the objectives `these` while those of `within` keep to 1 and limits are met:
-/// quadratic programmes in a region that grows while they tell the truth and shrinks where they do not, or
+/// quadratic programmes in a region that grows while they hold and shrinks where they do not, or
 /// where a design does not assemble. Their curvature is that of the Lagrange function, learnt from its
 /// gradients (BFGS with Powell's damping, 1978); limits may be missed at a price that is higher than any
 /// deviation's.

@@ -46,8 +46,8 @@ bool newton(const GuidePlan& plan, Driver driver, const GuideInput& input, Guide
   return false;
 }
 
-/// The equations do not tell a hinge from one put together the wrong way round, nor a strut from one that has
-/// passed its ball joint.
+/// The equations do not distinguish a hinge from one put together the wrong way round, nor a strut from one
+/// that has passed its ball joint.
 bool right_way_round(const GuidePlan& plan, const GuidePlace& place, double rack) {
   const Mat3& turned = place.carrier.rotation;
   return std::all_of(plan.links.begin(), plan.links.end(), [&](const LinkConstants& link) {

@@ -5,7 +5,7 @@
 #include "linkwright/suspension/guide/suspension.h"
 
 /// Slips that a description of a wheel suspension may hold though each of its numbers is one: units mixed up,
-/// axes swapped. Told before they become a suspension that cannot be put together.
+/// axes swapped. Reported before they become a suspension that cannot be put together.
 namespace linkwright::suspension {
 
 /// What looks like a slip. All measures are relative to the suspension itself - distances from the wheel

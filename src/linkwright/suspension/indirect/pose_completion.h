@@ -44,7 +44,7 @@ RodSolution solve_for(const CarrierTargets& targets, const CarrierTarget& pose, 
 
 /// In which order positions that miss a parameter are settled: each after the one that it is nearest to, the
 /// reference pose first. Where a rod passes a dead point both solutions meet, and only where the motion comes
-/// from tells them apart.
+/// from distinguishes them.
 struct SettlingStep {
   std::size_t position = 0;
   int before = -1;       ///< the position it is nearest to; -1 = the reference pose

@@ -155,7 +155,7 @@ bool on_family(const Equations& equations, const Point<Complex>& p) {
   return values[5] <= singular_system * values[0];
 }
 
-/// Goes to the nearest real solution, on a family too; tells how singular the system is there.
+/// Goes to the nearest real solution, on a family too; says how singular the system is there.
 bool polish_real(const Equations& equations, Point<double>& p, double& singularity) {
   Eigen::Matrix<double, 6, 1> f;
   System jacobian;

@@ -109,7 +109,7 @@ SpinFit fit_with_unknown_spin(const CarrierTargets& targets, std::span<const Lin
   };
   // Each start as far as it takes to rank them, then one after the other to its end, the best first, until
   // one is good enough: which of them ends best, in narrow valleys cut off by limits, their ranks do not
-  // tell.
+  // show.
   struct End {
     double rms;
     std::vector<double> x;

@@ -54,7 +54,7 @@ enum class LoadPlace { contact, wheel_centre };
 constexpr std::array<EnumName<LoadPlace>, 2> names(LoadPlace) {
   return {{{LoadPlace::contact, "contact"}, {LoadPlace::wheel_centre, "wheel_centre"}}};
 }
-/// `[[compliance.load]]`: beside the load cases that are always told.
+/// `[[compliance.load]]`: beside the load cases that are always reported.
 struct LoadForm {
   std::string name;
   LoadPlace at = LoadPlace::contact;

@@ -423,7 +423,7 @@ class GuideReader {
     const PointForm& point = form.point->points[0];
     const GuideLink& rod = out_.guide.links[static_cast<std::size_t>(first)];
     if (rod.body.size() != 1 || rod.carrier.size() != 1)
-      return;  // told already, or by the check of the suspension
+      return;  // reported already, or by the check of the suspension
     const double length = rod.length.value_or(norm(rod.carrier[0] - rod.body[0]));
     if (form.fraction.has_value() + form.offset.has_value() + form.first_point.has_value() != 1)
       return table.error("fraction", "needs fraction, offset or first_point, one of them");

@@ -54,7 +54,7 @@ class Drawing {
     other_ = false;
     source_.clear();
     for (std::size_t i = 0; i < grid_.positions.size(); ++i) source_.push_back(i);
-    // At a rack displacement the wheels differ, and its place is told by both: it is drawn where they agree.
+    // At a rack displacement the wheels differ, and its place is that of both: it is drawn where they agree.
     const int at = at_sample("roll centre", [&](std::size_t i) {
       const WheelParameters& w = grid_.wheels[i];
       const bool centred = grid_.racks[i / grid_.travels.size()] == 0;

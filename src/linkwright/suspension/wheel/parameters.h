@@ -10,7 +10,7 @@
 namespace linkwright::suspension {
 
 /// The axis about which the wheel turns when it is steered: instantaneous screw axis of the motion by the
-/// rack while `lock` is held (equations 30 to 37 with 30, 31 and 36 put right). What is held has to be told:
+/// rack while `lock` is held (equations 30 to 37 with 30, 31 and 36 corrected). What is held has to be given:
 /// with the spring held the axis of a double wishbone passes through both ball joints, with the wheel
 /// centre's or the contact point's height held it does not. The geometric axis is the line through both ball
 /// joints of the carrier, without any motion: it holds nothing and has no pitch.

@@ -166,7 +166,7 @@ BasicArmCentres<T> arm_centres(const Placed<T>& placed, const Vector3<T>& contac
   const T ahead = side.across / side.weight, over = side.up / side.weight;
   out.side = {contact.x + ahead, contact.z + over};
   out.side_swing_arm = hypot(ahead, over);
-  // Of parallel traces the ratio still tells the slope.
+  // Of parallel traces the ratio still gives the slope.
   const T slope = side.up / side.across;
   out.side_swing_angle = atan(ahead < 0 ? -slope : slope);
   return out;
