@@ -19,7 +19,7 @@ struct ContactOptions {
   /// In flight and impacts; contacts that are pressed together for long, whose damping makes the equations
   /// stiff, are integrated by bdf.
   math::OdeMethod method = math::OdeMethod::explicit_runge_kutta_5;
-  /// Error of a step, relative; absolute: this times the clearance for the ways of the pin.
+  /// Error of a step, relative; absolute: this times the clearance for the displacements of the pin.
   double tolerance = 1e-9;
   /// Longest step in contact as a share of the time that the impact would last by itself, or, where the
   /// bodies stay pressed together beyond that, of the time since then: what vibrates has the steps that its

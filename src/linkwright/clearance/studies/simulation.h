@@ -111,9 +111,9 @@ struct RecordedRow {
 struct ClearanceRegime {
   int turns = 0;   ///< periods of the drives after which it repeats; 0: not found
   int waited = 0;  ///< periods from the start to where it was seen to repeat; 0: found by shooting
-  /// Largest change of a pin over `turns` periods, or, without, over the last one: ways as shares of the
-  /// clearance, speeds as shares of the largest of all sections; of a clearance link the sine and cosine of
-  /// its angle, and its speed as a share of one turn a period.
+  /// Largest change of a pin over `turns` periods, or, without, over the last one: displacements as shares of
+  /// the clearance, speeds as shares of the largest of all sections; of a clearance link the sine and cosine
+  /// of its angle, and its speed as a share of one turn a period.
   double change = nan;
   std::optional<JointOrbit> orbit;  ///< of continuous contact, where that was looked for
 };

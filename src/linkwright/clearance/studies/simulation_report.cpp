@@ -215,7 +215,7 @@ class SimulationReporter {
             [](const PinInstant& p) { return p.normal; });
         if (leads()) add_lead(table, k);
       }
-      // The way of the pin beside the circle that it is in.
+      // The path of the pin beside the circle that it is in.
       std::vector<double> circle_x, circle_y;
       for (std::size_t i = 0; i < rows(); ++i) {
         const double angle = 2 * pi * double(i) / double(std::max<std::size_t>(rows() - 1, 1));

@@ -37,7 +37,7 @@ study::Result run_tolerance_study(const ToleranceStudy& study, RunContext& conte
 
 /// What deviates as one thing, in the order of `quantity_count`.
 struct ToleranceQuantity {
-  enum class Kind { point, angle, way, force, torque } kind = Kind::point;
+  enum class Kind { point, angle, displacement, force, torque } kind = Kind::point;
   std::string key;            ///< "coupler_P", "B0_angle", "A_force", "O_drive_torque"
   std::string name;           ///< "coupler.P", "angle of B0"
   std::size_t first = 0;      ///< its first value

@@ -32,7 +32,7 @@ std::vector<ToleranceQuantity> quantities_of(const planar::LinkageStudy& s, cons
   for (const int j : o.coordinates) {
     const planar::LinkageJoint& joint = l.joints[at(j)];
     const bool turns = joint.type == planar::JointType::revolute;
-    add(turns ? Kind::angle : Kind::way,
+    add(turns ? Kind::angle : Kind::displacement,
         planar::identifier(joint.name) + (turns ? "_angle" : "_displacement"),
         (turns ? "angle of " : "displacement of ") + joint.name);
   }
@@ -107,7 +107,7 @@ void record_motion(const ToleranceStudy& s, ToleranceRecording& r, bool time, co
 std::string unit_key(Kind kind) {
   switch (kind) {
     case Kind::point:
-    case Kind::way:
+    case Kind::displacement:
       return "m";
     case Kind::angle:
       return "rad";
@@ -124,7 +124,7 @@ std::string unit_label(Kind kind) { return kind == Kind::torque ? "N m" : unit_k
 std::string shown(Kind kind, double value) {
   switch (kind) {
     case Kind::point:
-    case Kind::way:
+    case Kind::displacement:
       return fmt::format("{:.3g} mm", 1e3 * value);
     case Kind::angle:
       return fmt::format("{:.3g}°", math::degrees(value));

@@ -171,7 +171,7 @@ class Tabler {
     const double variance = std::pow(r_.root_mean_square(row, q), 2), all = r_.worst(q);
     const auto part = [](double of, double total) { return total > 0 ? of / total : 0; };
     const std::string unit = unit_key(quantity.kind), label = unit_label(quantity.kind);
-    const bool length = quantity.kind == Kind::point || quantity.kind == Kind::way;
+    const bool length = quantity.kind == Kind::point || quantity.kind == Kind::displacement;
     add("tolerance_m", "tolerance (m)", [&](std::size_t k) { return tolerance_range(s_, k); });
     add("worst_" + unit,
         fmt::format("contribution to the worst case at {} ({})", tolerance_place(s_, r_, row), label),

@@ -71,7 +71,7 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
            body.name + "." + point.name);
     }
   };
-  // A slide's way and its rates, second point from first along the slide.
+  // A slide's displacement and its rates, second point from first along the slide.
   const auto slides = [&](auto&& each) {
     for (std::size_t j = 0; j < l.joints.size(); ++j)
       if (l.joints[j].type == JointType::prismatic) each(j, identifier(l.joints[j].name), l.joints[j].name);

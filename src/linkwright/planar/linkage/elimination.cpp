@@ -155,7 +155,7 @@ bool LinkageElimination::solve(const LinkageMotion& motion, std::span<const Wren
           entry(c + k, row) -= values[k] / mass;
         }
       };
-      // Turns as ways at the size of the linkage.
+      // Rotations as displacements at the size of the linkage.
       if (slide) {
         put(0, left(along), 0);
         put(1, {0, 0}, plan_.size);

@@ -83,7 +83,7 @@ struct SliderCrankPose {
   double gap = 0;                                 ///< m, by how much the rod is too short to reach the guide
   std::complex<double> crank_pin, slider, point;  ///< A, B, C; B and C are NaN without assembly
   double rod_angle = 0;                           ///< rad, of A->B from the x axis
-  double way = 0;             ///< m, of the slider along the guide from the foot of the crank pivot, signed
+  double displacement = 0;    ///< m, of the slider along the guide from the foot of the crank pivot, signed
   double pressure_angle = 0;  ///< rad, between rod and guide, [0, pi/2]
 };
 SliderCrankPose slider_crank_pose(const SliderCrankMechanism& mechanism, double crank_angle);

@@ -81,7 +81,7 @@ std::vector<InputMotion> inputs_at(const std::vector<InputDrive>& drives, double
 
 /// What a body that turns on the ground, a slide on it or a traced point does beside the rigid linkage.
 struct OutputError {
-  enum class Of { angle, way, path };
+  enum class Of { angle, displacement, path };
   std::string key, label;
   Of of = Of::angle;
   int index = 0;               ///< of the body, joint or trace

@@ -106,7 +106,8 @@ class ElasticReporter {
     }
     for (const auto& [of, name, title] :
          {std::tuple{OutputError::Of::angle, "angle-error", "Angle against the rigid linkage"},
-          std::tuple{OutputError::Of::way, "displacement-error", "Displacement against the rigid linkage"},
+          std::tuple{OutputError::Of::displacement, "displacement-error",
+                     "Displacement against the rigid linkage"},
           std::tuple{OutputError::Of::path, "path-error", "Distance from the rigid path"}}) {
       std::vector<std::string> keys;
       for (const OutputError& e : r_.errors)

@@ -169,7 +169,7 @@ class ElasticRecorder {
       else if (joint.type == JointType::prismatic)
         out_.errors.push_back({identifier(joint.name) + "_displacement_error_m",
                                joint.name + " displacement error (m)",
-                               OutputError::Of::way,
+                               OutputError::Of::displacement,
                                j,
                                {}});
     }
@@ -189,7 +189,7 @@ class ElasticRecorder {
     if (e.of == OutputError::Of::angle)
       return math::wrap_angle(
           angle_of(unturn(rigid.bodies[at(e.index)].direction, bent.record.bodies[at(e.index)].direction)));
-    if (e.of == OutputError::Of::way) {
+    if (e.of == OutputError::Of::displacement) {
       const LinkageJoint& j = s_.linkage.joints[at(e.index)];
       const bool first = s_.plan.bodies[at(j.first.body)].part == 0;
       const int body = first ? j.second.body : j.first.body;

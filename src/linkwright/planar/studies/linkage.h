@@ -42,7 +42,7 @@ struct LinkageQuality {
   std::vector<std::string>
       centrodes;                 ///< bodies whose fixed and moving centrode against the ground are tabled
   bool instant_centres = false;  ///< table of all instant centres at every row
-  bool assembly_modes = false;   ///< table of all ways to assemble the linkage at the first row
+  bool assembly_modes = false;   ///< table of all assembly modes at the first row
 };
 
 /// A study of a linkage as read.

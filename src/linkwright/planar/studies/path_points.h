@@ -26,7 +26,7 @@ void fields(Visitor&& visit, PathPointsForm& t) {
         t.points_file);
 }
 
-/// Targets in their order (m): points, or the middles of gates with half of the way from one post to the
+/// Targets in their order (m): points, or the middles of gates with half of the distance from one post to the
 /// other; `gate_x`, `gate_y` and `tolerance` are empty where there are none.
 struct PathPoints {
   std::vector<double> x, y, gate_x, gate_y, tolerance;

@@ -156,7 +156,7 @@ study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t
   const PathProblem& p = s.problem;
   const FourBarClass type = classify(d.linkage);
   study::Solution out;
-  out.label = fmt::format("{}, {}", name_of(type.type), name_of(d.linkage.branch));
+  out.label = fmt::format("{}, {}", in_words(type.type), name_of(d.linkage.branch));
   const bool with_start = p.timing == Timing::equal_steps;
   const auto values = values_of(d, with_start);
   for (std::size_t j = 0; j < four_bar_parameter_count; ++j) {
@@ -335,8 +335,7 @@ std::string called(const PathDesign& d) {
   const FourBarClass type = classify(d.linkage);
   const std::string_view branch = name_of(d.linkage.branch);
   if (!type.grashof)
-    return fmt::format("linkage in which no link turns fully (type {}, {} branch)", name_of(type.type),
-                       branch);
+    return fmt::format("linkage in which no link rotates fully ({}; {} branch)", in_words(type.type), branch);
   return fmt::format("{} ({} branch)", name_of(type.type), branch);
 }
 

@@ -59,7 +59,7 @@ Table slider_motion_table(const SliderPathDesign& design, std::string name, int 
   for (const double angle : angles) {
     const SliderCrankPose pose = slider_crank_pose(design.mechanism, angle);
     rod.push_back(pose.rod_angle);
-    way.push_back(pose.way);
+    way.push_back(pose.displacement);
     pressure.push_back(pose.pressure_angle);
     x.push_back(pose.point.real());
     y.push_back(pose.point.imag());

@@ -28,8 +28,8 @@ struct GuidePosition {
   std::string reason;   ///< empty, or why it ends there, with figures
 };
 
-/// How the way from one position to another is gone: along the straight line between both inputs in value and
-/// rack, in steps that grow while they succeed.
+/// How the way from one position to another is followed: along the straight line between both inputs in value
+/// and rack, in steps that grow while they succeed.
 struct GuideStepping {
   double first = 0.01;      ///< m of the larger of both inputs
   double smallest = 1e-11;  ///< m: below, the position is at a limit

@@ -60,7 +60,7 @@ struct SweepStudy {
   std::vector<double> travels, racks;        ///< m, ascending
   Driver lock = Driver::wheel_centre_z;      ///< of the steering axis
   std::vector<std::string> quantities;       ///< empty = all that the suspension has
-  bool assemblies = false;                   ///< the other ways to put it together are looked for
+  bool assemblies = false;                   ///< the other assembly modes are looked for
   bool drawn = true;                         ///< whether a scene is wanted: a grid may have many positions
   std::optional<GuideDescription> baseline;  ///< another suspension, whose curves are laid behind
   std::optional<VehicleForm> vehicle;
