@@ -121,7 +121,7 @@ def main():
             number, said, fault = round_of(program, name, whole[name], length[name], rng, folder)
             idle = 0 if number else idle + 1
             kills[name] += number
-            went_on[name] += b"goes on from here" in said
+            went_on[name] += b"resumes from here" in said
             if fault:
                 faults += 1
                 print(f"{name}, seed {state}, {number} kills: {fault}", flush=True)

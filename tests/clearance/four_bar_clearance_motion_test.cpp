@@ -269,7 +269,7 @@ TEST(FourBarClearanceMotion, EndsWhereTheLinksDoNotMeet) {
   const ClearanceRun run =
       simulate_clearance(model, math::ConstantSpeed{1.8, 10}, {1.8, 10}, std::vector{0.0, 0.6});
   EXPECT_EQ(run.status, Status::limit_reached);
-  EXPECT_THAT(run.message, ::testing::HasSubstr("the crank cannot go on at 0.370"));
+  EXPECT_THAT(run.message, ::testing::HasSubstr("the crank stops at 0.370"));
   // There the crank is so near to O4 that coupler and rocker, 150.6 mm less 100 mm, cannot be laid between.
   EXPECT_NEAR(std::abs(std::polar(model.linkage.ground, model.linkage.frame_angle) -
                        std::polar(model.linkage.crank, 1.8 + 10 * run.time)) +

@@ -73,7 +73,7 @@ TEST(ClearanceMassSynthesis, LeastSquaresOnTheOrbit) {
   }
 }
 
-// A lead throughout cannot be had; what is left is the root mean square of at least the lead itself, here the
+// A constant phase is impossible; what is left is the root mean square of at least the phase itself, here the
 // same on the orbit.
 TEST(ClearanceMassSynthesis, NoMassesLeadThroughout) {
   const ClearanceMassProblem p = published_mass_problem();

@@ -199,7 +199,7 @@ TEST(MotionLaw, NamesWhatIsNoMotion) {
               HasSubstr("times must increase, but 1 s follows 1 s (row 3)"));
   EXPECT_THAT(message(MotionTable{{0, 1}, {0, 0}, TableCurve::cubic, TableEnds::periodic}),
               HasSubstr("times has 2 rows, must have at least 3"));
-  EXPECT_THAT(message(EndConditions{.from = 1}), HasSubstr("a position at the start alone is no motion"));
+  EXPECT_THAT(message(EndConditions{.from = 1}), HasSubstr("a start position alone is not a motion"));
   EXPECT_THAT(message(EndConditions{.from = 1, .start_acceleration = 1, .end_acceleration = 2}),
               HasSubstr("the conditions do not determine the motion: 1 of orders up to speeds is given"));
   EXPECT_FALSE(problem(MotionTable{{0, 1}, {0, 1}, TableCurve::cubic, TableEnds::natural}));

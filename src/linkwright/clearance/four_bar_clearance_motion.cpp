@@ -37,8 +37,8 @@ bool caught(const ClearanceFourBar& model, double crank) {
 }
 std::string caught_message(double time, double crank) {
   return fmt::format(
-      "the crank cannot go on at {:.6g} s, {:.4f} deg: beyond, the links meet for no place of the pin in the "
-      "bush",
+      "the crank stops at {:.6g} s, {:.4f} deg: beyond that angle the links meet for no position of the pin "
+      "in its bush",
       time, math::degrees(math::wrap_angle(crank)));
 }
 

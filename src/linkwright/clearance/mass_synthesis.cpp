@@ -162,7 +162,7 @@ void require_valid(const ClearanceMassProblem& p) {
   LINKWRIGHT_REQUIRE(p.model.clearance > 0, "clearance {} m must be positive", p.model.clearance);
   LINKWRIGHT_REQUIRE(p.samples >= 8, "needs 8 samples of a turn at least, got {}", p.samples);
   LINKWRIGHT_REQUIRE(p.crank.speed != 0 && std::isfinite(p.crank.speed) && std::isfinite(p.lead),
-                     "crank at {} rad/s, lead {} rad", p.crank.speed, p.lead);
+                     "crank at {} rad/s, phase {} rad", p.crank.speed, p.lead);
   for (std::size_t k = 0; k < p.bounds.size(); ++k) {
     const bool positive = k == 0 || k == 3 || k == 4 || k == 7;
     LINKWRIGHT_REQUIRE(p.bounds[k].lower <= p.bounds[k].upper && (!positive || p.bounds[k].lower > 0),

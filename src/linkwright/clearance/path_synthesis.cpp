@@ -121,7 +121,7 @@ void require_valid(const ClearancePathProblem& p) {
                            (k >= 4 || p.bounds[k].lower > 0),
                        "variable {} lies between {} and {}", k, p.bounds[k].lower, p.bounds[k].upper);
   LINKWRIGHT_REQUIRE(p.clearance >= 0 && std::isfinite(p.clearance) && std::isfinite(p.lead),
-                     "clearance {} m, lead {} rad", p.clearance, p.lead);
+                     "clearance {} m, phase {} rad", p.clearance, p.lead);
   LINKWRIGHT_REQUIRE(p.angle_range >= 0, "crank angles may differ by {} rad", p.angle_range);
 }
 

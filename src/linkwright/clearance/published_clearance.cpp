@@ -139,10 +139,11 @@ std::vector<ClearanceComparison> compare_with_published_clearance() {
   add("changes of sign of the tension of design 1 in a turn", "not tested", wild.sign_changes, "corrected",
       "contact is lost, so that the printed peaks lie outside of the model");
   const ClearanceOrbit orbit = find_orbit(published_design_2(), crank, 0.15, -0.3);
-  add("least root mean square difference from a lead of 10 degrees on the orbit, degrees",
+  add("least root mean square difference from a phase of 10 degrees on the orbit, degrees",
       "agreement (figure 5)",
       math::degrees(lead_error(published_design_2(), crank, orbit.start(crank), lead, 72)) * std::sqrt(72.0),
-      "corrected", "a passive coupler in contact cannot lead throughout: over a turn no work is done on it");
+      "corrected",
+      "a passive coupler in contact cannot stay ahead throughout: over a turn no work is done on it");
   return out;
 }
 

@@ -72,9 +72,9 @@ TEST(ClearanceDesignStudy, LengthsAreThoseOfTheLeastSquares) {
   EXPECT_NEAR(r.changes[0].before, 3.929349e-4, 1e-10);
   EXPECT_EQ(values(r, "design", "reference")[0], 0.2027109);
   EXPECT_THAT(r.headline, HasSubstr("if the clearance link leads the crank by 10°"));
-  EXPECT_THAT(fact(r, "crank turns fully wherever the pin lies"), HasSubstr("yes"));
+  EXPECT_THAT(fact(r, "crank rotates fully wherever the pin lies"), HasSubstr("yes"));
   ASSERT_EQ(r.diagnostics.size(), 1u);
-  EXPECT_THAT(to_string(r.diagnostics[0]), HasSubstr("a lead of 10° throughout cannot be had"));
+  EXPECT_THAT(to_string(r.diagnostics[0]), HasSubstr("a constant phase of 10° is impossible"));
   expect_plots_have_columns(r);
 }
 
@@ -171,11 +171,11 @@ TEST(ClearanceDesignStudy, BothStagesInTurn) {
                   "method = \"particle_swarm\"\npopulation = 20\ngenerations = 30");
   const study::Result r = run_text(text);
   ASSERT_EQ(r.status, Status::done) << r.headline;
-  EXPECT_THAT(r.headline, HasSubstr("on the motion that repeats itself"));
+  EXPECT_THAT(r.headline, HasSubstr("on the periodic motion"));
   EXPECT_LT(objective(r, "first_turn_error_rad"), 0.03);
   ASSERT_FALSE(r.diagnostics.empty());
   EXPECT_THAT(to_string(r.diagnostics[0]),
-              HasSubstr("no masses come far below F2 = lead / sqrt(72) = 0.02057 rad"));
+              HasSubstr("no masses come far below F2 = phase / sqrt(72) = 0.02057 rad"));
 }
 
 TEST(ClearanceDesignStudy, BothAtOnceMeetThePathOnTheMotion) {
@@ -195,7 +195,7 @@ TEST(ClearanceDesignStudy, BothAtOnceMeetThePathOnTheMotion) {
   expect_plots_have_columns(r);
 }
 
-// Bars of even mass, as linkages are built: pin and bush part, and the report says where.
+// Uniform bars, as linkages are built: pin and bush separate, and the report says where.
 TEST(ClearanceDesignStudy, TellsWhereContactIsLost) {
   std::string text = kind_example(DesignTarget::masses);
   const auto set = [&](const std::string& from, const std::string& to) { text = replaced(text, from, to); };
@@ -213,7 +213,7 @@ TEST(ClearanceDesignStudy, TellsWhereContactIsLost) {
   ASSERT_FALSE(r.solutions.empty()) << r.headline;
   EXPECT_LT(objective(r, "least_tension_N"), 0);
   EXPECT_THAT(fact(r, "contact"), HasSubstr("lost at a crank angle of"));
-  EXPECT_THAT(r.headline, HasSubstr("but pin and bush part at a crank angle of"));
+  EXPECT_THAT(r.headline, HasSubstr("but pin and bush separate at a crank angle of"));
   std::string told;
   for (const Diagnostic& d : r.diagnostics) told += to_string(d) + "\n";
   EXPECT_THAT(told, HasSubstr("what follows is outside of the model"));
@@ -288,7 +288,7 @@ TEST(ClearanceDesignStudy, NamesWhatIsWrong) {
   EXPECT_THAT(problems(masses, "clearance_mm = 1.0", "clearance_mm = 60.0"),
               HasSubstr("60 mm is more than half of the shortest link, 100 mm"));
   EXPECT_THAT(problems(masses, "ground_mm         = 200.0", "ground_mm = 140.0"),
-              HasSubstr("the crank does not turn fully wherever the pin lies in its bush"));
+              HasSubstr("the crank does not rotate fully wherever the pin lies in its bush"));
   EXPECT_THAT(problems(masses, "crank_mm          = 100.0", "crank_mm = { min = 90.0, max = 110.0 }"),
               HasSubstr("crank is a range, but masses are designed here, not lengths; write a number"));
   EXPECT_THAT(problems(masses, "rocker_mm         = 250.0\n", ""),

@@ -235,8 +235,8 @@ TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
   for (const study::Check& check : r.checks)
     EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
   EXPECT_EQ(fact(r, "model"),
-            "pin A parted from its bush at 0.153847 s, O2 at 88.15 deg; from there on real contact");
-  EXPECT_THAT(r.headline, HasSubstr("Pin A parts from its bush at 0.1538 s, O2 at 88.15 deg, and"));
+            "pin A separated from its bush at 0.153847 s, O2 at 88.15 deg; from there on real contact");
+  EXPECT_THAT(r.headline, HasSubstr("Pin A separates from its bush at 0.1538 s, O2 at 88.15 deg, and"));
   EXPECT_THAT(r.diagnostics, IsEmpty());
   // One motion: all rows, without a jump of the pin where the models meet (10 mm/s for 0.44 ms).
   const std::vector<double>&time = values(r, "motion", "time_s"),
@@ -356,9 +356,9 @@ TEST(ClearanceStudy, AutomaticRegimesGoOnWhereContactIsLost) {
   const study::Result r = run_text(regime_of(example("clearance-four-bar-automatic"),
                                              "samples = 181\nmax_turns = 2\nregime_tolerance = 1e-9"));
   EXPECT_EQ(r.status, Status::not_converged) << r.headline;
-  EXPECT_THAT(fact(r, "model"), HasSubstr("pin A parted from its bush at 0.153847 s"));
+  EXPECT_THAT(fact(r, "model"), HasSubstr("pin A separated from its bush at 0.153847 s"));
   EXPECT_THAT(fact(r, "shooting"), ::testing::AnyOf(HasSubstr("no periodic motion in continuous contact"),
-                                                    HasSubstr("but pins part on it")));
+                                                    HasSubstr("but pins separate on it")));
 }
 
 TEST(ClearanceStudy, NamesWhatRegimesCannotDo) {

@@ -234,7 +234,7 @@ TEST(VibrationStudy, NamesWhatIsWrong) {
   EXPECT_THAT(problems(bare + "[campbell]\nto_rpm = 10\norders = [0]\n"), HasSubstr("must be more than 0"));
   EXPECT_THAT(problems(replaced(bare, "divisions = 4", "divisions = 4\nkinematics = \"source_linearised\"") +
                        "[load]\nforce_N = [0, 1]\n"),
-              HasSubstr("the printed equations know neither gravity nor damping nor stretching"));
+              HasSubstr("the printed equations have neither gravity nor damping nor stretching"));
   EXPECT_THAT(problems(replaced(replaced(bare, "[vibration]",
                                          "extensible = true\nhub_inertia_kg_m2 = 1\n[vibration]"),
                                 "divisions = 4", "divisions = 4\nhub = \"free\"") +

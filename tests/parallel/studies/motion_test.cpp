@@ -96,11 +96,11 @@ TEST(MotionStudy, SaysWhereItFailsAndWhy) {
   EXPECT_THAT(stopped.headline, HasSubstr("arm 1 would be at 14.13 deg"));
   EXPECT_THAT(stopped.headline, HasSubstr("travel 30.00 to 80.00 deg"));
   const auto stiff = run_text(whole + "[limits]\ntransmission = 0.95\n");
-  EXPECT_THAT(stiff.headline, HasSubstr("at least 0.950 is asked for"));
+  EXPECT_THAT(stiff.headline, HasSubstr("at least 0.950 is required"));
   const auto leaning = run_text(whole + "[limits]\nrod_swing_deg = 1\n");
   EXPECT_THAT(leaning.headline, HasSubstr("out of the plane of its arm, allowed are 1.00 deg"));
   const auto straight = run_text(whole + "[limits]\nlargest_elbow_deg = 90\n");
-  EXPECT_THAT(straight.headline, HasSubstr("at most 90.00 deg is asked for"));
+  EXPECT_THAT(straight.headline, HasSubstr("at most 90.00 deg is required"));
 }
 
 TEST(MotionStudy, NoticesAPathThroughASingularity) {
@@ -138,7 +138,7 @@ TEST(MotionStudy, APathThroughAConstraintSingularityFails) {
   const auto limited =
       run_text(replaced(clear, "[300, 0, -440]", "[210, 0, -488]") + "[limits]\nconstraint = 0.2\n");
   EXPECT_EQ(limited.status, Status::limit_reached);
-  EXPECT_THAT(limited.headline, HasSubstr("the constraint index falls below 0.200, which is asked for"));
+  EXPECT_THAT(limited.headline, HasSubstr("the constraint index falls below 0.200, which is required"));
   EXPECT_EQ(
       run_text(replaced(clear, "[300, 0, -440]", "[180, 0, -504]") + "[limits]\nconstraint = 0.2\n").status,
       Status::done);

@@ -296,7 +296,7 @@ TEST(Compliance, RedundantGuide) {
 
   const Compliance locked = solve_compliance(guide, here, 0, {.spring = 1e4}, Support::spring_held);
   EXPECT_EQ(locked.status, Status::singular);
-  EXPECT_THAT(locked.reason, ::testing::StartsWith("rigid joints hold the carrier more than once"));
+  EXPECT_THAT(locked.reason, ::testing::StartsWith("rigid joints constrain the carrier more than once"));
   EXPECT_THAT(test::message([&] { respond(locked, {}); }),
               ::testing::StartsWith("respond: the compliance is singular: rigid joints hold"));
   const Compliance loose = solve_compliance(five, here, 0, {}, Support::spring);

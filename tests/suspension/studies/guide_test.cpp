@@ -118,7 +118,7 @@ TEST(GuideStudyRead, NamesWhatIsWrongWithTheMechanism) {
       problems_of(wheel +
                   link("KS", "body_m = { near = [0, 0.3, 0], box_m = 0.1 }\ncarrier_m = [0, 0.7, 0]\n") +
                   sweep),
-      HasSubstr("mechanism.link[0].body_m: is open, but nothing is looked for in this kind of study"));
+      HasSubstr("mechanism.link[0].body_m: is a design variable, but this kind of study has none"));
   // One rod leaves the carrier five freedoms.
   EXPECT_THAT(problems_of(wheel + link("KS", "body_m = [0, 0.3, 0]\ncarrier_m = [0, 0.7, 0]\n") + sweep),
               HasSubstr("mechanism"));

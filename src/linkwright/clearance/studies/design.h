@@ -30,8 +30,7 @@ enum class DesignTarget {
 enum class DesignStages { in_turn, at_once };
 constexpr std::array<EnumName<DesignStages>, 2> names(DesignStages) {
   return {{{DesignStages::in_turn, "in_turn", "lengths for the presumed phase, then masses that keep it"},
-           {DesignStages::at_once, "at_once",
-            "after that both together, for the path on the motion that repeats itself"}}};
+           {DesignStages::at_once, "at_once", "then both together, for the path on the periodic motion"}}};
 }
 
 /// `[mechanism.parameters]`, in the order of ClearanceLength.
@@ -136,7 +135,7 @@ void fields(Visitor&& visit, DesignMechanismForm& m) {
               .required = true},
         m.clearance);
   if (m.target != DesignTarget::masses)
-    visit(Field{.key = "crank_rotates_fully", .summary = "the crank turns fully and is the shortest link"},
+    visit(Field{.key = "crank_rotates_fully", .summary = "the crank rotates fully and is the shortest link"},
           m.crank_rotates_fully);
   visit(Field{.key = "parameters",
               .summary = "lengths: fixed numbers, or { min, max } for design variables",
@@ -182,13 +181,14 @@ void fields(Visitor&& visit, DesignTimingForm& t) {
         t.step);
   visit(Field{.key = "angles", .summary = "or the crank angle of each point", .dimension = Dimension::angle},
         t.angles);
-  visit(Field{.key = "free_within",
-              .summary = "each angle may be so much more or less; if absent it is prescribed",
-              .dimension = Dimension::angle,
-              .minimum = 0,
-              .maximum = 3.2,
-              .exclusive_minimum = true},
-        t.free_within);
+  visit(
+      Field{.key = "free_within",
+            .summary = "each angle may deviate by this much in either direction; if absent it is prescribed",
+            .dimension = Dimension::angle,
+            .minimum = 0,
+            .maximum = 3.2,
+            .exclusive_minimum = true},
+      t.free_within);
 }
 
 /// `[target]`.
@@ -202,7 +202,7 @@ struct DesignTargetForm : planar::PathPointsForm {
 template <class Visitor>
 void fields(Visitor&& visit, DesignTargetForm& t) {
   visit(Field{.key = "phase",
-              .summary = "by how much the clearance link is to be ahead of the crank",
+              .summary = "wanted angle of the clearance link ahead of the crank",
               .dimension = Dimension::angle,
               .minimum = -3.2,
               .maximum = 3.2},
@@ -220,7 +220,7 @@ void fields(Visitor&& visit, DesignTargetForm& t) {
   fields(visit, static_cast<planar::PathPointsForm&>(t));
 }
 
-/// `[reference]`: a design that the answer is put beside.
+/// `[reference]`: a design that the answer is compared with.
 struct DesignReferenceForm {
   DesignTarget target = DesignTarget::both;
   std::string label = "reference";
@@ -246,7 +246,7 @@ void fields(Visitor&& visit, RecommendedDesign& r) {
         r.starts);
 }
 constexpr Word choice_word(const RecommendedDesign&) {
-  return {"recommended", "least squares from many starts; of masses on the motion that repeats itself"};
+  return {"recommended", "least squares from many starts; of masses on the periodic motion"};
 }
 /// The population methods minimise the objectives of the source: the misfit of the path, and the misfit of
 /// the lead over the first turn. Violated constraints cost a constant, Eq. (23).

@@ -164,7 +164,7 @@ void read_masses(study::ObjectReader& document, study::ObjectReader& mechanism,
     mechanism.error("clearance", fmt::format("{:.6g} mm is more than half of the shortest link, {:.6g} mm",
                                              1e3 * m.clearance, 1e3 * shortest));
   else if (!turns_fully(s.mass.model))
-    mechanism.error("parameters", "the crank does not turn fully wherever the pin lies in its bush",
+    mechanism.error("parameters", "the crank does not rotate fully wherever the pin lies in its bush",
                     "ground + crank + clearance must be less than coupler + rocker, and ground - crank - "
                     "clearance more than the difference of coupler and rocker");
 }
@@ -290,7 +290,7 @@ study::Kind kind_of(DesignTarget target) {
       table("environment", "weight", false, planar::Environment{});
     }
     table("target", "what is wanted", true, DesignTargetForm{});
-    table("reference", "a design that the answer is put beside", false, DesignReferenceForm{});
+    table("reference", "a design that the answer is compared with", false, DesignReferenceForm{});
     table("optimiser", "how designs are searched", false, DesignOptimiser{});
   };
   kind.prepare = [target](study::ObjectReader& document, const study::Common& common) {

@@ -179,7 +179,7 @@ CostName cost_name(const ClearanceDesignStudy& s) {
   if (s.target == DesignTarget::lengths) return {"path_objective_m", "path objective F1 (m)"};
   if (s.target == DesignTarget::both) return {"path_rms_m", "root mean square distance on the motion (m)"};
   return std::holds_alternative<RecommendedDesign>(s.method)
-             ? CostName{"orbit_error_rad", "phase objective F2 on the motion that repeats (rad)"}
+             ? CostName{"orbit_error_rad", "phase objective F2 on the periodic motion (rad)"}
              : CostName{"first_turn_error_rad", "phase objective F2 of the first turn (rad)"};
 }
 

@@ -40,7 +40,7 @@ struct PeriodicRun {
   double tolerance = 1e-5;  ///< for states of a section, see ClearanceRegime::change
 };
 constexpr Word choice_word(const PeriodicRun&) {
-  return {"periodic", "what the motion comes to: one that repeats itself with the drives"};
+  return {"periodic", "the steady state: a motion that repeats with the drives"};
 }
 
 /// A study as read.

@@ -331,9 +331,8 @@ void fields(Visitor&& visit, ClearanceStudy& s) {
         s.samples);
   visit(Field{.key = "rtol", .summary = "relative tolerance of a step", .minimum = 1e-13, .maximum = 1e-3},
         s.relative_tolerance);
-  visit(
-      Field{.key = "max_steps", .summary = "steps after which it is given up", .minimum = 1, .maximum = 1e9},
-      s.max_steps);
+  visit(Field{.key = "max_steps", .summary = "largest number of steps", .minimum = 1, .maximum = 1e9},
+        s.max_steps);
 }
 
 namespace {

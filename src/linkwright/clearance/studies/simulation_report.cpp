@@ -323,7 +323,7 @@ class SimulationReporter {
            {key(k) + (contact() ? "_eccentricity_rate_x_m_per_s" : "_link_speed_rad_per_s")}, Style::points);
     plot("energies", "Energies", "motion", "time_s",
          {"kinetic_energy_J", "potential_energy_J", "contact_energy_J", "dissipated_energy_J", "work_J"});
-    plot("energy-audit", "Energy audit: what does not balance", "motion", "time_s", {"energy_drift_J"});
+    plot("energy-audit", "Energy audit: imbalance", "motion", "time_s", {"energy_drift_J"});
   }
 
   const ClearanceStudy& s_;

@@ -33,11 +33,10 @@ struct SimulationForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SimulationForm& s) {
-  visit(beam_fields::number("end", "time to which it is followed", Dimension::time, true, true), s.end);
+  visit(beam_fields::number("end", "end of the simulated time", Dimension::time, true, true), s.end);
   visit(beam_fields::number("step", "longest step of the integration", Dimension::time, false, true), s.step);
   visit(Field{.key = "start", .summary = "how the links are at time 0"}, s.start);
-  visit(Field{.key = "extrapolate", .summary = "with half the step, too, and to the limit of both"},
-        s.extrapolate);
+  visit(Field{.key = "extrapolate", .summary = "repeat with half the step and extrapolate"}, s.extrapolate);
   visit(beam_fields::number("tolerance", "halve the step until the tip moves by no more", Dimension::length,
                             false, true),
         s.tolerance);

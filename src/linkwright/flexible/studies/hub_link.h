@@ -32,7 +32,7 @@ struct HubDriveForm {
 template <class Visitor>
 void fields(Visitor&& visit, HubDriveForm& d) {
   visit(Field{.key = "law", .summary = "what turns the hub", .required = true}, d.law);
-  visit(Field{.key = "shaping", .summary = "the drive in shares that cancel a vibration"}, d.shaping);
+  visit(Field{.key = "shaping", .summary = "input shaping of the drive that cancels a vibration"}, d.shaping);
 }
 
 /// `[simulation]`.

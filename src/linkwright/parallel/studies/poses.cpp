@@ -384,7 +384,7 @@ void add_poses(study::Result& result, const RobotDescription& d, const PosesForm
   }
   result.tables.push_back(poses_table(d, form, solved));
   if (result.headline.empty())
-    result.headline = fmt::format("{} of {} poses are of use.", good, form.poses.size());
+    result.headline = fmt::format("{} of {} poses are usable.", good, form.poses.size());
   result.facts.push_back(
       {"poses reached", fmt::format("{} of {}", good, form.poses.size()),
        good == static_cast<int>(form.poses.size()) ? study::Fact::Verdict::good : study::Fact::Verdict::bad});

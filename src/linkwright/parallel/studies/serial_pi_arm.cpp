@@ -402,7 +402,7 @@ study::Kind serial_pi_arm_kind() {
                       std::move(mechanism).finish());
     document.property(Field{.key = "home", .summary = "where motions begin"},
                       study::schema_fields<PoseForm>());
-    document.property(Field{.key = "limits", .summary = "what a pose must have to be of use"},
+    document.property(Field{.key = "limits", .summary = "requirements for a usable pose"},
                       study::schema_fields<SerialLimits>());
     document.property(Field{.key = "pose", .summary = "poses to be looked at"},
                       study::schema_array(study::schema_fields<AskedPose>()));

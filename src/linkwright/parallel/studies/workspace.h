@@ -10,7 +10,7 @@
 // The workspace in studies of parallel robots: a grid of places, how much of it is of use and how good it is.
 namespace linkwright::parallel {
 
-/// `[limits]` of a robot: what a pose must have to be of use, along a path and in the workspace.
+/// `[limits]` of a robot: requirements for a usable pose, along a path and in the workspace.
 struct QualityLimits {
   double transmission = 0, conditioning = 0, drive_transmission = 0, constraint = 0;
   std::optional<double> rod_swing, least_elbow, largest_elbow;

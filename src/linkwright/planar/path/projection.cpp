@@ -96,7 +96,7 @@ bool PathProjection::project(std::span<const double> q) {
     vx_[k] = v.x;
     vy_[k] = v.y;
   }
-  // By construction the crank turns fully; only rounding at a change point can say otherwise.
+  // By construction the crank rotates fully; only rounding at a change point can say otherwise.
   if (!assembles) return false;
 
   // Columns: [1, i,] a u [, i u], v, i v; real parts first, then imaginary parts. Modified Gram-Schmidt.

@@ -57,7 +57,7 @@ struct SliderPathProblem {
   bool search_positive = true, search_negative = false;  ///< senses of crank rotation along the points
 
   bool crank_rotates_fully = true;
-  /// rad, greatest angle between rod and guide; pi/2 = no limit. Over the full turn where the crank turns
+  /// rad, greatest angle between rod and guide; pi/2 = no limit. Over the full turn where the crank rotates
   /// fully, else over the arc from the first to the last crank angle.
   double max_pressure_angle = pi / 2;
   /// m, of the slider over a full turn; needs a crank that turns fully.
@@ -88,14 +88,14 @@ struct SliderCrankPose {
 };
 SliderCrankPose slider_crank_pose(const SliderCrankMechanism& mechanism, double crank_angle);
 
-/// m, over a full turn; NaN when the crank does not turn fully. Not the "stroke" that Boskovic 2018 prints in
-/// Tables 4.2 and 4.3, which is the abscissa of the tracing point at the first crank angle.
+/// m, over a full turn; NaN when the crank does not rotate fully. Not the "stroke" that Boskovic 2018 prints
+/// in Tables 4.2 and 4.3, which is the abscissa of the tracing point at the first crank angle.
 double stroke(const SliderCrankForm& form);
 
-/// Rod less crank less |offset| (m): the crank turns fully if it is not negative.
+/// Rod less crank less |offset| (m): the crank rotates fully if it is not negative.
 double rotation_margin(const SliderCrankForm& form);
 
-/// Greatest pressure angle over a full turn (rad); NaN when the crank does not turn fully.
+/// Greatest pressure angle over a full turn (rad); NaN when the crank does not rotate fully.
 double greatest_pressure_angle(const SliderCrankForm& form);
 
 /// A design with what it achieves.

@@ -20,7 +20,7 @@ enum class DrawbackKind {
   transmission,  ///< the transmission angle falls below least_usable_transmission on the path
   crowded,       ///< two neighbouring points lie within least_usable_step of crank rotation (free timing)
   bound,         ///< a link is at a bound that follows from the size of the path, not from the study
-  locks,         ///< the crank does not turn fully: at both ends of its motion the linkage locks
+  locks,         ///< the crank does not rotate fully: at both ends of its motion the linkage locks
 };
 struct Drawback {
   DrawbackKind kind;

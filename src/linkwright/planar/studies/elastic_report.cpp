@@ -128,7 +128,7 @@ class ElasticReporter {
       if (j.type != JointType::gear && sizes.size() < 6) sizes.push_back(identifier(j.name) + "_N");
     plot("reactions", "Joint forces, pale: rigid linkage", sizes, true);
     plot("energies", "Energies", {"kinetic_energy_J", "potential_energy_J", "work_J"});
-    plot("energy-audit", "Energy audit: what does not balance", {"energy_drift_J"});
+    plot("energy-audit", "Energy audit: imbalance", {"energy_drift_J"});
   }
 
   // Row with the largest size of a column; none without a finite value.

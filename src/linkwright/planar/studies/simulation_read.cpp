@@ -28,8 +28,7 @@ void fields(Visitor&& visit, LinkageSimulationStudy& s) {
           .key = "samples", .summary = "rows of the table, both ends included", .minimum = 2, .maximum = 1e6},
       s.samples);
   visit(Field{.key = "route", .summary = "coordinates of the equations of motion"}, s.route);
-  visit(Field{.key = "method",
-              .summary = "how they are integrated; with elastic bodies chosen by their damping"},
+  visit(Field{.key = "method", .summary = "integration method; with elastic bodies chosen by their damping"},
         s.options.method);
   visit(Field{.key = "rtol",
               .summary = "relative tolerance of a step; default with elastic bodies: 1e-7",
@@ -43,25 +42,26 @@ void fields(Visitor&& visit, LinkageSimulationStudy& s) {
               .minimum = 1e-16,
               .maximum = 1e-2},
         s.options.absolute_tolerance);
-  visit(
-      Field{.key = "max_steps", .summary = "steps after which it is given up", .minimum = 1, .maximum = 1e9},
-      s.options.max_steps);
+  visit(Field{.key = "max_steps", .summary = "largest number of steps", .minimum = 1, .maximum = 1e9},
+        s.options.max_steps);
   visit(
       Field{.key = "at_change_point", .summary = "where assembly modes meet, as of a parallelogram in line"},
       s.options.at_change_point);
   visit(Field{.key = "settle",
-              .summary = "elastic bodies start so long before `from`, unbent, and their rows until then are "
-                         "left out: what the start excites dies out if they are damped",
+              .summary = "time before `from` at which elastic bodies start, undeformed; its rows are left "
+                         "out, so that vibrations that the start excites die out if they are damped",
               .dimension = Dimension::time,
               .minimum = 0,
               .maximum = 1e9},
         s.settle);
-  visit(Field{.key = "deflection_scale",
-              .summary = "how many times too large deflections of elastic bodies are drawn; default: chosen "
-                         "from 1, 2, 5, 10, ...",
-              .minimum = 1,
-              .maximum = 1e12},
-        s.deflection_scale);
+  visit(
+      Field{
+          .key = "deflection_scale",
+          .summary =
+              "scale at which deflections of elastic bodies are drawn; default: chosen from 1, 2, 5, 10, ...",
+          .minimum = 1,
+          .maximum = 1e12},
+      s.deflection_scale);
 }
 
 namespace {

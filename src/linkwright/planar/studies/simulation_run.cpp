@@ -113,7 +113,7 @@ class SimulationRunner {
       plot(rotary ? "joint-speeds" : "slide-speeds", rotary ? "Joint speeds" : "Slide speeds", rates);
     }
     plot("energies", "Energies", {"kinetic_energy_J", "potential_energy_J", "work_J"});
-    plot("energy-audit", "Energy audit: what does not balance", {"energy_drift_J"});
+    plot("energy-audit", "Energy audit: imbalance", {"energy_drift_J"});
     std::vector<std::string> drives, forces, sizes, paths, angles;
     for (std::size_t k = 0; k < s_.plan.inputs() && drives.size() < 6; ++k)
       if (s_.plan.rotary[k]) drives.push_back(identifier(input_joint(l, k).name) + "_drive_torque_N_m");

@@ -109,7 +109,7 @@ void fields(Visitor&& visit, SliderPathTarget& t) {
   visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
   visit(Field{.key = "closed",
               .summary =
-                  "the last point is followed by the first; without this key so when the last repeats it"},
+                  "the last point is followed by the first; default: whether the last repeats the first"},
         t.closed);
   visit(Field{.key = "timing", .summary = "how crank angles are tied to the points"}, t.timing);
   fields(visit, static_cast<PathPointsForm&>(t));

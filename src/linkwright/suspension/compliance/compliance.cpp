@@ -175,7 +175,7 @@ class Saddle {
         most = free.segment<6>(6 * i).norm();
       }
     if (free.head(n).norm() < 1e-6)
-      return "rigid joints hold the carrier more than once, so that their forces are not determined: give "
+      return "rigid joints constrain the carrier more than once, so their forces are not determined: give "
              "some of them a stiffness";
     if (free.head<6>().norm() > 1e-6) body = 0;
     return fmt::format("{} can move without resistance: give its joints a stiffness, or hold it by a support",

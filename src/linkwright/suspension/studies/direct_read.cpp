@@ -416,7 +416,8 @@ study::Kind direct_kind() {
   kind.mechanism = "suspension.corner";
   kind.target = "wheel_parameters";
   kind.summary =
-      "wheel suspension from what its wheel is to do: toe, camber, track, roll centre ... (direct synthesis)";
+      "wheel suspension from target curves of its wheel: toe, camber, track, roll centre ... (direct "
+      "synthesis)";
   kind.seeded = true;
   kind.example =
       R"(# linkwright study: less bump steer of a double wishbone, only the inner point of the tie rod being free

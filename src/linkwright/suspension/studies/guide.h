@@ -233,7 +233,8 @@ struct GuideForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, GuideForm& g) {
-  visit(Field{.key = "sample", .summary = "a canned wheel suspension in the place of all else"}, g.sample);
+  visit(Field{.key = "sample", .summary = "a built-in wheel suspension instead of everything else"},
+        g.sample);
   visit(Field{.key = "side", .summary = "of the vehicle; a sample is mirrored for the right one"}, g.side);
   visit(Field{.key = "hard_points", .summary = "named points, and the frame they are given in"},
         g.hard_points);

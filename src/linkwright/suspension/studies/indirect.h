@@ -50,7 +50,7 @@ struct PosesTarget {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PosesTarget& t) {
-  visit(Field{.key = "file", .summary = "CSV file with a position a line"}, t.file);
+  visit(Field{.key = "file", .summary = "CSV file with one position per line"}, t.file);
   visit(Field{.key = "pose", .summary = "positions of the carrier"}, t.poses);
 }
 
@@ -83,7 +83,7 @@ void fields(Visitor&& visit, PublishedIndirect& p) {
               .maximum = 1},
         p.options.tolerance);
   visit(Field{.key = "carrier_pitch_technique",
-              .summary = "what stands for carrier pitches that are not prescribed"},
+              .summary = "how carrier pitches that are not prescribed are represented"},
         p.options.method.technique);
 }
 constexpr Word choice_word(const PublishedIndirect&) {

@@ -120,7 +120,7 @@ std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, 
     }
     auto mechanism = document.table("mechanism");
     if (!open)
-      mechanism->error("link", "nothing is to be found: all points are given",
+      mechanism->error("link", "there is no design variable: all points are given",
                        "write body_m = { near = [x, y, z], box_m = 0.15 } for a point to be found");
     for (const Coupler& c : guide.couplers)
       if (c.begin)

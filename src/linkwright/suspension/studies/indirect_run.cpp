@@ -493,11 +493,12 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
   const bool good = best.answer.status == Status::done;
   const std::size_t poses = s.task.targets.poses.size();
   result.headline =
-      good ? fmt::format("A {} wheel suspension takes all {} positions: its joints miss at most {}.",
-                         structure_name(structure_of(guide)), poses, metres(best.error))
+      good
+          ? fmt::format("A {} wheel suspension reaches all {} positions; its joints miss them by at most {}.",
+                        structure_name(structure_of(guide)), poses, metres(best.error))
       : assembled
           ? fmt::format(
-                "No exact wheel suspension found ({}): the best one misses the {} positions by {} at most.",
+                "No exact wheel suspension found ({}): the best one misses the {} positions by at most {}.",
                 to_string(best.answer.status), poses, metres(best.error))
           : fmt::format("No wheel suspension found ({}).", to_string(best.answer.status));
   result.facts = {
