@@ -235,7 +235,7 @@ TEST(SliderPathProblem, RefusesWhatIsNoProblem) {
   EXPECT_THAT(refused([](auto& p) { p.max_pressure_angle = 2; }), HasSubstr("greatest pressure angle"));
   EXPECT_THAT(refused([](auto& p) { p.stroke = {2, 1}; }), HasSubstr("stroke is limited to 2 to 1"));
   EXPECT_THAT(refused([](auto& p) { p.crank_rotates_fully = false, p.stroke.upper = 1; }),
-              HasSubstr("the crank need not turn fully"));
+              HasSubstr("the crank need not rotate fully"));
   EXPECT_EQ(refused([](auto& p) { p.free_timing = true, p.offsets.clear(); }), "none");
 }
 

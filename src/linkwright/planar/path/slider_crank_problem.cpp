@@ -75,7 +75,7 @@ void require_valid(const SliderPathProblem& p) {
   LINKWRIGHT_REQUIRE(p.stroke.lower >= 0 && p.stroke.lower <= p.stroke.upper && p.stroke.upper > 0,
                      "the stroke is limited to {} to {}", p.stroke.lower, p.stroke.upper);
   LINKWRIGHT_REQUIRE(p.crank_rotates_fully || (p.stroke.lower == 0 && p.stroke.upper == infinity),
-                     "the stroke is limited, but the crank need not turn fully");
+                     "the stroke is limited, but the crank need not rotate fully");
   LINKWRIGHT_REQUIRE(path_size(p) > 0, "all {} points coincide", p.x.size());
 }
 

@@ -9,7 +9,7 @@ namespace linkwright::planar {
 
 /// Least transmission angle (rad, 0 to pi/2) of a design: over what the path uses of the crank's motion - all
 /// of it for a closed path, from the first point to the last for an open one - and over all of the motion, up
-/// to the dead points of a crank that does not turn fully.
+/// to the dead points of a crank that does not rotate fully.
 struct PathTransmission {
   double used = 0, whole = 0;
 };

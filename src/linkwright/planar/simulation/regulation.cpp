@@ -44,7 +44,7 @@ bool goes_round(const LinkagePlan& plan, const RegulationSetup& s, Answer& out) 
     out.message = fmt::format("it does not assemble at {:.6g} deg", math::degrees(s.start));
   } else if (path.period == 0) {
     out.status = Status::limit_reached;
-    out.message = fmt::format("the input does not turn fully: it goes from {:.6g} to {:.6g} deg",
+    out.message = fmt::format("the input does not rotate fully: it goes from {:.6g} to {:.6g} deg",
                               math::degrees(path.low.value), math::degrees(path.high.value));
   } else if (!path.change_points.empty()) {
     out.status = Status::infeasible;
