@@ -35,9 +35,9 @@ Example example(const char* name, double travel, double step, double rack) {
   for (double q = -rack; rack > 0 && q < rack + 0.01; q += 0.025) add(0, q);
   return e;
 }
-Example example_1() { return example("front_5KS", 0.2, 0.05, 0.075); }
+Example example_1() { return example("front_5US", 0.2, 0.05, 0.075); }
 Example example_3() { return example("interconnected", 0.1, 0.02, 0); }
-Example example_4() { return example("rear_5KS", 0.15, 0.025, 0); }
+Example example_4() { return example("rear_5US", 0.15, 0.025, 0); }
 
 /// A cube of 150 mm at random around a point.
 PointBox box(const Vec3& p, RandomStream& random) {

@@ -29,7 +29,7 @@ STUDIES = {
                          ["optimiser.seeds.count=60", "optimiser.generations=4000"]),
     "balancing": ("studies/balance-four-bar-case-1.toml", ["optimiser.seeds.count=5"]),
     "region of a delta": ("studies/delta-cylinder-smallest.toml", ["optimiser.seeds.count=100"]),
-    "suspension": ("studies/suspension-5ks-synthesis.toml", ["optimiser.seeds.count=5000"]),
+    "suspension": ("studies/suspension-5us-synthesis.toml", ["optimiser.seeds.count=5000"]),
     "clearance": ("studies/clearance-four-bar-lengths-swarm.toml", ["optimiser.seeds.count=30"]),
 }
 

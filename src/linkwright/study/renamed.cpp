@@ -20,6 +20,7 @@ constexpr std::array all_renamed{
     Renamed{NameOf::column, "_way", "_displacement"},
     Renamed{NameOf::key, "parts", "aspects", parallel},
     Renamed{NameOf::mechanism, "suspension.wheel_guide", "suspension.corner"},
+    Renamed{NameOf::link, "KS", "US", suspension},
     Renamed{NameOf::word, "spin", "carrier_pitch", suspension},
     Renamed{NameOf::word, "support", "anti_pitch", suspension},
     Renamed{NameOf::word, "support_tangent", "anti_pitch_tangent", suspension},
@@ -105,6 +106,17 @@ class Reader {
     value = Value(std::move(now));
     value.position = position;
   }
+  /// "2RS-KS": the codes of the links in a name.
+  void links(Value& value, const std::string& path) {
+    if (!value.is_string()) return;
+    const std::string before = value.as_string();
+    std::string now = before;
+    for (const Renamed& r : all_renamed)
+      if (r.of == NameOf::link && mechanism_.starts_with(r.mechanism))
+        for (std::size_t at = 0; (at = now.find(r.before, at)) != std::string::npos; at += r.now.size())
+          now.replace(at, r.before.size(), r.now);
+    if (now != before) replace(value, std::move(now), before, path);
+  }
   /// "sweep.spin_deg.max": columns between dots, each with a unit.
   std::optional<std::string> columns(std::string_view text) const {
     std::string out;
@@ -138,6 +150,8 @@ class Reader {
              : path == "target"  ? NameOf::target
                                  : NameOf::word,
              at);
+      const bool of_link = path.find("mechanism.link[") != std::string::npos;
+      if (member.key == (of_link ? "type" : "sample")) links(member.value, at);
       if (member.key == "quantity" || member.key == "parameter") quantity(member.value, at);
       if (member.key == "quantities" && member.value.is_array())
         for (Value& one : member.value.as_array()) quantity(one, at);

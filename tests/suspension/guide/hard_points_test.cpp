@@ -68,7 +68,7 @@ TEST(HardPoints, ReadsBackWhatItsTableWrites) {
 }
 
 TEST(HardPoints, OfAGuideGoByItsLinks) {
-  const std::vector<HardPoint> points = points_of(guide_sample("2RS-KS").guide);
+  const std::vector<HardPoint> points = points_of(guide_sample("2RS-US").guide);
   ASSERT_EQ(points.size(), 11U);
   EXPECT_EQ(points[1], (HardPoint{"lower_wishbone_body_2", {-0.17, 0.37, -0.1}}));
   EXPECT_EQ(points[7], (HardPoint{"tie_rod_carrier", {-0.14, 0.7, -0.042}}));

@@ -71,7 +71,7 @@ TEST(CouplerFit, RefusesLinksItCannotJoin) {
     return message([&] { fit_coupler(e.targets, e.links, task); });
   };
   EXPECT_THAT(told({.name = "c", .first = 0, .second = 1}),
-              HasSubstr("coupler 'c': link 1 is of type KS, needs SR"));
+              HasSubstr("coupler 'c': link 1 is of type US, needs SR"));
   EXPECT_THAT(told({.name = "c", .first = 0, .second = 5}), HasSubstr("coupler 'c': link 5 of 3"));
   EXPECT_THAT(told({.name = "c", .second = 2, .least_offset = 1}),
               HasSubstr("coupler 'c': offset of at least 1 m and at most inf m on a link of 0.286"));

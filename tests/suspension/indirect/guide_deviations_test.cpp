@@ -12,7 +12,7 @@ namespace {
 
 TEST(GuideDeviations, AreNoneForTheMechanismItself) {
   for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward", "mechanism-R",
-                         "mechanism-RR-KS", "mechanism-S-2KS", "mechanism-2RS-KS", "mechanism-RS-SP-KS"}) {
+                         "mechanism-RR-US", "mechanism-S-2US", "mechanism-2RS-US", "mechanism-RS-SP-US"}) {
     const test::Example e = test::published_example(id);
     const ConstraintError error = constraint_error(e.guide, e.targets);
     EXPECT_LT(error.gap, 1e-13) << id;  // positions hold 1e-15

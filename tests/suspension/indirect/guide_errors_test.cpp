@@ -39,8 +39,8 @@ Case make_case(const char* id, double edge = 0.05) {
 }
 
 TEST(GuideErrors, VanishForTheMechanismItself) {
-  for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "mechanism-RR-KS", "mechanism-S-2KS",
-                         "mechanism-R", "mechanism-RS-SR-KS"}) {
+  for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "mechanism-RR-US", "mechanism-S-2US",
+                         "mechanism-R", "mechanism-RS-SR-US"}) {
     const Case c = make_case(id);
     GuideErrors errors(c.example.targets, c.links, c.couplers);
     std::vector<double> x(errors.unknowns()), rows(errors.rows());
@@ -101,8 +101,8 @@ void expect_derivatives(GuideErrors& errors, std::uint64_t seed, const char* wha
 }
 
 TEST(GuideErrors, DerivativesAgainstDifferences) {
-  for (const char* id : {"ex2-forward", "ex3-forward", "mechanism-RR-KS", "mechanism-S-2KS", "mechanism-R",
-                         "mechanism-RS-SR-KS"}) {
+  for (const char* id : {"ex2-forward", "ex3-forward", "mechanism-RR-US", "mechanism-S-2US", "mechanism-R",
+                         "mechanism-RS-SR-US"}) {
     const Case c = make_case(id);
     GuideErrors given(c.example.targets, c.links, c.couplers);
     expect_derivatives(given, 1, id);
@@ -168,13 +168,13 @@ TEST(GuideErrors, WhatIsRefused) {
     return message([&] { GuideErrors(c.open, c.links, c.couplers, technique); });
   };
   c.couplers[0].second = 1;
-  EXPECT_THAT(told(SpinTechnique::each), HasSubstr("coupler 'coupler': from a link of type KS to one of type "
-                                                   "KS, needs KS and SR"));
+  EXPECT_THAT(told(SpinTechnique::each), HasSubstr("coupler 'coupler': from a link of type US to one of type "
+                                                   "US, needs US and SR"));
   c.couplers[0].second = 4;
   EXPECT_THAT(told(SpinTechnique::each), HasSubstr("coupler 'coupler': link 4 of 3"));
   c.couplers.clear();
   c.links.erase(c.links.begin(), c.links.begin() + 2);
-  EXPECT_THAT(told(SpinTechnique::dyad), HasSubstr("no KS link makes a dyad with the carrier"));
+  EXPECT_THAT(told(SpinTechnique::dyad), HasSubstr("no US link makes a dyad with the carrier"));
   const Case steered = make_case("ex1-forward");
   EXPECT_THAT(message([&] { GuideErrors(steered.open, steered.links, {}, SpinTechnique::quadratic); }),
               HasSubstr("position 10 has the rack at -0.075 m: a quadratic of the travel does not know the "

@@ -45,10 +45,10 @@ TEST(PoseCompletion, DyadOfTheSource) {
 }
 
 TEST(PoseCompletion, DyadAndClosedFormTurnTheCarrierAlike) {
-  for (const char* id : {"ex1-forward", "ex2-forward", "ex4-forward", "mechanism-5KS", "mechanism-RS-3KS"}) {
+  for (const char* id : {"ex1-forward", "ex2-forward", "ex4-forward", "mechanism-5US", "mechanism-RS-3US"}) {
     const test::Example e = test::published_example(id);
     for (const GuideLink& rod : e.links) {
-      if (rod.type != LinkType::KS) continue;
+      if (rod.type != LinkType::US) continue;
       for (const CarrierTarget& pose : e.targets.poses) {
         const RsDyad dyad = rs_dyad(e.targets, pose, rod);
         const RodSolution spin = solve_for(e.targets, pose, rod, PoseParameter::spin);
@@ -119,7 +119,7 @@ TEST(PoseCompletion, WhatIsRefused) {
                 complete(e.targets, e.links[3], PoseParameter::spin);
                 rs_dyad(e.targets, e.targets.poses[0], e.links[3]);
               }),
-              HasSubstr("link 'link 4' of type SP: only a KS or SS link settles a parameter"));
+              HasSubstr("link 'link 4' of type SP: only a US or SS link settles a parameter"));
   CarrierTarget pose = e.targets.poses[0];
   pose.angles.toe = pose.angles.spin = nan;
   EXPECT_THAT(message([&] { solve_for(e.targets, pose, e.links[0], PoseParameter::spin); }),

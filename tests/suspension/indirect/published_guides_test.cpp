@@ -99,7 +99,7 @@ TEST(PublishedGuides, BoxesHoldTheTrueLinks) {
     // 22 coordinates in example 3, three of them those of the coupler's point.
     EXPECT_EQ(unknowns, (std::array{30, 23, 19, 30})[static_cast<std::size_t>(guide.example - 1)]);
   }
-  const WheelGuide& truth = guide_sample("front_5KS").guide;
+  const WheelGuide& truth = guide_sample("front_5US").guide;
   const std::vector<LinkTask> tasks = published_tasks(truth, 1);
   std::vector<GuideLink> links = truth.links;
   links[0].body[0].x += 3e-3;

@@ -72,11 +72,11 @@ TEST(IndirectSynthesisSpin, CouplerInsideItsBoxIsFoundFromEverySeed) {
   };
   const std::vector<LinkTask> tasks{
       {.name = "link 1",
-       .type = LinkType::KS,
+       .type = LinkType::US,
        .body = {box({0.0684051407833874, 0.4981741230589024, 0.025482705159021304}, false)},
        .carrier = {box({-0.05226920072616175, 0.7663248317194175, 0.1513954983602785}, false)}},
       {.name = "link 2",
-       .type = LinkType::KS,
+       .type = LinkType::US,
        .body = {box({-0.08154043978396687, 0.24422046863837166, -0.12010837514823064}, false)},
        .carrier = {box({-0.03897973995387432, 0.7411806025668004, -0.21424256946177916}, false)}},
       {.name = "link 3",

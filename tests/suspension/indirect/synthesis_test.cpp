@@ -81,7 +81,7 @@ TEST(IndirectSynthesis, ExactRodsAreStartsWhereOthersFail) {
 }
 
 TEST(IndirectSynthesis, HingedArmsAreReported) {
-  const test::Example e = test::published_example("mechanism-RS-3KS");
+  const test::Example e = test::published_example("mechanism-RS-3US");
   IndirectTask task{.targets = e.targets, .links = {given_link(e.links[1])}, .couplers = {}};
   task.links[0].body[0] = box_around({0.5, 0.5, 0.5}, 0.02);  // no rod is there
   RunContext context;

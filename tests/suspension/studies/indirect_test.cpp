@@ -29,7 +29,7 @@ TEST(IndirectStudy, FindsTheRodsThatThePositionsComeFrom) {
   EXPECT_EQ(result.statistics.find("success_rate")->as_number(), 1);
   const study::Solution& best = result.solutions.at(0);
   EXPECT_LT(best.objectives.find("max_constraint_error_m")->as_number(), 1e-9);
-  EXPECT_EQ(best.label, "5KS");
+  EXPECT_EQ(best.label, "5US");
   // Poznanovic 2016, example 1; the positions are given with 10 digits, and link 1 is determined to about
   // 1e-4 of their errors.
   const auto value = [&](std::string_view key) {
@@ -75,7 +75,7 @@ TEST(IndirectStudy, ListsEveryRodThroughSevenPositions) {
 
 TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
   // Positions of a suspension with a wishbone (RS), and rods that are asked for.
-  const WheelGuide& guide = guide_sample("RS-3KS").guide;
+  const WheelGuide& guide = guide_sample("RS-3US").guide;
   const GuidePlan plan = prepare(guide);
   const auto at = [](const Vec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); };
   std::string text = "schema = 1\nkind = \"synthesis\"\n[mechanism]\ntype = \"suspension.corner\"\n";
@@ -84,7 +84,7 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
                   at(guide.wheel.centre), guide.wheel.toe, guide.wheel.camber, guide.wheel.tyre_diameter);
   int open = 0;
   for (const GuideLink& l : guide.links) {
-    const bool rod = l.type == LinkType::KS;
+    const bool rod = l.type == LinkType::US;
     const std::string ends =
         rod && open++ == 0 ? fmt::format("body_m = {{ near = {}, box_m = 0.1 }}\ncarrier_m = {}\n",
                                          at(l.body[0]), at(l.carrier[0]))

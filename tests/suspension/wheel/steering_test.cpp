@@ -13,7 +13,7 @@
 namespace linkwright::suspension {
 namespace {
 
-constexpr std::array steered{"2RS-KS", "RS-SP-KS", "RS-3KS", "SP-3KS", "5KS"};
+constexpr std::array steered{"2RS-US", "RS-SP-US", "RS-3US", "SP-3US", "5US"};
 
 GuidePosition solve(const GuidePlan& plan, double travel, double rack) {
   return solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan));
@@ -60,7 +60,7 @@ TEST(Steering, LeverArmsByTheScrewAxis) {
 // Straight ahead a force along the wheel has nearly the scrub radius as its arm: the axis is upright but for
 // caster and inclination.
 TEST(Steering, SignsOfTheArms) {
-  const GuidePlan plan = prepare(guide_sample("2RS-KS").guide);
+  const GuidePlan plan = prepare(guide_sample("2RS-US").guide);
   const GuidePosition here = reference_position(plan);
   const auto found = steering_parameters(plan, here, Driver::spring);
   const WheelParameters wheel = wheel_parameters(plan, here);
@@ -97,7 +97,7 @@ TEST(Steering, AgainstPositionsWithTheSpringHeld) {
 }
 
 TEST(Steering, MirroredWheel) {
-  const WheelGuide& guide = guide_sample("5KS").guide;
+  const WheelGuide& guide = guide_sample("5US").guide;
   const GuidePlan left = prepare(guide), right = prepare(mirrored(guide));
   const auto a = steering_parameters(left, solve(left, 0.01, 0.02), Driver::spring);
   const auto b = steering_parameters(right, solve(right, 0.01, -0.02), Driver::spring);
@@ -117,7 +117,7 @@ TEST(Steering, Ratio) {
 }
 
 TEST(Steering, NothingToSteer) {
-  WheelGuide guide = guide_sample("SR-3KS").guide;
+  WheelGuide guide = guide_sample("SR-3US").guide;
   const GuidePlan plan = prepare(guide);
   EXPECT_FALSE(is_steered(plan));
   EXPECT_FALSE(steering_parameters(plan, reference_position(plan), Driver::spring));

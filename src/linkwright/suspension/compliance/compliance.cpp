@@ -246,7 +246,7 @@ std::array<Vec3, 2> joint_force(const ElasticAssembly& of, const ElasticJoint& j
       force = -(i < 3 ? joint.stiffness.translation[i] : joint.stiffness.rotation[i - 3]) * relative[i];
     out[i / 3] += force * joint.axes.row[i % 3];
   }
-  if (joint.first == ground)  // a K joint that holds the link's spin
+  if (joint.first == ground)  // a U joint that holds the link's spin
     for (const HeldTurn& turn : of.held_turns)
       if (turn.link == joint.link && turn.body == joint.second) out[1] += -x(turn.multiplier) * turn.about;
   return out;
@@ -289,7 +289,7 @@ void add_geometric(const ElasticAssembly& of, const Solution& x, const PointLoad
     to.add(b, a, other);
     to.add(a, b, turn_block(-0.5 * skew(turning)));
   }
-  // A K joint keeps its axes across each other: standing . exp(turn) turning = 0, to second order.
+  // A U joint keeps its axes across each other: standing . exp(turn) turning = 0, to second order.
   for (const HeldTurn& turn : of.held_turns) {
     if (turn.link < 0) continue;
     const Eigen::Vector3d a = eigen(turn.standing), b = eigen(turn.turning);

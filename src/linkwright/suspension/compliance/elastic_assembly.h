@@ -36,13 +36,13 @@ struct ElasticBar {
 };
 
 /// A turn of a body that no joint of it resists: of an SS link and a strut about their line, which no force
-/// feels; of a KS link about the direction across both axes of its K joint, which holds it rigidly. The joint
+/// feels; of a US link about the direction across both axes of its U joint, which holds it rigidly. The joint
 /// keeps its axes across each other.
 struct HeldTurn {
   int body = 0;
   Vec3 about;              ///< unit
-  int link = -1;           ///< KS
-  Vec3 standing, turning;  ///< KS: axes of the K joint, unit; `about` = turning x standing
+  int link = -1;           ///< US
+  Vec3 standing, turning;  ///< US: axes of the U joint, unit; `about` = turning x standing
   int multiplier = -1;  ///< moment of the body joint on the link about `about`, with the opposite sign (N m)
 };
 

@@ -40,13 +40,13 @@ using Twist = BasicTwist<double>;
 /// Constants of a link in the equations. Offsets are those of carrier points from the wheel centre.
 template <class T>
 struct BasicLinkConstants {
-  LinkType type = LinkType::KS;
+  LinkType type = LinkType::US;
   bool moved_by_rack = false;
   std::array<Vector3<T>, 2> body, offset;
   std::array<T, 2> length{};         ///< of the distances that it keeps
   Vector3<T> axis;                   ///< unit: strut line, hinge axis in the body (R, RR)
   Vector3<T> carrier_axis;           ///< unit: hinge axis in the carrier (R, RR)
-  Vector3<T> standing_axis;          ///< unit: axis of the K joint in the body (KS)
+  Vector3<T> standing_axis;          ///< unit: axis of the U joint in the body (US)
   std::array<Vector3<T>, 2> across;  ///< unit, normal to the strut line or to the carrier's axis
 };
 using LinkConstants = BasicLinkConstants<double>;
@@ -59,7 +59,7 @@ struct BasicAffinePoint {
 };
 using AffinePoint = BasicAffinePoint<double>;
 
-/// A point fixed to a rod: its share of the rod's line, and where a K joint holds the rod's spin its offsets
+/// A point fixed to a rod: its share of the rod's line, and where a U joint holds the rod's spin its offsets
 /// from the line (m), along the axis of the joint that turns with the rod and across both.
 template <class T>
 struct BasicRodPoint {
@@ -133,7 +133,7 @@ double driver_value(const GuidePlan& plan, const GuidePlace& place, double rack,
 double driver_rate(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver,
                    const Twist& twist, double rack_rate);
 
-/// How much a KS link, or a distance of another link, is too long (+) or too short (-) at a place: the
+/// How much a US link, or a distance of another link, is too long (+) or too short (-) at a place: the
 /// largest, and the link that has it. Hinges and struts are measured as they miss each other.
 struct Misfit {
   int link = -1;   ///< links first, then couplers

@@ -62,7 +62,7 @@ GuideConstruction construction_of(const std::vector<BasicGuideLink<T>>& links) {
   GuideConstruction out;
   const int count = static_cast<int>(links.size());
   const auto rod = [&](int i) {
-    return (links[i].type == LinkType::KS || links[i].type == LinkType::SS) && !links[i].moved_by_rack;
+    return (links[i].type == LinkType::US || links[i].type == LinkType::SS) && !links[i].moved_by_rack;
   };
   const auto same = [](const Vector3<T>& a, const Vector3<T>& b) {
     return dot(a - b, a - b) < same_joint * same_joint;
@@ -107,7 +107,7 @@ GuideConstruction construction_of(const std::vector<BasicGuideLink<T>>& links) {
         break;
       case LinkType::RR:
         break;
-      case LinkType::KS:
+      case LinkType::US:
       case LinkType::SS: {
         if (!rod(i)) break;
         // Three rods with one end hold a point, but lie in no plane.

@@ -24,7 +24,7 @@ enum class DesignKind {
 constexpr std::array<EnumName<DesignKind>, 11> names(DesignKind) {
   return {{{DesignKind::body, "body", "coordinate of a body point of a link"},
            {DesignKind::carrier, "carrier", "coordinate of a carrier point of a link"},
-           {DesignKind::length, "length", "prescribed length of a KS or SS link"},
+           {DesignKind::length, "length", "prescribed length of a US or SS link"},
            {DesignKind::coupler_point, "coupler_point", "coordinate of a coupler's point"},
            {DesignKind::coupler_fraction, "coupler_fraction", "where a coupler holds its first link"},
            {DesignKind::coupler_begin, "coupler_begin", "coordinate of a coupler's beginning off the line"},
@@ -51,7 +51,7 @@ template <class T>
 T& at(BasicWheelGuide<T>& guide, const DesignNumber& number);
 double at(const WheelGuide& guide, const DesignNumber& number);
 
-/// What files and reports call it: "link 3 (KS).body_y", "spring.moving_x"; the number of the point is named
+/// What files and reports call it: "link 3 (US).body_y", "spring.moving_x"; the number of the point is named
 /// where there are two: "lower arm.body_2_z".
 std::string label(const WheelGuide& guide, const DesignNumber& number);
 

@@ -153,7 +153,7 @@ class Limits {
         return {{0, 0}, {0, 1}};
       case LinkType::RR:
         return {{0, 0}, {1, 1}};
-      case LinkType::KS:
+      case LinkType::US:
       case LinkType::SS:
       case LinkType::SP:
         return {{0, 0}};

@@ -8,7 +8,7 @@
 
 namespace linkwright::suspension {
 
-/// The links of a wheel suspension by type, as in "SR-3KS".
+/// The links of a wheel suspension by type, as in "SR-3US".
 using Structure = std::vector<LinkType>;
 
 struct ParsedStructure {
@@ -19,11 +19,11 @@ struct ParsedStructure {
 /// Reads a name: link types joined by '-', each with a count before it when there are several. "SS" stays SS.
 ParsedStructure parse_structure(std::string_view name);
 
-/// The name of a structure: types in the order R, RR, S, RS, SR, SP, KS, equal ones counted; SS counts as KS.
+/// The name of a structure: types in the order R, RR, S, RS, SR, SP, US, equal ones counted; SS counts as US.
 std::string structure_name(const Structure& structure);
 Structure structure_of(const WheelGuide& guide);
 
-/// Freedoms of the carrier that a link takes away (table 3-1; KS 1, RS, SR and SP 2, S 3, RR 4, R 5), and
+/// Freedoms of the carrier that a link takes away (table 3-1; US 1, RS, SR and SP 2, S 3, RR 4, R 5), and
 /// numbers that place it in space (table 5-1).
 int constraints(LinkType type);
 int design_parameters(LinkType type);

@@ -70,7 +70,7 @@ double longest(const LinkTask& task) {
   return std::sqrt(square);
 }
 
-bool is_rod(LinkType type) { return type == LinkType::KS || type == LinkType::SS; }
+bool is_rod(LinkType type) { return type == LinkType::US || type == LinkType::SS; }
 
 }  // namespace
 
@@ -163,7 +163,7 @@ GuideErrors::GuideErrors(const CarrierTargets& targets, std::span<const LinkTask
                          task.name, link, links.size());
     LINKWRIGHT_REQUIRE(is_rod(links[static_cast<std::size_t>(task.first)].type) &&
                            links[static_cast<std::size_t>(task.second)].type == LinkType::SR,
-                       "coupler '{}': from a link of type {} to one of type {}, needs KS and SR", task.name,
+                       "coupler '{}': from a link of type {} to one of type {}, needs US and SR", task.name,
                        name_of(links[static_cast<std::size_t>(task.first)].type),
                        name_of(links[static_cast<std::size_t>(task.second)].type));
     CouplerPart part;
@@ -207,7 +207,7 @@ GuideErrors::GuideErrors(const CarrierTargets& targets, std::span<const LinkTask
       if (const double z = poses_[i].travel; poses_[i].open)
         spin_columns_[i] = {{linear, z}, {z >= 0 ? above : below, z * z}};
   } else if (any_open) {
-    LINKWRIGHT_REQUIRE(dyad_ >= 0, "no KS link makes a dyad with the carrier");
+    LINKWRIGHT_REQUIRE(dyad_ >= 0, "no US link makes a dyad with the carrier");
     settling_ = settling_order(targets, PoseParameter::spin);
     const LinkPart& part = links_[static_cast<std::size_t>(dyad_)];
     for (std::size_t i = 0; i < n; ++i)

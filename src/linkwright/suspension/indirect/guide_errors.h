@@ -21,7 +21,7 @@ constexpr std::array<EnumName<SpinTechnique>, 3> names(SpinTechnique) {
   return {{{SpinTechnique::each, "each", "an unknown of its own at each position"},
            {SpinTechnique::quadratic, "quadratic",
             "a quadratic of the wheel travel with another coefficient above than below the reference"},
-           {SpinTechnique::dyad, "dyad", "what the first KS link makes it, in closed form"}}};
+           {SpinTechnique::dyad, "dyad", "what the first US link makes it, in closed form"}}};
 }
 
 /// Of the structural errors of a link, a coupler or all of them (m).
@@ -40,7 +40,7 @@ struct ErrorTotals {
 class GuideErrors {
  public:
   /// Throws ContractError for tasks that LinkCoordinates refuses, couplers on links that are not there or of
-  /// other types, a dyad without a KS link, a quadratic for positions with the rack moved.
+  /// other types, a dyad without a US link, a quadratic for positions with the rack moved.
   GuideErrors(const CarrierTargets& targets, std::span<const LinkTask> links,
               std::span<const CouplerTask> couplers = {}, SpinTechnique technique = SpinTechnique::each,
               double largest_spin = 0.5);

@@ -23,13 +23,13 @@ constexpr Vec3 placed(const LinkPose& pose, const Vec3& reference) {
 Vec3 body_point(const WheelGuide& guide, int link, int point, double rack);
 Vec3 carrier_point(const WheelGuide& guide, int link, int point, const CarrierPose& carrier);
 
-/// All links at a position of the carrier, `from` and `at` at the first body point. KS links turn about their
-/// line as their K joint makes them, SS links do not, struts turn with the carrier, R and S are joints
+/// All links at a position of the carrier, `from` and `at` at the first body point. US links turn about their
+/// line as their U joint makes them, SS links do not, struts turn with the carrier, R and S are joints
 /// without a link and stand as the carrier does. Nothing is solved, so a suspension with any number of links
 /// will do; the links are taken to fit.
 std::vector<LinkPose> link_poses(const WheelGuide& guide, const GuidePlace& place, double rack);
 
-/// The axes of a KS link's K joint as it stands, unit: the one that stands in the body and the one that turns
+/// The axes of a US link's U joint as it stands, unit: the one that stands in the body and the one that turns
 /// with the rod.
 std::array<Vec3, 2> cross_axes(const WheelGuide& guide, int link, const CarrierPose& carrier, double rack);
 

@@ -17,9 +17,9 @@ double& component(Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 bool is_angle(PoseParameter p) { return p >= PoseParameter::toe; }
 
 void require_rod(const GuideLink& rod) {
-  LINKWRIGHT_REQUIRE((rod.type == LinkType::KS || rod.type == LinkType::SS) && rod.body.size() == 1 &&
+  LINKWRIGHT_REQUIRE((rod.type == LinkType::US || rod.type == LinkType::SS) && rod.body.size() == 1 &&
                          rod.carrier.size() == 1,
-                     "link '{}' of type {}: only a KS or SS link settles a parameter", rod.name,
+                     "link '{}' of type {}: only a US or SS link settles a parameter", rod.name,
                      name_of(rod.type));
 }
 

@@ -35,7 +35,7 @@ struct RodSolution {
   double shortfall = 0;  ///< m: by what the rod misses, at least
 };
 
-/// Solves the constraint of a KS or SS link at one position for one parameter (Poznanovic 2016, eq (67) less
+/// Solves the constraint of a US or SS link at one position for one parameter (Poznanovic 2016, eq (67) less
 /// the length, which is missing there) in closed form: a quadratic for a coordinate of the centre, A cos + B
 /// sin = C for an angle. `expected` chooses between the solutions; NaN = the value of the reference pose.
 /// Throws ContractError for other links, and when another parameter is missing, too.

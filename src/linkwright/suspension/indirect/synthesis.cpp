@@ -147,7 +147,7 @@ class Assembly {
 
   void settle_spin() {
     for (const LinkTask& link : task_.links) {
-      if (link.type != LinkType::KS && link.type != LinkType::SS) continue;
+      if (link.type != LinkType::US && link.type != LinkType::SS) continue;
       const LinkCoordinates coordinates(link);
       if (!coordinates.free().empty()) continue;
       PoseCompletion made = complete(task_.targets, coordinates.middle(), PoseParameter::spin);
@@ -230,7 +230,7 @@ LinkFit find_link(const LinkTask& task, std::uint32_t run, const LinkFitOptions&
                   std::span<const GuideLink> exact, ExactRods& rods, IndirectSynthesis& result,
                   std::uint64_t seed, RunContext& context) {
   LinkFit fit = fit_link(result.targets, task, options, exact, seed, context, run);
-  const bool rod = task.type == LinkType::KS || task.type == LinkType::SS;
+  const bool rod = task.type == LinkType::US || task.type == LinkType::SS;
   if (fit.status == Status::done || !rod || context.interrupted()) return fit;
   std::vector<GuideLink> starts(rods.of(task.moved_by_rack, result.arms).begin(),
                                 rods.of(task.moved_by_rack, result.arms).end());

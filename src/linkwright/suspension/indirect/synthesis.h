@@ -41,7 +41,7 @@ struct IndirectSynthesis {
 
 struct IndirectOptions {
   LinkFitOptions link;
-  SpinFitOptions spin;  ///< where positions do not prescribe the spin and no KS link is given
+  SpinFitOptions spin;  ///< where positions do not prescribe the spin and no US link is given
 };
 
 /// Finds the links one after the other, each from its own starts and none twice, then the couplers. Where no
@@ -49,7 +49,7 @@ struct IndirectOptions {
 /// too. Links that share a coupler are at last fitted together if they are not exact, from where they are and
 /// then from starts of their own; the best is taken.
 ///
-/// Spins that are not prescribed follow from a KS link whose coordinates are all given, if there is one
+/// Spins that are not prescribed follow from a US link whose coordinates are all given, if there is one
 /// (section 5.3.5.1); else all links are found together with them.
 ///
 /// Throws ContractError as fit_link, fit_coupler and fit_with_unknown_spin do.
@@ -67,7 +67,7 @@ struct IndirectEvolutionOptions {
 };
 
 /// The same by differential evolution, as the source has it: link by link, links that share a coupler
-/// together, and all together where spins are missing and no KS link is given.
+/// together, and all together where spins are missing and no US link is given.
 IndirectSynthesis evolve(const IndirectTask& task, const IndirectEvolutionOptions& options,
                          std::uint64_t seed, RunContext& context);
 

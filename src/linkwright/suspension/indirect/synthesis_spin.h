@@ -73,7 +73,7 @@ struct SpinFit {
 /// its own position only, or follows from the source's quadratic or dyad, see SpinTechnique. Where positions
 /// are complete it is a least-squares fit of everything together.
 ///
-/// Five KS links then need 9 positions, and even with more the errors hardly distinguish one solution from
+/// Five US links then need 9 positions, and even with more the errors hardly distinguish one solution from
 /// another: links whose errors are below a micrometre lie anywhere in boxes of 150 mm, with spins some
 /// degrees apart. They all move the wheel as prescribed.
 SpinFit fit_with_unknown_spin(const CarrierTargets& targets, std::span<const LinkTask> links,

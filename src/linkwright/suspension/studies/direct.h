@@ -44,7 +44,7 @@ void fields(Visitor&& visit, DesignForm& d) {
               .maximum = 1e3},
         d.box);
   visit(Field{.key = "given", .summary = "coordinates that stay as they are"}, d.given);
-  visit(Field{.key = "link", .summary = "a KS link whose length is designed"}, d.link);
+  visit(Field{.key = "link", .summary = "a US link whose length is a design variable"}, d.link);
   visit(Field{.key = "length",
               .summary = "its range",
               .dimension = Dimension::length,

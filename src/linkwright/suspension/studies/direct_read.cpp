@@ -231,8 +231,8 @@ void read_designs(study::ObjectReader& document, DirectStudy& s, std::vector<Des
     const auto link = find_link(table, "link", guide, d.link);
     if (!link) continue;
     GuideLink& l = guide.links[static_cast<std::size_t>(*link)];
-    if (l.type != LinkType::KS && l.type != LinkType::SS) {
-      table.error("link", fmt::format("'{}' is of type {}: only KS links have a length to design", l.name,
+    if (l.type != LinkType::US && l.type != LinkType::SS) {
+      table.error("link", fmt::format("'{}' is of type {}: only US links have a length to design", l.name,
                                       name_of(l.type)));
     } else if (!d.length || d.length->fixed()) {
       table.error("length", "has no range", "write length_mm = { min = 200.0, max = 300.0 }");

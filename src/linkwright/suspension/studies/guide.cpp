@@ -214,7 +214,7 @@ class GuideReader {
     wheel();
     if (!mechanism_.has("link"))
       mechanism_.unreadable("link", "there are no links",
-                            "add [[mechanism.link]], or sample = \"2RS-KS\" for a built-in wheel suspension");
+                            "add [[mechanism.link]], or sample = \"2RS-US\" for a built-in wheel suspension");
     std::vector<study::ObjectReader> tables = mechanism_.tables("link");
     for (std::size_t i = 0; i < form_.links.size() && i < tables.size(); ++i) link(form_.links[i], tables[i]);
     tables = mechanism_.tables("coupler");

@@ -90,7 +90,7 @@ void fields(Visitor&& visit, WheelForm& w) {
 
 struct GuideLinkForm {
   std::string name;
-  LinkType type = LinkType::KS;
+  LinkType type = LinkType::US;
   std::optional<PointsForm> body, carrier;
   std::vector<std::string> points;  ///< hard points, those of the body first
   std::optional<double> length;
@@ -108,20 +108,19 @@ void fields(Visitor&& visit, GuideLinkForm& l) {
               .summary = "names of hard points in the place of body and carrier, those of the body first"},
         l.points);
   visit(Field{.key = "length",
-              .summary = "of a KS or SS link, in the place of the distance of its points",
+              .summary = "of a US or SS link, in the place of the distance of its points",
               .dimension = Dimension::length,
               .minimum = 1e-6,
               .maximum = 1e3},
         l.length);
   visit(Field{.key = "moved_by", .summary = "what moves its body points"}, l.moved_by);
-  visit(
-      Field{.key = "cross_axis",
-            .summary =
-                "of a KS link: direction of the axis of its K joint that stands in the body; default: level "
-                "and across the link. What is fixed to the link off its line turns with it",
-            .minimum = -1e6,
-            .maximum = 1e6},
-      l.cross_axis);
+  visit(Field{.key = "cross_axis",
+              .summary = "of a US link: direction of the axis of its universal joint that is fixed in the "
+                         "body; default: level "
+                         "and across the link. What is fixed to the link off its line turns with it",
+              .minimum = -1e6,
+              .maximum = 1e6},
+        l.cross_axis);
 }
 
 struct GuideCouplerForm {
@@ -136,7 +135,7 @@ struct GuideCouplerForm {
 template <class Visitor>
 void fields(Visitor&& visit, GuideCouplerForm& c) {
   visit(Field{.key = "name", .summary = "of the coupler"}, c.name);
-  visit(Field{.key = "first", .summary = "name of the KS link that it begins on", .required = true}, c.first);
+  visit(Field{.key = "first", .summary = "name of the US link that it begins on", .required = true}, c.first);
   visit(Field{.key = "fraction",
               .summary = "its place on that link as a share of the length, from the body",
               .minimum = 0,

@@ -178,7 +178,7 @@ class Drawing {
     const int bottom = point(named("spring, moving end"), [&](const GuidePosition& p) {
       if (spring.link < 0) return place(p.place.carrier, spring.moving, centre);
       const GuideLink& link = guide_.links[static_cast<std::size_t>(spring.link)];
-      if (link.type == LinkType::KS || link.type == LinkType::SS)
+      if (link.type == LinkType::US || link.type == LinkType::SS)
         return spring_end(guide_, p.place, p.input.rack);
       return link_point(link, p, spring.moving);
     });

@@ -286,7 +286,7 @@ Table conditioning_table(const IndirectStudy& s, const SeedRun& run) {
 /// The name of the link of the task in whose boxes a rod lies; "-" of a rod that lies in none.
 std::string place_of(const IndirectStudy& s, const GuideLink& rod) {
   for (const LinkTask& task : s.task.links) {
-    if ((task.type != LinkType::KS && task.type != LinkType::SS) || task.moved_by_rack != rod.moved_by_rack)
+    if ((task.type != LinkType::US && task.type != LinkType::SS) || task.moved_by_rack != rod.moved_by_rack)
       continue;
     GuideLink as_asked = rod;
     as_asked.type = task.type;
@@ -308,7 +308,7 @@ void add_seven_poses(study::Result& result, const IndirectStudy& s, const Carrie
   std::vector<double> arm_moved;
   for (const bool by_rack : {false, true}) {
     const bool asked = std::any_of(s.task.links.begin(), s.task.links.end(), [&](const LinkTask& l) {
-      return (l.type == LinkType::KS || l.type == LinkType::SS) && l.moved_by_rack == by_rack &&
+      return (l.type == LinkType::US || l.type == LinkType::SS) && l.moved_by_rack == by_rack &&
              !LinkCoordinates(l).free().empty();
     });
     if (!asked || link_motion(targets, by_rack).size() < 6) continue;
