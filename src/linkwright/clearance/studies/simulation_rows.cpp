@@ -141,7 +141,7 @@ PinInstant ClearanceRows::pin_in_contact(const ContactRow& c, std::size_t k) {
   const bool pin_first = s_.contacts[k].pin == PinSide::first;
   const Vec<double> e = planar::vec(state.eccentricity);
   const Vec<double> n = norm(e) > 0 ? (1 / norm(e)) * e : Vec<double>{1, 0};
-  const Vec<double> on_pin = -state.normal * n - state.friction * left(n);
+  const Vec<double> on_pin = -state.normal * n - state.friction * perpendicular(n);
   const Vec<double> where =
       place_of(open_->linkage, open_->plan, *c.motion, pin_first ? pin.first : pin.second) +
       (s_.contacts[k].bush_radius - s_.contacts[k].clearance) * n;
@@ -152,7 +152,7 @@ PinInstant ClearanceRows::pin_in_contact(const ContactRow& c, std::size_t k) {
     force.force = number(side == 0 ? -on_second : on_second);
     const planar::PartState<double> frame = planar::body_state(open_->plan, *c.motion, force.point.body);
     pressed_.bodies[at(force.point.body)].points[at(force.point.point)].at =
-        number(unturn(frame.direction, where - frame.origin));
+        number(rotate_inverse(frame.direction, where - frame.origin));
   }
   // The clearance link, had it stayed: the way between the points from the first body to the second.
   const std::complex<double> way = pin_first ? -state.eccentricity : state.eccentricity;

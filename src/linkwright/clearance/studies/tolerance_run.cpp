@@ -231,7 +231,7 @@ PathBand path_band(const ToleranceStudy& s, const ToleranceRecording& r, std::si
     // Where a point turns back its neighbours lie at one place.
     if (!(norm(way) > least)) way = place(after) - place(row);
     if (!(norm(way) > least)) continue;
-    const planar::Vec<double> n = (1 / norm(way)) * left(way);
+    const planar::Vec<double> n = (1 / norm(way)) * perpendicular(way);
     const double *x = r.linear[row].derivatives.data() + i * parameters, *y = x + parameters;
     const auto across = [&](std::size_t j) { return n.x * x[j] + n.y * y[j]; };
     double error = 0;

@@ -82,7 +82,7 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
       return point_motion(plan, *i.motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
     };
     const PartState<double> first = body_state(plan, *i.motion, joint.first.body);
-    const Vec<double> along = turn(first.direction, unit(joint.slide_first));
+    const Vec<double> along = rotate(first.direction, unit(joint.slide_first));
     const PointMotion a = place(joint.first), b = place(joint.second);
     if (order == 0) return dot(along, b.position - a.position);
     const Vec<double> slip = b.velocity - velocity_at(first, b.position);

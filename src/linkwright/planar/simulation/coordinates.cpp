@@ -136,7 +136,7 @@ class Coordinates {
   Side side(const BodyPoint& p, double angle) const {
     const BodyOnPart& on = plan_.bodies[at(p.body)];
     const Vec<double> local = vec(l_.bodies[at(p.body)].points[at(p.point)].at);
-    return {on.part, on.origin + turn(on.turn, local), turn(on.turn, unit(angle))};
+    return {on.part, on.origin + rotate(on.turn, local), rotate(on.turn, unit(angle))};
   }
   // All equations of the joints; turns are measured from where they are at the start.
   void equations(std::span<const double> y) {
@@ -201,10 +201,10 @@ class Coordinates {
     Geometry g;
     g.point = point_on(part(e.second.part), e.second.at);
     g.apart = g.point - point_on(part(e.first.part), e.first.at);
-    g.along = turn(part(e.first.part).direction, e.first.direction);
+    g.along = rotate(part(e.first.part).direction, e.first.direction);
     if (e.type == RowType::x) g.force = {1, 0};
     if (e.type == RowType::y) g.force = {0, 1};
-    if (e.type == RowType::across) g.force = left(g.along);
+    if (e.type == RowType::across) g.force = perpendicular(g.along);
     if (e.type == RowType::along) g.force = g.along;
     if (e.type == RowType::turn) g.moment = 1;
     return g;
@@ -246,7 +246,7 @@ class Coordinates {
     matrix_.setZero();
     for (const int p : parts_) {
       const PartMass& m = plan_.masses[at(p)];
-      const Vec<double> s = turn(part(p).direction, m.moment);
+      const Vec<double> s = rotate(part(p).direction, m.moment);
       const Index c = column_[at(p)];
       matrix_(c, c) = matrix_(c + 1, c + 1) = m.mass;
       matrix_(c, c + 2) = matrix_(c + 2, c) = -s.y;

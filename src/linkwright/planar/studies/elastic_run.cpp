@@ -187,15 +187,15 @@ class ElasticRecorder {
                const LinkageRecord& rigid) const {
     if (rigid.bodies.empty() || bent.record.bodies.empty()) return nan;
     if (e.of == OutputError::Of::angle)
-      return math::wrap_angle(
-          angle_of(unturn(rigid.bodies[at(e.index)].direction, bent.record.bodies[at(e.index)].direction)));
+      return math::wrap_angle(angle_of(
+          rotate_inverse(rigid.bodies[at(e.index)].direction, bent.record.bodies[at(e.index)].direction)));
     if (e.of == OutputError::Of::displacement) {
       const LinkageJoint& j = s_.linkage.joints[at(e.index)];
       const bool first = s_.plan.bodies[at(j.first.body)].part == 0;
       const int body = first ? j.second.body : j.first.body;
       const BodyPoint& there = first ? j.second : j.first;
       const Vec<double> p = vec(s_.linkage.bodies[at(body)].points[at(there.point)].at);
-      const Vec<double> along = turn(rigid.bodies[at(j.first.body)].direction, unit(j.slide_first));
+      const Vec<double> along = rotate(rigid.bodies[at(j.first.body)].direction, unit(j.slide_first));
       const double way =
           dot(along, point_on(bent.record.bodies[at(body)], p) - point_on(rigid.bodies[at(body)], p));
       return first ? way : -way;
