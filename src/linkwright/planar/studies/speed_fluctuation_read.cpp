@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "linkwright/planar/linkage/branch.h"
-#include "linkwright/planar/studies/regulation.h"
+#include "linkwright/planar/studies/speed_fluctuation.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
@@ -11,7 +11,7 @@
 namespace linkwright::planar {
 
 template <class Visitor>
-void fields(Visitor&& visit, RegulationSetup& s) {
+void fields(Visitor&& visit, SpeedFluctuationSetup& s) {
   visit(Field{.key = "mean_speed",
               .summary = "of the input, a turn over its time; negative: backwards",
               .dimension = Dimension::speed_angular,
@@ -32,7 +32,7 @@ namespace {
 
 study::Prepared prepare(study::ObjectReader& document, LinkageType type) {
   study::Prepared prepared;
-  LinkageRegulationStudy s;
+  SpeedFluctuationStudy s;
   auto description = read_linkage(document, type, true);
   if (auto table = document.table(Field{.key = "speed_fluctuation", .summary = {}, .required = true})) {
     table->read(s.setup);
@@ -64,7 +64,7 @@ study::Prepared prepare(study::ObjectReader& document, LinkageType type) {
   s.linkage = std::move(description->linkage);
   s.plan = std::move(description->plan);
   s.traces = std::move(description->traces);
-  prepared.run = [s = std::move(s)](RunContext& context) { return run_linkage_regulation(s, context); };
+  prepared.run = [s = std::move(s)](RunContext& context) { return run_speed_fluctuation(s, context); };
   return prepared;
 }
 
@@ -80,7 +80,7 @@ study::Kind kind_of(LinkageType type) {
     document.property(Field{.key = "speed_fluctuation",
                             .summary = "the cycle and the coefficient of speed fluctuation that it may have",
                             .required = true},
-                      study::schema_fields<RegulationSetup>());
+                      study::schema_fields<SpeedFluctuationSetup>());
   };
   kind.prepare = [type](study::ObjectReader& document, const study::Common&) {
     return prepare(document, type);
@@ -90,7 +90,7 @@ study::Kind kind_of(LinkageType type) {
 
 }  // namespace
 
-study::Kind linkage_regulation_kind() {
+study::Kind linkage_speed_fluctuation_kind() {
   study::Kind kind = kind_of(LinkageType::linkage);
   kind.mechanism = "planar.linkage";
   kind.summary =
@@ -178,7 +178,7 @@ fluctuation    = 0.05
   return kind;
 }
 
-study::Kind slider_crank_regulation_kind() {
+study::Kind slider_crank_speed_fluctuation_kind() {
   study::Kind kind = kind_of(LinkageType::slider_crank);
   kind.mechanism = "planar.slider_crank";
   kind.summary = "speed fluctuation of a slider-crank that rotates fully: reduced inertia and flywheel";

@@ -1,4 +1,4 @@
-#include "linkwright/planar/simulation/regulation.h"
+#include "linkwright/planar/simulation/speed_fluctuation.h"
 
 #include <gmock/gmock.h>
 
@@ -28,20 +28,20 @@ Linkage wheel() {
   return l;
 }
 
-TEST(Regulate, InterruptedTellsWhatItHas) {
+TEST(SpeedFluctuation, InterruptedGivesWhatItHas) {
   const Linkage l = wheel();
   const LinkagePlan p = planned(l);
-  const RegulationSetup setup{.start = 0.3, .mean_speed = 12, .fluctuation = 0.01, .samples = 100000};
+  const SpeedFluctuationSetup setup{.start = 0.3, .mean_speed = 12, .fluctuation = 0.01, .samples = 100000};
   const RunContext context;
   {
     const LooksAllowed looks(3);  // one every 1024 samples
-    const CycleRegulation r = regulate(l, p, setup, &context);
+    const SpeedFluctuation r = speed_fluctuation(l, p, setup, &context);
     EXPECT_EQ(r.status, Status::cancelled);
     EXPECT_EQ(r.message, "interrupted before the cycle was known");
     EXPECT_TRUE(r.speed.empty());
   }
   const LooksAllowed looks(98 + 5);  // five trials of a flywheel
-  const CycleRegulation r = regulate(l, p, setup, &context);
+  const SpeedFluctuation r = speed_fluctuation(l, p, setup, &context);
   EXPECT_EQ(looks.made(), 98 + 6);
   EXPECT_EQ(r.status, Status::cancelled);
   EXPECT_EQ(r.message, "interrupted before the flywheel was found");
@@ -49,14 +49,14 @@ TEST(Regulate, InterruptedTellsWhatItHas) {
   EXPECT_NEAR(r.energy_fluctuation, 2 * 3 * 0.5 * 9.81, 1e-6);
   ASSERT_EQ(r.speed.size(), 100000u);
   EXPECT_TRUE(std::isnan(r.flywheel));
-  EXPECT_TRUE(std::isnan(r.regulated[7]));
+  EXPECT_TRUE(std::isnan(r.with_flywheel[7]));
 }
 
-TEST(Regulate, AWheelWithAWeightAsByHand) {
+TEST(SpeedFluctuation, AWheelWithAWeightAsByHand) {
   const Linkage l = wheel();
   const LinkagePlan p = planned(l);
   const double moment = 3 * 0.5 * 9.81, inertia = 2 + 3 * 0.25, mean = 12;
-  const CycleRegulation r = regulate(l, p, {.start = 0.3, .mean_speed = mean, .fluctuation = 0.01});
+  const SpeedFluctuation r = speed_fluctuation(l, p, {.start = 0.3, .mean_speed = mean, .fluctuation = 0.01});
   ASSERT_EQ(r.status, Status::done) << r.message;
   EXPECT_NEAR(r.motor_torque, 4, 1e-12);
   ASSERT_EQ(r.input.size(), 720u);
@@ -78,24 +78,24 @@ TEST(Regulate, AWheelWithAWeightAsByHand) {
                   1e-10 * total * mean * mean);
   };
   check(r.speed, inertia);
-  check(r.regulated, inertia + r.flywheel);
-  const auto [least, most] = std::minmax_element(r.regulated.begin(), r.regulated.end());
+  check(r.with_flywheel, inertia + r.flywheel);
+  const auto [least, most] = std::minmax_element(r.with_flywheel.begin(), r.with_flywheel.end());
   EXPECT_NEAR((*most - *least) / mean, 0.01, 1e-9);
   // To first order: energy fluctuation = total inertia, fluctuation, mean speed squared.
   EXPECT_NEAR(inertia + r.flywheel, 2 * moment / (0.01 * mean * mean), 1e-3 * r.flywheel);
 }
 
-TEST(Regulate, NeedsNoFlywheelWhereItRunsEvenly) {
+TEST(SpeedFluctuation, NeedsNoFlywheelWhereItIsSmall) {
   Linkage l = wheel();
   l.gravity = 0;
-  const CycleRegulation r = regulate(l, planned(l), {.mean_speed = -5});
+  const SpeedFluctuation r = speed_fluctuation(l, planned(l), {.mean_speed = -5});
   EXPECT_EQ(r.flywheel, 0);
   EXPECT_NEAR(r.fluctuation, 0, 1e-14);
-  EXPECT_NEAR(r.regulated[3], -5, 1e-12);
+  EXPECT_NEAR(r.with_flywheel[3], -5, 1e-12);
 }
 
 // The same speeds by simulation over time, with the even torque as a load and the flywheel on the crank.
-TEST(Regulate, ASliderCrankAsItsSimulation) {
+TEST(SpeedFluctuation, ASliderCrankAsItsSimulation) {
   const LinkageSample s = offset_slider_crank_sample();
   Linkage l = s.linkage;
   l.forces.push_back({"press",
@@ -104,15 +104,15 @@ TEST(Regulate, ASliderCrankAsItsSimulation) {
                       false,
                       {LoadArgument::input, {0, 1.5, 3, 4.5, 2 * pi}, {0, 0.5, 1, 0, 0}}});
   const double mean = 20;
-  const CycleRegulation r =
-      regulate(l, planned(l), {.mean_speed = mean, .fluctuation = 0.05, .samples = 1440});
+  const SpeedFluctuation r =
+      speed_fluctuation(l, planned(l), {.mean_speed = mean, .fluctuation = 0.05, .samples = 1440});
   ASSERT_EQ(r.status, Status::done) << r.message;
   ASSERT_GT(r.flywheel, 0);
   EXPECT_GT(r.fluctuation, 0.05);
   l.bodies[1].mass->inertia += r.flywheel;
   l.torques.push_back({.name = "motor", .body = 1, .from = 0, .torque = r.motor_torque});
   // A turn, before the table of the load ends.
-  const SimulationRun run = simulated(l, planned(l), {{{}, 0, r.regulated[0]}}, evenly(0, 0.31, 311));
+  const SimulationRun run = simulated(l, planned(l), {{{}, 0, r.with_flywheel[0]}}, evenly(0, 0.31, 311));
   ASSERT_EQ(run.report.status, Status::done) << run.report.message;
   double least = 1e9, most = 0;
   for (const auto& row : run.rows) {
@@ -167,18 +167,18 @@ TEST(SteadyCycle, TellsWhyThereIsNone) {
   EXPECT_EQ(c.status, Status::limit_reached);
   EXPECT_THAT(c.message, ::testing::HasSubstr("it comes to rest at "));
   const Linkage chain = four_bar_chain_sample(1).linkage;
-  const CycleRegulation r = regulate(chain, planned(chain), {.start = 1, .mean_speed = 2});
+  const SpeedFluctuation r = speed_fluctuation(chain, planned(chain), {.start = 1, .mean_speed = 2});
   EXPECT_EQ(r.status, Status::infeasible);
   EXPECT_THAT(r.message, ::testing::HasSubstr("the cycle goes through a change point at "));
   const Linkage two = pendulum(2);
   const LinkagePlan plan_of_two = planned(two);
-  EXPECT_THAT(test::message([&] { regulate(two, plan_of_two, {}); }),
+  EXPECT_THAT(test::message([&] { speed_fluctuation(two, plan_of_two, {}); }),
               ::testing::HasSubstr(
                   "a speed fluctuation needs one input that turns, in closed form, and 2 inputs are here"));
   Linkage timed = wheel();
   timed.torques[0].factor = {LoadArgument::time, {0, 1}, {0, 1}};
   const LinkagePlan plan_of_timed = planned(timed);
-  EXPECT_THAT(test::message([&] { regulate(timed, plan_of_timed, {}); }),
+  EXPECT_THAT(test::message([&] { speed_fluctuation(timed, plan_of_timed, {}); }),
               ::testing::HasSubstr("one of which goes by time"));
 }
 

@@ -1,4 +1,4 @@
-#include "linkwright/planar/studies/regulation.h"
+#include "linkwright/planar/studies/speed_fluctuation.h"
 
 #include <gmock/gmock.h>
 
@@ -20,8 +20,8 @@ using test::run_text;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-TEST(LinkageRegulationStudy, SizesAFlywheelAndFindsTheSteadyCycle) {
-  const study::Result r = run_text(linkage_regulation_kind().example);
+TEST(SpeedFluctuationStudy, SizesAFlywheelAndFindsTheSteadyCycle) {
+  const study::Result r = run_text(linkage_speed_fluctuation_kind().example);
   ASSERT_EQ(r.status, Status::done);
   EXPECT_THAT(r.diagnostics, IsEmpty());
   EXPECT_THAT(r.headline, HasSubstr("kg m2 on O keeps the speed within 0.05 of its mean of 180 rpm."));
@@ -38,9 +38,9 @@ TEST(LinkageRegulationStudy, SizesAFlywheelAndFindsTheSteadyCycle) {
   ASSERT_EQ(r.scenes.size(), 1u);
 }
 
-TEST(LinkageRegulationStudy, InterruptedTellsTheCycleWithoutTheFlywheel) {
+TEST(SpeedFluctuationStudy, InterruptedGivesTheCycleWithoutTheFlywheel) {
   const LooksAllowed looks(5);
-  const study::Result r = run_text(linkage_regulation_kind().example);
+  const study::Result r = run_text(linkage_speed_fluctuation_kind().example);
   EXPECT_EQ(r.status, Status::cancelled);
   EXPECT_THAT(r.headline, HasSubstr("of its mean of 180 rpm; interrupted before the flywheel was found."));
   ASSERT_EQ(r.tables.size(), 1u);
@@ -48,25 +48,25 @@ TEST(LinkageRegulationStudy, InterruptedTellsTheCycleWithoutTheFlywheel) {
   EXPECT_TRUE(std::isnan(r.tables[0].find("speed_with_flywheel_rad_per_s")->values[0]));
 }
 
-TEST(LinkageRegulationStudy, TakesASliderCrankWithoutAMotor) {
-  const study::Result r = run_text(slider_crank_regulation_kind().example);
+TEST(SpeedFluctuationStudy, TakesASliderCrankWithoutAMotor) {
+  const study::Result r = run_text(slider_crank_speed_fluctuation_kind().example);
   ASSERT_EQ(r.status, Status::done);
   EXPECT_EQ(r.tables.size(), 1u);
   // Weight alone does no work over a turn.
   EXPECT_NEAR(r.statistics.find("motor_torque_N_m")->as_number(), 0, 1e-12);
 }
 
-TEST(LinkageRegulationStudy, WritesWhatItReads) {
+TEST(SpeedFluctuationStudy, WritesWhatItReads) {
   std::string messages;
-  const auto first = prepare(linkage_regulation_kind().example, messages);
+  const auto first = prepare(linkage_speed_fluctuation_kind().example, messages);
   ASSERT_TRUE(first) << messages;
   const auto second = prepare(study::to_toml(first->canonical), messages);
   ASSERT_TRUE(second) << messages;
   EXPECT_EQ(first->canonical, second->canonical);
 }
 
-TEST(LinkageRegulationStudy, NamesWhatIsWrong) {
-  const std::string text = linkage_regulation_kind().example;
+TEST(SpeedFluctuationStudy, NamesWhatIsWrong) {
+  const std::string text = linkage_speed_fluctuation_kind().example;
   EXPECT_THAT(problems_of(replaced(text, "mean_speed_rpm = 180.0", "mean_speed_rpm = 0.0")),
               HasSubstr("a machine at rest has no cycle"));
   EXPECT_THAT(problems_of(replaced(text, "against  = \"input\"", "against  = \"time\"")),
@@ -79,7 +79,7 @@ TEST(LinkageRegulationStudy, NamesWhatIsWrong) {
       HasSubstr("a speed fluctuation needs one input that turns"));
 }
 
-TEST(LinkageRegulationStudy, ExamplePassesItsChecks) {
+TEST(SpeedFluctuationStudy, ExamplePassesItsChecks) {
   const std::filesystem::path file =
       std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples/studies/flywheel-press.toml";
   const std::vector<study::Kind> kinds = studies();

@@ -1,4 +1,4 @@
-#include "linkwright/planar/simulation/regulation.h"
+#include "linkwright/planar/simulation/speed_fluctuation.h"
 
 #include <fmt/core.h>
 
@@ -17,7 +17,7 @@
 namespace linkwright::planar {
 namespace {
 
-void require(const Linkage& l, const LinkagePlan& plan, const RegulationSetup& s) {
+void require(const Linkage& l, const LinkagePlan& plan, const SpeedFluctuationSetup& s) {
   LINKWRIGHT_REQUIRE(plan.inputs() == 1 && plan.closed_form() && periodic(plan, 0),
                      "a speed fluctuation needs one input that turns, in closed form, and {} inputs are here",
                      plan.inputs());
@@ -33,9 +33,9 @@ void require(const Linkage& l, const LinkagePlan& plan, const RegulationSetup& s
                      l.forces.size() + l.torques.size());
 }
 
-// Whether the input rotates fully and round; else why not.
+// Whether the input rotates fully; else why not.
 template <class Answer>
-bool goes_round(const LinkagePlan& plan, const RegulationSetup& s, Answer& out) {
+bool rotates_fully(const LinkagePlan& plan, const SpeedFluctuationSetup& s, Answer& out) {
   const LinkageMotion motion(plan);
   const BranchPath path =
       branch_path(plan, std::span(&s.start, 1), 0, motion.modes, s.start - 1, s.start + 1);
@@ -65,7 +65,7 @@ std::vector<double> integral(const std::vector<double>& f, double step) {
 
 // Speeds over the cycle with energies E + c and inertias J + extra, so that the turn takes its time: its mean
 // over the angle of one over the speed is one over the mean speed.
-std::vector<double> speeds(const CycleRegulation& cycle, double extra, double mean) {
+std::vector<double> speeds(const SpeedFluctuation& cycle, double extra, double mean) {
   const std::size_t n = cycle.input.size();
   const double least = *std::min_element(cycle.energy.begin(), cycle.energy.end());
   std::vector<double> out(n);
@@ -95,12 +95,12 @@ double spread(const std::vector<double>& speeds, double mean) {
 
 }  // namespace
 
-CycleRegulation regulate(const Linkage& linkage, const LinkagePlan& plan, const RegulationSetup& setup,
-                         const RunContext* context) {
+SpeedFluctuation speed_fluctuation(const Linkage& linkage, const LinkagePlan& plan,
+                                   const SpeedFluctuationSetup& setup, const RunContext* context) {
   constexpr int between_looks = 1024;
   require(linkage, plan, setup);
-  CycleRegulation out;
-  if (!goes_round(plan, setup, out)) return out;
+  SpeedFluctuation out;
+  if (!rotates_fully(plan, setup, out)) return out;
   Linkage l = linkage;
   std::erase_if(l.torques, [](const BodyTorque& t) { return t.factor.against == LoadArgument::speed; });
   const double speed = setup.mean_speed, sense = speed > 0 ? 1 : -1, mean = std::abs(speed);
@@ -136,8 +136,8 @@ CycleRegulation regulate(const Linkage& linkage, const LinkagePlan& plan, const 
   out.fluctuation = spread(out.speed, mean);
   const auto excessive = [&](double flywheel) {
     go_on(context);
-    out.regulated = speeds(out, flywheel, mean);
-    return spread(out.regulated, mean) > setup.fluctuation;
+    out.with_flywheel = speeds(out, flywheel, mean);
+    return spread(out.with_flywheel, mean) > setup.fluctuation;
   };
   try {
     if (excessive(0)) {
@@ -154,18 +154,18 @@ CycleRegulation regulate(const Linkage& linkage, const LinkagePlan& plan, const 
     out.status = why.status();
     out.message = "interrupted before the flywheel was found";
     out.flywheel = nan;
-    out.regulated.assign(out.speed.size(), out.flywheel);
+    out.with_flywheel.assign(out.speed.size(), out.flywheel);
   }
-  for (std::vector<double>* s : {&out.speed, &out.regulated})
+  for (std::vector<double>* s : {&out.speed, &out.with_flywheel})
     for (double& v : *s) v *= sense;
   return out;
 }
 
-SteadyCycle steady_cycle(const Linkage& l, const LinkagePlan& plan, const RegulationSetup& setup,
+SteadyCycle steady_cycle(const Linkage& l, const LinkagePlan& plan, const SpeedFluctuationSetup& setup,
                          const RunContext* context) {
   require(l, plan, setup);
   SteadyCycle out;
-  if (!goes_round(plan, setup, out)) return out;
+  if (!rotates_fully(plan, setup, out)) return out;
   const double sense = setup.mean_speed > 0 ? 1 : -1;
   LinkageDynamics dynamics(l, plan, {true});
   math::OdeWorkspace workspace;

@@ -5,7 +5,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/studies/linkage_scene.h"
-#include "linkwright/planar/studies/regulation.h"
+#include "linkwright/planar/studies/speed_fluctuation.h"
 
 namespace linkwright::planar {
 namespace {
@@ -27,7 +27,7 @@ void add_plot(study::Result& result, std::string name, std::string title, std::s
 }
 
 // The cycle drawn with the forces that it has at the mean speed.
-study::Scene drawn(const LinkageRegulationStudy& s, const CycleRegulation& cycle) {
+study::Scene drawn(const SpeedFluctuationStudy& s, const SpeedFluctuation& cycle) {
   LinkageMotion motion(s.plan);
   LinkageForces forces;
   std::vector<LinkageRecord> records;
@@ -43,9 +43,9 @@ study::Scene drawn(const LinkageRegulationStudy& s, const CycleRegulation& cycle
 
 }  // namespace
 
-study::Result run_linkage_regulation(const LinkageRegulationStudy& s, RunContext& context) {
+study::Result run_speed_fluctuation(const SpeedFluctuationStudy& s, RunContext& context) {
   study::Result result;
-  const CycleRegulation cycle = regulate(s.linkage, s.plan, s.setup, &context);
+  const SpeedFluctuation cycle = speed_fluctuation(s.linkage, s.plan, s.setup, &context);
   result.status = cycle.status;
   if (cycle.speed.empty()) {
     result.headline = "No cycle: " + cycle.message + ".";
@@ -59,7 +59,7 @@ study::Result run_linkage_regulation(const LinkageRegulationStudy& s, RunContext
   table.add("load_torque_N_m", "torque of weight and loads on the input (N m)", cycle.torque);
   table.add("excess_energy_J", "excess energy with a constant motor torque (J)", cycle.energy);
   table.add("speed_rad_per_s", "speed without flywheel (rad/s)", cycle.speed);
-  table.add("speed_with_flywheel_rad_per_s", "speed with flywheel (rad/s)", cycle.regulated);
+  table.add("speed_with_flywheel_rad_per_s", "speed with flywheel (rad/s)", cycle.with_flywheel);
   table.status.assign(cycle.input.size(), "done");
   result.tables.push_back(std::move(table));
   result.scenes.push_back(drawn(s, cycle));
