@@ -26,6 +26,7 @@ constexpr std::array all_renamed{
     Renamed{NameOf::word, "support_tangent", "anti_pitch_tangent", suspension},
     Renamed{NameOf::word, "support_tangent_free", "anti_pitch_tangent_free", suspension},
     Renamed{NameOf::key, "spin", "carrier_pitch", suspension},
+    Renamed{NameOf::key, "largest_spin", "largest_carrier_pitch", suspension},
     Renamed{NameOf::key, "unknown_spin", "unknown_carrier_pitch", suspension},
     Renamed{NameOf::key, "spin_technique", "carrier_pitch_technique", suspension},
     Renamed{NameOf::column, "spin", "carrier_pitch", suspension},

@@ -101,7 +101,7 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
     const WheelAngles a = wheel_angles(Side::left, guide.wheel, p.place.carrier.rotation);
     text +=
         fmt::format("[[target.pose]]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\ncarrier_pitch_rad = {}\n",
-                    at(p.place.carrier.centre), a.toe, a.camber, a.spin);
+                    at(p.place.carrier.centre), a.toe, a.camber, a.carrier_pitch);
   }
   const study::Result result = run_text(text);
   const Table& arms = test::table(result, "seven_pose_arms");

@@ -49,7 +49,7 @@ void expect_row(const GuidePlan& plan, const Value& row) {
   EXPECT_LT(distance(position.place.carrier.centre, point(at(row, "wheel_centre_m"))), close_value);
   EXPECT_NEAR(found.angles.toe, number_at(row, "toe_rad"), close_value);
   EXPECT_NEAR(found.angles.camber, number_at(row, "camber_rad"), close_value);
-  EXPECT_NEAR(found.angles.spin, number_at(row, "carrier_spin_rad"), close_value);
+  EXPECT_NEAR(found.angles.carrier_pitch, number_at(row, "carrier_spin_rad"), close_value);
   EXPECT_LT(distance(found.contact, point(at(row, "contact_m"))), close_value);
   expect_rate(found.toe_by_travel, row, "dtoe_dz_rad_per_m");
   expect_rate(found.camber_by_travel, row, "dcamber_dz_rad_per_m");
@@ -107,13 +107,15 @@ TEST(WheelParameters, PublishedTables) {
       const WheelParameters found = wheel_parameters(plan, position);
       EXPECT_NEAR(found.angles.toe, number_at(row, "toe_rad"), angles);
       EXPECT_NEAR(found.angles.camber, number_at(row, "camber_rad"), angles);
-      EXPECT_NEAR(found.angles.spin, number_at(row, "carrier_spin_rad"), angles);
+      EXPECT_NEAR(found.angles.carrier_pitch, number_at(row, "carrier_spin_rad"), angles);
       const auto table = test::numbers(rows[i]);
       const auto& columns = at(published(id), "published.columns").as_array();
-      const std::map<std::string, double> ours{
-          {"x_m", position.place.carrier.centre.x},           {"y_m", position.place.carrier.centre.y},
-          {"z_m", position.place.carrier.centre.z},           {"toe_deg", math::degrees(found.angles.toe)},
-          {"camber_deg", math::degrees(found.angles.camber)}, {"spin_deg", math::degrees(found.angles.spin)}};
+      const std::map<std::string, double> ours{{"x_m", position.place.carrier.centre.x},
+                                               {"y_m", position.place.carrier.centre.y},
+                                               {"z_m", position.place.carrier.centre.z},
+                                               {"toe_deg", math::degrees(found.angles.toe)},
+                                               {"camber_deg", math::degrees(found.angles.camber)},
+                                               {"spin_deg", math::degrees(found.angles.carrier_pitch)}};
       for (std::size_t k = 3; k < columns.size(); ++k)  // after index, travel and rack
         EXPECT_NEAR(ours.at(columns[k].as_string()), table[k], 5.6e-6) << columns[k].as_string() << " " << i;
       EXPECT_GE(columns.size(), 7u);
@@ -237,7 +239,7 @@ TEST(WheelParameters, RightWheelHasTheNumbersOfTheLeftAtTheOppositeRack) {
   const auto same = [](double x, double y) { EXPECT_NEAR(x, y, 1e-13); };
   same(a.angles.toe, b.angles.toe);
   same(a.angles.camber, b.angles.camber);
-  same(a.angles.spin, b.angles.spin);
+  same(a.angles.carrier_pitch, b.angles.carrier_pitch);
   same(a.half_track_change, b.half_track_change);
   same(a.wheelbase_change, b.wheelbase_change);
   same(a.toe_by_travel, b.toe_by_travel);

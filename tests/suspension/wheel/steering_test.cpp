@@ -48,9 +48,10 @@ TEST(Steering, LeverArmsByTheScrewAxis) {
         EXPECT_NEAR(found->load_arm, arm({0, 0, 1}, wheel.contact), 1e-12);
         // The wheel free to turn: the force without its moment about the wheel's axis, but for the turn of
         // that axis in its own plane (toe and camber together).
-        const Vec3 spin = wheel_axis(guide.side, wheel.angles.toe, wheel.angles.camber);
-        const double torque = dot(cross(wheel.contact - here.place.carrier.centre, Vec3{1, 0, 0}), spin);
-        const double share = rate * dot(axis->direction, spin);
+        const Vec3 carrier_pitch = wheel_axis(guide.side, wheel.angles.toe, wheel.angles.camber);
+        const double torque =
+            dot(cross(wheel.contact - here.place.carrier.centre, Vec3{1, 0, 0}), carrier_pitch);
+        const double share = rate * dot(axis->direction, carrier_pitch);
         const double cant =
             guide.wheel.tyre_diameter / 2 * std::sin(wheel.angles.camber) * std::cos(wheel.angles.toe);
         EXPECT_NEAR(found->drive_arm, arm({1, 0, 0}, wheel.contact) - torque * share - cant, 1e-12);
@@ -89,7 +90,8 @@ TEST(Steering, AgainstPositionsWithTheSpringHeld) {
     const double toe = (more.angles.toe - less.angles.toe) / (2 * step);
     EXPECT_NEAR(found->toe_by_rack, toe, 1e-7);
     EXPECT_NEAR(found->camber_by_toe * toe, (more.angles.camber - less.angles.camber) / (2 * step), 1e-7);
-    EXPECT_NEAR(found->spin_by_toe * toe, (more.angles.spin - less.angles.spin) / (2 * step), 1e-7);
+    EXPECT_NEAR(found->carrier_pitch_by_toe * toe,
+                (more.angles.carrier_pitch - less.angles.carrier_pitch) / (2 * step), 1e-7);
     EXPECT_NEAR(found->contact_rise_by_rack, (more.contact.z - less.contact.z) / (2 * step), 1e-8);
     EXPECT_NEAR(found->load_arm * found->toe_by_rack, found->contact_rise_by_rack, 1e-14);
     EXPECT_NEAR(found->drive_arm * toe, (more.contact.x - less.contact.x) / (2 * step), 1e-7);

@@ -19,7 +19,7 @@ struct ConstraintError {
 
 /// The constraint equations of the suspension, as its analysis solves them, at the prescribed positions of
 /// the carrier. Throws ContractError for a suspension that cannot be analysed and for a position without
-/// spin.
+/// carrier pitch.
 ConstraintError constraint_error(const WheelGuide& guide, const CarrierTargets& targets);
 
 /// Largest and mean absolute deviation over positions.
@@ -31,9 +31,9 @@ struct Deviation {
 struct PoseDeviations {
   /// done; else why a position could not be reached; deviations are those of the others.
   Status status = Status::done;
-  int missed = 0;               ///< positions that could not be reached
-  Deviation x, y;               ///< of the wheel centre, m
-  Deviation toe, camber, spin;  ///< rad; spin only over positions that prescribe it
+  int missed = 0;                        ///< positions that could not be reached
+  Deviation x, y;                        ///< of the wheel centre, m
+  Deviation toe, camber, carrier_pitch;  ///< rad; carrier pitch only over positions that prescribe it
 };
 
 /// Analyses the suspension at the height and rack of every prescribed position, as tables 6-2, 6-6, 6-10 and

@@ -135,8 +135,13 @@ void add_assemblies(study::Result& result, const SweepStudy& s, const GuidePlan&
   for (const Assembly& a : assemblies(plan, s.travel, input)) {
     const WheelAngles angles = wheel_angles(plan.side, plan.wheel, a.place.carrier.rotation);
     const Vec3& centre = a.place.carrier.centre;
-    const std::array<double, 7> row{
-        centre.x, centre.y, centre.z, angles.toe, angles.camber, angles.spin, static_cast<double>(a.hits)};
+    const std::array<double, 7> row{centre.x,
+                                    centre.y,
+                                    centre.z,
+                                    angles.toe,
+                                    angles.camber,
+                                    angles.carrier_pitch,
+                                    static_cast<double>(a.hits)};
     for (std::size_t i = 0; i < row.size(); ++i) c[i].push_back(row[i]);
   }
   constexpr std::array<std::pair<const char*, const char*>, 7> keys{

@@ -37,7 +37,7 @@ std::optional<SteeringParameters> steering_parameters(const GuidePlan& plan, con
                             .toe_by_rack = toe,
                             .steer_by_rack = -outboard * toe,
                             .camber_by_toe = by_rack.camber / toe,
-                            .spin_by_toe = by_rack.spin / toe,
+                            .carrier_pitch_by_toe = by_rack.carrier_pitch / toe,
                             .brake_arm = speed.on_carrier.x / toe,
                             .drive_arm = speed.geometric.x / toe,
                             .lateral_arm = outboard * speed.on_carrier.y / toe,

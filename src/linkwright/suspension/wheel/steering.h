@@ -17,7 +17,8 @@ struct SteeringParameters {
   double steer_by_rack =
       0;  ///< rad/m, steer angle about +z, of either wheel > 0 if a rack to the left steers left
   double camber_by_toe = 0;  ///< rad/rad
-  double spin_by_toe = 0;  ///< rad/rad, carrier about the wheel's axis: what caster the wheel's bearing keeps
+  double carrier_pitch_by_toe =
+      0;  ///< rad/rad, carrier about the wheel's axis: what caster the wheel's bearing keeps
   /// m: force forward at the contact, braked by the carrier (outboard brake): > 0 where braking toes out.
   double brake_arm = 0;
   /// m: force forward at the contact, the wheel free to turn on its carrier (drive shaft, inboard brake).

@@ -261,7 +261,7 @@ void for_each_number(const BasicWheelParameters<A>& a, BasicWheelParameters<B>& 
   };
   f(a.angles.toe, b.angles.toe);
   f(a.angles.camber, b.angles.camber);
-  f(a.angles.spin, b.angles.spin);
+  f(a.angles.carrier_pitch, b.angles.carrier_pitch);
   f(a.front_view_camber, b.front_view_camber);
   vector(a.contact, b.contact);
   f(a.track, b.track);

@@ -13,18 +13,18 @@
 
 namespace linkwright::suspension {
 
-struct SpinFitOptions {
-  SpinTechnique technique = SpinTechnique::each;
-  int starts = 30;               ///< local searches at most
-  int iterations = 200;          ///< steps of each
-  int final_iterations = 4000;   ///< steps of each that is polished, the best first, until one is good enough
-  double tolerance = 1e-7;       ///< m: root mean square of the structural errors at which the search ends
-  double largest_spin = 0.5;     ///< rad: bound of the unknown spins
-  double distinct_links = 5e-3;  ///< m: ends with two links nearer than this are refused
-  bool progress = true;          ///< report to the run context
+struct CarrierPitchFitOptions {
+  CarrierPitchTechnique technique = CarrierPitchTechnique::each;
+  int starts = 30;              ///< local searches at most
+  int iterations = 200;         ///< steps of each
+  int final_iterations = 4000;  ///< steps of each that is polished, the best first, until one is good enough
+  double tolerance = 1e-7;      ///< m: root mean square of the structural errors at which the search ends
+  double largest_carrier_pitch = 0.5;  ///< rad: bound of the unknown carrier pitches
+  double distinct_links = 5e-3;        ///< m: ends with two links nearer than this are refused
+  bool progress = true;                ///< report to the run context
 };
 template <class Visitor>
-void fields(Visitor&& visit, SpinFitOptions& o) {
+void fields(Visitor&& visit, CarrierPitchFitOptions& o) {
   visit(Field{.key = "technique", .summary = "what stands for the missing carrier pitch"}, o.technique);
   visit(Field{.key = "starts", .summary = "local searches at most", .minimum = 1, .maximum = 1e6}, o.starts);
   visit(Field{.key = "iterations", .summary = "steps of each search", .minimum = 1, .maximum = 1e6},
@@ -40,12 +40,12 @@ void fields(Visitor&& visit, SpinFitOptions& o) {
               .minimum = 0,
               .exclusive_minimum = true},
         o.tolerance);
-  visit(Field{.key = "largest_spin",
+  visit(Field{.key = "largest_carrier_pitch",
               .summary = "bound of the unknown carrier pitches",
               .dimension = Dimension::angle,
               .minimum = 0,
               .exclusive_minimum = true},
-        o.largest_spin);
+        o.largest_carrier_pitch);
   visit(Field{.key = "distinct_links",
               .summary = "ends with two links nearer than this are refused",
               .dimension = Dimension::length,
@@ -53,14 +53,14 @@ void fields(Visitor&& visit, SpinFitOptions& o) {
         o.distinct_links);
 }
 
-/// Links found together with the spin of the carrier that positions leave open.
-struct SpinFit {
+/// Links found together with the carrier pitch that positions leave open.
+struct CarrierPitchFit {
   /// done: within the tolerance; not_converged: the best of all starts; infeasible: every start ended in two
   /// equal links; deadline, cancelled: the best so far.
   Status status = Status::infeasible;
   std::vector<GuideLink> links;
   std::vector<Coupler> couplers;
-  CarrierTargets targets;  ///< with the spins found, continuing those given
+  CarrierTargets targets;  ///< with the carrier pitches found, continuing those given
   std::vector<ErrorTotals> link_errors, coupler_errors;
   double rms = infinity, largest = rms;  ///< m
   int starts = 0;
@@ -68,21 +68,22 @@ struct SpinFit {
   std::int64_t evaluations = 0;
 };
 
-/// Finds all links and couplers of a wheel suspension at once when positions do not prescribe the spin of the
-/// carrier (Poznanovic 2016, section 5.3.5). Every spin that is NaN is an unknown, which enters the errors of
-/// its own position only, or follows from the source's quadratic or dyad, see SpinTechnique. Where positions
-/// are complete it is a least-squares fit of everything together.
+/// Finds all links and couplers of a wheel suspension at once when positions do not prescribe the carrier
+/// pitch (Poznanovic 2016, section 5.3.5). Every carrier pitch that is NaN is an unknown, which enters the
+/// errors of its own position only, or follows from the source's quadratic or dyad, see
+/// CarrierPitchTechnique. Where positions are complete it is a least-squares fit of everything together.
 ///
 /// Five US links then need 9 positions, and even with more the errors hardly distinguish one solution from
-/// another: links whose errors are below a micrometre lie anywhere in boxes of 150 mm, with spins some
-/// degrees apart. They all move the wheel as prescribed.
-SpinFit fit_with_unknown_spin(const CarrierTargets& targets, std::span<const LinkTask> links,
-                              const SpinFitOptions& options, std::uint64_t seed, RunContext& context,
-                              std::span<const CouplerTask> couplers = {});
+/// another: links whose errors are below a micrometre lie anywhere in boxes of 150 mm, with carrier pitches
+/// some degrees apart. They all move the wheel as prescribed.
+CarrierPitchFit fit_with_unknown_carrier_pitch(const CarrierTargets& targets, std::span<const LinkTask> links,
+                                               const CarrierPitchFitOptions& options, std::uint64_t seed,
+                                               RunContext& context,
+                                               std::span<const CouplerTask> couplers = {});
 
 /// One search from a place nearby, for links that share couplers and positions that are not exact.
-SpinFit fit_together(const CarrierTargets& targets, std::span<const LinkTask> links,
-                     std::span<const CouplerTask> couplers, std::span<const GuideLink> start,
-                     std::span<const Coupler> coupler_start, const SpinFitOptions& options);
+CarrierPitchFit fit_together(const CarrierTargets& targets, std::span<const LinkTask> links,
+                             std::span<const CouplerTask> couplers, std::span<const GuideLink> start,
+                             std::span<const Coupler> coupler_start, const CarrierPitchFitOptions& options);
 
 }  // namespace linkwright::suspension

@@ -1,4 +1,4 @@
-#include "linkwright/suspension/indirect/synthesis_spin.h"
+#include "linkwright/suspension/indirect/synthesis_carrier_pitch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,18 +16,19 @@ constexpr std::size_t polished_starts =
     10;                                // where errors stay above the tolerance, more of them gain little
 constexpr int tries_of_a_start = 500;  // random rods that leave the dyad apart are drawn again
 
-void require_options(const SpinFitOptions& o) {
+void require_options(const CarrierPitchFitOptions& o) {
   LINKWRIGHT_REQUIRE(
       o.starts >= 1 && o.iterations >= 1 && o.final_iterations >= 1 && o.tolerance > 0 &&
-          o.largest_spin > 0 && o.distinct_links >= 0,
+          o.largest_carrier_pitch > 0 && o.distinct_links >= 0,
       "{} starts, {} and {} iterations, tolerance {} m, carrier pitch of at most {} rad, links {} m apart",
-      o.starts, o.iterations, o.final_iterations, o.tolerance, o.largest_spin, o.distinct_links);
+      o.starts, o.iterations, o.final_iterations, o.tolerance, o.largest_carrier_pitch, o.distinct_links);
 }
 
 /// A search for everything, with its memory.
 class JointSearch {
  public:
-  JointSearch(GuideErrors& problem, const SpinFitOptions& options) : problem_(problem), options_(options) {
+  JointSearch(GuideErrors& problem, const CarrierPitchFitOptions& options)
+      : problem_(problem), options_(options) {
     // The valleys are long, narrow and curved: metres of coordinates, micrometres of errors.
     local_.damping = math::Damping::identity;
     local_.geodesic_acceleration = true;
@@ -40,7 +41,7 @@ class JointSearch {
 
   /// Searches from x; takes the end if it is the best so far. The root mean square there (m), infinite where
   /// nothing can be computed.
-  double run(std::vector<double>& x, bool to_the_end, SpinFit& fit) {
+  double run(std::vector<double>& x, bool to_the_end, CarrierPitchFit& fit) {
     local_.max_iterations = to_the_end ? options_.final_iterations : options_.iterations;
     local_.relative_decrease_tolerance = to_the_end ? 1e-9 : 1e-7;
     const auto function = [&](std::span<const double> at, std::span<double> r, std::span<double> j) {
@@ -51,7 +52,7 @@ class JointSearch {
     fit.evaluations += report.evaluations;
     return report.status != Status::infeasible ? take(x, fit) : infinity;
   }
-  double take(std::span<const double> x, SpinFit& fit) {
+  double take(std::span<const double> x, CarrierPitchFit& fit) {
     if (!problem_.evaluate(x, errors_, {})) return infinity;
     const double rms = problem_.totals(errors_).rms();
     if (!(rms < fit.rms)) return rms;
@@ -82,7 +83,7 @@ class JointSearch {
   double half_rows() const { return static_cast<double>(problem_.rows()) / 2; }
 
   GuideErrors& problem_;
-  SpinFitOptions options_;
+  CarrierPitchFitOptions options_;
   math::LeastSquaresOptions local_;
   math::LeastSquaresWorkspace workspace_;
   std::vector<double> errors_;
@@ -90,15 +91,15 @@ class JointSearch {
 
 }  // namespace
 
-SpinFit fit_with_unknown_spin(const CarrierTargets& targets, std::span<const LinkTask> tasks,
-                              const SpinFitOptions& options, std::uint64_t seed, RunContext& context,
-                              std::span<const CouplerTask> couplers) {
+CarrierPitchFit fit_with_unknown_carrier_pitch(const CarrierTargets& targets, std::span<const LinkTask> tasks,
+                                               const CarrierPitchFitOptions& options, std::uint64_t seed,
+                                               RunContext& context, std::span<const CouplerTask> couplers) {
   require_options(options);
-  GuideErrors problem(targets, tasks, couplers, options.technique, options.largest_spin);
+  GuideErrors problem(targets, tasks, couplers, options.technique, options.largest_carrier_pitch);
   const std::size_t n = problem.unknowns();
   LINKWRIGHT_REQUIRE(n > 0, "nothing is unknown");
   JointSearch search(problem, options);
-  SpinFit fit;
+  CarrierPitchFit fit;
   fit.targets = targets;
   std::vector<double> x(n);
   const auto report = [&](double starts_done) {
@@ -119,7 +120,9 @@ SpinFit fit_with_unknown_spin(const CarrierTargets& targets, std::span<const Lin
     RandomStream random({seed, 0, 0, static_cast<std::uint32_t>(s)});
     for (int tries = 0; tries < tries_of_a_start; ++tries) {
       for (std::size_t j = 0; j < n; ++j)
-        x[j] = j < n - problem.spin_unknowns() ? random.uniform(problem.lower()[j], problem.upper()[j]) : 0;
+        x[j] = j < n - problem.carrier_pitch_unknowns()
+                   ? random.uniform(problem.lower()[j], problem.upper()[j])
+                   : 0;
       if (search.can_begin(x)) break;
     }
     ++fit.starts;
@@ -138,17 +141,17 @@ SpinFit fit_with_unknown_spin(const CarrierTargets& targets, std::span<const Lin
   return fit;
 }
 
-SpinFit fit_together(const CarrierTargets& targets, std::span<const LinkTask> tasks,
-                     std::span<const CouplerTask> couplers, std::span<const GuideLink> start,
-                     std::span<const Coupler> coupler_start, const SpinFitOptions& options) {
+CarrierPitchFit fit_together(const CarrierTargets& targets, std::span<const LinkTask> tasks,
+                             std::span<const CouplerTask> couplers, std::span<const GuideLink> start,
+                             std::span<const Coupler> coupler_start, const CarrierPitchFitOptions& options) {
   require_options(options);
-  GuideErrors problem(targets, tasks, couplers, options.technique, options.largest_spin);
+  GuideErrors problem(targets, tasks, couplers, options.technique, options.largest_carrier_pitch);
   LINKWRIGHT_REQUIRE(problem.unknowns() > 0, "nothing is unknown");
   LINKWRIGHT_REQUIRE(start.size() == tasks.size() && coupler_start.size() == couplers.size(),
                      "{} links and {} couplers to start {} and {} from", start.size(), coupler_start.size(),
                      tasks.size(), couplers.size());
   JointSearch search(problem, options);
-  SpinFit fit;
+  CarrierPitchFit fit;
   fit.targets = targets;
   fit.starts = 1;
   std::vector<double> x(problem.unknowns());
