@@ -32,7 +32,7 @@ void clearance_four_bar_turn(benchmark::State& state) {
   const ClearanceFourBar model = published_design_2();
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
   for (auto _ : state)
-    benchmark::DoNotOptimize(lead_error(model, {0, 10}, {0.17, 10}, 0.17, 72, {tolerance, tolerance / 100}));
+    benchmark::DoNotOptimize(phase_error(model, {0, 10}, {0.17, 10}, 0.17, 72, {tolerance, tolerance / 100}));
 }
 BENCHMARK(clearance_four_bar_turn)->Arg(8)->Arg(10)->Unit(benchmark::kMicrosecond);
 
@@ -169,7 +169,7 @@ BENCHMARK(clearance_path_synthesis)->Unit(benchmark::kMillisecond);
 
 void clearance_mass_synthesis(benchmark::State& state) {
   ClearanceMassProblem p = published_mass_problem();
-  p.lead = 0;
+  p.phase = 0;
   RunContext context;
   ClearanceMassDesign design;
   for (auto _ : state) design = synthesise_clearance_masses(p, 6, {.seed = 1}, context);

@@ -18,11 +18,11 @@ namespace {
 using ::testing::HasSubstr;
 constexpr planar::SimulationOptions fine{.relative_tolerance = 1e-11, .absolute_tolerance = 1e-12};
 
-JointOrbit orbit_of(const ClearanceFourBar& model, double speed, double lead, double slope) {
+JointOrbit orbit_of(const ClearanceFourBar& model, double speed, double phase, double slope) {
   const planar::Linkage l = as_linkage(model);
   const JointClearance pin{.joint = planar::joint_index(l, "A"),
                            .clearance = model.clearance,
-                           .angle = lead,
+                           .angle = phase,
                            .rate = speed * (1 + slope),
                            .damping = model.link_damping};
   const planar::InputDrive crank = uniform_crank(speed);
@@ -34,7 +34,7 @@ JointOrbit orbit_of(const ClearanceFourBar& model, double speed, double lead, do
 TEST(JointOrbit, FourBarHasThePublishedOrbits) {
   struct Case {
     const char* id;
-    double speed, lead, slope;
+    double speed, phase, slope;
   };
   for (const Case& c : {Case{"gamma-design2-table3-g0-w10", 10, 0.17282458, -0.36211121},
                         Case{"gamma-design2-table3-g9.81-w50", 50, 0.14344834, -0.23406415},
@@ -42,7 +42,7 @@ TEST(JointOrbit, FourBarHasThePublishedOrbits) {
     const ClearanceFourBar model = published_four_bar(c.id);
     const JointOrbit orbit = orbit_of(model, c.speed, 0.15, -0.3);
     ASSERT_EQ(orbit.status, Status::done) << c.id << orbit.message;
-    EXPECT_NEAR(orbit.start[0].angle, c.lead, 1e-7) << c.id;
+    EXPECT_NEAR(orbit.start[0].angle, c.phase, 1e-7) << c.id;
     EXPECT_NEAR(orbit.start[0].rate / c.speed - 1, c.slope, 1e-7) << c.id;
     EXPECT_LT(orbit.residual, 1e-10);
     EXPECT_EQ(orbit.stability, OrbitStability::neutral) << c.id;
@@ -68,7 +68,7 @@ TEST(JointOrbit, DampedMotionSettlesOnIt) {
   const ClearanceOrbit settled = settle(model, {0, 10}, {0.1, 10}, 400);
   ASSERT_EQ(settled.status, Status::done) << settled.message;
   // The last turn changed it by 1e-9 and the turns to come by ten times that.
-  EXPECT_NEAR(orbit.start[0].angle, settled.lead, 1e-7);
+  EXPECT_NEAR(orbit.start[0].angle, settled.phase, 1e-7);
   EXPECT_NEAR(orbit.start[0].rate / 10 - 1, settled.slope, 1e-7);
 }
 

@@ -72,6 +72,8 @@ TEST(Renamed, ColumnsOfSlidesByTheEndOfTheirName) {
   };
   EXPECT_EQ(quantity("errors.guide_way_worst_mm.max"), "errors.guide_displacement_worst_mm.max");
   EXPECT_EQ(quantity("statistics.guide_way_yield"), "statistics.guide_displacement_yield");
+  EXPECT_EQ(quantity("pins.A_lead_deg.max"), "pins.A_phase_deg.max");
+  EXPECT_EQ(quantity("best.lead_max_deg"), "best.phase_max_deg");
   // A joint may be called so.
   EXPECT_EQ(quantity("reactions.run_way_x_N.max"), "reactions.run_way_x_N.max");
 }

@@ -9,7 +9,7 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double clearance = 1e-3, lead = 10 * full_turn / 360;
+constexpr double clearance = 1e-3, phase = 10 * full_turn / 360;
 
 planar::FourBar linkage(double ground, double crank, double coupler, double rocker, double distance,
                         double angle_degrees, double pivot_x, double pivot_y, double frame_degrees) {
@@ -55,7 +55,7 @@ ClearancePathProblem published_path_problem() {
     p.crank_angles.push_back(angle);
   }
   p.clearance = clearance;
-  p.lead = lead;
+  p.phase = phase;
   const double tenth = math::radians(10);
   p.bounds = {{{0.15, 0.25},
                {0.06, 0.14},
@@ -93,7 +93,7 @@ ClearanceMassProblem published_mass_problem() {
   ClearanceMassProblem p;
   p.model = published_design_2();
   p.crank = {0, 10};
-  p.lead = lead;
+  p.phase = phase;
   p.bounds = {{{0.02, 0.2},
                {-0.05, 0.2},
                {-0.05, 0.05},
@@ -124,7 +124,7 @@ std::vector<ClearanceComparison> compare_with_published_clearance() {
       "not reproduced", "four times less than design 2, by least squares from there");
 
   const UniformCrank crank{0, 10};
-  const LinkState start{lead, 10};
+  const LinkState start{phase, 10};
   const std::vector<double> times{0, full_turn / 10};
   const ClearanceRun calm =
       simulate_clearance(published_design_2(), math::ConstantSpeed{0, 10}, start, times);
@@ -141,7 +141,8 @@ std::vector<ClearanceComparison> compare_with_published_clearance() {
   const ClearanceOrbit orbit = find_orbit(published_design_2(), crank, 0.15, -0.3);
   add("least root mean square difference from a phase of 10 degrees on the orbit, degrees",
       "agreement (figure 5)",
-      math::degrees(lead_error(published_design_2(), crank, orbit.start(crank), lead, 72)) * std::sqrt(72.0),
+      math::degrees(phase_error(published_design_2(), crank, orbit.start(crank), phase, 72)) *
+          std::sqrt(72.0),
       "corrected",
       "a passive coupler in contact cannot stay ahead throughout: over a turn no work is done on it");
   return out;

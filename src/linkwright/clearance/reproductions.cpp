@@ -13,7 +13,7 @@ study::Comparisons tables(RunContext&) {
   ClearancePathProblem path = published_path_problem();
   const std::vector<double> x = path_variables(path, second.linkage);
   const double with = clearance_path_design(path, x).rms;
-  const EquivalentCrank crank = equivalent_crank(first.linkage.crank, path.clearance, path.lead);
+  const EquivalentCrank crank = equivalent_crank(first.linkage.crank, path.clearance, path.phase);
   path.clearance = 0;
   const double without = clearance_path_design(path, x).rms;
   // Half the length of the uniform bar that has this mass and inertia.

@@ -37,7 +37,9 @@ constexpr std::array all_renamed{
     Renamed{NameOf::target, "path_points_and_lead", "path_points_and_phase", clearance},
     Renamed{NameOf::key, "lead", "phase", clearance},
     Renamed{NameOf::column, "lead", "phase", clearance},
-    Renamed{NameOf::column, "wanted_lead", "wanted_phase", clearance},
+    Renamed{NameOf::column, "_lead", "_phase", clearance},
+    Renamed{NameOf::column, "lead_min", "phase_min", clearance},
+    Renamed{NameOf::column, "lead_max", "phase_max", clearance},
     Renamed{NameOf::column, "lead_slope", "phase_slope", clearance},
 };
 

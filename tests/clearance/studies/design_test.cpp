@@ -94,12 +94,12 @@ TEST(ClearanceDesignStudy, MassesFollowTheCrank) {
   EXPECT_THAT(r.diagnostics, IsEmpty());
   EXPECT_THAT(r.headline, HasSubstr("pin and bush stay in contact, with 2.0"));
   EXPECT_LT(objective(r, "orbit_error_rad"), 4.3e-5);
-  const std::vector<double>&lead = values(r, "turn", "phase_rad"), &tension = values(r, "turn", "tension_N"),
+  const std::vector<double>&phase = values(r, "turn", "phase_rad"), &tension = values(r, "turn", "tension_N"),
         &before = values(r, "reference", "phase_rad");
-  ASSERT_EQ(lead.size(), 361u);
-  for (std::size_t i = 0; i < lead.size(); ++i)
-    EXPECT_NEAR(lead[i], 0, 1.5e-3) << i;  // a twelfth of a degree
-  EXPECT_NEAR(lead.front(), lead.back(), 1e-6);
+  ASSERT_EQ(phase.size(), 361u);
+  for (std::size_t i = 0; i < phase.size(); ++i)
+    EXPECT_NEAR(phase[i], 0, 1.5e-3) << i;  // a twelfth of a degree
+  EXPECT_NEAR(phase.front(), phase.back(), 1e-6);
   EXPECT_NEAR(*std::min_element(tension.begin(), tension.end()), objective(r, "least_tension_N"), 1e-3);
   // The periodic orbit of Table 3: 17 degrees either way.
   EXPECT_NEAR(*std::max_element(before.begin(), before.end()), 17.8 * full_turn / 360, 1e-2);
@@ -161,7 +161,7 @@ TEST(ClearanceDesignStudy, TheDesignCanBeTakenOn) {
   }
 }
 
-// Both stages with free crank angles, by the swarm of the source, and what is reported when a lead is asked
+// Both stages with free crank angles, by the swarm of the source, and what is reported when a phase is asked
 // for.
 TEST(ClearanceDesignStudy, BothStagesInTurn) {
   std::string text = replaced(kind_example(DesignTarget::both), "at_once", "in_turn");

@@ -302,10 +302,10 @@ TEST(ClearanceStudy, FindsThePeriodicRegimeByShooting) {
   EXPECT_THAT(fact(r, "stability"), HasSubstr("Floquet multipliers 0.87793"));
   EXPECT_EQ(table(r, "orbit").names, std::vector<std::string>{"A"});
   // It does repeat: everything at the end is what it is at the start.
-  const std::vector<double>&lead = values(r, "pins", "A_lead_rad"),
+  const std::vector<double>&phase = values(r, "pins", "A_phase_rad"),
         &tension = values(r, "pins", "A_tension_N"), &torque = values(r, "motion", "O2_drive_torque_N_m");
-  EXPECT_NEAR(lead.front(), 0.17282458, 1e-7);
-  EXPECT_NEAR(lead.back(), lead.front(), 1e-9);
+  EXPECT_NEAR(phase.front(), 0.17282458, 1e-7);
+  EXPECT_NEAR(phase.back(), phase.front(), 1e-9);
   EXPECT_NEAR(tension.back(), tension.front(), 1e-9);
   EXPECT_NEAR(torque.back(), torque.front(), 1e-9);
 }

@@ -21,8 +21,8 @@ namespace linkwright::clearance {
 
 /// What a study designs: its `target.type`.
 enum class DesignTarget {
-  lengths,  ///< "path_points": lengths for a path, the clearance link at a presumed lead
-  masses,   ///< "phase": masses that make the clearance link keep its lead
+  lengths,  ///< "path_points": lengths for a path, the clearance link at a presumed phase
+  masses,   ///< "phase": masses that make the clearance link keep its phase
   both      ///< "path_points_and_phase"
 };
 
@@ -194,7 +194,7 @@ void fields(Visitor&& visit, DesignTimingForm& t) {
 /// `[target]`.
 struct DesignTargetForm : planar::PathPointsForm {
   DesignTarget target = DesignTarget::both;
-  double lead = 0;
+  double phase = 0;
   int samples = 72;
   DesignStages stages = DesignStages::in_turn;
   DesignTimingForm timing;
@@ -206,7 +206,7 @@ void fields(Visitor&& visit, DesignTargetForm& t) {
               .dimension = Dimension::angle,
               .minimum = -3.2,
               .maximum = 3.2},
-        t.lead);
+        t.phase);
   if (t.target != DesignTarget::lengths)
     visit(Field{.key = "samples",
                 .summary = "points of the turn at which the phase is compared",
@@ -249,7 +249,7 @@ constexpr Word choice_word(const RecommendedDesign&) {
   return {"recommended", "least squares from many starts; of masses on the periodic motion"};
 }
 /// The population methods minimise the objectives of the source: the misfit of the path, and the misfit of
-/// the lead over the first turn. Violated constraints cost a constant, Eq. (23).
+/// the phase over the first turn. Violated constraints cost a constant, Eq. (23).
 using DesignMethod = optimise::MethodChoice<optimise::Constraints::penalty, RecommendedDesign>;
 struct DesignOptimiser {
   DesignMethod method;
@@ -279,7 +279,7 @@ struct ClearanceDesignStudy {
 
   bool has_path() const { return target != DesignTarget::masses; }
   bool has_masses() const { return target != DesignTarget::lengths; }
-  double lead() const { return has_masses() ? mass.lead : path.lead; }  ///< wanted, or presumed
+  double phase() const { return has_masses() ? mass.phase : path.phase; }  ///< wanted, or presumed
 };
 
 /// What a seed came to.
@@ -327,18 +327,18 @@ struct DesignRow {
 struct DesignMeasures {
   ClearanceFourBar model;
   // The path, where there is one.
-  ClearancePathDesign presumed;  ///< with the clearance link at the presumed lead
+  ClearancePathDesign presumed;  ///< with the clearance link at the presumed phase
   /// Places of the tracing point at the targets: on the turn of the rows, or, without masses, with the
-  /// presumed lead.
+  /// presumed phase.
   std::vector<std::complex<double>> reached;
   double rms = 0, largest = 0;  ///< m, of these
   double anywhere = 0;          ///< m: largest distance with the pin anywhere in its bush
   // The motion, where there are masses.
   ClearanceMassDesign motion;
-  bool repeats = false;  ///< the rows are of the orbit; else of the turn that starts with the wanted lead
+  bool repeats = false;  ///< the rows are of the orbit; else of the turn that starts with the wanted phase
   ClearanceRun run;      ///< over the turn
   double least_at = 0;   ///< rad: crank angle of the least tension
-  double work_mean = 0;  ///< mean of sin(lead) weighted by the tension
+  double work_mean = 0;  ///< mean of sin(phase) weighted by the tension
   std::vector<DesignRow> rows;
 };
 /// Looks at `context`, if there is one, while the motion is integrated: an interruption leaves the rows so
@@ -346,8 +346,8 @@ struct DesignMeasures {
 DesignMeasures measure_design(const ClearanceDesignStudy& study, const ClearanceDesignValues& values,
                               const RunContext* context = nullptr);
 
-/// Lead of a row, within half a turn of the wanted one.
-double lead_of(const ClearanceDesignStudy& study, const DesignRow& row);
+/// Phase of a row, within half a turn of the wanted one.
+double phase_of(const ClearanceDesignStudy& study, const DesignRow& row);
 /// Targets and where the tracing point comes; `before` may be null.
 Table design_points(const ClearanceDesignStudy& study, const DesignMeasures& design,
                     const DesignMeasures* before);

@@ -113,7 +113,7 @@ void read_path(study::ObjectReader& mechanism, study::ObjectReader& target, cons
   planar::read_path_points(target, common, t, s.path.x, s.path.y);
   read_timing(target, t.timing, common.units, s);
   s.path.clearance = m.clearance;
-  s.path.lead = t.lead;
+  s.path.phase = t.phase;
   s.path.branch = m.branch;
   s.path.crank_turns_fully = m.crank_rotates_fully;
   if (s.path.x.size() < 3 || s.path.y.size() != s.path.x.size()) return;
@@ -139,7 +139,7 @@ void read_masses(study::ObjectReader& document, study::ObjectReader& mechanism,
   s.mass.model.link_damping = m.damping.link;
   s.mass.model.linkage.branch = m.branch;
   s.mass.crank = {drive.start_angle, drive.speed};
-  s.mass.lead = t.lead;
+  s.mass.phase = t.phase;
   s.mass.samples = t.samples;
   if (drive_table.has(Field{.key = "speed", .summary = {}, .dimension = Dimension::speed_angular}) &&
       drive.speed == 0)

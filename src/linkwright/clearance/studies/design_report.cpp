@@ -157,12 +157,12 @@ class DesignReporter {
   double separation_angle(const DesignMeasures& d) const {
     return s_.mass.crank.angle + s_.mass.crank.speed * d.run.first_separation;
   }
-  // Largest and least lead over the turn, wrapped about the wanted one.
-  std::pair<double, double> leads(const DesignMeasures& d) const {
+  // Largest and least phase over the turn, wrapped about the wanted one.
+  std::pair<double, double> phases(const DesignMeasures& d) const {
     double low = infinity, high = -infinity;
     for (const DesignRow& r : d.rows) {
-      const double lead = lead_of(s_, r);
-      low = std::min(low, lead), high = std::max(high, lead);
+      const double phase = phase_of(s_, r);
+      low = std::min(low, phase), high = std::max(high, phase);
     }
     return {low, high};
   }
@@ -184,15 +184,15 @@ class DesignReporter {
       out.objectives["presumed_path_error_rms_m"] = d_.presumed.rms;
     }
     if (s_.has_masses()) {
-      const auto [low, high] = leads(d_);
+      const auto [low, high] = phases(d_);
       out.objectives["orbit_error_rad"] = d_.motion.orbit_error;
       out.objectives["first_turn_error_rad"] = d_.motion.transient_error;
-      out.objectives["lead_min_rad"] = low;
-      out.objectives["lead_max_rad"] = high;
+      out.objectives["phase_min_rad"] = low;
+      out.objectives["phase_max_rad"] = high;
       out.objectives["least_tension_N"] = d_.run.least_tension;
       out.objectives["least_tension_crank_angle_rad"] = d_.least_at;
       out.objectives["separated_share"] = d_.run.separated;
-      out.objectives["start_lead_rad"] = d_.rows.empty() ? nan : lead_of(s_, d_.rows[0]);
+      out.objectives["start_phase_rad"] = d_.rows.empty() ? nan : phase_of(s_, d_.rows[0]);
       out.objectives["start_link_rate_rad_per_s"] = d_.rows.empty() ? nan : d_.rows[0].link.rate;
     }
     out.classification = Value::object();
@@ -361,10 +361,10 @@ class DesignReporter {
          turns_fully(d_.model) ? Verdict::good : Verdict::bad);
     if (s_.has_masses()) {
       fact("contact", contact_text(d_), lost(d_) ? Verdict::bad : Verdict::good);
-      const auto [low, high] = leads(d_);
+      const auto [low, high] = phases(d_);
       fact("phase of the clearance link",
            fmt::format("{:.2f}° to {:.2f}° over the turn, wanted {:.4g}°", math::degrees(low),
-                       math::degrees(high), math::degrees(s_.lead())));
+                       math::degrees(high), math::degrees(s_.phase())));
       if (d_.repeats)
         fact("phase objective F2",
              fmt::format(
@@ -416,13 +416,13 @@ class DesignReporter {
       warn("the crank does not rotate fully with the pin anywhere in its bush",
            "lengthen coupler and rocker, or take a shorter crank");
     const bool passive = s_.target == DesignTarget::lengths || s_.stages == DesignStages::in_turn;
-    if (s_.lead() > 0 && passive) {
-      const double least = s_.lead() / std::sqrt(double(s_.mass.samples));
+    if (s_.phase() > 0 && passive) {
+      const double least = s_.phase() / std::sqrt(double(s_.mass.samples));
       warn(fmt::format(
                "a constant phase of {:.4g}° is impossible: over a turn of a periodic motion the pin does no "
                "work on a passive coupler in contact, so the sine of the phase, weighted by the "
                "tension, has the mean 0{}",
-               math::degrees(s_.lead()),
+               math::degrees(s_.phase()),
                s_.has_masses() ? fmt::format("; no masses come far below F2 = phase / sqrt({}) = {:.4g} rad",
                                              s_.mass.samples, least)
                                : ", and the path differs from the one presumed here"),
@@ -455,12 +455,12 @@ class DesignReporter {
                          d_.reached.size(), metres(d_.largest), metres(d_.rms));
       text += s_.has_masses() ? (d_.repeats ? " on the periodic motion" : " in the first turn")
                               : fmt::format(" if the clearance link leads the crank by {:.4g}°",
-                                            math::degrees(s_.lead()));
+                                            math::degrees(s_.phase()));
     } else {
-      const auto [low, high] = leads(d_);
-      text =
-          fmt::format("The clearance link keeps within {:.2g}° of its phase of {:.4g}°",
-                      math::degrees(std::max(high - s_.lead(), s_.lead() - low)), math::degrees(s_.lead()));
+      const auto [low, high] = phases(d_);
+      text = fmt::format("The clearance link keeps within {:.2g}° of its phase of {:.4g}°",
+                         math::degrees(std::max(high - s_.phase(), s_.phase() - low)),
+                         math::degrees(s_.phase()));
     }
     if (s_.has_masses())
       text += lost(d_) ? fmt::format(

@@ -157,7 +157,7 @@ void follow_turn(const ClearanceDesignStudy& s, const UniformCrank& crank, const
   out.work_mean = weighted / tension;
 }
 
-// Without masses: the clearance link at its presumed lead.
+// Without masses: the clearance link at its presumed phase.
 void follow_presumed(const ClearanceDesignStudy& s, DesignMeasures& out) {
   const double first = s.path.crank_angles.empty() ? 0 : s.path.crank_angles[0];
   const double sense =
@@ -166,7 +166,7 @@ void follow_presumed(const ClearanceDesignStudy& s, DesignMeasures& out) {
     DesignRow row;
     row.time = full_turn * i / (s.samples - 1);
     row.crank = first + sense * row.time;
-    row.link = {row.crank + s.path.lead, sense};
+    row.link = {row.crank + s.path.phase, sense};
     row.instant.position = clearance_position(out.model, row.crank, row.link.angle);
     row.instant.status = row.instant.position.status;
     out.rows.push_back(row);
@@ -203,7 +203,7 @@ DesignMeasures measure_design(const ClearanceDesignStudy& s, const ClearanceDesi
     out.repeats = out.motion.status == Status::done;
     follow_turn(s, mass.crank,
                 out.repeats ? out.motion.orbit.start(mass.crank)
-                            : LinkState{mass.crank.angle + mass.lead, mass.crank.speed},
+                            : LinkState{mass.crank.angle + mass.phase, mass.crank.speed},
                 angles, context, out);
   } else {
     follow_presumed(s, out);
@@ -213,7 +213,7 @@ DesignMeasures measure_design(const ClearanceDesignStudy& s, const ClearanceDesi
   for (std::size_t k = 0; k < angles.size(); ++k) {
     const std::complex<double> target{s.path.x[k], s.path.y[k]};
     if (!moves)
-      out.reached.push_back(clearance_position(out.model, angles[k], angles[k] + s.path.lead).point);
+      out.reached.push_back(clearance_position(out.model, angles[k], angles[k] + s.path.phase).point);
     const double off = std::abs(out.reached[k] - target);
     sum += off * off;
     out.largest = std::max(out.largest, off);
