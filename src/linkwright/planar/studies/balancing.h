@@ -11,7 +11,7 @@
 #include "linkwright/planar/balancing/balancing.h"
 #include "linkwright/planar/balancing/measures.h"
 #include "linkwright/planar/balancing/search.h"
-#include "linkwright/study/designed.h"
+#include "linkwright/study/design_variables.h"
 #include "linkwright/study/kind.h"
 
 // Balancing of any mechanism that has an analysis: the tables of the analysis with open numbers in them, what

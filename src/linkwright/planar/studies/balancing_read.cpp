@@ -157,7 +157,7 @@ bool read_design(study::ObjectReader& document, const study::Common& common, con
 void check_initial(study::ObjectReader& document, const study::Common& common, BalancingStudy& s) {
   if (!read_design(document, common, s, s.designed.tables, "")) return;
   bool good = true;
-  for (const study::DesignedNumber& n : s.designed.numbers)
+  for (const study::DesignVariable& n : s.designed.numbers)
     for (const auto& [value, remark] : {std::pair{n.lower, " (at the min of a design variable)"},
                                         {n.upper, " (at the max of a design variable)"}}) {
       Value tables = s.designed.tables;

@@ -57,7 +57,7 @@ struct TargetObjective {
 };
 
 /// Numbers that a design is free in, and their range.
-struct DesignedNumber {
+struct DesignVariable {
   DesignNumber number;
   double lower = 0, upper = 0;  ///< m (rad, 1), lower < upper
 };

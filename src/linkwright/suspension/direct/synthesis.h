@@ -18,7 +18,7 @@ namespace linkwright::suspension {
 /// A wheel suspension to be found: objectives, most important first, and limits.
 struct DirectTask {
   WheelGuide guide;  ///< what is given; of design variables where a search may begin
-  std::vector<DesignedNumber> designed;
+  std::vector<DesignVariable> designed;
   Driver driver = Driver::wheel_centre_z;
   std::vector<TargetObjective> objectives;
   GuideLimits limits;  ///< at the positions of the targets

@@ -8,7 +8,7 @@
 #include "linkwright/core/units.h"
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
-#include "linkwright/study/designed.h"
+#include "linkwright/study/design_variables.h"
 #include "linkwright/suspension/studies/direct.h"
 
 namespace linkwright::suspension {

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "linkwright/core/units.h"
-#include "linkwright/study/designed.h"
+#include "linkwright/study/design_variables.h"
 #include "linkwright/study/memory.h"
 #include "linkwright/suspension/guide/hard_points.h"
 #include "linkwright/suspension/wheel/derivatives.h"

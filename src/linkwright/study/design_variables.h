@@ -18,7 +18,7 @@
 namespace linkwright::study {
 
 /// One number to be found.
-struct DesignedNumber {
+struct DesignVariable {
   std::string key;   ///< "mass.crank.mass_kg"; tables of an array go by their name, else by their number
   double lower = 0;  ///< in the unit of the key, as all of these
   double upper = 0;
@@ -30,7 +30,7 @@ struct DesignedNumber {
 /// Tables with the initial numbers filled in, and what of them is open.
 struct DesignedTables {
   Value tables;
-  std::vector<DesignedNumber> numbers;
+  std::vector<DesignVariable> numbers;
 };
 
 /// Copies the tables with these keys, those that are there, and takes the open numbers out of them. In the
@@ -49,6 +49,6 @@ std::vector<DesignedStep> steps_to(const Value& tables, std::span<const std::siz
 std::string base_of(std::string_view key);
 
 /// Puts x into the tables: one number for each of `numbers`, in the units of their keys.
-void put(Value& tables, std::span<const DesignedNumber> numbers, std::span<const double> x);
+void put(Value& tables, std::span<const DesignVariable> numbers, std::span<const double> x);
 
 }  // namespace linkwright::study

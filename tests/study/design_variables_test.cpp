@@ -1,4 +1,4 @@
-#include "linkwright/study/designed.h"
+#include "linkwright/study/design_variables.h"
 
 #include <gmock/gmock.h>
 

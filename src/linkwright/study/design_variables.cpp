@@ -1,4 +1,4 @@
-#include "linkwright/study/designed.h"
+#include "linkwright/study/design_variables.h"
 
 #include <fmt/core.h>
 
@@ -16,7 +16,7 @@ bool is_designed(const Value& value) {
 
 class Taker {
  public:
-  Taker(ObjectReader& document, std::vector<DesignedNumber>& numbers)
+  Taker(ObjectReader& document, std::vector<DesignVariable>& numbers)
       : document_(document), numbers_(numbers) {}
 
   void visit(Value& value, const std::string& key, const UnitKey& unit) {
@@ -48,7 +48,7 @@ class Taker {
   }
 
   void take(Value& value, const std::string& key, const UnitKey& unit) {
-    DesignedNumber number{.key = key, .unit = unit, .place = place_};
+    DesignVariable number{.key = key, .unit = unit, .place = place_};
     const auto error = [&](std::string message, std::string hint) {
       document_.document().report(Diagnostic::Severity::error, value.position, key, std::move(message),
                                   std::move(hint));
@@ -85,7 +85,7 @@ class Taker {
   }
 
   ObjectReader& document_;
-  std::vector<DesignedNumber>& numbers_;
+  std::vector<DesignVariable>& numbers_;
   std::vector<std::size_t> place_;
 };
 
@@ -135,7 +135,7 @@ std::string base_of(std::string_view key) {
   return std::string(unit ? unit->base : key);
 }
 
-void put(Value& tables, std::span<const DesignedNumber> numbers, std::span<const double> x) {
+void put(Value& tables, std::span<const DesignVariable> numbers, std::span<const double> x) {
   LINKWRIGHT_REQUIRE(x.size() == numbers.size(), "{} numbers for {} design variables", x.size(),
                      numbers.size());
   for (std::size_t j = 0; j < x.size(); ++j) {
