@@ -214,8 +214,9 @@ PoleGeometry pole_geometry(const LinkagePlan& plan, const LinkageMotion& motion,
   const PartState<double> base = body_state(plan, motion, reference);
   const PartState<double> s = relative_motion(base, body_state(plan, motion, body));
   const Vec<double> pole = rotate_inverse(base.direction, centre.position - base.origin);
-  // A point at r from the pole has the velocity w perpendicular(r) and the acceleration a + e left(r) - w^2
-  // r, a of the pole: parallel where a . r = w^2 r^2, a circle over the diameter a / w^2.
+  // A point at r from the pole has the velocity w perpendicular(r) and the acceleration a + e
+  // perpendicular(r) - w^2 r, a of the pole: parallel where a . r = w^2 r^2, a circle over the diameter a /
+  // w^2.
   const Vec<double> a = acceleration_at(s, pole);
   const double square = s.speed * s.speed;
   const Vec<double> diameter = (1 / square) * a;
