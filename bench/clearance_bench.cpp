@@ -32,7 +32,7 @@ void clearance_four_bar_turn(benchmark::State& state) {
   const ClearanceFourBar model = published_design_2();
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
   for (auto _ : state)
-    benchmark::DoNotOptimize(lead_error(model, {0, 10}, {0.17, 10}, 0.17, 72, {tolerance, tolerance / 100}));
+    benchmark::DoNotOptimize(phase_error(model, {0, 10}, {0.17, 10}, 0.17, 72, {tolerance, tolerance / 100}));
 }
 BENCHMARK(clearance_four_bar_turn)->Arg(8)->Arg(10)->Unit(benchmark::kMicrosecond);
 
@@ -70,7 +70,7 @@ void clearance_contact_slider_crank(benchmark::State& state) {
                            .law = {.stiffness = pin_stiffness(0.01, 0.0095),
                                    .restitution = 0.9,
                                    .damping = ContactDamping::lankarani_nikravesh}};
-  const planar::InputCourse crank{math::ConstantSpeed{0, 5000 * full_turn / 60}, 0, 0};
+  const planar::InputDrive crank{math::ConstantSpeed{0, 5000 * full_turn / 60}, 0, 0};
   const std::vector<double> times{0, 0.012};
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
   std::size_t contacts = 0;
@@ -134,7 +134,7 @@ void clearance_automatic_four_bar(benchmark::State& state) {
                                              .restitution = 0.5}},
                          .angle = full_turn / 36,
                          .rate = 10};
-  const planar::InputCourse crank{math::ConstantSpeed{0, 10}, 0, 0};
+  const planar::InputDrive crank{math::ConstantSpeed{0, 10}, 0, 0};
   AutomaticContactRun run;
   for (auto _ : state)
     run = simulate_automatic_contact(l, std::span(&pin, 1), std::span(&crank, 1),
@@ -148,7 +148,7 @@ BENCHMARK(clearance_automatic_four_bar)->Unit(benchmark::kMillisecond);
 void clearance_joint_orbit(benchmark::State& state) {
   const planar::Linkage l = loose_four_bar(published_design_2());
   const JointClearance pin{.joint = planar::joint_index(l, "A"), .clearance = 1e-3, .angle = 0.15, .rate = 7};
-  const planar::InputCourse crank{math::ConstantSpeed{0, 10}, 0, 0};
+  const planar::InputDrive crank{math::ConstantSpeed{0, 10}, 0, 0};
   long evaluations = 0;
   for (auto _ : state)
     evaluations = find_joint_orbit(l, std::span(&pin, 1), std::span(&crank, 1), 0, full_turn / 10,
@@ -169,7 +169,7 @@ BENCHMARK(clearance_path_synthesis)->Unit(benchmark::kMillisecond);
 
 void clearance_mass_synthesis(benchmark::State& state) {
   ClearanceMassProblem p = published_mass_problem();
-  p.lead = 0;
+  p.phase = 0;
   RunContext context;
   ClearanceMassDesign design;
   for (auto _ : state) design = synthesise_clearance_masses(p, 6, {.seed = 1}, context);

@@ -54,10 +54,10 @@ int main() {
   std::sort(found.begin(), found.end());
   show("path, least squares from 12 starts", found, 1e3, "mm");
 
-  for (const double lead : {published_mass_problem().lead, 0.0}) {
+  for (const double phase : {published_mass_problem().phase, 0.0}) {
     ClearanceMassProblem mass = published_mass_problem();
-    mass.lead = lead;
-    fmt::print("masses for a lead of {:.3g} rad\n", lead);
+    mass.phase = phase;
+    fmt::print("masses for a phase of {:.3g} rad\n", phase);
     const auto plain = [&](const char* what, std::vector<double> x) {
       const ClearanceMassDesign d = clearance_mass_design(mass, std::move(x));
       fmt::print("  {:<42} first turn {:.6g}, orbit {:.6g} rad, least tension {:.4g} N\n", what,
@@ -93,15 +93,15 @@ int main() {
     fmt::print("  {:<42} presumed {:.6g} mm, orbit {:.6g} mm rms, least tension {:.4g} N\n", what,
                d.presumed.rms * 1e3, d.rms * 1e3, d.run.least_tension);
   };
-  for (const double lead : {path.lead, 0.0}) {
+  for (const double phase : {path.phase, 0.0}) {
     study.path = path;
-    study.path.lead = study.mass.lead = lead;
-    if (lead > 0) tell("design 2 as published", path_variables(path, published_design_2().linkage), table_3);
+    study.path.phase = study.mass.phase = phase;
+    if (phase > 0) tell("design 2 as published", path_variables(path, published_design_2().linkage), table_3);
     const ClearancePathSynthesis first = synthesise_clearance_path(study.path, 12, {.seed = 1}, context);
     study.mass.model.linkage = first.design.model.linkage;
     const ClearanceMassDesign second =
         synthesise_clearance_masses(study.mass, 6, {.seed = 1, .run = 1}, context);
-    tell(lead > 0 ? "in turn, lead of 10 degrees" : "in turn, lead of 0", first.x, second.x);
+    tell(phase > 0 ? "in turn, phase of 10 degrees" : "in turn, phase of 0", first.x, second.x);
     const ClearanceDesign both = design_clearance_linkage(study.path, study.mass, first.x, second.x, context);
     const auto split = both.x.begin() + clearance_length_count;
     tell("at once from there", {both.x.begin(), split}, {split, both.x.end()});

@@ -49,7 +49,7 @@ void elastic_rod(benchmark::State& state, AccelerationRoute route) {
   std::vector<InputMotion> inputs{{0.5, 100, 0}};
   const ElasticLinkage e = with_elastic_bodies(l, std::span(&rod, 1), inputs);
   std::vector<bool> free(1, false);
-  for (const InputCourse& c : e.free) {
+  for (const InputDrive& c : e.free) {
     inputs.push_back({c.value, c.rate, 0});
     free.push_back(true);
   }
@@ -70,13 +70,13 @@ BENCHMARK(linkage_dynamics_elastic_rod_forces)->Arg(2)->Arg(3)->Arg(4)->Arg(8)->
 void andrews(benchmark::State& state, decltype(&simulate) route, math::OdeMethod method) {
   const LinkageSample s = andrews_squeezer_sample();
   const LinkagePlan p = plan(s.linkage).plan;
-  const InputCourse course{{}, s.from[0], 0};
+  const InputDrive drive{{}, s.from[0], 0};
   const std::array<double, 2> times{0, 0.03};
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
   double angle = 0, open = 0;
   for (auto _ : state)
     route(
-        s.linkage, p, std::span(&course, 1), times,
+        s.linkage, p, std::span(&drive, 1), times,
         {.method = method, .relative_tolerance = tolerance, .absolute_tolerance = tolerance},
         [&](const SimulationInstant& now) {
           angle = now.inputs[0].value;
@@ -104,11 +104,11 @@ BENCHMARK(linkage_simulate_andrews_all)->Arg(7)->Unit(benchmark::kMillisecond);
 void linkage_simulate_chain(benchmark::State& state) {
   const Linkage l = four_bar_chain_sample(40).linkage;
   const LinkagePlan p = plan(l).plan;
-  const InputCourse course{{}, pi / 2, -1};
+  const InputDrive drive{{}, pi / 2, -1};
   const std::array<double, 2> times{0, 20};
   SimulationReport report;
   for (auto _ : state)
-    report = simulate(l, p, std::span(&course, 1), times,
+    report = simulate(l, p, std::span(&drive, 1), times,
                       {.relative_tolerance = 1e-10, .absolute_tolerance = 1e-11}, {});
   state.counters["drift"] = report.largest_drift;
 }

@@ -34,29 +34,29 @@ void sweep(benchmark::State& state, const char* name, Task task) {
   state.SetItemsProcessed(done);
 }
 
-void guide_5KS_position(benchmark::State& s) { sweep(s, "5KS", position); }
-void guide_5KS_rates(benchmark::State& s) { sweep(s, "5KS", rates); }
-void guide_5KS_parameters(benchmark::State& s) { sweep(s, "5KS", parameters); }
-void guide_double_wishbone_parameters(benchmark::State& s) { sweep(s, "2RS-KS", parameters); }
-void guide_strut_parameters(benchmark::State& s) { sweep(s, "SP-3KS", parameters); }
-void guide_trapezoidal_parameters(benchmark::State& s) { sweep(s, "RR-KS", parameters); }
-BENCHMARK(guide_5KS_position)->Unit(benchmark::kMicrosecond);
-BENCHMARK(guide_5KS_rates)->Unit(benchmark::kMicrosecond);
-BENCHMARK(guide_5KS_parameters)->Unit(benchmark::kMicrosecond);
+void guide_5US_position(benchmark::State& s) { sweep(s, "5US", position); }
+void guide_5US_rates(benchmark::State& s) { sweep(s, "5US", rates); }
+void guide_5US_parameters(benchmark::State& s) { sweep(s, "5US", parameters); }
+void guide_double_wishbone_parameters(benchmark::State& s) { sweep(s, "2RS-US", parameters); }
+void guide_strut_parameters(benchmark::State& s) { sweep(s, "SP-3US", parameters); }
+void guide_trapezoidal_parameters(benchmark::State& s) { sweep(s, "RR-US", parameters); }
+BENCHMARK(guide_5US_position)->Unit(benchmark::kMicrosecond);
+BENCHMARK(guide_5US_rates)->Unit(benchmark::kMicrosecond);
+BENCHMARK(guide_5US_parameters)->Unit(benchmark::kMicrosecond);
 BENCHMARK(guide_double_wishbone_parameters)->Unit(benchmark::kMicrosecond);
 BENCHMARK(guide_strut_parameters)->Unit(benchmark::kMicrosecond);
 BENCHMARK(guide_trapezoidal_parameters)->Unit(benchmark::kMicrosecond);
 
 // Both limits of travel to 1e-11 m.
-void guide_5KS_limits(benchmark::State& state) {
-  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+void guide_5US_limits(benchmark::State& state) {
+  const GuidePlan plan = prepare(guide_sample("5US").guide);
   const GuidePosition reference = reference_position(plan);
   for (auto _ : state) benchmark::DoNotOptimize(travel_limits(plan, Driver::wheel_centre_z, 0, reference));
 }
-BENCHMARK(guide_5KS_limits)->Unit(benchmark::kMicrosecond);
+BENCHMARK(guide_5US_limits)->Unit(benchmark::kMicrosecond);
 
-// A guide with rubber in every joint, elastic in all six directions but for balls, or with rods that give way
-// along their line only: the whole compliance with all joint forces at one position.
+// A suspension with rubber in every joint, elastic in all six directions but for balls, or with rods that
+// give way along their line only: the whole compliance with all joint forces at one position.
 enum Elastic { rubber, rods };
 void compliance(benchmark::State& state, const char* name, Elastic elastic, bool preloaded) {
   const WheelGuide& guide = guide_sample(name).guide;
@@ -81,27 +81,27 @@ void compliance(benchmark::State& state, const char* name, Elastic elastic, bool
     benchmark::DoNotOptimize(found.at_centre);
   }
 }
-void compliance_5KS_rubber(benchmark::State& s) { compliance(s, "5KS", rubber, false); }
-void compliance_5KS_rods(benchmark::State& s) { compliance(s, "5KS", rods, false); }
-void compliance_5KS_rubber_preloaded(benchmark::State& s) { compliance(s, "5KS", rubber, true); }
-void compliance_double_wishbone_rubber(benchmark::State& s) { compliance(s, "2RS-KS", rubber, false); }
-BENCHMARK(compliance_5KS_rubber)->Unit(benchmark::kMicrosecond);
-BENCHMARK(compliance_5KS_rods)->Unit(benchmark::kMicrosecond);
-BENCHMARK(compliance_5KS_rubber_preloaded)->Unit(benchmark::kMicrosecond);
+void compliance_5US_rubber(benchmark::State& s) { compliance(s, "5US", rubber, false); }
+void compliance_5US_rods(benchmark::State& s) { compliance(s, "5US", rods, false); }
+void compliance_5US_rubber_preloaded(benchmark::State& s) { compliance(s, "5US", rubber, true); }
+void compliance_double_wishbone_rubber(benchmark::State& s) { compliance(s, "2RS-US", rubber, false); }
+BENCHMARK(compliance_5US_rubber)->Unit(benchmark::kMicrosecond);
+BENCHMARK(compliance_5US_rods)->Unit(benchmark::kMicrosecond);
+BENCHMARK(compliance_5US_rubber_preloaded)->Unit(benchmark::kMicrosecond);
 BENCHMARK(compliance_double_wishbone_rubber)->Unit(benchmark::kMicrosecond);
 
-void forces_5KS(benchmark::State& state) {
-  const WheelGuide& guide = guide_sample("5KS").guide;
+void forces_5US(benchmark::State& state) {
+  const WheelGuide& guide = guide_sample("5US").guide;
   const GuidePlan plan = prepare(guide);
   const GuidePosition at = reference_position(plan);
   const WheelLoad load = load_at(plan.wheel.centre, plan.contact, {-1000, 2000, 4000});
   for (auto _ : state) benchmark::DoNotOptimize(solve_forces(guide, plan, at, load, Support::spring));
 }
-BENCHMARK(forces_5KS)->Unit(benchmark::kMicrosecond);
+BENCHMARK(forces_5US)->Unit(benchmark::kMicrosecond);
 
 // Both wheels over roll from -5 to +5 degrees in steps of half a degree, with everything that is reported.
 void axle_roll_double_wishbone(benchmark::State& state) {
-  const AxlePlan plan = prepare_axle(guide_sample("2RS-KS").guide);
+  const AxlePlan plan = prepare_axle(guide_sample("2RS-US").guide);
   std::vector<double> values;
   for (int i = -10; i <= 10; ++i) values.push_back(i * 0.5 / 57.3);
   for (auto _ : state) benchmark::DoNotOptimize(sweep_axle(plan, AxleMotion::roll, values));
@@ -111,7 +111,7 @@ BENCHMARK(axle_roll_double_wishbone)->Unit(benchmark::kMicrosecond);
 
 // Derivatives of all parameters at a position, for all thirty coordinates of the rods or for the first nine.
 void derivatives(benchmark::State& state, std::size_t count, Extent extent) {
-  const WheelGuide& guide = guide_sample("5KS").guide;
+  const WheelGuide& guide = guide_sample("5US").guide;
   std::vector<DesignNumber> numbers = hard_points(guide);
   numbers.resize(count);
   const DerivativePlan plan = prepare_derivatives(guide, numbers);
@@ -124,7 +124,7 @@ BENCHMARK_CAPTURE(derivatives, nine_coordinates, 9, Extent::all)->Unit(benchmark
 BENCHMARK_CAPTURE(derivatives, nine_coordinates_at_rest, 9, Extent::at_rest)->Unit(benchmark::kMicrosecond);
 
 void derivatives_along_travel(benchmark::State& state) {
-  const DerivativePlan plan = prepare_derivatives(guide_sample("5KS").guide, {});
+  const DerivativePlan plan = prepare_derivatives(guide_sample("5US").guide, {});
   const GuidePosition at =
       solve_position(plan.plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan.plan));
   for (auto _ : state) benchmark::DoNotOptimize(input_derivatives(plan, at));

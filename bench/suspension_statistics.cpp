@@ -4,8 +4,8 @@
 //
 // runs seeds 1 ... REPEATS of the rows named and prints them in Markdown. Each seed has its own boxes of 150
 // mm. Rows: "fit-1" ... "fit-4" (the recommended method), "fit-each", "fit-quadratic", "fit-dyad" (example 4
-// without spin), "de-1" ... "de-4" (differential evolution, link by link), "de-1-together" (30 unknowns),
-// "de-quadratic", "de-dyad" (example 4 without spin).
+// without carrier pitch), "de-1" ... "de-4" (differential evolution, link by link), "de-1-together" (30
+// unknowns), "de-quadratic", "de-dyad" (example 4 without carrier pitch).
 
 #include <fmt/format.h>
 
@@ -32,8 +32,8 @@ struct Row {
   std::string name;
   std::size_t example = 0;
   bool evolution = false, together = false;
-  SpinTechnique technique = SpinTechnique::each;
-  bool spin_open = false;
+  CarrierPitchTechnique technique = CarrierPitchTechnique::each;
+  bool carrier_pitch_open = false;
   int generations = 10000;
   double another_program = 0;  // mean generations there; 0 = not measured
 };
@@ -43,16 +43,16 @@ const std::vector<Row> rows = {
     {"fit-2", 1},
     {"fit-3", 2},
     {"fit-4", 3},
-    {"fit-each", 3, false, false, SpinTechnique::each, true},
-    {"fit-quadratic", 3, false, false, SpinTechnique::quadratic, true},
-    {"fit-dyad", 3, false, false, SpinTechnique::dyad, true},
-    {"de-1", 0, true, false, SpinTechnique::each, false, 10000, 2053},
-    {"de-1-together", 0, true, true, SpinTechnique::each, false, 50000, 36685},
-    {"de-2", 1, true, false, SpinTechnique::each, false, 10000, 1183},
-    {"de-3", 2, true, false, SpinTechnique::each, false, 50000, 46121},
-    {"de-4", 3, true, false, SpinTechnique::each, false, 50000, 13377},
-    {"de-quadratic", 3, true, false, SpinTechnique::quadratic, true, 50000, 50000},
-    {"de-dyad", 3, true, false, SpinTechnique::dyad, true, 50000, 50000},
+    {"fit-each", 3, false, false, CarrierPitchTechnique::each, true},
+    {"fit-quadratic", 3, false, false, CarrierPitchTechnique::quadratic, true},
+    {"fit-dyad", 3, false, false, CarrierPitchTechnique::dyad, true},
+    {"de-1", 0, true, false, CarrierPitchTechnique::each, false, 10000, 2053},
+    {"de-1-together", 0, true, true, CarrierPitchTechnique::each, false, 50000, 36685},
+    {"de-2", 1, true, false, CarrierPitchTechnique::each, false, 10000, 1183},
+    {"de-3", 2, true, false, CarrierPitchTechnique::each, false, 50000, 46121},
+    {"de-4", 3, true, false, CarrierPitchTechnique::each, false, 50000, 13377},
+    {"de-quadratic", 3, true, false, CarrierPitchTechnique::quadratic, true, 50000, 50000},
+    {"de-dyad", 3, true, false, CarrierPitchTechnique::dyad, true, 50000, 50000},
 };
 
 std::string pair(double largest, double mean) { return fmt::format("{:.1e} / {:.1e}", largest, mean); }
@@ -68,18 +68,18 @@ void run(const Row& row, int repeats) {
   const WheelGuide& truth = guide_sample(published.sample).guide;
   IndirectTask task{.targets = published_targets(published), .links = {}, .couplers = {}};
   const CarrierTargets complete = task.targets;
-  if (row.spin_open)
+  if (row.carrier_pitch_open)
     for (CarrierTarget& pose : task.targets.poses)
-      pose.angles.spin = std::numeric_limits<double>::quiet_NaN();
+      pose.angles.carrier_pitch = std::numeric_limits<double>::quiet_NaN();
   IndirectEvolutionOptions evolution;
   evolution.together = row.together;
   evolution.method.method.generations = row.generations;
   evolution.method.technique = row.technique;
   IndirectOptions fit;
-  fit.spin.technique = row.technique;
+  fit.carrier_pitch.technique = row.technique;
   double generations = 0, coordinates = 0, rms = 0, seconds = 0;
   int links = 0, done = 0, movable = 0, at_limit = 0;
-  Mean x, y, toe, camber, spin;
+  Mean x, y, toe, camber, carrier_pitch;
   for (int i = 1; i <= repeats; ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
     task.links = published_tasks(truth, seed);
@@ -100,11 +100,11 @@ void run(const Row& row, int repeats) {
     const PoseDeviations d = pose_deviations(found.guide, complete);
     movable += d.missed == 0;
     x.add(d.x, repeats), y.add(d.y, repeats), toe.add(d.toe, repeats), camber.add(d.camber, repeats),
-        spin.add(d.spin, repeats);
+        carrier_pitch.add(d.carrier_pitch, repeats);
   }
-  const PublishedEvolution& source = row.technique == SpinTechnique::quadratic ? published_quadratic()
-                                     : row.technique == SpinTechnique::dyad    ? published_dyad()
-                                                                               : published.evolution;
+  const PublishedEvolution& source = row.technique == CarrierPitchTechnique::quadratic ? published_quadratic()
+                                     : row.technique == CarrierPitchTechnique::dyad    ? published_dyad()
+                                                                                       : published.evolution;
   const double degree = math::radians(1);
   fmt::print(
       "| {} | {} | {:.0f} | {} | {} | {} | {:.1e} | {:.1e} | {}/{} | {:.1e} | {}/{} | {} | {} | {} | {} "
@@ -114,7 +114,7 @@ void run(const Row& row, int repeats) {
       row.evolution ? fmt::format("{:.0f}", generations) : "",
       row.evolution ? fmt::format("{}", at_limit) : "", source.coordinate_error, coordinates, done, links,
       rms / links, movable, repeats, x.in(1), y.in(1), toe.in(degree), camber.in(degree),
-      row.spin_open ? "" : spin.in(degree), seconds / repeats);
+      row.carrier_pitch_open ? "" : carrier_pitch.in(degree), seconds / repeats);
   std::fflush(stdout);
 }
 
@@ -126,7 +126,7 @@ int main(int argc, char** argv) {
       "| row | repeats | generations published | another program | ours | runs of a limit or more | "
       "coordinate "
       "error published (m) | ours (m) | links found | rms (m) | movable | x (m) | y (m) | toe (deg) | camber "
-      "(deg) | spin (deg) | seconds a run "
+      "(deg) | carrier pitch (deg) | seconds a run "
       "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int i = 2; i < argc; ++i) {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == argv[i]; });

@@ -10,7 +10,7 @@
 #include "linkwright/suspension/indirect/link_synthesis.h"
 #include "linkwright/suspension/indirect/seven_poses.h"
 #include "linkwright/suspension/indirect/synthesis.h"
-#include "linkwright/suspension/indirect/synthesis_spin.h"
+#include "linkwright/suspension/indirect/synthesis_carrier_pitch.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -35,9 +35,9 @@ Example example(const char* name, double travel, double step, double rack) {
   for (double q = -rack; rack > 0 && q < rack + 0.01; q += 0.025) add(0, q);
   return e;
 }
-Example example_1() { return example("front_5KS", 0.2, 0.05, 0.075); }
+Example example_1() { return example("front_5US", 0.2, 0.05, 0.075); }
 Example example_3() { return example("interconnected", 0.1, 0.02, 0); }
-Example example_4() { return example("rear_5KS", 0.15, 0.025, 0); }
+Example example_4() { return example("rear_5US", 0.15, 0.025, 0); }
 
 /// A cube of 150 mm at random around a point.
 PointBox box(const Vec3& p, RandomStream& random) {
@@ -97,21 +97,21 @@ void evolution(benchmark::State& state, Example (*make)()) {
 BENCHMARK_CAPTURE(evolution, front, example_1)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(evolution, rear, example_4)->Unit(benchmark::kMicrosecond);
 
-// Example 4 without the spin of the carrier; rms of the structural errors in nanometres.
-void unknown_spin(benchmark::State& state) {
+// Example 4 without the carrier pitch; rms of the structural errors in nanometres.
+void unknown_carrier_pitch(benchmark::State& state) {
   const Example e = example_4();
   CarrierTargets open = e.targets;
-  for (CarrierTarget& pose : open.poses) pose.angles.spin = nan;
+  for (CarrierTarget& pose : open.poses) pose.angles.carrier_pitch = nan;
   RunContext context;
   std::uint64_t seed = 0;
   double rms = 0;
   for (auto _ : state) {
     const IndirectTask task = whole(e, ++seed);
-    rms += fit_with_unknown_spin(open, task.links, {}, seed, context).rms * 1e9;
+    rms += fit_with_unknown_carrier_pitch(open, task.links, {}, seed, context).rms * 1e9;
   }
   state.counters["rms_nm"] = rms / static_cast<double>(seed);
 }
-BENCHMARK(unknown_spin)->Unit(benchmark::kMillisecond);
+BENCHMARK(unknown_carrier_pitch)->Unit(benchmark::kMillisecond);
 
 // All rods through seven positions.
 void seven_poses(benchmark::State& state) {

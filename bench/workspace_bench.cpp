@@ -30,8 +30,8 @@ void map(benchmark::State& state, const WorkspaceTask& task) {
   for (auto _ : state) {
     const WorkspaceMap found = workspace(task, RunContext());
     nodes = found.count();
-    reached = nodes - totals(found).count[static_cast<std::size_t>(Hurdle::leg)];
-    benchmark::DoNotOptimize(found.hurdle.data());
+    reached = nodes - totals(found).count[static_cast<std::size_t>(Criterion::leg)];
+    benchmark::DoNotOptimize(found.criterion.data());
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(nodes));
   state.counters["nodes"] = static_cast<double>(nodes);
@@ -65,7 +65,7 @@ BENCHMARK_CAPTURE(delta_around, all_indices, all_indices)
     ->MeasureProcessCPUTime()
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(delta_around, hurdles_alone, no_indices)
+BENCHMARK_CAPTURE(delta_around, criteria_alone, no_indices)
     ->MeasureProcessCPUTime()
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);

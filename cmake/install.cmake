@@ -1,11 +1,11 @@
-# Installs the library for find_package(Linkwright): one target a room (Linkwright::planar ...) and
+# Installs the library for find_package(Linkwright): one target a module (Linkwright::planar ...) and
 # Linkwright::linkwright, which is all of them without the extras (Linkwright::pagmo_adapters); add_subdirectory gives the same names.
 
-get_property(rooms GLOBAL PROPERTY LINKWRIGHT_ROOMS)
-list(REMOVE_ITEM rooms linkwright_cli)
+get_property(modules GLOBAL PROPERTY LINKWRIGHT_MODULES)
+list(REMOVE_ITEM modules linkwright_cli)
 get_property(extras GLOBAL PROPERTY LINKWRIGHT_EXTRAS)
 add_library(linkwright_all INTERFACE)
-target_link_libraries(linkwright_all INTERFACE ${rooms})
+target_link_libraries(linkwright_all INTERFACE ${modules})
 set_target_properties(linkwright_all PROPERTIES EXPORT_NAME linkwright)
 add_library(Linkwright::linkwright ALIAS linkwright_all)
 
@@ -20,7 +20,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Linkwright)
 if(TARGET linkwright)
   install(TARGETS linkwright RUNTIME)
 endif()
-install(TARGETS ${rooms} ${extras} linkwright_all EXPORT LinkwrightTargets ARCHIVE)
+install(TARGETS ${modules} ${extras} linkwright_all EXPORT LinkwrightTargets ARCHIVE)
 install(DIRECTORY src/linkwright DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE)
 install(EXPORT LinkwrightTargets NAMESPACE Linkwright:: DESTINATION ${package_dir})
 

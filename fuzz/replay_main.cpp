@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   }
   for (const auto& file : files) {
     std::printf("%s\n", file.filename().c_str());
-    std::fflush(stdout);  // tells the culprit when the target aborts
+    std::fflush(stdout);  // names the culprit when the target aborts
     std::ifstream stream(file, std::ios::binary);
     const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());

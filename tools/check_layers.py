@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that every include and every link goes from a higher floor to a lower one.
+"""Checks that every include and every link goes from a higher layer to a lower one.
 
     tools/check_layers.py [ROOT]
 """
@@ -10,8 +10,8 @@ import sys
 
 import repository
 
-# Rooms, bottom up. A room uses the floors below its own, never a room of the same floor.
-FLOORS = [
+# Modules, bottom up. A module uses the layers below its own, never a module of the same layer.
+LAYERS = [
     ["core"],
     ["math"],
     ["optimise"],
@@ -21,14 +21,14 @@ FLOORS = [
     ["app"],
     ["cli", "serve"],
 ]
-FLOOR = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
+LAYER = {module: layer for layer, modules in enumerate(LAYERS) for module in modules}
 DOMAINS = {"planar", "flexible", "suspension", "parallel", "clearance"}
 
-# What a room may not use although it lies below.
+# What a module may not use although it lies below.
 FORBIDDEN = {"report": {"optimise"}, **{domain: {"report"} for domain in DOMAINS}}
 
 # Inside a domain: its folders, bottom up. A folder uses the ones below its own, never one of the same line. BASE are the
-# files beside the folders; above all stand STUDIES and the DOORS, which are the only ones that use the study room.
+# files beside the folders; above all stand STUDIES and the DOORS, which are the only ones that use the study module.
 BASE, STUDIES = "", "studies"
 FOLDERS = {
     "planar": [[BASE], ["linkage", "serial_arm"], ["four_bar"], ["simulation", "path", "balancing"]],
@@ -54,14 +54,14 @@ def fits(name, patterns):
 
 
 def arrow(user, used):
-    """Why room `user` may not use room `used`, or None."""
-    if used not in FLOOR:
-        return f"room '{used}' stands on no floor (tools/check_layers.py lists them)"
+    """Why module `user` may not use module `used`, or None."""
+    if used not in LAYER:
+        return f"module '{used}' belongs to no layer (tools/check_layers.py lists them)"
     if user == used:
         return None
-    if FLOOR[used] == FLOOR[user]:
-        return f"{user} may not use {used}: they share a floor"
-    if FLOOR[used] > FLOOR[user]:
+    if LAYER[used] == LAYER[user]:
+        return f"{user} may not use {used}: they share a layer"
+    if LAYER[used] > LAYER[user]:
         return f"{user} may not use {used}: it lies above"
     if used in FORBIDDEN.get(user, ()):
         return f"{user} may not use {used}"
@@ -77,7 +77,7 @@ def folder_of(parts, domain):
 
 def folder_arrow(domain, user, used):
     """Why a file in folder `user` of a domain may not include one in folder `used`, or None."""
-    level = {folder: floor for floor, folders in enumerate(FOLDERS[domain]) for folder in folders}
+    level = {folder: layer for layer, folders in enumerate(FOLDERS[domain]) for folder in folders}
     level[STUDIES], level[None] = len(FOLDERS[domain]), len(FOLDERS[domain]) + 1
     for folder in (user, used):
         if folder not in level:
@@ -86,11 +86,11 @@ def folder_arrow(domain, user, used):
         return None
     name = {None: "what stands above its studies", BASE: f"{domain}/"}
     return (f"{name.get(user, f'{domain}/{user}')} may not use {name.get(used, f'{domain}/{used}')}: "
-            + ("they share a floor" if level[used] == level[user] else "it lies above"))
+            + ("they share a layer" if level[used] == level[user] else "it lies above"))
 
 
 def domain_problem(parts, include):
-    """Why a file of a domain, at src/linkwright/`parts`, may not include `include` ('room/...'), or None."""
+    """Why a file of a domain, at src/linkwright/`parts`, may not include `include` ('module/...'), or None."""
     domain, *below = parts
     user, (used, *rest) = folder_of(below, domain), include
     if used == domain:
@@ -104,7 +104,7 @@ def domain_problem(parts, include):
     return None
 
 
-def check_source(path, room, where, parts):
+def check_source(path, module, where, parts):
     for number, bracket, name in repository.includes(path):
         here = f"{where}:{number}: "
         match = re.match(r"linkwright/([^/]+)/", name)
@@ -112,23 +112,23 @@ def check_source(path, room, where, parts):
             yield here + f"<{name}> shows a heavy header: include it in sources, not in headers"
         if match:
             used = match[1]
-            problem = arrow(room, used)
-            if not problem and used != room and "/detail/" in name:
+            problem = arrow(module, used)
+            if not problem and used != module and "/detail/" in name:
                 problem = f"only {used} uses what stands in its detail/"
-            if not problem and room in FOLDERS:
+            if not problem and module in FOLDERS:
                 problem = domain_problem(parts, name.removeprefix("linkwright/").split("/"))
             if problem:
                 yield here + problem
         elif bracket == '"' and (path.parent / name).exists():
             place = "/".join(parts[:-1])
-            yield here + f'say "linkwright/{place}/{name}": every include names its room'
-        shown = SHOWN.get(f"{room}/{path.name}", "")
+            yield here + f'say "linkwright/{place}/{name}": every include names its module'
+        shown = SHOWN.get(f"{module}/{path.name}", "")
         if path.suffix == ".h" and fits(name, HEAVY) and not fits(name, [shown]):
             yield here + f"<{name}> is heavy: include it in sources, not in headers"
 
 
 def check_top(path, where, name):
-    """Headers beside the rooms: the version, and one a room that includes all its headers, for users only."""
+    """Headers beside the modules: the version, and one a module that includes all its headers, for users only."""
     for number, _, used in repository.includes(path):
         of = used.removeprefix("linkwright/")
         if name == "linkwright.h" and "/" in of or name not in ("linkwright.h", "version.h") and not of.startswith(
@@ -143,19 +143,19 @@ def check(root):
         if source not in path.parents:
             continue
         where = str(path.relative_to(root))
-        room = path.relative_to(source).parts[0]
-        if room == "version.h" or room == "linkwright.h" or room.removesuffix(".h") in FLOOR and path.suffix == ".h" and (
+        module = path.relative_to(source).parts[0]
+        if module == "version.h" or module == "linkwright.h" or module.removesuffix(".h") in LAYER and path.suffix == ".h" and (
                 path.parent == source):
-            findings += check_top(path, where, room)
-        elif room not in FLOOR:
-            findings.append(f"{where}: {arrow(room, room)}")
+            findings += check_top(path, where, module)
+        elif module not in LAYER:
+            findings.append(f"{where}: {arrow(module, module)}")
         elif path.suffix in (".h", ".cpp"):
-            findings += check_source(path, room, where, path.relative_to(source).parts)
+            findings += check_source(path, module, where, path.relative_to(source).parts)
         elif path.name == "CMakeLists.txt":
             for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
                 for used in re.findall(r"\blinkwright_(\w+)\b", line.split("#")[0]):
                     used = used.removesuffix("_" + STUDIES)
-                    if used in FLOOR and (problem := arrow(room, used)):
+                    if used in LAYER and (problem := arrow(module, used)):
                         findings.append(f"{where}:{number}: {problem}")
     return findings
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Checks that every unit has the furniture of a unit: src/linkwright/<room>/[<folder>/]x.h has
-tests/<room>/[<folder>/]x_test.cpp, every source and test is listed in the CMakeLists.txt of its room, and the header of a
-room for its users, src/linkwright/<room>.h, includes all its headers but those of detail/ and studies.
+"""Checks that every unit has all its files: src/linkwright/<module>/[<folder>/]x.h has
+tests/<module>/[<folder>/]x_test.cpp, every source and test is listed in the CMakeLists.txt of its module, and the header of a
+module for its users, src/linkwright/<module>.h, includes all its headers but those of detail/ and studies.
 
     tools/check_mirror.py [ROOT]
 """
@@ -26,7 +26,7 @@ NO_TEST = {
     "parallel/robot/detail/legs_kernel.h": "part of position, compiled for numbers and for batches; both are tested",
     "clearance/studies/simulation_rows.h": "part of clearance_study, tested in clearance_study_test.cpp",
     "flexible/joint_kernel.h": "part of chain and chain_equations, tested in both",
-    "flexible/vec2.h": "sums and products of pairs, used by every test of the room",
+    "flexible/vec2.h": "sums and products of pairs, used by every test of the module",
     "suspension/guide/detail/wheel_kernel.h": "part of wheel, likewise",
     "suspension/wheel/detail/parameters_kernel.h": "part of wheel_parameters, likewise",
     "math/detail/ode_pairs.h": "coefficients; their orders are measured in ode_test.cpp",
@@ -68,14 +68,14 @@ def listed(cmake_lists):
     return set(re.findall(r"[\w./-]+\.(?:cpp|h)\b", text))
 
 
-# Rooms whose headers are for users, and headers that they include one by one: they show a heavy library.
+# Modules whose headers are for users, and headers that they include one by one: they show a heavy library.
 FOR_USERS = ["core", "math", "optimise", "planar", "suspension", "parallel", "flexible", "clearance"]
 ONE_BY_ONE = {"optimise/pagmo_adapters.h"}
 
 
-def public_headers(root, room):
-    """'room/folder/x.h' of every header of a room that its users may include."""
-    folder = root / "src" / "linkwright" / room
+def public_headers(root, module):
+    """'module/folder/x.h' of every header of a module that its users may include."""
+    folder = root / "src" / "linkwright" / module
     return sorted(where for path in folder.rglob("*.h")
                   if (where := path.relative_to(folder.parent).as_posix()) not in ONE_BY_ONE
                   and not {"detail", "studies"} & set(path.relative_to(folder).parts)
@@ -83,14 +83,14 @@ def public_headers(root, room):
 
 
 def check_users_headers(root):
-    for room in FOR_USERS:
-        header = root / "src" / "linkwright" / f"{room}.h"
-        if not (root / "src" / "linkwright" / room).is_dir() or not header.is_file():
+    for module in FOR_USERS:
+        header = root / "src" / "linkwright" / f"{module}.h"
+        if not (root / "src" / "linkwright" / module).is_dir() or not header.is_file():
             continue
         there = [name.removeprefix("linkwright/") for _, _, name in repository.includes(header)]
-        wanted = public_headers(root, room)
+        wanted = public_headers(root, module)
         for name in sorted(set(wanted) ^ set(there)):
-            yield (f"src/linkwright/{room}.h: " + (f"does not include {name}" if name in wanted else f"includes {name}, "
+            yield (f"src/linkwright/{module}.h: " + (f"does not include {name}" if name in wanted else f"includes {name}, "
                    "which is gone or not for users"))
 
 
@@ -112,12 +112,12 @@ def check(root, no_test=None):
                 findings.append(f"{where}: has no {test}")
         elif (where.suffix == ".cpp" and parts[:2] == ("src", "linkwright") and len(parts) > 3 or
               where.name.endswith("_test.cpp") and parts[0] == "tests" and len(parts) > 2):
-            room = where.parents[len(parts) - (4 if parts[0] == "src" else 3)]
-            names = listed(root / room / "CMakeLists.txt")
+            module = where.parents[len(parts) - (4 if parts[0] == "src" else 3)]
+            names = listed(root / module / "CMakeLists.txt")
             if names is None:
-                findings.append(f"{where}: {room} has no CMakeLists.txt")
-            elif str(where.relative_to(room)) not in names:
-                findings.append(f"{where}: is not listed in {room}/CMakeLists.txt, so it is not built")
+                findings.append(f"{where}: {module} has no CMakeLists.txt")
+            elif str(where.relative_to(module)) not in names:
+                findings.append(f"{where}: is not listed in {module}/CMakeLists.txt, so it is not built")
     findings += check_users_headers(root)
     for key in sorted(set(no_test) - excused):
         findings.append(f"tools/check_mirror.py: '{key}' needs no exception (it has a test, or is gone)")

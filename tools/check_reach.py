@@ -22,7 +22,7 @@ ROUTE = "a second route that tests compare with"
 SAMPLE = "a published case that tests and benchmarks run"
 KERNEL = "tests and benchmarks name or run every kernel"
 REASONS = {
-    "clearance/force_lead_errors": ROUTE,
+    "clearance/force_phase_errors": ROUTE,
     "clearance/poincare_section": LIBRARY,
     "clearance/published_mass_problem": SAMPLE,
     "core/runnable": KERNEL,

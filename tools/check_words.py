@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Checks that the repository speaks of itself alone: no paths of somebody's machine, no numbers of a tracker that a
-reader cannot open, no promises left in the code.
+reader cannot open, no promises left in the code. And that it calls things by the names of the field: what users read
+(pages, study files, the texts of messages and reports) has none of the words that were given up for them.
 
     tools/check_words.py [ROOT]
 """
@@ -19,8 +20,51 @@ PATTERNS = [
     (re.compile(r"\b(?:TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b"), "unfinished business: do it, or say plainly what is not done"),
     (re.compile(r"\b(?:sub-?ag" r"ents?|chat" r"bots?|language mod" r"els?)\b", re.I), "talks about how it was written"),
 ]
+
+def words(pattern, instead):
+    return re.compile(rf"\b(?:{pattern})\b", re.I), f"say {instead}"
+
+
+# What users read has other words for these.
+GIVEN_UP = [
+    words("told|tells", "reported, given, listed, says"),
+    words("even motion", "uniform motion"),
+    words("to and fro", "reciprocating"),
+    words("evenness|regulation", "speed fluctuation"),
+    words("(?:goes|go|going) round", "rotates fully"),
+    words(r"loose (?:\w+ )?pins?|play of (?:the|a|its|all) (?:pins?|joints?)", "clearance joint, joint clearance"),
+    words("errs", "deviates"),
+    words("(?:links?|bod(?:y|ies)|beams?) that bends?", "flexible link, body, beam"),
+    words("designed numbers?", "design variable"),
+    words("hurdles?", "criterion"),
+    words("mend|mends|mended|puts? right", "fix, corrected"),
+    words("wheel guides?", "wheel suspension"),
+    words("rooms and floors|furniture|strangers?", "module, layer, files of a unit, untrusted input"),
+]
+# Where the old words are quoted, and texts that still have them.
+QUOTED = {"CHANGELOG.md", "src/linkwright/study/renamed.cpp"}
+TO_SAY_BETTER = {
+    "src/linkwright/clearance/studies/design_read.cpp",
+    "src/linkwright/planar/studies/four_bar_run.cpp",
+    "src/linkwright/planar/studies/linkage_read.cpp",
+}
 # Written by tools, not by people.
+RAW_STRING = re.compile(r'R"(\w*)\(.*?\)\1"', re.S)
+LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
 SKIPPED_NAMES = {"package-lock.json", "LICENSE"}
+
+
+def for_users(where, text):
+    """(line number, text) of what users read in a file: pages and study files as a whole, the literals of sources."""
+    if where.as_posix() in QUOTED | TO_SAY_BETTER:
+        return
+    if where.suffix in (".md", ".toml"):
+        yield from enumerate(text.splitlines(), 1)
+    elif where.parts[0] == "src" and where.suffix in (".h", ".cpp"):
+        plain = RAW_STRING.sub(lambda raw: "\n" * raw[0].count("\n"), text)
+        for number, line in enumerate(plain.splitlines(), 1):
+            if not line.lstrip().startswith(("#include", "//")):
+                yield number, " ".join(LITERAL.findall(line))
 
 
 def check(root):
@@ -36,6 +80,10 @@ def check(root):
             for pattern, meaning in PATTERNS:
                 if match := pattern.search(line):
                     findings.append(f"{where}:{number}: '{match[0]}': {meaning}")
+        for number, line in for_users(where, text):
+            for pattern, instead in GIVEN_UP:
+                if match := pattern.search(line):
+                    findings.append(f"{where}:{number}: '{match[0]}': {instead}")
     return findings
 
 

@@ -65,6 +65,6 @@ fi
 # shellcheck disable=SC2086  # a list of names
 if ! apt install --no-install-recommends $missing; then
   echo "apt-get could not install:$missing" >&2
-  echo "The messages above tell why; without a network, install them by other means and start again." >&2
+  echo "The messages above say why; without a network, install them by other means and start again." >&2
   exit 1
 fi

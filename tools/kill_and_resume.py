@@ -29,8 +29,8 @@ STUDIES = {
                          ["optimiser.seeds.count=60", "optimiser.generations=4000"]),
     "balancing": ("studies/balance-four-bar-case-1.toml", ["optimiser.seeds.count=5"]),
     "region of a delta": ("studies/delta-cylinder-smallest.toml", ["optimiser.seeds.count=100"]),
-    "suspension": ("studies/suspension-5ks-synthesis.toml", ["optimiser.seeds.count=5000"]),
-    "clearance": ("studies/loose-four-bar-lengths-swarm.toml", ["optimiser.seeds.count=30"]),
+    "suspension": ("studies/suspension-5us-synthesis.toml", ["optimiser.seeds.count=5000"]),
+    "clearance": ("studies/clearance-four-bar-lengths-swarm.toml", ["optimiser.seeds.count=30"]),
 }
 
 
@@ -121,7 +121,7 @@ def main():
             number, said, fault = round_of(program, name, whole[name], length[name], rng, folder)
             idle = 0 if number else idle + 1
             kills[name] += number
-            went_on[name] += b"goes on from here" in said
+            went_on[name] += b"resumes from here" in said
             if fault:
                 faults += 1
                 print(f"{name}, seed {state}, {number} kills: {fault}", flush=True)

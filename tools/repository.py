@@ -1,4 +1,4 @@
-"""What the checks of the repository share: its files, its include lines, and how findings are told."""
+"""What the checks of the repository share: its files, its include lines, and how findings are reported."""
 
 import re
 import subprocess
@@ -43,5 +43,5 @@ def main(check):
     for finding in findings:
         print(finding)
     if findings:
-        print(f"{len(findings)} to mend")
+        print(f"{len(findings)} to fix")
     return 1 if findings else 0

@@ -8,7 +8,7 @@
 int main() {
   using namespace linkwright;
   const clearance::ClearanceFourBar model = clearance::published_design_2();
-  const clearance::EvenCrank crank{.speed = 10};
+  const clearance::UniformCrank crank{.speed = 10};
   const clearance::ClearanceOrbit orbit = clearance::find_orbit(model, crank);
   if (orbit.status != Status::done) {
     std::printf("%s\n", orbit.message.c_str());
@@ -28,7 +28,7 @@ int main() {
                                   return true;
                                 });
   std::printf("the pin starts %.2f deg ahead of the crank; the tracing point deviates by up to %.2f mm\n",
-              orbit.lead * 180 / pi, error * 1e3);
+              orbit.phase * 180 / pi, error * 1e3);
   std::printf("pin and bush are pressed together by at least %.2f N%s\n", least,
               least > 0 ? "" : ": they part");
   return error > 0 && error < 5 * model.clearance ? 0 : 1;

@@ -78,6 +78,6 @@
 #include "linkwright/planar/serial_arm/serial_arm.h"
 #include "linkwright/planar/simulation/coordinates.h"
 #include "linkwright/planar/simulation/elastic_body.h"
-#include "linkwright/planar/simulation/regulation.h"
 #include "linkwright/planar/simulation/simulation.h"
+#include "linkwright/planar/simulation/speed_fluctuation.h"
 #include "linkwright/planar/sweep_input.h"

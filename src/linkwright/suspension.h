@@ -39,7 +39,7 @@
 #include "linkwright/suspension/indirect/published_guides.h"
 #include "linkwright/suspension/indirect/seven_poses.h"
 #include "linkwright/suspension/indirect/synthesis.h"
-#include "linkwright/suspension/indirect/synthesis_spin.h"
+#include "linkwright/suspension/indirect/synthesis_carrier_pitch.h"
 #include "linkwright/suspension/wheel/axle.h"
 #include "linkwright/suspension/wheel/axle_sweep.h"
 #include "linkwright/suspension/wheel/derivatives.h"

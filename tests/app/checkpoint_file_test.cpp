@@ -117,12 +117,12 @@ TEST_F(CheckpointFileTest, IsWrittenByItself) {
 }
 
 TEST_F(CheckpointFileTest, OthersAreRefused) {
-  constexpr std::string_view mend = "; run without --resume to begin anew and replace it";
+  constexpr std::string_view mend = "; run without --resume to start again and replace it";
   const CheckpointLines lines = {{"seed 1", R"({"name":"seed 1","value":2})"}};
   write(checkpoint_text({"linkwright 9.8.6", owner.study_sha256}, lines));
   EXPECT_EQ(refusal(),
             ": error: was written by linkwright 9.8.6 in format 1; this is linkwright 9.8.7, which "
-            "goes on with its own only, in format 1" +
+            "continues only its own checkpoints, in format 1" +
                 std::string(mend));
   write(checkpoint_text({owner.tool, std::string(64, 'b')}, lines));
   EXPECT_EQ(refusal(),
@@ -189,7 +189,7 @@ TEST_F(CheckpointFileTest, LinesThatAreNone) {
   EXPECT_EQ(message(line + "\n"), "good");
   EXPECT_EQ(message(line), "good");
   EXPECT_EQ(message(line + "\n" + line + "\n"),
-            "c: error: is damaged: line 3 names no value of its own; run without --resume to begin anew and "
+            "c: error: is damaged: line 3 names no value of its own; run without --resume to start again and "
             "replace it");
   for (const std::string& wrong :
        {std::string("\n"), std::string(R"({"name":"seed 1"})"), std::string(R"({"name":7,"value":2})"),

@@ -26,7 +26,7 @@ AutomaticPin steel_pin(const planar::Linkage& l, const char* joint, double angle
 TEST(AutomaticContact, IsContinuousContactWhereThatHolds) {
   const planar::Linkage l = as_linkage(published_four_bar("gamma-design2-table3-g0-w10"));
   const AutomaticPin pin = steel_pin(l, "A", full_turn / 36, 10);
-  const planar::InputCourse crank = even_crank(10);
+  const planar::InputDrive crank = uniform_crank(10);
   const std::vector<double> times = evenly_spaced(0, full_turn / 10, 73);
   std::vector<double> angles, tensions;
   const AutomaticContactRun run =
@@ -55,7 +55,7 @@ TEST(AutomaticContact, IsContinuousContactWhereThatHolds) {
 struct Lost {
   planar::Linkage linkage = as_linkage(published_four_bar("gamma-design1-table2-g0-w10"));
   AutomaticPin pin = steel_pin(linkage, "A", full_turn / 36, 10);
-  planar::InputCourse crank = even_crank(10);
+  planar::InputDrive crank = uniform_crank(10);
   std::vector<double> times = evenly_spaced(0, full_turn / 10, 721);
 };
 
@@ -141,7 +141,7 @@ TEST(AutomaticContact, RowsChangeNothing) {
   EXPECT_EQ(few.steps, many.steps);
 }
 
-// All loose pins go over when the first of them parts. The other one is still pressed on: it begins in
+// All clearance joints go over when the first of them parts. The other one is still pressed on: it begins in
 // contact, as deep as its tension needs, which costs the energy of its springs.
 TEST(AutomaticContact, SeveralPinsGoOverTogether) {
   const Lost lost;

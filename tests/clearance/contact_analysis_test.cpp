@@ -62,7 +62,7 @@ TEST(ContactAnalysis, SectionOfPeriodicAndOfRestlessMotion) {
                      .bush_radius = 0.01,
                      .law = {.stiffness = 1e8, .restitution = 0.3, .friction = 0.05}};
   joint.start.eccentricity = -1e-3;
-  const planar::InputCourse crank = even_crank(10);
+  const planar::InputDrive crank = uniform_crank(10);
   const PoincareSection calm =
       poincare_section(l, std::span(&joint, 1), std::span(&crank, 1), 0, full_turn / 10, 5, 7);
   ASSERT_EQ(calm.run.status, Status::done) << calm.run.message;
@@ -72,7 +72,7 @@ TEST(ContactAnalysis, SectionOfPeriodicAndOfRestlessMotion) {
 
   const planar::Linkage slider = contact_slider_crank();
   const ContactJoint loose = slider_crank_joint(slider);
-  const planar::InputCourse fast = even_crank(slider_crank_speed);
+  const planar::InputDrive fast = uniform_crank(slider_crank_speed);
   const PoincareSection wild =
       poincare_section(slider, std::span(&loose, 1), std::span(&fast, 1), 0, 0.012, 0, 4);
   ASSERT_EQ(wild.joints[0].size(), 5u);

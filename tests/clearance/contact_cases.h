@@ -43,7 +43,7 @@ inline ContactJoint slider_crank_joint(const planar::Linkage& l, double friction
                   .friction = friction}};
 }
 
-/// Even crank from angle 0.
-inline planar::InputCourse even_crank(double speed) { return {math::ConstantSpeed{0, speed}, 0, 0}; }
+/// Uniformly rotating crank from angle 0.
+inline planar::InputDrive uniform_crank(double speed) { return {math::ConstantSpeed{0, speed}, 0, 0}; }
 
 }  // namespace linkwright::clearance

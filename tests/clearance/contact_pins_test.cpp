@@ -11,7 +11,7 @@
 namespace linkwright::clearance {
 namespace {
 
-// A four-bar whose crank pin and ground pin are loose, somewhere in motion.
+// A four-bar whose crank pin and ground pin have clearance, somewhere in motion.
 struct Moving {
   planar::Linkage linkage = as_linkage(published_four_bar("gamma-design2-table3-g9.81-w20"));
   std::vector<ContactJoint> joints;
@@ -26,7 +26,7 @@ struct Moving {
                         .pin = side});
     open = open_linkage(linkage, std::vector{joints[0].joint, joints[1].joint}, std::vector{0.4});
   }
-  // Moves on evenly for a time, s.
+  // Moves on uniformly for a time, s.
   planar::LinkageMotion motion(double t) const {
     planar::LinkageMotion out(open.plan);
     std::vector<planar::InputMotion> inputs;

@@ -19,7 +19,7 @@ ContactRun slider_crank(double friction, double to, const ContactOptions& option
                         const ContactOutput& output = {}) {
   const planar::Linkage l = contact_slider_crank();
   const ContactJoint joint = slider_crank_joint(l, friction);
-  const planar::InputCourse crank = even_crank(slider_crank_speed);
+  const planar::InputDrive crank = uniform_crank(slider_crank_speed);
   return simulate_contact(l, std::span(&joint, 1), std::span(&crank, 1), evenly_spaced(0, to, rows), options,
                           output);
 }
@@ -51,7 +51,7 @@ TEST(ContactSimulation, SliderCrankWithFriction) {
   compare(run.events, test::at(computed("slider-crank-contact"), "contacts_with_friction.events"), 2);
 }
 
-// The slider alone, along its guide, against a rod that cannot give way: its speeds before and after tell the
+// The slider alone, along its guide, against a rod that cannot give way: its speeds before and after give the
 // restitution of the law, and the flight between two impacts its clearance.
 TEST(ContactSimulation, RestitutionAndFlightOfASlider) {
   const planar::Linkage l = contact_slider_crank();
@@ -60,7 +60,7 @@ TEST(ContactSimulation, RestitutionAndFlightOfASlider) {
     joint.law.restitution = 0.7;
     joint.law.damping = damping;
     joint.start.rate = -0.5;  // the pin on the rod seen from the bush on the slider
-    const planar::InputCourse crank{math::ConstantSpeed{0, 0}, 0, 0};
+    const planar::InputDrive crank{math::ConstantSpeed{0, 0}, 0, 0};
     const ContactRun run =
         simulate_contact(l, std::span(&joint, 1), std::span(&crank, 1), std::vector{0.0, 9e-3});
     ASSERT_EQ(run.status, Status::done) << run.message;
@@ -84,7 +84,7 @@ TEST(ContactSimulation, AnImpactAsComputedElsewhere) {
   ContactJoint joint = slider_crank_joint(l);
   joint.law.stiffness = test::number_at(example, "K");
   joint.start.rate = -test::number_at(example, "v_m_s");
-  const planar::InputCourse crank{math::ConstantSpeed{0, 0}, 0, 0};
+  const planar::InputDrive crank{math::ConstantSpeed{0, 0}, 0, 0};
   const ContactRun run =
       simulate_contact(l, std::span(&joint, 1), std::span(&crank, 1), std::vector{0.0, 2e-3});
   ASSERT_GE(run.events.size(), 1u);
@@ -128,7 +128,7 @@ TEST(ContactSimulation, EnergyIsAccountedFor) {
       j.law.damping = ContactDamping::flores_2011;
       j.law.friction = restitution < 1 ? 0.05 : 0;
     }
-    const planar::InputCourse crank = even_crank(200);
+    const planar::InputDrive crank = uniform_crank(200);
     double dissipated = 0, work = 0, elastic = 0;
     bool rising = true;
     const ContactRun run = simulate_contact(l, joints, std::span(&crank, 1), evenly_spaced(0, 0.02, 2001),
@@ -167,7 +167,7 @@ TEST(ContactSimulation, PressedContactIsContinuousContact) {
   const double angle = 10 * full_turn / 360;
   // From bush to pin, against the direction of the clearance link.
   joint.start = {-std::polar(1e-3, angle), -std::polar(1e-3 * 10, angle + full_turn / 4)};
-  const planar::InputCourse crank = even_crank(10);
+  const planar::InputDrive crank = uniform_crank(10);
   const std::vector<double> times = evenly_spaced(0, full_turn / 10, 121);
   std::vector<double> link, tension;
   simulate_clearance(model, math::ConstantSpeed{0, 10}, {angle, 10}, times, {}, [&](const ClearanceRow& row) {
@@ -207,7 +207,7 @@ TEST(ContactSimulation, TheIdealJointIsTheLimit) {
     const double direction = force_direction(model, 0, 50, 0), h = 1e-5;
     const double pace = 50 * math::angle_difference(force_direction(model, h, 50, 0), direction) / h;
     joint.start = {-std::polar(c, direction), -std::polar(c * pace, direction + full_turn / 4)};
-    const planar::InputCourse crank = even_crank(50);
+    const planar::InputDrive crank = uniform_crank(50);
     double worst = 0;
     const ContactRun run = simulate_contact(
         l, std::span(&joint, 1), std::span(&crank, 1), evenly_spaced(0, 0.03, 61), {},
@@ -227,7 +227,7 @@ TEST(ContactSimulation, TheIdealJointIsTheLimit) {
   }
 }
 
-// Any joints of a four-bar; with both of its pins loose the coupler hangs on nothing.
+// Any joints of a four-bar; with clearance at both of its pins the coupler hangs on nothing.
 TEST(ContactSimulation, AnyPinsOfAFourBar) {
   ClearanceFourBar model = published_four_bar("gamma-design2-table3-g9.81-w20");
   model.coupler.centre = {0.1, 0};
@@ -240,7 +240,7 @@ TEST(ContactSimulation, AnyPinsOfAFourBar) {
                         .clearance = 2e-4,
                         .bush_radius = 0.01,
                         .law = {.stiffness = 1e9, .restitution = 0.8, .friction = 0.02}});
-    const planar::InputCourse crank = even_crank(20);
+    const planar::InputDrive crank = uniform_crank(20);
     double off = 0;
     const ContactRun run = simulate_contact(l, joints, std::span(&crank, 1), evenly_spaced(0, 0.05, 51),
                                             {.tolerance = 1e-10}, [&](const ContactRow& row) {
@@ -259,7 +259,7 @@ TEST(ContactSimulation, AnyPinsOfAFourBar) {
 // approach of zero, which least_approach keeps finite; moving away it is free.
 TEST(ContactSimulation, GrazingStarts) {
   const planar::Linkage l = contact_slider_crank();
-  const planar::InputCourse crank{math::ConstantSpeed{0, 0}, 0, 0};
+  const planar::InputDrive crank{math::ConstantSpeed{0, 0}, 0, 0};
   for (const bool pressed : {true, false}) {
     ContactJoint joint = slider_crank_joint(l);
     joint.start.eccentricity = -5e-4;
@@ -294,7 +294,7 @@ TEST(ContactSimulation, CountsAllStepsWhenTheyAreUsedUp) {
 
 TEST(ContactSimulation, RefusesWhatIsNoBush) {
   const planar::Linkage l = contact_slider_crank();
-  const planar::InputCourse crank = even_crank(1);
+  const planar::InputDrive crank = uniform_crank(1);
   const auto text = [&](const ContactJoint& j) {
     return test::message([&] {
       simulate_contact(l, std::span(&j, 1), std::span(&crank, 1), std::vector{0.0, 1.0});

@@ -19,7 +19,7 @@ constexpr double degree = pi / 180;
 
 struct Trajectory {
   ClearanceRun run;
-  std::vector<double> link, tension, lead;
+  std::vector<double> link, tension, phase;
 };
 Trajectory simulated(const ClearanceFourBar& model, double speed, const LinkState& start,
                      const std::vector<double>& crank_angles, const ClearanceTolerances& tolerances = {}) {
@@ -30,7 +30,7 @@ Trajectory simulated(const ClearanceFourBar& model, double speed, const LinkStat
                                [&](const ClearanceRow& row) {
                                  out.link.push_back(row.link.angle);
                                  out.tension.push_back(row.instant->tension);
-                                 out.lead.push_back(row.link.angle - row.crank.value);
+                                 out.phase.push_back(row.link.angle - row.crank.value);
                                  return true;
                                });
   return out;
@@ -60,12 +60,12 @@ TEST_P(PublishedDesign2, FollowsTheReferenceThroughATurn) {
     EXPECT_NEAR(t.link[k], link[k], 1e-7) << k;
     EXPECT_NEAR(t.tension[k] / tension[k], 1, 1e-6) << k;
   }
-  EXPECT_NEAR(lead_error(model, {0, speed}, start, 10 * degree, 72), test::number_at(ivp, "F2_n72"), 1e-7);
+  EXPECT_NEAR(phase_error(model, {0, speed}, start, 10 * degree, 72), test::number_at(ivp, "F2_n72"), 1e-7);
 
   // Ranges of the reference are those of its own samples, which pass by the extremes.
   const Value& turned = test::at(computed(id), "one_rev");
   const Trajectory fine = simulated(model, speed, start, evenly(0, full_turn, 3601));
-  const auto [least, most] = std::minmax_element(fine.lead.begin(), fine.lead.end());
+  const auto [least, most] = std::minmax_element(fine.phase.begin(), fine.phase.end());
   EXPECT_NEAR(*least / degree, test::number_at(turned, "psi_min_deg"), 0.02);
   EXPECT_NEAR(*most / degree, test::number_at(turned, "psi_max_deg"), 0.02);
   EXPECT_NEAR(fine.run.least_tension / test::number_at(turned, "tension_min_N"), 1, 3e-4);
@@ -84,7 +84,7 @@ TEST_P(PublishedDesign2, HasThePeriodicOrbitOfTheReference) {
   const ClearanceOrbit orbit = find_orbit(model, {0, speed}, 0.15, -0.3);
   ASSERT_EQ(orbit.status, Status::done) << orbit.message;
   EXPECT_LT(orbit.residual, 1e-10);
-  EXPECT_NEAR(orbit.lead, test::number_at(periodic, "psi0_rad"), 1e-7);
+  EXPECT_NEAR(orbit.phase, test::number_at(periodic, "psi0_rad"), 1e-7);
   EXPECT_NEAR(orbit.slope, test::number_at(periodic, "dpsi_dtheta2_0"), 1e-6);
   // Without damping: a pair on the unit circle. Central differences of 1e-5 give it to 1e-6.
   const auto first = test::numbers(test::at(periodic, "floquet").as_array().at(0));
@@ -99,8 +99,8 @@ TEST_P(PublishedDesign2, HasThePeriodicOrbitOfTheReference) {
   EXPECT_NEAR(t.link.back() - t.link.front(), full_turn, 1e-9);
 }
 
-// No work is done on a passive coupler over a turn: the mean of N sin(lead) is zero, so that the lead cannot
-// be positive throughout while pin and bush touch.
+// No work is done on a passive coupler over a turn: the mean of N sin(phase) is zero, so that the phase
+// cannot be positive throughout while pin and bush touch.
 TEST_P(PublishedDesign2, DoesNoWorkOverAPeriod) {
   const char* id = GetParam();
   const ClearanceFourBar model = published_four_bar(id);
@@ -108,8 +108,8 @@ TEST_P(PublishedDesign2, DoesNoWorkOverAPeriod) {
   const ClearanceOrbit orbit = find_orbit(model, {0, speed}, 0.15, -0.3);
   const Trajectory t = simulated(model, speed, orbit.start({0, speed}), evenly(0, full_turn, 2001));
   double moment = 0, size = 0;  // trapezium rule of a periodic function: exact to rounding
-  for (std::size_t k = 0; k + 1 < t.lead.size(); ++k) {
-    moment += t.tension[k] * std::sin(t.lead[k]);
+  for (std::size_t k = 0; k + 1 < t.phase.size(); ++k) {
+    moment += t.tension[k] * std::sin(t.phase[k]);
     size += t.tension[k];
   }
   EXPECT_NEAR(moment / size, 0, 1e-9);
@@ -191,9 +191,9 @@ TEST(FourBarClearanceMotion, SwingsAsOftenAsThePendulumDoes) {
   model.rocker = {0, 0, {0, 0}};
   const Trajectory t = simulated(model, 10, {1e-3, 10}, evenly(0, full_turn, 2001));
   int changes = 0;
-  for (std::size_t k = 1; k < t.lead.size(); ++k) changes += (t.lead[k] > 0) != (t.lead[k - 1] > 0);
+  for (std::size_t k = 1; k < t.phase.size(); ++k) changes += (t.phase[k] > 0) != (t.phase[k - 1] > 0);
   EXPECT_EQ(changes, 20);
-  EXPECT_NEAR(t.lead.back(), 1e-3, 1e-7);  // ten whole periods, amplitude corrections of 1e-7
+  EXPECT_NEAR(t.phase.back(), 1e-3, 1e-7);  // ten whole periods, amplitude corrections of 1e-7
 }
 
 // r -> 0: the periodic orbit goes to the direction of the force of the ideal joint, with the clearance.
@@ -220,21 +220,21 @@ TEST(FourBarClearanceMotion, TheForceOfTheIdealJointIsTheLimit) {
   }
 }
 
-// Damping: the motion settles by itself, its multipliers lie inside the unit circle, and the mean of the lead
-// is negative.
+// Damping: the motion settles by itself, its multipliers lie inside the unit circle, and the mean of the
+// phase is negative.
 TEST(FourBarClearanceMotion, SettlesWithDamping) {
   ClearanceFourBar model = published_four_bar("gamma-design2-table3-g0-w10");
   model.link_damping = 1e-5;
-  const EvenCrank crank{0, 10};
+  const UniformCrank crank{0, 10};
   const ClearanceOrbit settled = settle(model, crank, {0.1, 10}, 100);
   ASSERT_EQ(settled.status, Status::done) << settled.message;
   const ClearanceOrbit orbit = find_orbit(model, crank, 0.1, -0.2);
   ASSERT_EQ(orbit.status, Status::done) << orbit.message;
-  EXPECT_NEAR(math::angle_difference(settled.lead, orbit.lead), 0, 1e-7);
+  EXPECT_NEAR(math::angle_difference(settled.phase, orbit.phase), 0, 1e-7);
   EXPECT_LT(std::abs(orbit.multipliers[0]), 0.999);
   const Trajectory t = simulated(model, 10, orbit.start(crank), evenly(0, full_turn, 721));
   double mean = 0;
-  for (std::size_t k = 0; k + 1 < t.lead.size(); ++k) mean += t.lead[k] / 720;
+  for (std::size_t k = 0; k + 1 < t.phase.size(); ++k) mean += t.phase[k] / 720;
   EXPECT_LT(mean, -1e-3);
 }
 
@@ -245,9 +245,9 @@ TEST(FourBarClearanceMotion, FollowsAnOrbitToANeighbour) {
   const ClearanceOrbit near = follow_orbit(model, {0, 10}, known),
                        anew = find_orbit(model, {0, 10}, 0.15, -0.3);
   ASSERT_EQ(near.status, Status::done);
-  EXPECT_NEAR(near.lead, anew.lead, 1e-8);
+  EXPECT_NEAR(near.phase, anew.phase, 1e-8);
   EXPECT_NEAR(near.slope, anew.slope, 1e-8);
-  EXPECT_GT(std::abs(near.lead - known.lead), 1e-5);
+  EXPECT_GT(std::abs(near.phase - known.phase), 1e-5);
   // Too far for that: a search of its own.
   model.coupler.centre = {0.02, 0.01};
   const ClearanceOrbit far = follow_orbit(model, {0, 10}, known);
@@ -269,14 +269,14 @@ TEST(FourBarClearanceMotion, EndsWhereTheLinksDoNotMeet) {
   const ClearanceRun run =
       simulate_clearance(model, math::ConstantSpeed{1.8, 10}, {1.8, 10}, std::vector{0.0, 0.6});
   EXPECT_EQ(run.status, Status::limit_reached);
-  EXPECT_THAT(run.message, ::testing::HasSubstr("the crank cannot go on at 0.370"));
+  EXPECT_THAT(run.message, ::testing::HasSubstr("the crank stops at 0.370"));
   // There the crank is so near to O4 that coupler and rocker, 150.6 mm less 100 mm, cannot be laid between.
   EXPECT_NEAR(std::abs(std::polar(model.linkage.ground, model.linkage.frame_angle) -
                        std::polar(model.linkage.crank, 1.8 + 10 * run.time)) +
                   model.clearance,
               model.linkage.rocker - model.linkage.coupler, 2e-5);
   EXPECT_EQ(find_orbit(model, {1.8, 10}).status, Status::limit_reached);
-  EXPECT_TRUE(std::isinf(lead_error(model, {1.8, 10}, {1.8, 10}, 0, 8)));
+  EXPECT_TRUE(std::isinf(phase_error(model, {1.8, 10}, {1.8, 10}, 0, 8)));
   model.linkage.coupler = 0.01;
   model.clearance = 1e-3;
   const ClearanceRun none =

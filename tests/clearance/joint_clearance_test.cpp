@@ -26,7 +26,7 @@ struct Rows {
 Rows simulated(const planar::Linkage& l, const std::vector<JointClearance>& clearances, double speed,
                const std::vector<double>& times, double tolerance = 1e-11) {
   Rows out;
-  const planar::InputCourse crank{math::ConstantSpeed{0, speed}, 0, 0};
+  const planar::InputDrive crank{math::ConstantSpeed{0, speed}, 0, 0};
   out.run = simulate_joint_clearance(l, clearances, std::span(&crank, 1), times,
                                      {.relative_tolerance = tolerance, .absolute_tolerance = tolerance},
                                      [&](const JointClearanceRow& row) {
@@ -105,7 +105,7 @@ TEST(JointClearance, SeesSeparationAsTheClosedFormDoes) {
 TEST(JointClearance, StopsWhereContactIsLost) {
   const ClearanceFourBar model = published_four_bar("gamma-design1-table2-g9.81-w50");
   const planar::Linkage l = as_linkage(model);
-  const planar::InputCourse crank{math::ConstantSpeed{0, 50}, 0, 0};
+  const planar::InputDrive crank{math::ConstantSpeed{0, 50}, 0, 0};
   const JointClearance pin{
       .joint = planar::joint_index(l, "A"), .clearance = 1e-3, .angle = 10 * full_turn / 360, .rate = 50};
   const std::vector<double> times = evenly_spaced(0, full_turn / 50, 101);
@@ -113,7 +113,7 @@ TEST(JointClearance, StopsWhereContactIsLost) {
   double last = -1;
   const auto run = [&](const JointClearance& from, double shift) {
     rows = 0;
-    const planar::InputCourse drive{math::ConstantSpeed{50 * shift, 50}, 0, 0};
+    const planar::InputDrive drive{math::ConstantSpeed{50 * shift, 50}, 0, 0};
     return simulate_joint_clearance(
         l, std::span(&from, 1), std::span(&drive, 1), times,
         {.relative_tolerance = 1e-11, .absolute_tolerance = 1e-12},
@@ -178,19 +178,19 @@ TEST(JointClearance, PinsWithinADyadAndSeveralAtOnce) {
     EXPECT_EQ(cleared.plan.inputs(), 1 + names.size());
     EXPECT_TRUE(cleared.plan.closed_form()) << names[0];
     // The same start for the other route: the inputs at the first row.
-    std::vector<planar::InputCourse> courses{{math::ConstantSpeed{0, 20}, 0, 0}};
-    const planar::InputCourse crank = courses[0];
+    std::vector<planar::InputDrive> drives{{math::ConstantSpeed{0, 20}, 0, 0}};
+    const planar::InputDrive crank = drives[0];
     simulate_joint_clearance(l, clearances, std::span(&crank, 1), times, {},
                              [&](const JointClearanceRow& row) {
                                for (const ClearanceBar& bar : cleared.bars) {
                                  const auto input = row.instant.inputs[static_cast<std::size_t>(bar.input)];
-                                 courses.push_back({{}, input.value, input.rate});
+                                 drives.push_back({{}, input.value, input.rate});
                                }
                                return false;
                              });
     std::size_t k = 0;
     planar::simulate_all_coordinates(
-        cleared.linkage, cleared.plan, courses, times, {.relative_tolerance = 1e-10},
+        cleared.linkage, cleared.plan, drives, times, {.relative_tolerance = 1e-10},
         [&](const planar::SimulationInstant& now) {
           for (std::size_t j = 0; j < cleared.bars.size(); ++j) {
             const auto& s = now.motion->parts[static_cast<std::size_t>(cleared.bars[j].body)];
@@ -216,7 +216,7 @@ TEST(JointClearance, AnyLinkage) {
   ASSERT_GE(joint, 0);
   const double c = 1e-3 * planar::size_of(l);
   const JointClearance clearance{.joint = joint, .clearance = c, .angle = -1.5};
-  const planar::InputCourse crank{math::ConstantSpeed{sample.from[0], 2}, 0, 0};
+  const planar::InputDrive crank{math::ConstantSpeed{sample.from[0], 2}, 0, 0};
   const JointClearanceRun run =
       simulate_joint_clearance(l, std::span(&clearance, 1), std::span(&crank, 1), std::vector{0.0, 0.01}, {});
   ASSERT_EQ(run.status, Status::done) << run.message;
@@ -231,7 +231,7 @@ TEST(JointClearance, TheIdealJointIsTheLimit) {
   ideal.clearance = 0;
   const double direction = force_direction(model, 0, 50, 0), h = 1e-5;
   const double pace = 50 * math::angle_difference(force_direction(model, h, 50, 0), direction) / h;
-  const planar::InputCourse crank{math::ConstantSpeed{0, 50}, 0, 0};
+  const planar::InputDrive crank{math::ConstantSpeed{0, 50}, 0, 0};
   double force_before = 0, path_before = 0;
   for (const double c : {1e-3, 2.5e-4}) {
     ClearanceFourBar loose = model;

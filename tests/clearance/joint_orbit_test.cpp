@@ -18,14 +18,14 @@ namespace {
 using ::testing::HasSubstr;
 constexpr planar::SimulationOptions fine{.relative_tolerance = 1e-11, .absolute_tolerance = 1e-12};
 
-JointOrbit orbit_of(const ClearanceFourBar& model, double speed, double lead, double slope) {
+JointOrbit orbit_of(const ClearanceFourBar& model, double speed, double phase, double slope) {
   const planar::Linkage l = as_linkage(model);
   const JointClearance pin{.joint = planar::joint_index(l, "A"),
                            .clearance = model.clearance,
-                           .angle = lead,
+                           .angle = phase,
                            .rate = speed * (1 + slope),
                            .damping = model.link_damping};
-  const planar::InputCourse crank = even_crank(speed);
+  const planar::InputDrive crank = uniform_crank(speed);
   return find_joint_orbit(l, std::span(&pin, 1), std::span(&crank, 1), 0, full_turn / speed, fine);
 }
 
@@ -34,7 +34,7 @@ JointOrbit orbit_of(const ClearanceFourBar& model, double speed, double lead, do
 TEST(JointOrbit, FourBarHasThePublishedOrbits) {
   struct Case {
     const char* id;
-    double speed, lead, slope;
+    double speed, phase, slope;
   };
   for (const Case& c : {Case{"gamma-design2-table3-g0-w10", 10, 0.17282458, -0.36211121},
                         Case{"gamma-design2-table3-g9.81-w50", 50, 0.14344834, -0.23406415},
@@ -42,7 +42,7 @@ TEST(JointOrbit, FourBarHasThePublishedOrbits) {
     const ClearanceFourBar model = published_four_bar(c.id);
     const JointOrbit orbit = orbit_of(model, c.speed, 0.15, -0.3);
     ASSERT_EQ(orbit.status, Status::done) << c.id << orbit.message;
-    EXPECT_NEAR(orbit.start[0].angle, c.lead, 1e-7) << c.id;
+    EXPECT_NEAR(orbit.start[0].angle, c.phase, 1e-7) << c.id;
     EXPECT_NEAR(orbit.start[0].rate / c.speed - 1, c.slope, 1e-7) << c.id;
     EXPECT_LT(orbit.residual, 1e-10);
     EXPECT_EQ(orbit.stability, OrbitStability::neutral) << c.id;
@@ -68,15 +68,15 @@ TEST(JointOrbit, DampedMotionSettlesOnIt) {
   const ClearanceOrbit settled = settle(model, {0, 10}, {0.1, 10}, 400);
   ASSERT_EQ(settled.status, Status::done) << settled.message;
   // The last turn changed it by 1e-9 and the turns to come by ten times that.
-  EXPECT_NEAR(orbit.start[0].angle, settled.lead, 1e-7);
+  EXPECT_NEAR(orbit.start[0].angle, settled.phase, 1e-7);
   EXPECT_NEAR(orbit.start[0].rate / 10 - 1, settled.slope, 1e-7);
 }
 
-// Two loose pins: four multipliers, and a turn from the start leads back to it.
+// Two clearance joints: four multipliers, and a turn from the start leads back to it.
 TEST(JointOrbit, SeveralPinsAtOnce) {
   ClearanceFourBar model = published_four_bar("gamma-design2-table3-g9.81-w50");
   const planar::Linkage l = as_linkage(model);
-  const planar::InputCourse crank = even_crank(50);
+  const planar::InputDrive crank = uniform_crank(50);
   std::vector<JointClearance> pins{
       {.joint = planar::joint_index(l, "A"), .clearance = 5e-3, .angle = 0.1, .rate = 50, .damping = 1e-3},
       {.joint = planar::joint_index(l, "O4"), .clearance = 5e-3, .angle = 1.6, .rate = 0, .damping = 1e-3}};
@@ -95,12 +95,12 @@ TEST(JointOrbit, SeveralPinsAtOnce) {
 }
 
 TEST(JointOrbit, PeriodsOfDrives) {
-  using planar::InputCourse;
-  const InputCourse even{math::ConstantSpeed{0, 10}}, twice{math::ConstantSpeed{1, -20}},
+  using planar::InputDrive;
+  const InputDrive even{math::ConstantSpeed{0, 10}}, twice{math::ConstantSpeed{1, -20}},
       still{math::ConstantSpeed{1, 0}}, swing{math::HarmonicMotion{0, 0.1, 10 / full_turn * 1.5, 0}},
       once{math::CycloidalMotion{0, 1, 0, 1}}, free{{}, 1, 2};
-  const auto period = [](std::vector<InputCourse> courses, bool rotary = true) {
-    return drive_period(courses, std::vector<bool>(courses.size(), rotary));
+  const auto period = [](std::vector<InputDrive> drives, bool rotary = true) {
+    return drive_period(drives, std::vector<bool>(drives.size(), rotary));
   };
   EXPECT_NEAR(period({even}).period, full_turn / 10, 1e-15);
   EXPECT_NEAR(period({even, still, twice}).period, full_turn / 10, 1e-15);
@@ -111,7 +111,7 @@ TEST(JointOrbit, PeriodsOfDrives) {
   EXPECT_EQ(period({free}).input, 0);
   EXPECT_EQ(period({still}).period, 0);
   EXPECT_EQ(period({even, {math::ConstantSpeed{0, 10 * std::sqrt(2.0)}}}).period, 0);
-  InputCourse table{
+  InputDrive table{
       math::MotionTable{{0, 1, 2}, {0, 1, full_turn}, math::TableCurve::quintic, math::TableEnds::periodic}};
   EXPECT_EQ(period({table}).period, 2);
   EXPECT_EQ(period({table}, false).period, 0) << "a slide that has grown";
@@ -134,12 +134,12 @@ TEST(JointOrbit, SaysWhatItCannotDo) {
   const ClearanceFourBar model = published_four_bar("gamma-design2-table3-g0-w10");
   const planar::Linkage l = as_linkage(model);
   const JointClearance pin{.joint = planar::joint_index(l, "A"), .clearance = 1e-3};
-  const planar::InputCourse free{{}, 0, 10};
+  const planar::InputDrive free{{}, 0, 10};
   EXPECT_THAT(
       test::message([&] { find_joint_orbit(l, std::span(&pin, 1), std::span(&free, 1), 0, 1, fine); }),
       HasSubstr("each must follow a law"));
   // Design 1 swings so violently that Newton's method finds nothing.
-  const planar::InputCourse crank = even_crank(10);
+  const planar::InputDrive crank = uniform_crank(10);
   const planar::Linkage wild = as_linkage(published_four_bar("gamma-design1-table2-g0-w10"));
   const JointOrbit none =
       find_joint_orbit(wild, std::span(&pin, 1), std::span(&crank, 1), 0, full_turn / 10, fine);

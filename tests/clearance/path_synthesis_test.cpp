@@ -26,11 +26,11 @@ TEST(ClearancePathSynthesis, ObjectiveOfThePublishedDesign) {
   EXPECT_TRUE(design.violations.empty());
 }
 
-// An even lead is a longer crank that is turned: the target comes out exactly with a shorter one.
+// An even phase is a longer crank that is turned: the target comes out exactly with a shorter one.
 TEST(ClearancePathSynthesis, EvenLeadIsAnotherCrank) {
   const Value& wanted = computed("exact-kinematic-optimum");
   ClearancePathProblem p = published_path_problem();
-  const EquivalentCrank crank = equivalent_crank(0.1, p.clearance, p.lead);
+  const EquivalentCrank crank = equivalent_crank(0.1, p.clearance, p.phase);
   EXPECT_NEAR(crank.length * 1e3, test::number_at(wanted, "L2_mm"), 1e-12);
   EXPECT_NEAR(crank.shift * 180 / std::acos(-1.0), test::number_at(wanted, "crank_phase_shift_deg"), 1e-12);
   planar::FourBar linkage = published_design_1().linkage;
@@ -81,7 +81,7 @@ TEST(ClearancePathSynthesis, FreeTimingMeetsThePathExactly) {
   const ClearancePathDesign design = clearance_path_design(p, x);
   EXPECT_LT(design.objective, 1e-9);
   EXPECT_TRUE(design.violations.empty());
-  EXPECT_NEAR(x[1], equivalent_crank(0.1, p.clearance, p.lead).length, 1e-7);
+  EXPECT_NEAR(x[1], equivalent_crank(0.1, p.clearance, p.phase).length, 1e-7);
 }
 
 // The published method, with few seeds; statistics are the business of a benchmark.

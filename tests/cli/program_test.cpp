@@ -124,7 +124,7 @@ TEST_F(Program, NewWritesAnExampleOnce) {
   EXPECT_EQ(text_of(folder_ / "synthesis-sample.lever-angle.toml"), study::sample::example);
   EXPECT_EQ(run({"check", "synthesis-sample.lever-angle.toml"}), 0);
   EXPECT_EQ(run({"new", "synthesis/sample.lever/angle", "s.toml"}), 2);
-  EXPECT_EQ(err_, "s.toml: error: exists already and is left alone\n");
+  EXPECT_EQ(err_, "s.toml: error: already exists and is left unchanged\n");
   EXPECT_EQ(run({"new", "analysis", "-"}), 0);
   EXPECT_EQ(out_, study::sample::example);
   EXPECT_EQ(run({"new", "analisis/sample.wheel"}), 2);

@@ -51,7 +51,7 @@ class Resume : public test::ProgramFixture {
       ASSERT_LT(length, 1 << 28);
     }
     EXPECT_EQ(run(with(words, {"--out", "killed", "--resume"})), 0);
-    EXPECT_EQ(err_, "killed/checkpoint.jsonl: the run goes on from here\n");
+    EXPECT_EQ(err_, "killed/checkpoint.jsonl: the run resumes from here\n");
     ASSERT_EQ(run(with(words, {"--out", "whole"})), 0) << err_;
     EXPECT_TRUE(result_text("killed") == result_text("whole"));
 
@@ -96,13 +96,13 @@ TEST_F(Resume, AfterControlCAndTheTimeLimit) {
 TEST_F(Resume, WithoutACheckpointTheRunBeginsAnew) {
   const auto words = command("fourbar-18-points.toml", {"--set", "optimiser.seeds.count=2"});
   EXPECT_EQ(run(with(words, {"--out", "a", "--resume"})), 0);
-  EXPECT_EQ(err_, "a/checkpoint.jsonl: nothing to go on with, the run begins anew\n");
+  EXPECT_EQ(err_, "a/checkpoint.jsonl: nothing to resume, the run starts from the beginning\n");
   // Without --resume what is there does not count, not even as something to complain about.
   write("a/checkpoint.jsonl", "nonsense");
   EXPECT_EQ(run(with(words, {"--out", "a"})), 0);
   EXPECT_EQ(err_, "");
   EXPECT_EQ(run(with(words, {"--out", "a", "--resume"})), 0);
-  EXPECT_EQ(err_, "a/checkpoint.jsonl: the run goes on from here\n");
+  EXPECT_EQ(err_, "a/checkpoint.jsonl: the run resumes from here\n");
 }
 
 TEST_F(Resume, WhatDoesNotBelongIsTwoAndNothingIsWritten) {
@@ -127,8 +127,7 @@ TEST_F(Resume, WhatDoesNotBelongIsTwoAndNothingIsWritten) {
   write("a/checkpoint.jsonl", damaged);
   EXPECT_THAT(refused(same),
               HasSubstr("a/checkpoint.jsonl: error: is damaged: the SHA-256 of its lines is not "
-                        "the one in its first line; run without --resume to begin anew and "
-                        "replace it\n"));
+                        "the one in its first line; run without --resume to start again and replace it\n"));
   EXPECT_EQ(text_of(folder_ / "a/checkpoint.jsonl"), damaged);
 }
 
@@ -138,7 +137,7 @@ TEST_F(Resume, KindsWithoutSeedsRun) {
   ASSERT_EQ(run(words), 0) << err_;
   const std::string whole = result_text("a");
   EXPECT_EQ(run(with(words, {"--resume"})), 0);
-  EXPECT_EQ(err_, "a/checkpoint.jsonl: nothing to go on with, the run begins anew\n");
+  EXPECT_EQ(err_, "a/checkpoint.jsonl: nothing to resume, the run starts from the beginning\n");
   EXPECT_TRUE(result_text("a") == whole);
   EXPECT_FALSE(fs::exists(folder_ / "a/checkpoint.jsonl"));
 }

@@ -320,7 +320,7 @@ TEST(ChainEquations, AllocateNothingAfterTheFirstTime) {
 }
 
 TEST(ChainEquations, CutsOfADampedLinkCarryWhatItsJointsDo) {
-  // A damper by mass between link and hub loads the joints as inertia does: their springs tell the moment.
+  // A damper by mass between link and hub loads the joints as inertia does: their springs give the moment.
   Beam beam = torque_beam();
   beam.mass_damping = 20;
   const Chain chain = discretise(beam, 3);

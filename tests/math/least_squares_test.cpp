@@ -181,7 +181,7 @@ TEST(LeastSquares, RosenbrockInABoxEndsOnTheEdge) {
   LeastSquaresWorkspace workspace;
   const auto report = minimise_least_squares(rosenbrock, 2, x, lower, upper, tight, workspace);
   EXPECT_EQ(x[0], 0.5);
-  // The cost 1/8 + 50 d^2 cannot tell d from 0 below sqrt(eps / 8 / 50) = 5e-10.
+  // The cost 1/8 + 50 d^2 cannot distinguish d from 0 below sqrt(eps / 8 / 50) = 5e-10.
   EXPECT_NEAR(x[1], 0.25, 5e-10);
   EXPECT_NEAR(report.cost, 0.125, 1e-14);
 }

@@ -149,7 +149,7 @@ TEST(MotionLaw, MeetsItsEndConditionsAndNoOthers) {
                                       .end_jerk = -5});
   expect_motion(all(0.5), 1, 0.4, -1, 2);
   expect_motion(all(3.5), -2, -0.7, 0.6, -5);
-  // Even motion before and after.
+  // Uniform motion before and after.
   expect_motion(all(0), 1 - 0.2, 0.4, 0, 0);
   expect_motion(all(4.5), -2.7, -0.7, 0, 0);
   // A parabola: from, to and the speed at the start.
@@ -199,7 +199,7 @@ TEST(MotionLaw, NamesWhatIsNoMotion) {
               HasSubstr("times must increase, but 1 s follows 1 s (row 3)"));
   EXPECT_THAT(message(MotionTable{{0, 1}, {0, 0}, TableCurve::cubic, TableEnds::periodic}),
               HasSubstr("times has 2 rows, must have at least 3"));
-  EXPECT_THAT(message(EndConditions{.from = 1}), HasSubstr("a position at the start alone is no motion"));
+  EXPECT_THAT(message(EndConditions{.from = 1}), HasSubstr("a start position alone is not a motion"));
   EXPECT_THAT(message(EndConditions{.from = 1, .start_acceleration = 1, .end_acceleration = 2}),
               HasSubstr("the conditions do not determine the motion: 1 of orders up to speeds is given"));
   EXPECT_FALSE(problem(MotionTable{{0, 1}, {0, 1}, TableCurve::cubic, TableEnds::natural}));

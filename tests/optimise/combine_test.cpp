@@ -193,7 +193,7 @@ TEST(Combine, GoesOnFromACheckpointWithTheSameBits) {
                                            {1, NAN, 8, 32},
                                            {-1, 1, 8, 32},
                                            {1, 4, 8, 32}})
-    EXPECT_EQ(refusal(front), "here: is no state of this method and problem");
+    EXPECT_EQ(refusal(front), "here: is not a state of this method and problem");
 }
 
 TEST(Combine, StartsFromTheObjectivesOfTheIncumbent) {

@@ -30,7 +30,7 @@ SeedsReport run(const Problem& problem, const OptimiserOptions& method, int gene
 
 TEST(DifferentialEvolution, FindsTheKnownOptima) {
   // Budgets are about twice what the slowest of the twenty seeds needs. Five members a variable, the default
-  // of the wheel-guide studies, close in too early in valleys: 6 of 20 seeds on rosenbrock(4), as with a
+  // of the wheel-suspension studies, close in too early in valleys: 6 of 20 seeds on rosenbrock(4), as with a
   // plain independent implementation.
   OptimiserOptions method = {.method = Method::differential_evolution};
   method.differential_evolution.population = 60;

@@ -445,10 +445,10 @@ TEST(Minimise, RefusesWhatItDidNotKeep) {
   EXPECT_EQ(refusal([](auto& e) { e["here/log 0"] = pack_numbers(std::vector<double>(54, -1)); }),
             "here/log 0: -1 evaluations");
   EXPECT_EQ(refusal([](auto& e) { e["here/state"]["optimiser"] = ""; }),
-            "here: is no state of this method and problem");
+            "here: is not a state of this method and problem");
   for (const std::vector<double>& best : {std::vector<double>{NAN, 0, 1}, {1, 0, NAN}, {1, -1, 1}, {1, 0}})
     EXPECT_EQ(refusal([&](auto& e) { e["here/state"]["best"] = pack_numbers(best); }),
-              "here: is no state of this method and problem");
+              "here: is not a state of this method and problem");
   EXPECT_EQ(refusal([](auto& e) { e["here/log 0"] = pack_numbers(std::vector<double>(53)); }),
             "here/log 0: has 53 numbers, must be 54");
   EXPECT_EQ(refusal([](auto& e) { e.erase("here/log 0"); }),

@@ -290,7 +290,7 @@ TEST(PagmoBridge, RefusesWhatAnotherMinimisationKept) {
   const PagmoOptions options = short_run(PagmoMethod::nsga2, 20);
   minimise_with_pagmo(zdt1(3), options, {.checkpoint = "here"}, {.seed = 4}, context);
   const auto kept = checkpoint.entries;
-  const std::string refused = "here: is no state of this method and problem";
+  const std::string refused = "here: is not a state of this method and problem";
   EXPECT_THAT(with(zdt1(4), options), HasSubstr(refused));
   EXPECT_THAT(with(zdt1(3), short_run(PagmoMethod::nsga2, 20, 44)), HasSubstr(refused));
   Problem elsewhere = zdt1(3);

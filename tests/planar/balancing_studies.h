@@ -215,7 +215,7 @@ inline BalancingStudy balancing_study(const std::string& text) {
 inline BalancingTask task_of(const BalancingStudy& s) {
   BalancingTask task;
   std::vector<std::string> columns;
-  for (const study::DesignedNumber& n : s.designed.numbers) {
+  for (const study::DesignVariable& n : s.designed.numbers) {
     task.variables.push_back({n.key, n.lower, n.upper});
     task.initial.push_back(n.initial);
   }

@@ -44,7 +44,7 @@ ElasticBody beam(int segments) {
           .to = 1};
 }
 
-// Second order in the number of segments at a held end, so that two of them tell the limit.
+// Second order in the number of segments at a held end, so that two of them give the limit.
 TEST(ElasticArm, HeldByItsDriveSoundsAsTheExactBeamWithATipMass) {
   const double exact = numbers(figure("freq-T31", "computed.exact_EB_tip_mass_rad_s"))[0];
   std::vector<double> off;
@@ -69,7 +69,7 @@ std::vector<double> spun_up(int segments, std::span<const double> times) {
     table.times.push_back(t);
     table.values.push_back(speed / duration * (t * t / 2 + (std::cos(w * t) - 1) / (w * w)));
   }
-  std::vector<InputCourse> free{{table, 0, 0}};
+  std::vector<InputDrive> free{{table, 0, 0}};
   free.insert(free.end(), e.free.begin(), e.free.end());
   std::vector<double> rows{0}, found;
   rows.insert(rows.end(), times.begin(), times.end());

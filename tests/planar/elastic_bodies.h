@@ -63,7 +63,7 @@ class AtRest {
  public:
   AtRest(const ElasticLinkage& e, const std::vector<InputMotion>& drives)
       : e_(e), inputs_(drives), dynamics_(e.linkage, e.plan, mask(drives.size(), e.free.size())) {
-    for (const InputCourse& c : e.free) inputs_.push_back({c.value, 0, 0});
+    for (const InputDrive& c : e.free) inputs_.push_back({c.value, 0, 0});
   }
   std::size_t free() const { return e_.free.size(); }
   LinkageMotion& motion() { return dynamics_.motion; }
@@ -173,8 +173,8 @@ inline Linkage slider_crank() {
   return l;
 }
 
-inline std::vector<InputCourse> courses(const ElasticLinkage& e, double speed) {
-  std::vector<InputCourse> out{{math::ConstantSpeed{0, speed}, 0, 0}};
+inline std::vector<InputDrive> drives(const ElasticLinkage& e, double speed) {
+  std::vector<InputDrive> out{{math::ConstantSpeed{0, speed}, 0, 0}};
   out.insert(out.end(), e.free.begin(), e.free.end());
   return out;
 }

@@ -40,7 +40,7 @@ inline rc::Gen<FourBar> any_four_bar() {
       rc::gen::set(&FourBar::frame_angle, any_angle()), rc::gen::set(&FourBar::branch, any_branch()));
 }
 
-/// A crank-rocker or double-crank by its slacks, off the change point: the crank turns fully.
+/// A crank-rocker or double-crank by its slacks, off the change point: the crank rotates fully.
 inline rc::Gen<FourBar> turning_four_bar() {
   return rc::gen::map(rc::gen::tuple(any_four_bar(), between(0.05, 2), between(0.05, 0.9), between(0.05, 0.9),
                                      rc::gen::arbitrary<bool>()),

@@ -127,7 +127,7 @@ class PlainFollower {
       for (std::size_t p = 1; p < good.size(); ++p) {
         PartState<double>& part = motion_.parts[p];
         part.origin = good[p].origin + way * good[p].velocity;
-        part.direction = turn(good[p].direction, unit(way * good[p].speed));
+        part.direction = rotate(good[p].direction, unit(way * good[p].speed));
         travel = std::max(
             {travel, std::abs(way) * norm(good[p].velocity) / plan_.size, std::abs(way * good[p].speed)});
       }

@@ -61,8 +61,8 @@ inline double open_joints(const Linkage& l, const LinkagePlan& plan, const Linka
       continue;
     }
     const Vec<double> apart = place_of(l, plan, m, j.second) - place_of(l, plan, m, j.first);
-    const Vec<double> along = turn(a.direction, unit(j.slide_first)),
-                      other = turn(b.direction, unit(j.slide_second));
+    const Vec<double> along = rotate(a.direction, unit(j.slide_first)),
+                      other = rotate(b.direction, unit(j.slide_second));
     if (j.type == JointType::revolute || j.type == JointType::fixed) worst = std::max(worst, norm(apart));
     if (j.type == JointType::prismatic || j.type == JointType::pin_in_slot)
       worst = std::max(worst, std::abs(cross(along, apart)));

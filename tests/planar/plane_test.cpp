@@ -14,9 +14,9 @@ TEST(Plane, ProductsAreThoseOfComplexNumbers) {
   EXPECT_EQ(dot(a, b), product.real());
   EXPECT_EQ(cross(a, b), product.imag());
   EXPECT_GT(cross(Vec<double>{1, 0}, Vec<double>{0, 1}), 0);  // to the left
-  EXPECT_EQ(number(turn(a, b)), number(a) * number(b));
-  EXPECT_EQ(number(unturn(a, b)), std::conj(number(a)) * number(b));
-  EXPECT_EQ(number(left(a)), std::complex<double>(0, 1) * number(a));
+  EXPECT_EQ(number(rotate(a, b)), number(a) * number(b));
+  EXPECT_EQ(number(rotate_inverse(a, b)), std::conj(number(a)) * number(b));
+  EXPECT_EQ(number(perpendicular(a)), std::complex<double>(0, 1) * number(a));
   EXPECT_EQ(number(a + b - 2.0 * a), number(b) - number(a));
   EXPECT_EQ(number(-a), -number(a));
 }
@@ -28,9 +28,9 @@ TEST(Plane, AnglesAndUnitVectorsGoTogether) {
 }
 // One Newton step squares the error: 1 + e becomes 1 - 1.5 e^2.
 TEST(Plane, TidyBringsToUnitLength) {
-  EXPECT_NEAR(norm(tidy_unit(1.000001 * unit(0.3))), 1, 2e-12);
-  EXPECT_NEAR(norm(tidy_unit((1 + 1e-10) * unit(0.3))), 1, 2.3e-16);
-  EXPECT_NEAR(cross(tidy_unit(1.001 * unit(0.3)), unit(0.3)), 0, 1e-16);
+  EXPECT_NEAR(norm(renormalised(1.000001 * unit(0.3))), 1, 2e-12);
+  EXPECT_NEAR(norm(renormalised((1 + 1e-10) * unit(0.3))), 1, 2.3e-16);
+  EXPECT_NEAR(cross(renormalised(1.001 * unit(0.3)), unit(0.3)), 0, 1e-16);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST(PathReproductions, FourBarsOfTable41) {
   const auto table = rows("boskovic-2018-table-4.1");
   EXPECT_NEAR(table.at("Boskovic 2018: path error, m2").ours, 0.009098261, 1e-8);
   EXPECT_EQ(table.at("Kunjur and Krishnamurty 1997: path error, m2").verdict, "not reproduced");
-  EXPECT_EQ(table.at("Cabrera et al. 2007, columns put right: path error, m2").verdict, "corrected");
+  EXPECT_EQ(table.at("Cabrera et al. 2007, columns corrected: path error, m2").verdict, "corrected");
   const study::Comparison best = table.at("least path error, recommended method, seed 1, m2");
   EXPECT_EQ(best.verdict, "improved");
   EXPECT_NEAR(best.ours, 0.009028884631, 1e-9);

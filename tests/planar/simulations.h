@@ -27,11 +27,11 @@ struct SimulationRun {
 using SimulationFunction = decltype(&simulate);
 
 inline SimulationRun simulated(const Linkage& l, const LinkagePlan& plan,
-                               const std::vector<InputCourse>& courses, const std::vector<double>& times,
+                               const std::vector<InputDrive>& drives, const std::vector<double>& times,
                                const SimulationOptions& options = {}, SimulationFunction route = simulate) {
   SimulationRun run;
   run.report = route(
-      l, plan, courses, times, options,
+      l, plan, drives, times, options,
       [&](const SimulationInstant& now) {
         run.rows.push_back({now.time,
                             now.status,

@@ -5,7 +5,7 @@
 #include "linkwright/planar/studies.h"
 #include "support/study_text.h"
 
-// Studies of this room as texts.
+// Studies of this module as texts.
 namespace linkwright::test {}
 namespace linkwright::planar::test {
 using namespace linkwright::test;  // what the tests of all modules share

@@ -26,7 +26,7 @@ std::size_t count(const std::string& text, const std::string& part) {
   return n;
 }
 
-// A force that goes round a circle of 300 N about (100 N, 0), once.
+// A force that rotates fully a circle of 300 N about (100 N, 0), once.
 Table turning() {
   Table table{.name = "sweep"};
   std::vector<double> angle, x, y;

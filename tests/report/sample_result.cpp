@@ -121,7 +121,7 @@ study::Result sample_result() {
     const char* type;
     Value defects;
   };
-  // Boskovic 2018, Table 4.1, columns 6 and 5; the third does not turn fully.
+  // Boskovic 2018, Table 4.1, columns 6 and 5; the third does not rotate fully.
   const Named list[] = {
       {"crank-rocker, open",
        {1.10427, 0.4197, 0.98857, 0.5824, 0.40047, 0.44529, 0.28691, 0.09855, 0.33948, 0.84827},
@@ -134,7 +134,7 @@ study::Result sample_result() {
       {"double rocker, open",
        {0.9, 0.62, 0.7, 0.6, 0.35, 0.38, 0.3, 0.2, 0.3, 1.5},
        "triple rocker",
-       Value(Value::Array{Value("circuit"), Value("crank does not turn fully")})},
+       Value(Value::Array{Value("circuit"), Value("crank does not rotate fully")})},
   };
   study::Result result;
   int number = 0;

@@ -134,7 +134,7 @@ TEST(Checks, ReadingRefusesLimitsThatDoNotFit) {
   EXPECT_THAT(messages("[[check]]\nquantity = 'a'\nequals = 1\n"),
               HasSubstr("check[0].equals: needs a tolerance"));
   EXPECT_THAT(messages("[[check]]\nquantity = 'a'\nequals = 1\ntolerance = 0.1\nat_most = 2\n"),
-              HasSubstr("check[0].equals: stands beside at_most or at_least"));
+              HasSubstr("check[0].equals: cannot be combined with at_most or at_least"));
   EXPECT_THAT(messages("[[check]]\nquantity = 'a'\nat_most = 1\ntolerance = 1\n"),
               HasSubstr("check[0].tolerance: belongs to equals"));
   EXPECT_THAT(messages("[[check]]\nquantity = 'a'\nat_most = 1\nat_least = 2\n"),

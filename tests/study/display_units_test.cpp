@@ -98,7 +98,8 @@ TEST(OutputUnits, TellsWhatIsNoUnit) {
   OutputUnits units;
   EXPECT_THAT(read("units = 'stdy'", units), HasSubstr("units: is 'stdy', must be"));
   EXPECT_THAT(read("units = 'stdy'", units), HasSubstr("did you mean 'study'?"));
-  EXPECT_THAT(read("units = ['mm', 'parsec']", units), HasSubstr("units[1]: is no unit that keys may carry"));
+  EXPECT_THAT(read("units = ['mm', 'parsec']", units),
+              HasSubstr("units[1]: is not a unit that keys may carry"));
   EXPECT_THAT(read("units = ['mm', 'm']", units),
               HasSubstr("units[1]: is a second unit of a length, after 'mm'; keep one of them"));
   EXPECT_THAT(read("units = 3", units), HasSubstr("must be \"si\", \"study\""));

@@ -153,7 +153,7 @@ TEST(ReadText, DeepNestingIsRefused) {
     return all;
   };
   EXPECT_THAT(messages("a = " + repeat("[", 200000)),
-              HasSubstr("s.toml:1:69: error: tables and arrays stand in each other more than 64 deep"));
+              HasSubstr("s.toml:1:69: error: tables and arrays are nested more than 64 deep"));
   EXPECT_THAT(messages("a = " + repeat("{a=", 200000)), HasSubstr("more than 64 deep"));
   EXPECT_THAT(messages(repeat("a.", 200000) + "a = 1"), HasSubstr("more than 64 deep"));
   EXPECT_THAT(messages("[" + repeat("a . ", 200000) + "a]"), HasSubstr("more than 64 deep"));

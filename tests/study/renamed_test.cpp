@@ -72,8 +72,22 @@ TEST(Renamed, ColumnsOfSlidesByTheEndOfTheirName) {
   };
   EXPECT_EQ(quantity("errors.guide_way_worst_mm.max"), "errors.guide_displacement_worst_mm.max");
   EXPECT_EQ(quantity("statistics.guide_way_yield"), "statistics.guide_displacement_yield");
+  EXPECT_EQ(quantity("pins.A_lead_deg.max"), "pins.A_phase_deg.max");
+  EXPECT_EQ(quantity("best.lead_max_deg"), "best.phase_max_deg");
   // A joint may be called so.
   EXPECT_EQ(quantity("reactions.run_way_x_N.max"), "reactions.run_way_x_N.max");
+}
+
+TEST(Renamed, CodesOfLinks) {
+  const std::string text = "[mechanism]\ntype = \"suspension.corner\"\nsample = \"2RS-KS\"\n";
+  const Today sample = today(text);
+  EXPECT_EQ(at(sample.document, {"mechanism", "sample"}), "2RS-US");
+  EXPECT_THAT(sample.warnings,
+              ElementsAre("a.toml:3:10: warning: mechanism.sample: '2RS-KS' is now called '2RS-US'; the old "
+                          "name will be read until the next version"));
+  const Today link = today("[mechanism]\ntype = \"suspension.corner\"\n[[mechanism.link]]\ntype = \"KS\"\n");
+  EXPECT_EQ(at(link.document, {"mechanism", "link", "type"}), "US");
+  EXPECT_THAT(today("[mechanism]\ntype = \"planar.linkage\"\nsample = \"KS\"\n").warnings, IsEmpty());
 }
 
 TEST(Renamed, BothNamesAtOnceAreLeftToTheReader) {

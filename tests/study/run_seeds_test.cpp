@@ -99,7 +99,7 @@ TEST(RunSeeds, LogsComeBackToTheBit) {
   EXPECT_EQ(back[0].violated, 0.5);
   table["log"]["evaluations"].push_back(60);
   EXPECT_THAT([&] { restored_log(table, "seed 1"); },
-              ThrowsMessage<CheckpointError>(HasSubstr("seed 1: its log is none of generations")));
+              ThrowsMessage<CheckpointError>(HasSubstr("seed 1: its log is not one of generations")));
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST(Study, ARunThatEndsWithNothingInHandHasItsStatus) {
   context.cancel();
   const Result result = run_study(study, context);
   EXPECT_EQ(result.status, Status::cancelled);
-  EXPECT_EQ(result.headline, "Interrupted before there was anything to tell.");
+  EXPECT_EQ(result.headline, "Interrupted before there was anything to report.");
 }
 
 TEST(Study, RefusesMoreCandidatesThanThereIsMemoryFor) {

@@ -12,7 +12,7 @@
 #include "linkwright/study/read.h"
 #include "linkwright/study/study.h"
 
-// Studies as texts: prepared, run, and what is wrong with them. Rooms give their kinds.
+// Studies as texts: prepared, run, and what is wrong with them. Modules give their kinds.
 namespace linkwright::test {
 
 /// The study of a TOML text named "study.toml" in `folder`; its problems are added to `messages`, one a line.

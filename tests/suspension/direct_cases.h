@@ -7,7 +7,7 @@ namespace linkwright::test {}
 namespace linkwright::suspension::test {
 using namespace linkwright::test;  // what the tests of all modules share
 
-/// The guide of example 5 of Poznanovic 2016 with other body points 3, 4 and 5.
+/// The suspension of example 5 of Poznanovic 2016 with other body points 3, 4 and 5.
 inline WheelGuide with_points(const DirectTask& task, const Value& points) {
   WheelGuide out = task.guide;
   for (std::size_t i = 0; i < 3; ++i) out.links[2 + i].body[0] = point(points.as_array()[i]);

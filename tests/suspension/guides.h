@@ -6,7 +6,7 @@
 #include "linkwright/suspension/guide/suspension.h"
 #include "support/published.h"
 
-// Wheel guides as tests/published/suspension.json writes them (figures of Poznanovic 2016 and computed
+// Wheel suspensions as tests/published/suspension.json writes them (figures of Poznanovic 2016 and computed
 // references).
 namespace linkwright::suspension {
 

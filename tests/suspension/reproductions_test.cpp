@@ -80,7 +80,7 @@ TEST(GuideReproductions, EndEarlyWhenTold) {
 
 TEST(GuideReproductions, DirectSynthesis) {
   const auto table = rows("poznanovic-2016-example-5");
-  // 0.9177826 is the smallest there is; the note tells in how many boxes it was found.
+  // 0.9177826 is the smallest there is; the note says in how many boxes it was found.
   EXPECT_LE(row(table, "largest deviation of all in tolerances").ours, 0.91779);
   EXPECT_EQ(row(table, "largest deviation of all in tolerances").note,
             "the smallest there is, in 20 of 20 boxes");

@@ -8,7 +8,7 @@
 #include "linkwright/suspension/studies.h"
 #include "support/study_text.h"
 
-// Studies of this room as texts.
+// Studies of this module as texts.
 namespace linkwright::test {}
 namespace linkwright::suspension::test {
 using namespace linkwright::test;  // what the tests of all modules share
@@ -54,7 +54,7 @@ inline const std::vector<double>& column(const study::Result& result, std::strin
   return found ? found->values : none;
 }
 
-/// The beginning of a study of a wheel guide, one of a sample, and sweeps to go on with.
+/// The beginning of a study of a wheel suspension, one of a sample, and sweeps to go on with.
 inline const std::string head =
     "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\n";
 inline std::string sample(const std::string& name, const std::string& rest) {

@@ -19,7 +19,7 @@ using namespace linkwright::test;  // what the tests of all modules share
 struct Example {
   CarrierTargets targets;
   WheelGuide guide;
-  std::vector<GuideLink> links;  ///< of the guide, with names
+  std::vector<GuideLink> links;  ///< of the suspension, with names
 };
 
 inline Example published_example(std::string_view id) {

@@ -19,7 +19,7 @@ class CheckLayers(ScratchCase):
 
     def test_same_floor(self):
         self.assertEqual(self.findings("planar/a.cpp", '#include "linkwright/suspension/model.h"\n'),
-                         ["src/linkwright/planar/a.cpp:1: planar may not use suspension: they share a floor"])
+                         ["src/linkwright/planar/a.cpp:1: planar may not use suspension: they share a layer"])
 
     def test_report_knows_no_optimiser(self):
         self.assertEqual(self.findings("report/a.cpp", '#include "linkwright/optimise/problem.h"\n'),
@@ -51,7 +51,7 @@ class CheckLayers(ScratchCase):
         for name, used, problem in (
                 ("planar/plane.h", "planar/linkage/plan", "planar/ may not use planar/linkage: it lies above"),
                 ("planar/linkage/plan.cpp", "planar/serial_arm/serial_arm",
-                 "planar/linkage may not use planar/serial_arm: they share a floor"),
+                 "planar/linkage may not use planar/serial_arm: they share a layer"),
                 ("planar/path/fit.cpp", "planar/studies/path", "planar/path may not use planar/studies: it lies above"),
                 ("planar/studies/path.h", "planar/studies",
                  "planar/studies may not use what stands above its studies: it lies above"),
@@ -63,14 +63,14 @@ class CheckLayers(ScratchCase):
             self.assertEqual(finding, f"src/linkwright/{name}:1: {problem}")
             (self.root / "src/linkwright" / name).unlink()
 
-    def test_room_without_floor(self):
+    def test_module_without_layer(self):
         [finding] = self.findings("gears/model.h", "")
-        self.assertIn("room 'gears' stands on no floor", finding)
+        self.assertIn("module 'gears' belongs to no layer", finding)
         self.write("src/linkwright/gears/model.h")
         self.assertEqual(len(self.findings("app/run.cpp", '#include "linkwright/gears/model.h"\n')), 2)
 
     def test_links(self):
-        self.assertEqual(self.findings("math/CMakeLists.txt", "linkwright_room(math\n  DEPENDS linkwright_study)\n"),
+        self.assertEqual(self.findings("math/CMakeLists.txt", "linkwright_module(math\n  DEPENDS linkwright_study)\n"),
                          ["src/linkwright/math/CMakeLists.txt:2: math may not use study: it lies above"])
 
     def test_heavy_header(self):
@@ -90,10 +90,10 @@ class CheckLayers(ScratchCase):
                          ["src/linkwright/optimise/methods.h:1: <linkwright/optimise/pagmo_adapters.h> shows a heavy header: "
                           "include it in sources, not in headers"])
 
-    def test_include_without_room(self):
+    def test_include_without_module(self):
         self.write("src/linkwright/core/table.h")
         self.assertEqual(self.findings("core/table.cpp", '#include "table.h"\n'),
-                         ['src/linkwright/core/table.cpp:1: say "linkwright/core/table.h": every include names its room'])
+                         ['src/linkwright/core/table.cpp:1: say "linkwright/core/table.h": every include names its module'])
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ class CheckMirror(ScratchCase):
         super().setUp()
         self.write("src/linkwright/core/table.h")
         self.write("src/linkwright/core/table.cpp")
-        self.write("src/linkwright/core/CMakeLists.txt", "linkwright_room(core SOURCES table.cpp)\n")
+        self.write("src/linkwright/core/CMakeLists.txt", "linkwright_module(core SOURCES table.cpp)\n")
         self.write("tests/core/table_test.cpp")
         self.write("tests/core/CMakeLists.txt", "linkwright_test(core SOURCES table_test.cpp)\n")
 
@@ -39,7 +39,7 @@ class CheckMirror(ScratchCase):
                                            "tests/core/CMakeLists.txt, so it is not built"])
 
     def test_folders_of_a_domain(self):
-        self.write("src/linkwright/planar/CMakeLists.txt", "linkwright_room(planar SOURCES linkage/plan.cpp)\n")
+        self.write("src/linkwright/planar/CMakeLists.txt", "linkwright_module(planar SOURCES linkage/plan.cpp)\n")
         self.write("tests/planar/CMakeLists.txt", "linkwright_test(planar SOURCES linkage/plan_test.cpp)\n")
         for name in ("src/linkwright/planar/linkage/plan.h", "src/linkwright/planar/linkage/plan.cpp",
                      "tests/planar/linkage/plan_test.cpp"):

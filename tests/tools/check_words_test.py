@@ -29,6 +29,16 @@ class CheckWords(ScratchCase):
             [finding] = self.findings(f"// {word}: later", "src/linkwright/core/a.cpp")
             self.assertIn("src/linkwright/core/a.cpp:1", finding)
 
+    def test_words_given_up(self):
+        for text in ("the error is told", "A loose crank pin", "links that bend", "the wheel guide"):
+            for name, line in (("docs/page.md", text), ("examples/studies/a.toml", f"# {text}"),
+                               ("src/linkwright/core/a.cpp", f'warn("{text}");')):
+                [finding] = self.findings(f"first\n{line}\n", name)
+                self.assertIn(f"{name}:2: ", finding)
+                (self.root / name).unlink()
+        for text in ('#include "a/regulation.h"', "// told", "told();", 'R"(loose pin)"'):
+            self.assertEqual(self.findings(text, "src/linkwright/core/a.cpp"), [])
+
     def test_binary_and_generated_files_are_left_alone(self):
         self.assertEqual(self.findings("TO" "DO", "package-lock.json"), [])
         (self.root / "picture.png").write_bytes(b"\xff\xfe TO" b"DO")

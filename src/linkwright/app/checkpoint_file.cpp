@@ -25,7 +25,7 @@ constexpr std::size_t most_lines = 1'000'000;  // ten for each seed that a study
 constexpr std::chrono::duration<double> shortest_interval(0.5);
 constexpr double writing_share = 0.05;  // of the time of a run
 
-const char* const mend = "run without --resume to begin anew and replace it";
+const char* const mend = "run without --resume to start again and replace it";
 
 void refuse(Diagnostics& diagnostics, const std::string& file, std::string message) {
   diagnostics.push_back({Diagnostic::Severity::error, file, {}, {}, std::move(message), mend});
@@ -79,9 +79,9 @@ std::optional<CheckpointLines> read_checkpoint(std::string_view text, const Chec
   }
   if (format->as_integer() != format_version || *tool != owner.tool) {
     refuse(diagnostics, file,
-           fmt::format(
-               "was written by {} in format {}; this is {}, which goes on with its own only, in format {}",
-               *tool, format->as_integer(), owner.tool, format_version));
+           fmt::format("was written by {} in format {}; this is {}, which continues only its own "
+                       "checkpoints, in format {}",
+                       *tool, format->as_integer(), owner.tool, format_version));
     return std::nullopt;
   }
   if (*study != owner.study_sha256) {

@@ -32,11 +32,11 @@ CheckpointOwner checkpoint_owner(const study::Study& study);
 /// What is kept: one line of JSON, `{"name":"seed 7","value":...}`, under each name.
 using CheckpointLines = std::map<std::string, std::string, std::less<>>;
 
-/// Text of a file: a line that tells the owner, the number of bytes after it and their SHA-256; then the
+/// Text of a file: a line that names the owner, the number of bytes after it and their SHA-256; then the
 /// lines.
 std::string checkpoint_text(const CheckpointOwner& owner, const CheckpointLines& lines);
 
-/// Reads such a text. Nothing, and one diagnostic that tells what is wrong and how to mend it, for the file
+/// Reads such a text. Nothing, and one diagnostic that says what is wrong and how to fix it, for the file
 /// of another program version or study and for what is damaged, truncated or no checkpoint at all.
 std::optional<CheckpointLines> read_checkpoint(std::string_view text, const CheckpointOwner& owner,
                                                const std::string& file, Diagnostics& diagnostics);

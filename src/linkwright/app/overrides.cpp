@@ -78,7 +78,7 @@ bool apply_override(Value& document, const Override& change, Diagnostics& diagno
   Value* at = &document;
   for (const Step& step : *steps) {
     if (!at->is_null() && !at->is_object()) {
-      problem(diagnostics, change, fmt::format("'{}' stands in no table", step.key));
+      problem(diagnostics, change, fmt::format("'{}' is not in a table", step.key));
       return false;
     }
     if (&step == &steps->back() && at->is_object()) {

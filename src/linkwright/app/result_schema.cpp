@@ -107,7 +107,7 @@ constexpr std::string_view text = R"json({
       "column": {"type": "integer"},
       "key": {"type": "string"},
       "message": {"type": "string"},
-      "hint": {"type": "string", "description": "how to mend it"}
+      "hint": {"type": "string", "description": "how to fix it"}
     }
   }},
   "run": {

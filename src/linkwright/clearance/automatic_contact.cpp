@@ -42,7 +42,7 @@ std::vector<ContactJoint> contact_joints(std::span<const AutomaticPin> pins,
 
 AutomaticContactRun simulate_automatic_contact(const planar::Linkage& linkage,
                                                std::span<const AutomaticPin> pins,
-                                               std::span<const planar::InputCourse> courses,
+                                               std::span<const planar::InputDrive> drives,
                                                std::span<const double> times, const ContactOptions& options,
                                                const AutomaticContactOutput& output,
                                                const RunContext* context) {
@@ -52,7 +52,7 @@ AutomaticContactRun simulate_automatic_contact(const planar::Linkage& linkage,
   bool started = false;
   for (const AutomaticPin& p : pins) require_valid(p.contact.law);
   run.continuous = simulate_joint_clearance(
-      linkage, continuous_joints(pins), courses, times,
+      linkage, continuous_joints(pins), drives, times,
       {.relative_tolerance = options.tolerance,
        .absolute_tolerance = 0.1 * options.tolerance,
        .max_steps = options.max_steps},
@@ -81,7 +81,7 @@ AutomaticContactRun simulate_automatic_contact(const planar::Linkage& linkage,
   std::vector<double> rest{run.switched};
   std::copy_if(times.begin(), times.end(), std::back_inserter(rest),
                [&](double t) { return t > run.switched + left; });
-  std::vector<planar::InputCourse> now(courses.begin(), courses.end());
+  std::vector<planar::InputDrive> now(drives.begin(), drives.end());
   for (std::size_t k = 0; k < now.size(); ++k)
     if (!now[k].law) now[k].value = before.inputs[k].value, now[k].rate = before.inputs[k].rate;
   ContactOptions remaining = options;

@@ -56,7 +56,7 @@ struct AutomaticContactRun {
 /// contact the tolerance is that of the steps, too. Throws as both of them do.
 AutomaticContactRun simulate_automatic_contact(const planar::Linkage& linkage,
                                                std::span<const AutomaticPin> pins,
-                                               std::span<const planar::InputCourse> courses,
+                                               std::span<const planar::InputDrive> drives,
                                                std::span<const double> times,
                                                const ContactOptions& options = {},
                                                const AutomaticContactOutput& output = {},

@@ -41,7 +41,7 @@ Spectrum amplitude_spectrum(std::span<const double> samples, double interval, bo
 }
 
 PoincareSection poincare_section(const planar::Linkage& linkage, std::span<const ContactJoint> joints,
-                                 std::span<const planar::InputCourse> courses, double start, double period,
+                                 std::span<const planar::InputDrive> drives, double start, double period,
                                  int from, int to, const ContactOptions& options, const RunContext* context) {
   LINKWRIGHT_REQUIRE(period > 0 && std::isfinite(period), "period {} s must be positive", period);
   LINKWRIGHT_REQUIRE(from >= 0 && from < to, "periods from {} to {}", from, to);
@@ -50,7 +50,7 @@ PoincareSection poincare_section(const planar::Linkage& linkage, std::span<const
   PoincareSection out;
   out.joints.resize(joints.size());
   out.run = simulate_contact(
-      linkage, joints, courses, times, options,
+      linkage, joints, drives, times, options,
       [&](const ContactRow& row) {
         if (row.time < start + (from - 0.5) * period) return true;  // the start, when it is not asked for
         for (std::size_t k = 0; k < joints.size(); ++k)

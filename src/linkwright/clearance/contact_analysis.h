@@ -32,7 +32,7 @@ struct PoincareSection {
 /// periodic motion shows as a point, subharmonics as a few, chaos as a cloud. Arguments as in
 /// simulate_contact.
 PoincareSection poincare_section(const planar::Linkage& linkage, std::span<const ContactJoint> joints,
-                                 std::span<const planar::InputCourse> courses, double start, double period,
+                                 std::span<const planar::InputDrive> drives, double start, double period,
                                  int from, int to, const ContactOptions& options = {},
                                  const RunContext* context = nullptr);
 

@@ -47,7 +47,7 @@ void ContactPins::place(const planar::LinkageMotion& motion) {
     s.depth = s.distance - joints_[k].clearance;
     s.depth_rate = dot(s.rate, s.normal);
     const double pin_radius = joints_[k].bush_radius - joints_[k].clearance;
-    s.slip = dot(s.rate, left(s.normal)) + speed(journal(k)) * pin_radius -
+    s.slip = dot(s.rate, perpendicular(s.normal)) + speed(journal(k)) * pin_radius -
              speed(bush(k)) * (s.distance + pin_radius);
   }
 }
@@ -58,7 +58,7 @@ void ContactPins::press(std::span<const PinForce> forces) {
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const PinPlace& s = places_[k];
     const double pin_radius = joints_[k].bush_radius - joints_[k].clearance;
-    const Vec<double> on_pin = -forces[k].normal * s.normal - forces[k].friction * left(s.normal);
+    const Vec<double> on_pin = -forces[k].normal * s.normal - forces[k].friction * perpendicular(s.normal);
     if (journal(k).body != 0) {
       l.forces[force++].force = number(on_pin);
       l.torques[torque++].torque = cross(pin_radius * s.normal, on_pin);

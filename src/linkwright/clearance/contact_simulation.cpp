@@ -29,24 +29,24 @@ std::optional<double> summit(double f0, double s0, double f1, double s1, double 
 class ContactMotion {
  public:
   ContactMotion(OpenLinkage& open, std::span<const ContactJoint> joints,
-                std::span<const planar::InputCourse> courses, const ContactOptions& options,
+                std::span<const planar::InputDrive> drives, const ContactOptions& options,
                 const ContactOutput& output)
       : open_(open),
         joints_(joints),
         options_(options),
         output_(output),
-        original_(courses.size()),
+        original_(drives.size()),
         pins_(open, joints),
         inputs_(open.plan.inputs()),
         contact_(joints.size()),
         forces_(joints.size()) {
     std::vector<bool> free(inputs_.size(), true);
-    for (std::size_t k = 0; k < courses.size(); ++k) {
-      free[k] = !courses[k].law;
-      if (courses[k].law)
-        laws_.push_back({k, math::MotionCurve(*courses[k].law)});
+    for (std::size_t k = 0; k < drives.size(); ++k) {
+      free[k] = !drives[k].law;
+      if (drives[k].law)
+        laws_.push_back({k, math::MotionCurve(*drives[k].law)});
       else
-        inputs_[k] = {courses[k].value, courses[k].rate, 0};
+        inputs_[k] = {drives[k].value, drives[k].rate, 0};
     }
     dynamics_.emplace(open.linkage, open.plan, free);
   }
@@ -470,11 +470,11 @@ class ContactMotion {
 }  // namespace
 
 ContactRun simulate_contact(const planar::Linkage& linkage, std::span<const ContactJoint> joints,
-                            std::span<const planar::InputCourse> courses, std::span<const double> times,
+                            std::span<const planar::InputDrive> drives, std::span<const double> times,
                             const ContactOptions& options, const ContactOutput& output,
                             const RunContext* context) {
-  LINKWRIGHT_REQUIRE(courses.size() == linkage.driven.size(), "the linkage has {} inputs, got {}",
-                     linkage.driven.size(), courses.size());
+  LINKWRIGHT_REQUIRE(drives.size() == linkage.driven.size(), "the linkage has {} inputs, got {}",
+                     linkage.driven.size(), drives.size());
   LINKWRIGHT_REQUIRE(times.size() >= 2 && times.front() < times.back(), "no interval of time: {} times",
                      times.size());
   LINKWRIGHT_REQUIRE(!joints.empty(), "no joint with clearance among {}", linkage.joints.size());
@@ -492,11 +492,11 @@ ContactRun simulate_contact(const planar::Linkage& linkage, std::span<const Cont
     numbers.push_back(j.joint);
   }
   std::vector<double> values;
-  for (const planar::InputCourse& c : courses)
+  for (const planar::InputDrive& c : drives)
     values.push_back(c.law ? math::MotionCurve(*c.law)(times.front()).value : c.value);
   OpenLinkage open = open_linkage(linkage, numbers, values);
   if (open.status != Status::done) return {.status = open.status, .message = open.message};
-  return ContactMotion(open, joints, courses, options, output).run(times, context);
+  return ContactMotion(open, joints, drives, options, output).run(times, context);
 }
 
 }  // namespace linkwright::clearance

@@ -19,7 +19,7 @@ struct ContactOptions {
   /// In flight and impacts; contacts that are pressed together for long, whose damping makes the equations
   /// stiff, are integrated by bdf.
   math::OdeMethod method = math::OdeMethod::explicit_runge_kutta_5;
-  /// Error of a step, relative; absolute: this times the clearance for the ways of the pin.
+  /// Error of a step, relative; absolute: this times the clearance for the displacements of the pin.
   double tolerance = 1e-9;
   /// Longest step in contact as a share of the time that the impact would last by itself, or, where the
   /// bodies stay pressed together beyond that, of the time since then: what vibrates has the steps that its
@@ -79,19 +79,20 @@ struct ContactRun {
   long steps = 0, evaluations = 0;
 };
 
-/// The motion. `courses` are those of the inputs of the linkage, laws or free; a law's joint keeps its drive.
+/// The motion. `drives` are those of the inputs of the linkage, laws or free; a law's joint keeps its drive.
 /// `times` (s, rising, two at least) are those of the rows: nothing else depends on them. Coordinates are
 /// those of the open linkage, so that joints without clearance cannot drift apart.
 ///
 /// No impact is missed: in flight a step moves the pin by half the clearance at most, and within every step
-/// the depth is followed between its ends (see math::integrate); flights shorter than 1e-10 s are not told
-/// apart. A contact that begins more slowly than least_approach counts as begun with that. A start whose
-/// eccentricity is the clearance up to rounding is in contact when the bodies would press into each other.
+/// the depth is followed between its ends (see math::integrate); flights shorter than 1e-10 s are not
+/// reported apart. A contact that begins more slowly than least_approach counts as begun with that. A start
+/// whose eccentricity is the clearance up to rounding is in contact when the bodies would press into each
+/// other.
 ///
 /// Throws ContractError as open_linkage and require_valid do, for clearances and radii out of range, starts
 /// outside of the bush by more than half the clearance, and as planar::simulate does.
 ContactRun simulate_contact(const planar::Linkage& linkage, std::span<const ContactJoint> joints,
-                            std::span<const planar::InputCourse> courses, std::span<const double> times,
+                            std::span<const planar::InputDrive> drives, std::span<const double> times,
                             const ContactOptions& options = {}, const ContactOutput& output = {},
                             const RunContext* context = nullptr);
 

@@ -21,7 +21,7 @@ Complex unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
 Complex times(const Complex& a, const Complex& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
-Complex left(const Complex& a) { return {-a.imag(), a.real()}; }
+Complex perpendicular(const Complex& a) { return {-a.imag(), a.real()}; }
 
 void require_mass(const planar::BodyMass& m, const char* name) {
   LINKWRIGHT_REQUIRE(m.mass >= 0 && std::isfinite(m.mass) && m.inertia >= 0 && std::isfinite(m.inertia) &&
@@ -121,8 +121,9 @@ ClearanceInstant clearance_instant(const ClearanceFourBar& model, double crank_a
 
   const planar::BodyMass &m3 = model.coupler, &m4 = model.rocker;
   const Complex c3 = times(m3.centre, e3), c4 = times(m4.centre, e4);
-  const Complex bush_by_link = model.clearance * left(eg);
-  const Complex g3_by = bush_by_link + by.coupler_by_link * left(c3), g4_by = by.rocker_by_link * left(c4);
+  const Complex bush_by_link = model.clearance * perpendicular(eg);
+  const Complex g3_by = bush_by_link + by.coupler_by_link * perpendicular(c3),
+                g4_by = by.rocker_by_link * perpendicular(c4);
   const Complex b3 = crank_part + link_part + times(c3, {-w3 * w3, a3}), b4 = times(c4, {-w4 * w4, a4});
 
   double acceleration = 0;
@@ -147,8 +148,9 @@ ClearanceInstant clearance_instant(const ClearanceFourBar& model, double crank_a
   out.rocker_acceleration = a4 + by.rocker_by_link * acceleration;
 
   const Complex arm = times(e3, {l.coupler_u, l.coupler_v});
-  out.bush_velocity = l.crank * crank_rate * left(e2) + model.clearance * link_rate * left(eg);
-  out.point_velocity = out.bush_velocity + w3 * left(arm);
+  out.bush_velocity =
+      l.crank * crank_rate * perpendicular(e2) + model.clearance * link_rate * perpendicular(eg);
+  out.point_velocity = out.bush_velocity + w3 * perpendicular(arm);
   out.point_acceleration =
       crank_part + link_part + acceleration * bush_by_link + times(arm, {-w3 * w3, out.coupler_acceleration});
 
@@ -162,7 +164,7 @@ ClearanceInstant clearance_instant(const ClearanceFourBar& model, double crank_a
   out.pin_force = f3 - out.joint_force;
   out.pivot_force = f4 + out.joint_force;
   out.tension = ideal ? std::abs(out.pin_force) : -dot(out.pin_force, eg);
-  out.tangential = ideal ? 0 : dot(out.pin_force, left(eg));
+  out.tangential = ideal ? 0 : dot(out.pin_force, perpendicular(eg));
   out.drive_torque = l.crank * cross(e2, out.pin_force);
   return out;
 }

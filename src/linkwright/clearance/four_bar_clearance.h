@@ -29,7 +29,7 @@ struct ClearanceFourBar {
 /// every link, and on masses, inertias and damping that are negative or not finite.
 void require_valid(const ClearanceFourBar& model);
 
-/// Whether all links assemble at every angle of the crank and of the clearance link: the crank turns fully
+/// Whether all links assemble at every angle of the crank and of the clearance link: the crank rotates fully
 /// wherever the pin lies in the bush (crank-rocker and double-crank families).
 bool turns_fully(const ClearanceFourBar& model);
 

@@ -22,7 +22,8 @@ std::string failure(const ClearanceInstant& now, double time, double crank) {
                        now.position.gap * 1e3);
   if (std::abs(now.position.sine) < singular_sine)
     return fmt::format("coupler and rocker are in line {}", place);
-  return fmt::format("the clearance link moves no mass {}, so that forces do not tell how it turns", place);
+  return fmt::format("the clearance link moves no mass {}, so its rotation does not follow from the forces",
+                     place);
 }
 
 // Whether the crank is about to come where no place of the pin in the bush lets the links meet: before it
@@ -36,8 +37,8 @@ bool caught(const ClearanceFourBar& model, double crank) {
 }
 std::string caught_message(double time, double crank) {
   return fmt::format(
-      "the crank cannot go on at {:.6g} s, {:.4f} deg: beyond, the links meet for no place of the pin in the "
-      "bush",
+      "the crank stops at {:.6g} s, {:.4f} deg: beyond that angle the links meet for no position of the pin "
+      "in its bush",
       time, math::degrees(math::wrap_angle(crank)));
 }
 
@@ -160,10 +161,10 @@ class FourBarMotion {
   bool apart_ = false, caught_ = false;
 };
 
-// The map of lead and slope over one turn of an even crank.
+// The map of phase and slope over one turn of a crank that rotates uniformly.
 class TurnMap {
  public:
-  TurnMap(const ClearanceFourBar& model, const EvenCrank& crank, const ClearanceTolerances& tolerances,
+  TurnMap(const ClearanceFourBar& model, const UniformCrank& crank, const ClearanceTolerances& tolerances,
           const RunContext* context)
       : model_(model), crank_(crank), tolerances_(tolerances), context_(context) {
     require_valid(model);
@@ -173,8 +174,8 @@ class TurnMap {
                        "the crank must turn, at {} rad/s", crank.speed);
   }
 
-  /// (lead, slope) after a turn; false, with status and message, when the linkage does not go round. `rows`
-  /// receive the lead at `samples` points of the turn, the first at its start.
+  /// (phase, slope) after a turn; false, with status and message, when the linkage does not rotate fully.
+  /// `rows` receive the phase at `samples` points of the turn, the first at its start.
   bool operator()(std::array<double, 2>& x, std::span<double> rows = {}) {
     const double way = crank_.speed > 0 ? full_turn : -full_turn;
     std::array<double, 2> y = x;
@@ -237,7 +238,7 @@ class TurnMap {
 
  private:
   const ClearanceFourBar& model_;
-  EvenCrank crank_;
+  UniformCrank crank_;
   ClearanceTolerances tolerances_;
   const RunContext* context_;
   math::OdeWorkspace workspace_;
@@ -259,21 +260,21 @@ ClearanceRun simulate_clearance(const ClearanceFourBar& model, const math::Motio
   return FourBarMotion(model, crank, output).run(start, times, tolerances, context);
 }
 
-ClearanceOrbit find_orbit(const ClearanceFourBar& model, const EvenCrank& crank, double lead, double slope,
-                          const ClearanceTolerances& tolerances, const RunContext* context) {
+ClearanceOrbit find_orbit(const ClearanceFourBar& model, const UniformCrank& crank, double phase,
+                          double slope, const ClearanceTolerances& tolerances, const RunContext* context) {
   constexpr int most = 50;
   constexpr double longest_step = 0.5, converged = 1e-10, difference = 1e-5;
   TurnMap map(model, crank, tolerances, context);
-  ClearanceOrbit orbit{.lead = lead, .slope = slope};
+  ClearanceOrbit orbit{.phase = phase, .slope = slope};
   for (;; ++orbit.iterations) {
-    std::array<double, 2> end{orbit.lead, orbit.slope};
+    std::array<double, 2> end{orbit.phase, orbit.slope};
     if (!map(end)) return failed_orbit(orbit, map);
     // Turns of the link against the crank do not count.
-    const std::array<double, 2> gap{math::angle_difference(end[0], orbit.lead), end[1] - orbit.slope};
+    const std::array<double, 2> gap{math::angle_difference(end[0], orbit.phase), end[1] - orbit.slope};
     orbit.residual = std::max(std::abs(gap[0]), std::abs(gap[1]));
     std::array<double, 4> by;  // derivative of the map, row by row
     for (std::size_t k = 0; k < 2; ++k) {
-      std::array<double, 2> more{orbit.lead, orbit.slope}, less = more;
+      std::array<double, 2> more{orbit.phase, orbit.slope}, less = more;
       more[k] += difference;
       less[k] -= difference;
       if (!map(more) || !map(less)) return failed_orbit(orbit, map);
@@ -297,12 +298,12 @@ ClearanceOrbit find_orbit(const ClearanceFourBar& model, const EvenCrank& crank,
       return orbit;
     }
     const double part = std::min(1.0, longest_step / length);
-    orbit.lead += part * step[0];
+    orbit.phase += part * step[0];
     orbit.slope += part * step[1];
   }
 }
 
-ClearanceOrbit follow_orbit(const ClearanceFourBar& model, const EvenCrank& crank,
+ClearanceOrbit follow_orbit(const ClearanceFourBar& model, const UniformCrank& crank,
                             const ClearanceOrbit& known, const ClearanceTolerances& tolerances,
                             const RunContext* context) {
   constexpr int most = 8;
@@ -311,9 +312,9 @@ ClearanceOrbit follow_orbit(const ClearanceFourBar& model, const EvenCrank& cran
   const std::array<double, 4>& by = known.derivative;
   const double d = (by[0] - 1) * (by[3] - 1) - by[1] * by[2];
   for (orbit.iterations = 0; orbit.iterations < most; ++orbit.iterations) {
-    std::array<double, 2> end{orbit.lead, orbit.slope};
+    std::array<double, 2> end{orbit.phase, orbit.slope};
     if (!map(end)) break;
-    const std::array<double, 2> gap{math::angle_difference(end[0], orbit.lead), end[1] - orbit.slope};
+    const std::array<double, 2> gap{math::angle_difference(end[0], orbit.phase), end[1] - orbit.slope};
     const double residual = std::max(std::abs(gap[0]), std::abs(gap[1]));
     if (residual <= 1e-10) {
       orbit.residual = residual;
@@ -322,25 +323,25 @@ ClearanceOrbit follow_orbit(const ClearanceFourBar& model, const EvenCrank& cran
     const std::array<double, 2> step{-(gap[0] * (by[3] - 1) - gap[1] * by[1]) / d,
                                      -((by[0] - 1) * gap[1] - by[2] * gap[0]) / d};
     if (!(std::hypot(step[0], step[1]) < 0.1)) break;
-    orbit.lead += step[0];
+    orbit.phase += step[0];
     orbit.slope += step[1];
   }
-  return find_orbit(model, crank, known.lead, known.slope, tolerances, context);
+  return find_orbit(model, crank, known.phase, known.slope, tolerances, context);
 }
 
-ClearanceOrbit settle(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start,
+ClearanceOrbit settle(const ClearanceFourBar& model, const UniformCrank& crank, const LinkState& start,
                       int turns, double tolerance, const ClearanceTolerances& tolerances,
                       const RunContext* context) {
   LINKWRIGHT_REQUIRE(turns >= 1, "needs 1 turn at least, got {}", turns);
   TurnMap map(model, crank, tolerances, context);
-  ClearanceOrbit orbit{.lead = start.angle - crank.angle, .slope = start.rate / crank.speed - 1};
+  ClearanceOrbit orbit{.phase = start.angle - crank.angle, .slope = start.rate / crank.speed - 1};
   while (orbit.iterations < turns) {
-    std::array<double, 2> end{orbit.lead, orbit.slope};
+    std::array<double, 2> end{orbit.phase, orbit.slope};
     if (!map(end)) return failed_orbit(orbit, map);
     ++orbit.iterations;
     orbit.residual =
-        std::max(std::abs(math::angle_difference(end[0], orbit.lead)), std::abs(end[1] - orbit.slope));
-    orbit.lead = end[0];
+        std::max(std::abs(math::angle_difference(end[0], orbit.phase)), std::abs(end[1] - orbit.slope));
+    orbit.phase = end[0];
     orbit.slope = end[1];
     if (orbit.residual <= tolerance) return orbit;
   }
@@ -350,15 +351,16 @@ ClearanceOrbit settle(const ClearanceFourBar& model, const EvenCrank& crank, con
   return orbit;
 }
 
-double lead_error(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start, double lead,
-                  int samples, const ClearanceTolerances& tolerances, const RunContext* context) {
+double phase_error(const ClearanceFourBar& model, const UniformCrank& crank, const LinkState& start,
+                   double phase, int samples, const ClearanceTolerances& tolerances,
+                   const RunContext* context) {
   LINKWRIGHT_REQUIRE(samples >= 1, "needs 1 sample at least, got {}", samples);
   TurnMap map(model, crank, tolerances, context);
   std::vector<double> rows(static_cast<std::size_t>(samples));
   std::array<double, 2> x{start.angle - crank.angle, start.rate / crank.speed - 1};
   if (!map(x, rows)) return infinity;
   double sum = 0;
-  for (const double psi : rows) sum += (psi - lead) * (psi - lead);
+  for (const double psi : rows) sum += (psi - phase) * (psi - phase);
   return std::sqrt(sum) / samples;
 }
 

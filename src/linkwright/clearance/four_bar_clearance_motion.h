@@ -56,56 +56,58 @@ ClearanceRun simulate_clearance(const ClearanceFourBar& model, const math::Motio
                                 const ClearanceTolerances& tolerances = {},
                                 const ClearanceOutput& output = {}, const RunContext* context = nullptr);
 
-/// A crank that turns evenly.
-struct EvenCrank {
+/// A crank that rotates uniformly.
+struct UniformCrank {
   double angle = 0;  ///< rad, at time 0
   double speed = 1;  ///< rad/s, not 0
 };
 
-/// Motion that repeats itself with every turn of the crank. `lead` is the angle of the clearance link before
+/// Motion that repeats itself with every turn of the crank. `phase` is the angle of the clearance link before
 /// the crank, `slope` its derivative by the angle of the crank, both at the start.
 struct ClearanceOrbit {
   /// done; not_converged: Newton's method found no orbit, or the motion did not settle; no_assembly,
-  /// singular: the linkage does not go round; deadline, cancelled.
+  /// singular: the linkage does not rotate fully; deadline, cancelled.
   Status status = Status::done;
   std::string message;  ///< why it is not `done`; else empty
-  double lead = 0, slope = 0;
+  double phase = 0, slope = 0;
   double residual = infinity;  ///< largest change of either over one turn
   /// Floquet multipliers: what becomes of small departures over one turn. On the unit circle for a stable
   /// orbit without damping, within it with damping.
   std::array<std::complex<double>, 2> multipliers{};
-  /// Derivative of lead and slope after a turn by those before it, row by row: where the multipliers come
+  /// Derivative of phase and slope after a turn by those before it, row by row: where the multipliers come
   /// from.
   std::array<double, 4> derivative{};
   int iterations = 0;  ///< of Newton's method, or turns
 
-  LinkState start(const EvenCrank& crank) const { return {crank.angle + lead, crank.speed * (1 + slope)}; }
+  LinkState start(const UniformCrank& crank) const {
+    return {crank.angle + phase, crank.speed * (1 + slope)};
+  }
 };
 
-/// Shooting: Newton's method on (lead, slope) over one turn, with central differences and steps of at most
+/// Shooting: Newton's method on (phase, slope) over one turn, with central differences and steps of at most
 /// 0.5, from a guess. There may be several orbits, or none.
-ClearanceOrbit find_orbit(const ClearanceFourBar& model, const EvenCrank& crank, double lead = 0,
+ClearanceOrbit find_orbit(const ClearanceFourBar& model, const UniformCrank& crank, double phase = 0,
                           double slope = 0, const ClearanceTolerances& tolerances = {},
                           const RunContext* context = nullptr);
 
 /// The orbit of a model that differs a little from one whose orbit is known: as find_orbit, with the
 /// derivative of the known orbit as long as that converges, so that most steps cost one turn. Derivative and
 /// multipliers may be those of the known orbit.
-ClearanceOrbit follow_orbit(const ClearanceFourBar& model, const EvenCrank& crank,
+ClearanceOrbit follow_orbit(const ClearanceFourBar& model, const UniformCrank& crank,
                             const ClearanceOrbit& known, const ClearanceTolerances& tolerances = {},
                             const RunContext* context = nullptr);
 
-/// Lets the motion run from `start` until two turns differ by at most `tolerance` in lead and slope, as
+/// Lets the motion run from `start` until two turns differ by at most `tolerance` in phase and slope, as
 /// motions with damping do; not_converged when it has not within so many turns. No multipliers.
-ClearanceOrbit settle(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start,
+ClearanceOrbit settle(const ClearanceFourBar& model, const UniformCrank& crank, const LinkState& start,
                       int turns, double tolerance = 1e-9, const ClearanceTolerances& tolerances = {},
                       const RunContext* context = nullptr);
 
-/// Root of the sum of the squares of (link angle - crank angle - lead) over `samples` points of one turn,
+/// Root of the sum of the squares of (link angle - crank angle - phase) over `samples` points of one turn,
 /// divided by their number (rad), of the motion from `start`: Varedi et al. 2014, Eq. (30), with the wanted
-/// angle of Eq. (34). Infinite when the linkage does not go round, or the run is to stop.
-double lead_error(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start, double lead,
-                  int samples, const ClearanceTolerances& tolerances = {},
-                  const RunContext* context = nullptr);
+/// angle of Eq. (34). Infinite when the linkage does not rotate fully, or the run is to stop.
+double phase_error(const ClearanceFourBar& model, const UniformCrank& crank, const LinkState& start,
+                   double phase, int samples, const ClearanceTolerances& tolerances = {},
+                   const RunContext* context = nullptr);
 
 }  // namespace linkwright::clearance

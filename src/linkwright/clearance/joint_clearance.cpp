@@ -87,10 +87,10 @@ constexpr double roundings = 100;
 struct Resolution {
   std::vector<double> values, rates;
 };
-Resolution resolution_of(const ClearedLinkage& cleared, std::span<const planar::InputCourse> courses,
+Resolution resolution_of(const ClearedLinkage& cleared, std::span<const planar::InputDrive> drives,
                          double tolerance, double t, std::span<const InputMotion> start) {
   std::vector<bool> is_free;
-  for (const planar::InputCourse& c : courses) is_free.push_back(!c.law);
+  for (const planar::InputDrive& c : drives) is_free.push_back(!c.law);
   planar::LinkageDynamics dynamics(cleared.linkage, cleared.plan, is_free);
   std::vector<InputMotion> inputs(start.begin(), start.end());
   Resolution out;
@@ -227,7 +227,7 @@ ClearedLinkage with_clearance(const Linkage& linkage, std::span<const JointClear
   }
   out.linkage = linkage;
   Linkage& l = out.linkage;
-  l.modes.clear();  // pairs change; places at the start tell the modes
+  l.modes.clear();  // pairs change; places at the start give the modes
   for (std::size_t b = 1; b < l.bodies.size(); ++b) {
     const planar::PartState<double> s = planar::body_state(ideal.plan, motion, static_cast<int>(b));
     l.bodies[b].start = math::Pose{s.origin.x, s.origin.y, planar::angle_of(s.direction)};
@@ -274,20 +274,20 @@ ClearedLinkage with_clearance(const Linkage& linkage, std::span<const JointClear
 }
 
 JointClearanceRun simulate_joint_clearance(const Linkage& linkage, std::span<const JointClearance> clearances,
-                                           std::span<const planar::InputCourse> courses,
+                                           std::span<const planar::InputDrive> drives,
                                            std::span<const double> times,
                                            const planar::SimulationOptions& options,
                                            const JointClearanceOutput& output, const RunContext* context,
                                            AtSeparation at_separation, AtHopeless at_hopeless) {
-  LINKWRIGHT_REQUIRE(courses.size() == linkage.driven.size(), "the linkage has {} inputs, got {}",
-                     linkage.driven.size(), courses.size());
+  LINKWRIGHT_REQUIRE(drives.size() == linkage.driven.size(), "the linkage has {} inputs, got {}",
+                     linkage.driven.size(), drives.size());
   LINKWRIGHT_REQUIRE(!clearances.empty() && !times.empty(), "{} clearances, {} times", clearances.size(),
                      times.size());
   JointClearanceRun run;
   run.joints.resize(clearances.size());
   run.simulation.time = times.front();
   std::vector<double> values;
-  for (const planar::InputCourse& c : courses) {
+  for (const planar::InputDrive& c : drives) {
     InputMotion start{c.value, c.rate, 0};
     if (c.law) {
       const math::Motion m = math::MotionCurve(*c.law)(times.front());
@@ -309,7 +309,7 @@ JointClearanceRun simulate_joint_clearance(const Linkage& linkage, std::span<con
     return run;
   }
   Watcher watcher(cleared, run, at_separation);
-  std::vector<planar::InputCourse> all(courses.begin(), courses.end());
+  std::vector<planar::InputDrive> all(drives.begin(), drives.end());
   for (const ClearanceBar& bar : cleared.bars)
     all.push_back({{}, inputs[at(bar.input)].value, inputs[at(bar.input)].rate});
   StepPace pace(times.front(), times.back(), options.max_steps);

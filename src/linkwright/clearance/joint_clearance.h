@@ -96,7 +96,7 @@ enum class AtSeparation { go_on, stop, ignore };
 /// What to do when the steps that are allowed are seen early not to be enough.
 enum class AtHopeless { go_on, stop };
 
-/// Motion under forces with clearance: `courses` are those of the inputs of the original linkage, laws or
+/// Motion under forces with clearance: `drives` are those of the inputs of the original linkage, laws or
 /// free. Times, options and the rest as in planar::simulate, whose contract errors it throws, too. Tolerances
 /// that are finer than the rounding of a short bar's angle (100 units in the last place of the size of the
 /// linkage, by the clearance) are widened to that. With AtSeparation::stop it ends, with status done, at the
@@ -104,7 +104,7 @@ enum class AtHopeless { go_on, stop };
 /// it ends early, not_converged, when StepPace sees that options.max_steps will not do.
 JointClearanceRun simulate_joint_clearance(
     const planar::Linkage& linkage, std::span<const JointClearance> clearances,
-    std::span<const planar::InputCourse> courses, std::span<const double> times,
+    std::span<const planar::InputDrive> drives, std::span<const double> times,
     const planar::SimulationOptions& options, const JointClearanceOutput& output = {},
     const RunContext* context = nullptr, AtSeparation at_separation = AtSeparation::go_on,
     AtHopeless at_hopeless = AtHopeless::go_on);

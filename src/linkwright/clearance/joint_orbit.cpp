@@ -49,17 +49,17 @@ struct PeriodOf {
 
 }  // namespace
 
-DrivePeriod drive_period(std::span<const planar::InputCourse> courses, const std::vector<bool>& rotary) {
-  LINKWRIGHT_REQUIRE(courses.size() == rotary.size(), "{} courses, {} inputs", courses.size(), rotary.size());
+DrivePeriod drive_period(std::span<const planar::InputDrive> drives, const std::vector<bool>& rotary) {
+  LINKWRIGHT_REQUIRE(drives.size() == rotary.size(), "{} drives, {} inputs", drives.size(), rotary.size());
   std::vector<double> periods;
   double longest = 0;
-  for (std::size_t k = 0; k < courses.size(); ++k) {
-    const auto period = courses[k].law ? std::visit(PeriodOf{rotary[k]}, *courses[k].law) : std::nullopt;
+  for (std::size_t k = 0; k < drives.size(); ++k) {
+    const auto period = drives[k].law ? std::visit(PeriodOf{rotary[k]}, *drives[k].law) : std::nullopt;
     if (!period) return {0, static_cast<int>(k)};
     periods.push_back(*period);
     longest = std::max(longest, *period);
   }
-  if (longest == 0) return {0, courses.empty() ? -1 : 0};
+  if (longest == 0) return {0, drives.empty() ? -1 : 0};
   constexpr int most = 60;
   DrivePeriod out;
   for (int multiple = 1; multiple <= most; ++multiple) {
@@ -80,13 +80,13 @@ std::string load_against_time(const planar::Linkage& linkage) {
 }
 
 JointOrbit find_joint_orbit(const planar::Linkage& linkage, std::span<const JointClearance> clearances,
-                            std::span<const planar::InputCourse> courses, double start, double period,
+                            std::span<const planar::InputDrive> drives, double start, double period,
                             const planar::SimulationOptions& options, const RunContext* context) {
   constexpr int most = 50;
   constexpr double longest_step = 0.5, converged = 1e-10, difference = 1e-5;
   LINKWRIGHT_REQUIRE(period > 0 && std::isfinite(period), "period {} s must be positive", period);
-  for (const planar::InputCourse& c : courses)
-    LINKWRIGHT_REQUIRE(c.law.has_value(), "{} inputs: each must follow a law", courses.size());
+  for (const planar::InputDrive& c : drives)
+    LINKWRIGHT_REQUIRE(c.law.has_value(), "{} inputs: each must follow a law", drives.size());
   const std::vector<double> times{start, start + period};
   const double pace = full_turn / period;
   const auto n = static_cast<Eigen::Index>(2 * clearances.size());
@@ -100,7 +100,7 @@ JointOrbit find_joint_orbit(const planar::Linkage& linkage, std::span<const Join
       links[k].rate = pace * x[static_cast<Eigen::Index>(2 * k + 1)];
     }
     const JointClearanceRun run =
-        simulate_joint_clearance(linkage, links, courses, times, options, {}, context, AtSeparation::ignore);
+        simulate_joint_clearance(linkage, links, drives, times, options, {}, context, AtSeparation::ignore);
     orbit.evaluations += run.simulation.evaluations;
     orbit.status = run.status;
     orbit.message = run.message;

@@ -19,7 +19,7 @@ struct DrivePeriod {
 /// Shortest time after which all inputs stand and move as before, angles up to whole turns. Inputs that rest
 /// have any period; without one that moves there is none. Loads that depend on time have none, either, but
 /// are not looked at here (see load_against_time).
-DrivePeriod drive_period(std::span<const planar::InputCourse> courses, const std::vector<bool>& rotary);
+DrivePeriod drive_period(std::span<const planar::InputDrive> drives, const std::vector<bool>& rotary);
 
 /// Name of a load whose factor is a table against time; empty: there is none.
 std::string load_against_time(const planar::Linkage& linkage);
@@ -52,7 +52,7 @@ struct JointOrbit {
 /// follow laws, whose period it is. There may be several orbits, or none. Multipliers within 1e-5 of the unit
 /// circle count as on it. Tensions are not looked at. Throws ContractError as simulate_joint_clearance does.
 JointOrbit find_joint_orbit(const planar::Linkage& linkage, std::span<const JointClearance> clearances,
-                            std::span<const planar::InputCourse> courses, double start, double period,
+                            std::span<const planar::InputDrive> drives, double start, double period,
                             const planar::SimulationOptions& options, const RunContext* context = nullptr);
 
 /// The period after which the last of the states of a section comes back: least p, at most `most`, for which

@@ -29,7 +29,7 @@ bool force_residuals(const ClearanceMassProblem& p, std::span<const double> x, s
     const double angle = sample_angle(p, k);
     const ClearanceInstant now = clearance_instant(model, angle, p.crank.speed, 0, {});
     if (now.status != Status::done) return false;
-    const Complex seen = now.pin_force * std::polar(1.0, -(angle + p.lead));
+    const Complex seen = now.pin_force * std::polar(1.0, -(angle + p.phase));
     along -= seen.real();
     r[k] = seen.imag();
   }
@@ -42,13 +42,13 @@ bool force_residuals(const ClearanceMassProblem& p, std::span<const double> x, s
 // An orbit that is followed from trial to trial.
 class OrbitFollower {
  public:
-  OrbitFollower(const EvenCrank& crank, const ClearanceTolerances& tolerances, const RunContext* context)
+  OrbitFollower(const UniformCrank& crank, const ClearanceTolerances& tolerances, const RunContext* context)
       : crank_(crank), tolerances_(tolerances), context_(context) {}
   bool begin(const ClearanceFourBar& model) {
     const double direction = force_direction(model, crank_.angle, crank_.speed, 0);
     if (!std::isfinite(direction)) return false;
-    const double lead = std::remainder(direction - crank_.angle, full_turn);
-    return find(model, lead, 0) || find(model, 0, 0);
+    const double phase = std::remainder(direction - crank_.angle, full_turn);
+    return find(model, phase, 0) || find(model, 0, 0);
   }
   bool follow(const ClearanceFourBar& model) {
     const ClearanceOrbit found = follow_orbit(model, crank_, orbit_, tolerances_, context_);
@@ -59,13 +59,13 @@ class OrbitFollower {
   const ClearanceOrbit& orbit() const { return orbit_; }
 
  private:
-  bool find(const ClearanceFourBar& model, double lead, double slope) {
-    const ClearanceOrbit found = find_orbit(model, crank_, lead, slope, tolerances_, context_);
+  bool find(const ClearanceFourBar& model, double phase, double slope) {
+    const ClearanceOrbit found = find_orbit(model, crank_, phase, slope, tolerances_, context_);
     if (found.status != Status::done) return false;
     orbit_ = found;
     return true;
   }
-  EvenCrank crank_;
+  UniformCrank crank_;
   ClearanceTolerances tolerances_;
   const RunContext* context_;
   ClearanceOrbit orbit_;
@@ -73,7 +73,7 @@ class OrbitFollower {
 
 // Rows of one turn of a motion.
 template <class Row>
-ClearanceRun over_a_turn(const ClearanceFourBar& model, const EvenCrank& crank, const LinkState& start,
+ClearanceRun over_a_turn(const ClearanceFourBar& model, const UniformCrank& crank, const LinkState& start,
                          std::span<const double> crank_angles, const ClearanceTolerances& tolerances,
                          const RunContext* context, Row&& row) {
   // Rows in the order of time, each angle within the turn that begins with the orbit.
@@ -99,7 +99,7 @@ ClearanceRun over_a_turn(const ClearanceFourBar& model, const EvenCrank& crank, 
       context);
 }
 
-std::vector<double> even_angles(const EvenCrank& crank, int samples) {
+std::vector<double> even_angles(const UniformCrank& crank, int samples) {
   std::vector<double> out;
   for (int k = 0; k < samples; ++k)
     out.push_back(crank.angle + std::copysign(full_turn, crank.speed) * k / samples);
@@ -161,8 +161,8 @@ void require_valid(const ClearanceMassProblem& p) {
   require_valid(p.model);
   LINKWRIGHT_REQUIRE(p.model.clearance > 0, "clearance {} m must be positive", p.model.clearance);
   LINKWRIGHT_REQUIRE(p.samples >= 8, "needs 8 samples of a turn at least, got {}", p.samples);
-  LINKWRIGHT_REQUIRE(p.crank.speed != 0 && std::isfinite(p.crank.speed) && std::isfinite(p.lead),
-                     "crank at {} rad/s, lead {} rad", p.crank.speed, p.lead);
+  LINKWRIGHT_REQUIRE(p.crank.speed != 0 && std::isfinite(p.crank.speed) && std::isfinite(p.phase),
+                     "crank at {} rad/s, phase {} rad", p.crank.speed, p.phase);
   for (std::size_t k = 0; k < p.bounds.size(); ++k) {
     const bool positive = k == 0 || k == 3 || k == 4 || k == 7;
     LINKWRIGHT_REQUIRE(p.bounds[k].lower <= p.bounds[k].upper && (!positive || p.bounds[k].lower > 0),
@@ -180,10 +180,10 @@ ClearanceFourBar with_masses(const ClearanceFourBar& model, std::span<const doub
   return out;
 }
 
-double transient_lead_error(const ClearanceMassProblem& p, std::span<const double> x,
-                            const RunContext* context) {
-  return lead_error(with_masses(p.model, x), p.crank, {p.crank.angle + p.lead, p.crank.speed}, p.lead,
-                    p.samples, p.tolerances, context);
+double transient_phase_error(const ClearanceMassProblem& p, std::span<const double> x,
+                             const RunContext* context) {
+  return phase_error(with_masses(p.model, x), p.crank, {p.crank.angle + p.phase, p.crank.speed}, p.phase,
+                     p.samples, p.tolerances, context);
 }
 
 optimise::Problem clearance_mass_problem(const ClearanceMassProblem& p) {
@@ -198,25 +198,25 @@ optimise::Problem clearance_mass_problem(const ClearanceMassProblem& p) {
     std::array<double, clearance_mass_count> x;
     for (std::size_t i = 0; i < c.size; ++i) {
       for (std::size_t k = 0; k < x.size(); ++k) x[k] = c(k, i);
-      cost[i] = transient_lead_error(p, x);
+      cost[i] = transient_phase_error(p, x);
       violation[i] = std::isfinite(cost[i]) ? 0 : 1;
     }
   };
   out.explain = [p](std::span<const double> x) {
     std::vector<optimise::Violation> found;
-    if (!std::isfinite(transient_lead_error(p, x))) found.push_back({"goes_round", 1});
+    if (!std::isfinite(transient_phase_error(p, x))) found.push_back({"rotates_fully", 1});
     return found;
   };
   return out;
 }
 
-std::vector<double> force_lead_errors(const ClearanceMassProblem& p, std::span<const double> x) {
+std::vector<double> force_phase_errors(const ClearanceMassProblem& p, std::span<const double> x) {
   const ClearanceFourBar model = with_masses(p.model, x);
   std::vector<double> out;
   for (std::size_t k = 0; k < static_cast<std::size_t>(p.samples); ++k) {
     const double angle = sample_angle(p, k);
     out.push_back(
-        std::remainder(force_direction(model, angle, p.crank.speed, 0) - angle - p.lead, full_turn));
+        std::remainder(force_direction(model, angle, p.crank.speed, 0) - angle - p.phase, full_turn));
   }
   return out;
 }
@@ -226,7 +226,7 @@ ClearanceMassDesign clearance_mass_design(const ClearanceMassProblem& p, std::ve
   require_valid(p);
   ClearanceMassDesign out;
   const ClearanceFourBar model = with_masses(p.model, x);
-  out.transient_error = transient_lead_error(p, x, context);
+  out.transient_error = transient_phase_error(p, x, context);
   out.x = std::move(x);
   OrbitFollower follower(p.crank, p.tolerances, context);
   if (!follower.begin(model)) {
@@ -240,7 +240,7 @@ ClearanceMassDesign clearance_mass_design(const ClearanceMassProblem& p, std::ve
   const ClearanceRun run =
       over_a_turn(model, p.crank, out.orbit.start(p.crank), angles, p.tolerances, context,
                   [&](std::size_t, const ClearanceRow& row) {
-                    const double off = std::remainder(row.link.angle - row.crank.value - p.lead, full_turn);
+                    const double off = std::remainder(row.link.angle - row.crank.value - p.phase, full_turn);
                     sum += off * off;
                   });
   out.least_tension = run.least_tension;
@@ -287,7 +287,7 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
       if (!follower.follow(model)) return false;
       return over_a_turn(model, p.crank, follower.orbit().start(p.crank), angles, p.tolerances, &context,
                          [&](std::size_t k, const ClearanceRow& row) {
-                           r[k] = std::remainder(row.link.angle - row.crank.value - p.lead, full_turn);
+                           r[k] = std::remainder(row.link.angle - row.crank.value - p.phase, full_turn);
                          })
                  .status == Status::done;
     };
@@ -297,7 +297,7 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& p, i
     minimise_shares(on_orbit, m, x, lower, upper, integrated, options);
     interrupted = context.interruption();
   }
-  // An interrupted search tells its best as far as that takes no time of its own.
+  // An interrupted search reports its best as far as that takes no time of its own.
   RunContext last;
   last.set_time_limit(std::chrono::milliseconds(200));
   ClearanceMassDesign out = clearance_mass_design(p, x, interrupted == Status::done ? &context : &last);
@@ -452,7 +452,7 @@ ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const
     const Status why = context.interruption();
     return why == Status::done ? out : stopped(why);
   }
-  out.orbit = find_orbit(out.model, mass.crank, follower.orbit().lead, follower.orbit().slope,
+  out.orbit = find_orbit(out.model, mass.crank, follower.orbit().phase, follower.orbit().slope,
                          mass.tolerances, &context);
   const ClearanceRun run = over_a_turn(
       out.model, mass.crank, out.orbit.start(mass.crank), path.crank_angles, mass.tolerances, &context,

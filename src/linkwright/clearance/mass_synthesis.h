@@ -12,7 +12,7 @@
 // al. 2014, and both stages at once.
 namespace linkwright::clearance {
 
-/// The designed quantities in the order of the variables, Eq. (29): mass, mass centre and inertia about it of
+/// The design variables in the order of the variables, Eq. (29): mass, mass centre and inertia about it of
 /// coupler (3) and rocker (4), in the frames of ClearanceFourBar.
 enum class ClearanceMass : std::size_t {
   coupler_mass,
@@ -28,9 +28,9 @@ inline constexpr std::size_t clearance_mass_count = 8;
 
 struct ClearanceMassProblem {
   ClearanceFourBar model;  ///< lengths, clearance, weight and damping; its masses do not count
-  EvenCrank crank;
-  double lead = 0;   ///< rad: by how much the clearance link is to lead the crank, Eq. (34)
-  int samples = 72;  ///< points of a turn at which the lead is compared
+  UniformCrank crank;
+  double phase = 0;  ///< rad: by how much the clearance link is to lead the crank, Eq. (34)
+  int samples = 72;  ///< points of a turn at which the phase is compared
   std::array<Range, clearance_mass_count> bounds{};
   ClearanceTolerances tolerances{.relative = 1e-8, .absolute = 1e-10};
 };
@@ -40,12 +40,12 @@ void require_valid(const ClearanceMassProblem& problem);
 /// The model with these masses.
 ClearanceFourBar with_masses(const ClearanceFourBar& model, std::span<const double> x);
 
-/// Objective of the source (rad), Eq. (30): of one turn that starts with the wanted lead at the speed of the
-/// crank. Infinite where the linkage does not go round, or the run is to stop.
-double transient_lead_error(const ClearanceMassProblem& problem, std::span<const double> x,
-                            const RunContext* context = nullptr);
+/// Objective of the source (rad), Eq. (30): of one turn that starts with the wanted phase at the speed of the
+/// crank. Infinite where the linkage does not rotate fully, or the run is to stop.
+double transient_phase_error(const ClearanceMassProblem& problem, std::span<const double> x,
+                             const RunContext* context = nullptr);
 
-/// For population methods: cost = transient_lead_error; constraint `goes_round`.
+/// For population methods: cost = transient_phase_error; constraint `rotates_fully`.
 optimise::Problem clearance_mass_problem(const ClearanceMassProblem& problem);
 
 struct ClearanceMassDesign {
@@ -72,7 +72,7 @@ ClearanceMassDesign synthesise_clearance_masses(const ClearanceMassProblem& prob
 
 /// Angles (rad) between the force of the ideal pin and the wanted direction of the clearance link over a
 /// turn, problem.samples of them; NaN where there is no force.
-std::vector<double> force_lead_errors(const ClearanceMassProblem& problem, std::span<const double> x);
+std::vector<double> force_phase_errors(const ClearanceMassProblem& problem, std::span<const double> x);
 
 /// Lengths and masses together.
 struct ClearanceDesign {
@@ -86,10 +86,10 @@ struct ClearanceDesign {
   std::int64_t evaluations = 0;
 };
 /// The path that is traced on the periodic orbit itself is brought to the target, in lengths and masses at
-/// once; no law for the clearance link is presumed, and `lead` of neither problem is used. Only designs whose
-/// pin and bush stay in contact over the whole turn are taken. Timing must be prescribed. Starts from the
-/// lengths of `path_x` (as of synthesise_clearance_path) and the masses of `mass_x`, and from what is best in
-/// the limit of small clearances.
+/// once; no law for the clearance link is presumed, and `phase` of neither problem is used. Only designs
+/// whose pin and bush stay in contact over the whole turn are taken. Timing must be prescribed. Starts from
+/// the lengths of `path_x` (as of synthesise_clearance_path) and the masses of `mass_x`, and from what is
+/// best in the limit of small clearances.
 ClearanceDesign design_clearance_linkage(const ClearancePathProblem& path, const ClearanceMassProblem& mass,
                                          std::span<const double> path_x, std::span<const double> mass_x,
                                          RunContext& context);

@@ -172,7 +172,7 @@ OpenLinkage open_linkage(const Linkage& linkage, std::span<const int> joints,
   }
   out.linkage = linkage;
   Linkage& l = out.linkage;
-  l.modes.clear();  // pairs change; places at the start tell the modes
+  l.modes.clear();  // pairs change; places at the start give the modes
   for (std::size_t b = 1; b < l.bodies.size(); ++b) {
     const PartState<double> s = planar::body_state(whole.plan, motion, static_cast<int>(b));
     l.bodies[b].start = math::Pose{s.origin.x, s.origin.y, planar::angle_of(s.direction)};
@@ -190,7 +190,7 @@ OpenLinkage open_linkage(const Linkage& linkage, std::span<const int> joints,
   if (!plan) {
     out.status = Status::infeasible;
     out.message =
-        "once the pins are out no joints are left whose coordinates tell where all bodies are: " + problem;
+        "without the clearance joints no joint coordinates are left that place all bodies: " + problem;
     return out;
   }
   out.plan = std::move(*plan);

@@ -31,7 +31,7 @@ struct OpenLinkage {
   std::vector<double> start;
 };
 
-/// Takes the joints out. `inputs` are the values of the drives at the start, and the modes of the plan tell
+/// Takes the joints out. `inputs` are the values of the drives at the start, and the modes of the plan say
 /// how the whole linkage is assembled there. Inputs are added at joints that are left, those that make the
 /// most drivers and closed forms first, and at blocks that guide loose bodies over the ground. Throws
 /// ContractError for joints that are no revolute joints without drive and friction, or are named twice.

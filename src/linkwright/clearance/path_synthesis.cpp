@@ -17,7 +17,7 @@ using Jet = math::Dual<clearance_length_count + 1>;
 template <class T>
 bool trace(const ClearancePathProblem& p, const T* x, const T& crank, T& px, T& py) {
   using std::cos, std::sin, std::sqrt;
-  const T link = crank + T(p.lead);
+  const T link = crank + T(p.phase);
   const T wx = x[1] * cos(crank) + T(p.clearance) * cos(link),
           wy = x[1] * sin(crank) + T(p.clearance) * sin(link);
   const T gx = x[0] * cos(x[8]), gy = x[0] * sin(x[8]);
@@ -120,8 +120,8 @@ void require_valid(const ClearancePathProblem& p) {
                            std::isfinite(p.bounds[k].lower + p.bounds[k].upper) &&
                            (k >= 4 || p.bounds[k].lower > 0),
                        "variable {} lies between {} and {}", k, p.bounds[k].lower, p.bounds[k].upper);
-  LINKWRIGHT_REQUIRE(p.clearance >= 0 && std::isfinite(p.clearance) && std::isfinite(p.lead),
-                     "clearance {} m, lead {} rad", p.clearance, p.lead);
+  LINKWRIGHT_REQUIRE(p.clearance >= 0 && std::isfinite(p.clearance) && std::isfinite(p.phase),
+                     "clearance {} m, phase {} rad", p.clearance, p.phase);
   LINKWRIGHT_REQUIRE(p.angle_range >= 0, "crank angles may differ by {} rad", p.angle_range);
 }
 
@@ -279,10 +279,10 @@ ClearancePathSynthesis synthesise_clearance_path(const ClearancePathProblem& p, 
   return out;
 }
 
-EquivalentCrank equivalent_crank(double crank, double clearance, double lead) {
-  const double across = clearance * std::sin(lead);
-  const double length = std::sqrt(crank * crank - across * across) - clearance * std::cos(lead);
-  return {length, std::atan2(across, length + clearance * std::cos(lead))};
+EquivalentCrank equivalent_crank(double crank, double clearance, double phase) {
+  const double across = clearance * std::sin(phase);
+  const double length = std::sqrt(crank * crank - across * across) - clearance * std::cos(phase);
+  return {length, std::atan2(across, length + clearance * std::cos(phase))};
 }
 
 }  // namespace linkwright::clearance

@@ -16,7 +16,7 @@
 // stage of Varedi et al. 2014.
 namespace linkwright::clearance {
 
-/// The designed quantities in the order of the variables, Eq. (16): L1 ... L4, distance and angle of the
+/// The design variables in the order of the variables, Eq. (16): L1 ... L4, distance and angle of the
 /// tracing point in the coupler's frame, crank pivot, direction of the ground link.
 enum class ClearanceLength : std::size_t {
   ground,
@@ -40,7 +40,7 @@ struct ClearancePathProblem {
   bool free_timing = false;
   double angle_range = 0.2;  ///< rad
   double clearance = 0;      ///< m
-  double lead = 0;           ///< rad: the clearance link is taken to be so much ahead of the crank
+  double phase = 0;          ///< rad: the clearance link is taken to be so much ahead of the crank
   planar::Branch branch = planar::Branch::open;
   std::array<Range, clearance_length_count> bounds{};
   bool crank_turns_fully = true;  ///< Grashof's condition with the crank the shortest link, Eqs. (17)-(19)
@@ -87,12 +87,12 @@ math::LeastSquaresReport polish_clearance_path(const ClearancePathProblem& probl
 bool clearance_path_residuals(const ClearancePathProblem& problem, std::span<const double> x,
                               std::span<double> residuals, std::span<double> jacobian);
 
-/// Length of the crank with which a linkage with clearance whose link leads by `lead` does exactly what it
-/// does without clearance, at crank angles that are less by `shift` (rad): L2 + r e^(i lead) is the crank
+/// Length of the crank with which a linkage with clearance whose link leads by `phase` does exactly what it
+/// does without clearance, at crank angles that are less by `shift` (rad): L2 + r e^(i phase) is the crank
 /// then. NaN where there is none.
 struct EquivalentCrank {
   double length = 0, shift = 0;
 };
-EquivalentCrank equivalent_crank(double crank, double clearance, double lead);
+EquivalentCrank equivalent_crank(double crank, double clearance, double phase);
 
 }  // namespace linkwright::clearance

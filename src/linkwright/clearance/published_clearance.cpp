@@ -9,7 +9,7 @@
 namespace linkwright::clearance {
 namespace {
 
-constexpr double clearance = 1e-3, lead = 10 * full_turn / 360;
+constexpr double clearance = 1e-3, phase = 10 * full_turn / 360;
 
 planar::FourBar linkage(double ground, double crank, double coupler, double rocker, double distance,
                         double angle_degrees, double pivot_x, double pivot_y, double frame_degrees) {
@@ -55,7 +55,7 @@ ClearancePathProblem published_path_problem() {
     p.crank_angles.push_back(angle);
   }
   p.clearance = clearance;
-  p.lead = lead;
+  p.phase = phase;
   const double tenth = math::radians(10);
   p.bounds = {{{0.15, 0.25},
                {0.06, 0.14},
@@ -93,7 +93,7 @@ ClearanceMassProblem published_mass_problem() {
   ClearanceMassProblem p;
   p.model = published_design_2();
   p.crank = {0, 10};
-  p.lead = lead;
+  p.phase = phase;
   p.bounds = {{{0.02, 0.2},
                {-0.05, 0.2},
                {-0.05, 0.05},
@@ -123,8 +123,8 @@ std::vector<ClearanceComparison> compare_with_published_clearance() {
   add("objective of the best design, mm", "not printed", 1e3 * clearance_path_design(path, x).objective,
       "not reproduced", "four times less than design 2, by least squares from there");
 
-  const EvenCrank crank{0, 10};
-  const LinkState start{lead, 10};
+  const UniformCrank crank{0, 10};
+  const LinkState start{phase, 10};
   const std::vector<double> times{0, full_turn / 10};
   const ClearanceRun calm =
       simulate_clearance(published_design_2(), math::ConstantSpeed{0, 10}, start, times);
@@ -139,10 +139,12 @@ std::vector<ClearanceComparison> compare_with_published_clearance() {
   add("changes of sign of the tension of design 1 in a turn", "not tested", wild.sign_changes, "corrected",
       "contact is lost, so that the printed peaks lie outside of the model");
   const ClearanceOrbit orbit = find_orbit(published_design_2(), crank, 0.15, -0.3);
-  add("least root mean square difference from a lead of 10 degrees on the orbit, degrees",
+  add("least root mean square difference from a phase of 10 degrees on the orbit, degrees",
       "agreement (figure 5)",
-      math::degrees(lead_error(published_design_2(), crank, orbit.start(crank), lead, 72)) * std::sqrt(72.0),
-      "corrected", "a passive coupler in contact cannot lead throughout: over a turn no work is done on it");
+      math::degrees(phase_error(published_design_2(), crank, orbit.start(crank), phase, 72)) *
+          std::sqrt(72.0),
+      "corrected",
+      "a passive coupler in contact cannot stay ahead throughout: over a turn no work is done on it");
   return out;
 }
 

@@ -21,10 +21,10 @@ ClearanceFourBar published_design_2();
 /// the path of design 1 without clearance, at equal crank angles: what the 1 mm is inferred from.
 double inferred_clearance();
 
-/// First stage: the path of design 1 without clearance at even steps of its crank (36, from 0), a lead of 10
+/// First stage: the path of design 1 without clearance at even steps of its crank (36, from 0), a phase of 10
 /// degrees, and bounds of our own.
 ClearancePathProblem published_path_problem();
-/// Second stage: the lead of 10 degrees for design 2 at 10 rad/s without weight, and bounds of our own.
+/// Second stage: the phase of 10 degrees for design 2 at 10 rad/s without weight, and bounds of our own.
 ClearanceMassProblem published_mass_problem();
 
 /// A published statement beside what is computed here.

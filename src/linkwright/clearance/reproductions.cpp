@@ -13,24 +13,24 @@ study::Comparisons tables(RunContext&) {
   ClearancePathProblem path = published_path_problem();
   const std::vector<double> x = path_variables(path, second.linkage);
   const double with = clearance_path_design(path, x).rms;
-  const EquivalentCrank crank = equivalent_crank(first.linkage.crank, path.clearance, path.lead);
+  const EquivalentCrank crank = equivalent_crank(first.linkage.crank, path.clearance, path.phase);
   path.clearance = 0;
   const double without = clearance_path_design(path, x).rms;
   // Half the length of the uniform bar that has this mass and inertia.
   const auto bar = [](const planar::BodyMass& m) { return std::sqrt(12 * m.inertia / m.mass) / 2; };
   const std::string source = "Varedi et al. 2014, ";
   return {
-      {"crank turns fully wherever the pin lies, design 1 (1 = yes)", source + "Table 1", 1,
+      {"crank rotates fully wherever the pin lies, design 1 (1 = yes)", source + "Table 1", 1,
        turns_fully(first) ? 1.0 : 0.0, turns_fully(first) ? "reproduced" : "not reproduced", ""},
-      {"crank turns fully wherever the pin lies, design 2 (1 = yes)", source + "Table 1", 1,
+      {"crank rotates fully wherever the pin lies, design 2 (1 = yes)", source + "Table 1", 1,
        turns_fully(second) ? 1.0 : 0.0, turns_fully(second) ? "reproduced" : "not reproduced", ""},
       {"crank of design 2, mm", source + "Table 1", 1e3 * second.linkage.crank, 1e3 * crank.length,
        "improved",
-       "under the assumptions of the source (lead 10 degrees; clearance 1 mm inferred) design 1 with this "
+       "under the assumptions of the source (phase 10 degrees; clearance 1 mm inferred) design 1 with this "
        "crank "
        "alone changed keeps its path exactly"},
       {"design 2 from the path of design 1, root mean square in mm", source + "Table 1", nan, 1e3 * with,
-       "not printed", "clearance 1 mm, lead 10 degrees, 36 points"},
+       "not printed", "clearance 1 mm, phase 10 degrees, 36 points"},
       {"the same if the clearance were 0", source + "Table 1", nan, 1e3 * without, "not printed",
        "much more: so the clearance, which is not printed, is about 1 mm"},
       {"mass centre of the coupler from its end, m", source + "Table 2", first.coupler.centre.real(),
@@ -64,7 +64,7 @@ const std::vector<std::string>& notes() {
       "its figure 4 are outside of its model. kind = \"simulation\", mechanism.type = \"clearance.linkage\" "
       "with "
       "model = \"contact\" computes what happens instead.",
-      "5. A constant lead of 10 degrees, Eq. (34), cannot be had: over a turn the pin does no work on a "
+      "5. A constant phase of 10 degrees, Eq. (34), is impossible: over a turn the pin does no work on a "
       "passive "
       "coupler in contact."};
   return all;

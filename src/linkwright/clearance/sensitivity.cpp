@@ -114,7 +114,7 @@ class Solver {
   /// Direction of the frame of a body in the nominal motion.
   planar::Vec<double> direction(std::size_t s, int body) const {
     const planar::BodyOnPart& on = plan_.bodies[at(body)];
-    return planar::turn(parts_[s][at(on.part)].direction, on.turn);
+    return planar::rotate(parts_[s][at(on.part)].direction, on.turn);
   }
   double size() const { return plan_.size; }
 
@@ -304,7 +304,7 @@ std::vector<SensitivitySample> clearance_sensitivity(const Linkage& l, const Lin
       const planar::Vec<double> d = solver.direction(s, l.joints[at(t.pins[k].joint)].first.body);
       for (std::size_t i = 0; i < values; ++i) {
         double* pair = &now.derivatives[i * parameters + 2 * k];
-        const planar::Vec<double> global = planar::turn(d, planar::Vec<double>{pair[0], pair[1]});
+        const planar::Vec<double> global = planar::rotate(d, planar::Vec<double>{pair[0], pair[1]});
         pair[0] = global.x, pair[1] = global.y;
       }
     }

@@ -22,7 +22,7 @@ struct PinTolerance {
 struct LengthTolerance {
   int body = 0;
   int from = 0, to = 0;  ///< points of the body
-  double tolerance = 0;  ///< m, >= 0: the length errs by at most this
+  double tolerance = 0;  ///< m, >= 0: the length deviates by at most this
 };
 struct LinkageTolerances {
   std::vector<PinTolerance> pins;
@@ -39,8 +39,8 @@ struct ToleranceOutputs {
   bool drives = false;           ///< likewise
 };
 std::size_t value_count(const planar::Linkage& linkage, const ToleranceOutputs& outputs);
-/// What errs as one thing, in the same order: a point by a distance (m), a coordinate (rad or m), a force by
-/// the size of a vector (N), a drive (N m or N).
+/// What deviates as one thing, in the same order: a point by a distance (m), a coordinate (rad or m), a force
+/// by the size of a vector (N), a drive (N m or N).
 std::size_t quantity_count(const planar::Linkage& linkage, const ToleranceOutputs& outputs);
 
 /// First derivatives at one sample.

@@ -6,7 +6,7 @@
 
 namespace linkwright::clearance {
 
-/// The kinds of study of this room.
+/// The kinds of study of this module.
 std::vector<study::Kind> studies();
 
 }  // namespace linkwright::clearance

@@ -55,11 +55,11 @@ Arguments parse_arguments(int argc, const char* const* argv) {
                   "folder of the results (default: what the study says, or out/STUDY)");
   run->add_option("--threads", arguments.threads, "threads to use, 0 = all; results do not depend on it")
       ->check(CLI::Range(0, 4096));
-  run->add_option("--time-limit", arguments.time_limit, "seconds after which the best so far is the answer")
+  run->add_option("--time-limit", arguments.time_limit,
+                  "time limit in seconds, after which the best result so far is the answer")
       ->check(CLI::PositiveNumber);
-  run->add_flag(
-      "--resume", arguments.resume,
-      "go on where an interrupted run of the same study in the same folder was; without it, begin anew");
+  run->add_flag("--resume", arguments.resume,
+                "continue an interrupted run of the same study in the same folder; without it, start again");
   run->add_flag("--json", arguments.json, "print result.json instead of the summary");
 
   CLI::App* make = app.add_subcommand("new", "write an example study of a kind, to start from");
@@ -71,10 +71,10 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   schema->add_option("KIND", arguments.kind, "one kind only, see `linkwright catalogue`; or: result");
   CLI::App* catalogue = app.add_subcommand("catalogue", "list the kinds of studies");
   catalogue->add_flag("--renamed", arguments.renamed,
-                      "list instead what is called otherwise than in the last version");
+                      "list instead the names that have changed since the last version");
   catalogue->add_flag("--json", arguments.json, "print for machines");
   CLI::App* reproduce =
-      app.add_subcommand("reproduce", "compute published tables anew: published, ours, verdict");
+      app.add_subcommand("reproduce", "recompute published tables: published value, ours, verdict");
   reproduce->add_option("ID", arguments.table, "id of a table, its beginning, or all; without it, list them");
   reproduce->add_flag("--json", arguments.json, "print for machines");
   reproduce

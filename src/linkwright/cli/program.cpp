@@ -123,9 +123,9 @@ bool take_up(app::CheckpointFile& checkpoint, bool resume, const fs::path& folde
   if (!checkpoint.load(diagnostics)) return false;
   const std::string file = (folder / app::checkpoint_name).string();
   if (checkpoint.size() == 0)
-    fmt::print(stderr, "{}: nothing to go on with, the run begins anew\n", file);
+    fmt::print(stderr, "{}: nothing to resume, the run starts from the beginning\n", file);
   else
-    fmt::print(stderr, "{}: the run goes on from here\n", file);
+    fmt::print(stderr, "{}: the run resumes from here\n", file);
   return true;
 }
 
@@ -201,7 +201,7 @@ int make(const Arguments& arguments, std::span<const study::Kind> kinds) {
   std::FILE* stream = std::fopen(file.c_str(), "wbx");
   if (!stream) {
     fmt::print(stderr, "{}: error: {}\n", file,
-               errno == EEXIST ? "exists already and is left alone" : std::strerror(errno));
+               errno == EEXIST ? "already exists and is left unchanged" : std::strerror(errno));
     return bad_input;
   }
   const bool whole =

@@ -325,7 +325,7 @@ std::optional<std::string> to_utf8(std::string_view bytes, std::string& problem)
     text = is_utf8(bytes) ? std::string(bytes) : from_windows_1252(bytes);
   }
   if (text && text->find('\0') != std::string::npos) {
-    problem = "this is no text: it holds zero bytes";
+    problem = "this is not a text file: it holds zero bytes";
     return std::nullopt;
   }
   return text;

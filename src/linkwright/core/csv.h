@@ -18,7 +18,7 @@ std::optional<std::string> to_utf8(std::string_view bytes, std::string& problem)
 /// Reads a table of numbers from CSV text, RFC 4180 and as spreadsheets write it:
 /// - a header line of column keys with units, `x_mm` or `X [mm]`; a last column `status` goes to
 ///   Table::status, a first column `name` to Table::names;
-/// - columns separated by commas, semicolons or tabs (told from the header line, or by a line `sep=;`);
+/// - columns separated by commas, semicolons or tabs (recognised by the header line, or by a line `sep=;`);
 /// - a decimal point, or a decimal comma where commas do not separate (or within quotes);
 /// - empty cells are NaN; lines of nothing but separators, lines that begin with `#` and empty columns at the
 ///   end are passed over; any encoding that `to_utf8` knows.

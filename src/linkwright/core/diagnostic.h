@@ -8,7 +8,7 @@
 
 namespace linkwright {
 
-/// One thing that is wrong with a file or an option: where, what was found, and how to mend it.
+/// One thing that is wrong with a file or an option: where, what was found, and how to fix it.
 struct Diagnostic {
   enum class Severity { error, warning };
   Severity severity = Severity::error;
@@ -16,7 +16,7 @@ struct Diagnostic {
   Position position;    ///< line 0 = unknown
   std::string key;      ///< path of the key: "mechanism.parameters.crank_m"
   std::string message;  ///< what was found and what is allowed, with the numbers
-  std::string hint;     ///< how to mend it; may be empty
+  std::string hint;     ///< how to fix it; may be empty
 };
 
 using Diagnostics = std::vector<Diagnostic>;

@@ -13,7 +13,7 @@ namespace linkwright {
 namespace {
 
 constexpr double share = 0.5;          // of the memory of the machine
-constexpr double where_unknown = 4e9;  // bytes, on a machine that does not tell
+constexpr double where_unknown = 4e9;  // bytes, on a machine that does not say
 
 double given = 0;  // by MemoryLimit; 0: none
 

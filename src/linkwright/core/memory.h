@@ -14,7 +14,7 @@ double memory_limit();
 /// reader of studies says it at the key that makes the size, before anything is allocated.
 std::optional<std::string> memory_problem(double bytes, std::string_view what);
 
-/// What mends it besides asking for less; behind a hint.
+/// What fixes it besides asking for less; behind a hint.
 inline constexpr std::string_view memory_hint =
     "or allow more with the environment variable LINKWRIGHT_MEMORY_MB";
 

@@ -12,7 +12,7 @@ namespace linkwright {
 
 class Checkpoint;
 
-/// What a long computation tells while it runs. Sent from any thread, but never by two threads at once.
+/// What a long computation reports while it runs. Sent from any thread, but never by two threads at once.
 struct Progress {
   std::string_view stage;  ///< what is being done, for example "grey_wolf"
   double fraction = 0;     ///< of this stage, 0 to 1

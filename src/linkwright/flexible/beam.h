@@ -30,7 +30,7 @@ enum class Hub {
 };
 
 constexpr std::array<EnumName<Hub>, 2> names(Hub) {
-  return {{{Hub::driven, "driven", "its angle is given: it does not yield to the link"},
+  return {{{Hub::driven, "driven", "its angle is prescribed, whatever the link does"},
            {Hub::free, "free", "it turns with the link: rest, a torque, or none"}}};
 }
 

@@ -3,7 +3,7 @@
 #include "linkwright/core/field.h"
 #include "linkwright/flexible/beam.h"
 
-// Links that bend as files hold them.
+// Flexible links as files hold them.
 namespace linkwright::flexible::beam_fields {
 
 constexpr Field number(std::string_view key, std::string_view summary, Dimension dimension,

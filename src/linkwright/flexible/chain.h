@@ -92,7 +92,7 @@ struct ChainShape {
 };
 ChainShape shape(const Chain& chain, std::span<const double> q);
 
-/// Largest |delta| between two bars of a link (rad): beyond 0.5 the cells are too long for what they bend.
+/// Largest |delta| between two bars of a link (rad): beyond 0.5 the cells are too long for this curvature.
 double largest_kink(const Chain& chain, std::span<const double> q);
 inline constexpr double kink_limit = 0.5;
 /// Beyond it the chain folds and shows nothing of the link any more.

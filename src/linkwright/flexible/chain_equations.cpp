@@ -43,8 +43,8 @@ void ChainEquations::move(const ChainState& state) {
   Vec2 direction{1, 0};
   Node& root = node_.front();
   root.z = {chain_->hub_radius, 0};
-  root.v = hub * left(root.z);
-  root.a = state.acceleration * left(root.z) - hub * hub * root.z;
+  root.v = hub * perpendicular(root.z);
+  root.a = state.acceleration * perpendicular(root.z) - hub * hub * root.z;
   root.drift = {};
   root.angle = 0;
   root.rate = hub;
@@ -75,18 +75,20 @@ void ChainEquations::move(const ChainState& state) {
       d2 += Vec2{a[extension], a[slide]};
     }
     const Vec2 d = step.along, f = step.across;
-    const Vec2 relative = d1 + (rate - hub) * left(d);
+    const Vec2 relative = d1 + (rate - hub) * perpendicular(d);
     out.z = in.z + turned(j.mean, d) + f;
     out.drift = in.drift + turned(j.mean, relative) + f1;
-    out.v = in.v + turned(j.mean, d1 + rate * left(d)) + f1 + hub * left(f);
-    out.a = in.a + turned(j.mean, d2 + 2 * rate * left(d1) + acceleration * left(d) - rate * rate * d) + f2 +
-            2 * hub * left(f1) + state.acceleration * left(f) - hub * hub * f;
+    out.v = in.v + turned(j.mean, d1 + rate * perpendicular(d)) + f1 + hub * perpendicular(f);
+    out.a = in.a +
+            turned(j.mean,
+                   d2 + 2 * rate * perpendicular(d1) + acceleration * perpendicular(d) - rate * rate * d) +
+            f2 + 2 * hub * perpendicular(f1) + state.acceleration * perpendicular(f) - hub * hub * f;
     out.angle = in.angle + step.turn_by;
     out.rate = in.rate + v[turn];
     out.acceleration = in.acceleration + a[turn];
 
-    j.by_angle = turned(j.mean, left(d));
-    j.by[turn] = turned(j.mean, Vec2{step.by_turn, 0} + 0.5 * left(d));
+    j.by_angle = turned(j.mean, perpendicular(d));
+    j.by[turn] = turned(j.mean, Vec2{step.by_turn, 0} + 0.5 * perpendicular(d));
     j.by[slide] = hub_axis ? Vec2{0, 1} : turned(j.mean, {step.by_slide, 1});
     j.by[extension] = hub_axis ? Vec2{1, 0} : j.mean;
   }

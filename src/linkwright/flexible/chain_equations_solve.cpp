@@ -162,12 +162,12 @@ bool ChainEquations::eliminate_hub(const TangentScale& scale) {
         j.force = cell.mass * Vec2{speed, scale.acceleration * x};
         if (row) inertia += cell.mass * (x * x + node.z.x * node.z.x) + cell.inertia;
       } else {
-        j.force = cell.mass * (scale.acceleration * left(node.z) + left(gravity_));
+        j.force = cell.mass * (scale.acceleration * perpendicular(node.z) + perpendicular(gravity_));
         if (row) {
           inertia += cell.mass * dot(node.z, node.z) + cell.inertia;
           weight += cell.mass * dot(node.z, gravity_);
         } else {
-          j.force += 2 * cell.mass * scale.rate * (left(node.drift) - hub_rate_ * node.z);
+          j.force += 2 * cell.mass * scale.rate * (perpendicular(node.drift) - hub_rate_ * node.z);
         }
       }
       j.couple = scale.acceleration * cell.inertia;

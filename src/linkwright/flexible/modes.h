@@ -9,7 +9,7 @@
 #include "linkwright/flexible/statics.h"
 
 /// Small undamped vibrations of the straight link in the plane, about a hub at rest or in steady rotation.
-/// Eigenvalues are counted, not computed: the negative pivots of K - lambda M tell how many lie below lambda
+/// Eigenvalues are counted, not computed: the negative pivots of K - lambda M say how many lie below lambda
 /// (Sylvester's law; Wittrick and Williams 1971), so the cost grows with the number of cells and no more.
 namespace linkwright::flexible {
 

@@ -5,7 +5,7 @@
 #include "linkwright/core/table.h"
 #include "linkwright/flexible/beam.h"
 
-/// What is seen of hub and link at an instant, and what samples of it tell.
+/// What is seen of hub and link at an instant, and what samples of it give.
 namespace linkwright::flexible {
 
 struct Sample {

@@ -425,7 +425,7 @@ Simulation simulate(const Chain& chain, const Drive& drive, const SimulationOpti
         // What the longer step reached is more than what is left of the shorter one.
         coarse.status = out.status;
         coarse.message = fmt::format(
-            "the run with half the step was {}; what is told is that of the whole step", out.message);
+            "the run with half the step was {}; the results are those of the whole step", out.message);
         coarse.error = nan;
         coarse.steps = out.steps;
         coarse.iterations = out.iterations;

@@ -6,7 +6,7 @@
 
 namespace linkwright::flexible {
 
-/// The kinds of studies of links that bend.
+/// The kinds of studies of flexible links.
 std::vector<study::Kind> studies();
 
 }  // namespace linkwright::flexible

@@ -17,7 +17,7 @@ constexpr double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 /// Third component of a x b.
 constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 /// a turned by a right angle, counter-clockwise.
-constexpr Vec2 left(Vec2 a) { return {-a.y, a.x}; }
+constexpr Vec2 perpendicular(Vec2 a) { return {-a.y, a.x}; }
 /// a turned by the angle of the unit vector e.
 constexpr Vec2 turned(Vec2 e, Vec2 a) { return {e.x * a.x - e.y * a.y, e.y * a.x + e.x * a.y}; }
 /// a turned back by it.

@@ -107,7 +107,7 @@ LeastSquaresReport minimise_least_squares(ResidualFunction function, std::size_t
       acceleration(w.acceleration_.data(), columns);
 
   // Adds to the step half of what the second derivative of the residuals along it asks for; false where that
-  // is too much. A probe that cannot be evaluated leaves the step as it is: the trial will tell.
+  // is too much. A probe that cannot be evaluated leaves the step as it is: the trial will say.
   const auto accelerate = [&](const auto& factor, const auto& weight) {
     for (std::size_t j = 0; j < n; ++j)
       w.trial_[j] = std::clamp(x[j] + probe_length * w.step_[j], low(j), high(j));

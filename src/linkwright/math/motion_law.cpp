@@ -85,7 +85,7 @@ std::optional<MotionProblem> problem_of(const EndConditions& law) {
                                                         : "a speed or an acceleration at one of the ends")};
   }
   if (all.size() == 1)
-    return MotionProblem{"law", "a position at the start alone is no motion",
+    return MotionProblem{"law", "a start position alone is not a motion",
                          "add to, start_speed, end_speed, ..."};
   return {};
 }

@@ -114,7 +114,7 @@ class MotionCurve {
   Motion operator()(double t) const;
 
  private:
-  // Rest, or even motion, outside the knots; or repetition.
+  // Rest, or uniform motion, outside the knots; or repetition.
   struct Pieces {
     PiecewisePolynomial polynomial;
     bool periodic = false;

@@ -47,7 +47,7 @@ constexpr std::array<EnumName<MutantBounds>, 2> names(MutantBounds) {
 }
 
 /// Differential evolution with binomial crossover (Storn and Price 1997). A trial replaces its target when it
-/// is as good or better. Defaults of the wheel-guide studies: rand/1, F = 0.6, CR = 0.9, five members a
+/// is as good or better. Defaults of the wheel-suspension studies: rand/1, F = 0.6, CR = 0.9, five members a
 /// variable, synchronous.
 ///
 /// Boskovic 2018, section 2.2.3, has CR = 0.5, replacement in place and, where the text is silent, clipping,

@@ -27,10 +27,11 @@ inline constexpr FireflyMove yang_attraction = {.attraction = 1, .attraction_lea
 
 template <class Visitor>
 void fields(Visitor&& visit, FireflyMove& o) {
-  visit(Field{.key = "randomness",
-              .summary = "width alpha of the random part of a move at first, in parts of that of the box",
-              .minimum = 0},
-        o.randomness);
+  visit(
+      Field{.key = "randomness",
+            .summary = "width alpha of the random part of a move at first, as a fraction of that of the box",
+            .minimum = 0},
+      o.randomness);
   visit(
       Field{
           .key = "absorption", .summary = "gamma: how quickly attraction falls with distance", .minimum = 0},

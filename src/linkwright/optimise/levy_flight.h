@@ -33,7 +33,7 @@ void fields(Visitor&& visit, LevyFlight& o) {
               .maximum = 1.99},
         o.exponent);
   visit(Field{.key = "levy_step",
-              .summary = "factor of the Levy steps, in parts of the width of the box",
+              .summary = "factor of the Levy steps, as a fraction of the width of the box",
               .minimum = 0,
               .exclusive_minimum = true},
         o.step);

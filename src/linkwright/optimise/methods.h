@@ -47,7 +47,7 @@ constexpr std::array<EnumName<Method>, 11> names(Method) {
            {Method::hybrid_cuckoo_firefly, "hybrid_cuckoo_firefly",
             "Levy flights of cuckoos, then moves of fireflies (H-CS-FA)"},
            {Method::subpopulation_firefly, "subpopulation_firefly",
-            "fireflies in two parts that are split anew all the time (SP-FA)"},
+            "fireflies in two subpopulations that are redrawn all the time (SP-FA)"},
            {Method::cma_es, "cma_es", "covariance matrix adaptation evolution strategy, by pagmo"},
            {Method::self_adaptive_differential_evolution, "jde",
             "short for self_adaptive_differential_evolution"}}};

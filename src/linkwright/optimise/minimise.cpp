@@ -172,7 +172,7 @@ class StateKeeper {
     if (!reason.is_string() || best.size() != 2 + report.costs.size() ||
         std::any_of(best.begin(), best.end(), [](double v) { return std::isnan(v); }) || !(best[1] >= 0) ||
         !optimiser.restore(state) || (front && !restore_front(value, variables, *front)))
-      throw CheckpointError(fmt::format("{}: is no state of this method and problem", name_));
+      throw CheckpointError(fmt::format("{}: is not a state of this method and problem", name_));
     report.stop_reason = reason.as_string();
     set_best(report, optimiser.best(), best[0], std::span(best).subspan(2), best[1]);
     if (log) restore_log(static_cast<std::size_t>(report.generations), report.log);

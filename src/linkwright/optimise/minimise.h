@@ -19,12 +19,12 @@ namespace linkwright::optimise {
 /// When a run ends, whichever comes first.
 struct StopCriteria {
   std::int64_t evaluations =
-      0;                ///< no generation begins that could exceed this; 0 = no limit; the first always runs
-  int generations = 0;  ///< 0 = as the options of the method say
+      0;  ///< a generation that could exceed this is not started, except the first; 0 = no limit
+  int generations = 0;             ///< 0 = as the options of the method say
   double target_cost = -infinity;  ///< a feasible candidate costs at most this
   int stagnation = 0;              ///< generations in a row without a new best candidate; 0 = no limit
   /// The best was improved or equalled in this generation and no member is further than this from it
-  /// (Euclidean, in the units of the variables); 0 = never. The criterion of the wheel-guide studies.
+  /// (Euclidean, in the units of the variables); 0 = never. The criterion of the wheel-suspension studies.
   double spread = 0;
   /// No two members are further apart than this (Euclidean, in the units of the variables); 0 = never.
   double diameter = 0;

@@ -205,7 +205,7 @@ class FrontKeeper {
     for (std::size_t k = 0; good && k < entries; ++k)
       good = logged[k * entry] >= 0 && logged[k * entry] <= static_cast<double>(most_evaluations) &&
              logged[k * entry + 2] >= 0 && logged[k * entry + 2] <= static_cast<double>(population);
-    if (!good) throw CheckpointError(fmt::format("{}: is no state of this method and problem", name_));
+    if (!good) throw CheckpointError(fmt::format("{}: is not a state of this method and problem", name_));
     report.stop_reason = reason.as_string();
     fill(members, population, x, f);
     evaluator.least_violation = best[0];

@@ -101,9 +101,10 @@ void fields(Visitor&& visit, PagmoOptions& o) {
 
 /// What all methods of several objectives are told.
 struct FrontOptions {
-  std::int64_t evaluations = 0;  ///< no generation begins that exceeds this; 0 = no limit; the first runs
-  bool log = true;               ///< keep one FrontLog a generation
-  bool progress = true;          ///< report to the run context
+  std::int64_t evaluations =
+      0;            ///< a generation that would exceed this is not started, except the first; 0 = no limit
+  bool log = true;  ///< keep one FrontLog a generation
+  bool progress = true;  ///< report to the run context
   /// Name under which the state is kept in the checkpoint of the run context, of its own for every
   /// minimisation of a run; empty = not kept.
   std::string checkpoint = {};

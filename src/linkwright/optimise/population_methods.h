@@ -47,7 +47,7 @@ constexpr Word choice_word(const HybridCuckooFireflyOptions&) {
   return {"hybrid_cuckoo_firefly", "cuckoos that move as fireflies, H-CS-FA (Boskovic 2018)"};
 }
 constexpr Word choice_word(const SubpopulationFireflyOptions&) {
-  return {"subpopulation_firefly", "fireflies in two parts, SP-FA (Boskovic 2018)"};
+  return {"subpopulation_firefly", "fireflies in two subpopulations, SP-FA (Boskovic 2018)"};
 }
 constexpr Word choice_word(const CmaEsOptions&) {
   return {"cma_es", "covariance matrix adaptation evolution strategy, by pagmo (Hansen 2016)"};

@@ -26,9 +26,9 @@ struct PriorityKey {
 /// that are none, or do not fit the costs.
 PriorityKey priority_key(std::span<const double> costs, const Priorities& priorities);
 
-/// Whether a is better: more objectives met or, of as many, the lesser ratio. The rule of the wheel-guide
-/// studies, Eq. (78) there, which compares the ratios alone: by that a design that misses the first objective
-/// by 1.5 were better than one that misses only the second, by 55.
+/// Whether a is better: more objectives met or, of as many, the lesser ratio. The rule of the
+/// wheel-suspension studies, Eq. (78) there, which compares the ratios alone: by that a design that misses
+/// the first objective by 1.5 were better than one that misses only the second, by 55.
 bool better(const PriorityKey& a, const PriorityKey& b);
 
 /// The key as one number, 1 - met - 1 / (1 + ratio), for methods that compare numbers: of two keys the better

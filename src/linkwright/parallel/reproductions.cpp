@@ -88,7 +88,7 @@ std::vector<study::Reproduction> reproductions() {
           {"milutinovic-2014-stiffness",
            "Measured mean stiffness of the prototype",
            "Milutinovic et al. 2014, section 4.2",
-           {"The source tells neither how the mean was taken nor the stiffness of the parts. 'Ours' is the "
+           {"The source states neither how the mean was taken nor the stiffness of the parts. 'Ours' is the "
             "mean over +-60 "
             "deg with rigid arms and coupler and the diagonal that the row's reading of the mean implies."},
            stiffness_rows}};

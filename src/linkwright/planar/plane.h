@@ -8,7 +8,7 @@
 namespace linkwright::planar {
 
 /// A vector of the plane, written once for `double` and SIMD batches. Read as a complex number where it turns
-/// another one (`turn`), without the care that std::complex takes of infinities.
+/// another one (`rotate`), without the care that std::complex takes of infinities.
 template <class T>
 struct Vec {
   T x, y;
@@ -39,29 +39,29 @@ template <class T>
 LINKWRIGHT_KERNEL T cross(const Vec<T>& a, const Vec<T>& b) {
   return a.x * b.y - a.y * b.x;
 }
-/// Turned by a quarter counter-clockwise.
+/// Rotated by a quarter turn counter-clockwise.
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> left(const Vec<T>& a) {
+LINKWRIGHT_KERNEL Vec<T> perpendicular(const Vec<T>& a) {
   return {-a.y, a.x};
 }
-/// a turned (and stretched) by u: the complex product u a.
+/// a rotated (and stretched) by u: the complex product u a.
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> turn(const Vec<T>& u, const Vec<T>& a) {
+LINKWRIGHT_KERNEL Vec<T> rotate(const Vec<T>& u, const Vec<T>& a) {
   return {u.x * a.x - u.y * a.y, u.x * a.y + u.y * a.x};
 }
-/// a seen from a frame that is turned by u: the complex product conj(u) a.
+/// a seen from a frame that is rotated by u: the complex product conj(u) a.
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> unturn(const Vec<T>& u, const Vec<T>& a) {
+LINKWRIGHT_KERNEL Vec<T> rotate_inverse(const Vec<T>& u, const Vec<T>& a) {
   return {u.x * a.x + u.y * a.y, u.x * a.y - u.y * a.x};
 }
 /// A vector that is of unit length but for rounding, brought to unit length (one Newton step).
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> tidy_unit(const Vec<T>& u) {
+LINKWRIGHT_KERNEL Vec<T> renormalised(const Vec<T>& u) {
   return (T(1.5) - T(0.5) * dot(u, u)) * u;
 }
 /// The same number in every lane.
 template <class T>
-LINKWRIGHT_KERNEL Vec<T> spread(const Vec<double>& a) {
+LINKWRIGHT_KERNEL Vec<T> broadcast(const Vec<double>& a) {
   return {T(a.x), T(a.y)};
 }
 

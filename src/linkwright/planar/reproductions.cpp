@@ -213,8 +213,8 @@ study::Comparisons design_table(std::string_view table, RunContext& context) {
          outside.empty() ? design.repaired ? "corrected" : "reproduced" : "not reproduced", outside});
     rows.push_back({fmt::format("{}: least transmission angle in deg", design.label), source, nan,
                     math::degrees(transmission_angles(machine.linkage).minimum), "not printed",
-                    classify(machine.linkage).crank_rotates_fully ? "the crank turns fully"
-                                                                  : "the crank does not turn fully"});
+                    classify(machine.linkage).crank_rotates_fully ? "the crank rotates fully"
+                                                                  : "the crank does not rotate fully"});
   }
   if (table == "2.2") add_best(rows, "sp-fa", "SP-FA", source, context);
   if (table == "2.6") add_best(rows, "case3x", "case 3x", source, context);

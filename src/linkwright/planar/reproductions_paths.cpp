@@ -146,7 +146,7 @@ const std::vector<std::string> four_bar_notes = {
     "Branch open, sense +1, crank angle from the ground link, step 20 deg: the only convention that gives "
     "four of "
     "the six columns.",
-    "The column of Cabrera et al. 2007 prints 4.853543 twice and has lost a value; put right it is the row "
+    "The column of Cabrera et al. 2007 prints 4.853543 twice and has lost a value; corrected it is the row "
     "that "
     "says so.",
     "The published grey wolf setting does not come near the error printed for it; the design printed is "

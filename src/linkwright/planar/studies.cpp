@@ -4,10 +4,10 @@
 #include "linkwright/planar/studies/four_bar.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/path.h"
-#include "linkwright/planar/studies/regulation.h"
 #include "linkwright/planar/studies/serial_arm.h"
 #include "linkwright/planar/studies/simulation.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
+#include "linkwright/planar/studies/speed_fluctuation.h"
 
 namespace linkwright::planar {
 
@@ -19,8 +19,8 @@ std::vector<study::Kind> studies() {
                                     slider_crank_kind(),
                                     linkage_simulation_kind(),
                                     slider_crank_simulation_kind(),
-                                    linkage_regulation_kind(),
-                                    slider_crank_regulation_kind(),
+                                    linkage_speed_fluctuation_kind(),
+                                    slider_crank_speed_fluctuation_kind(),
                                     serial_arm_kind()};
   for (study::Kind& kind : balancing_kinds()) kinds.push_back(std::move(kind));
   return kinds;

@@ -3,10 +3,10 @@
 #include <string>
 
 /// Colours for values: from dark blue over green to light yellow in steps that look equally large. They grow
-/// lighter all the way, so that they can be told apart in grey print and by the colour-blind, too.
+/// lighter all the way, so that they can be distinguished in grey print and by the colour-blind, too.
 namespace linkwright::report {
 
-/// Number of classes of colour. More cannot be told apart, and neighbours of one class are drawn as one.
+/// Number of classes of colour. More cannot be distinguished, and neighbours of one class are drawn as one.
 inline constexpr int colour_classes = 24;
 
 /// Class of a value between low and high, 0 for low, colour_classes - 1 for high and whenever the two are

@@ -29,7 +29,7 @@ constexpr double line_height = 20;                                         // px
 constexpr std::size_t most_points = 3000;                                  // a curve; more cannot be seen
 constexpr std::size_t most_named_curves = 7;                               // more curves are one bundle
 constexpr double rounding = 1e-16;  // of the largest: less than this is zero on a logarithmic axis
-// Okabe and Ito's colours; dashes tell the curves apart without them, and those of one colour, too.
+// Okabe and Ito's colours; dashes distinguish the curves without them, and those of one colour, too.
 constexpr std::array<std::string_view, 6> colours = {"#0072B2", "#D55E00", "#009E73",
                                                      "#CC79A7", "#E69F00", "#56B4E9"};
 constexpr std::array<std::string_view, 6> dashes = {"none", "8 4", "2 3", "10 3 2 3", "5 2", "1 2"};

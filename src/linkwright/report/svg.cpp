@@ -412,7 +412,7 @@ std::string views_of(const Scene& scene, std::size_t sample, const SvgOptions& o
         "font-size=\"13\" text-anchor=\"end\">{}</text></svg>\n",
         width - 1, height - 1, width - 10, ink, paper, viewpoints[k].name);
   }
-  // The corner that is left tells the scale of the arrows.
+  // The corner that is left gives the scale of the arrows.
   put(out, "<svg x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\">\n", widths[0] + gap,
       heights[0] + gap, widths[1], heights[1]);
   draw_key(out, Canvas(top, scale, widths[1], heights[1]), seen[0], shown);

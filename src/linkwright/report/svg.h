@@ -18,7 +18,7 @@ struct SvgOptions {
   bool targets = true;         ///< target points with whiskers to what is achieved
   bool labels = true;          ///< names of the joints
   int ghosts = 0;              ///< pale poses at equal distances over the samples
-  bool forces = true;          ///< arrows of forces and couples, with an arrow that tells their scale
+  bool forces = true;          ///< arrows of forces and couples, with an arrow that gives their scale
   bool velocities = false;     ///< arrows of velocities, likewise
   bool accelerations = false;  ///< arrows of accelerations, likewise
   double whisker_scale = 1;    ///< errors are drawn this many times larger

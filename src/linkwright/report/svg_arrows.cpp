@@ -18,7 +18,7 @@ using study::Scene;
 
 constexpr double arc_radius = 30;  // px, of couples
 
-// Shapes tell the quantities apart without their colours: one filled head, one open head, two open heads on
+// Shapes distinguish the quantities without their colours: one filled head, one open head, two open heads on
 // dashes.
 struct ArrowLook {
   std::string_view colour;
@@ -84,7 +84,7 @@ void draw_arrow(std::string& out, Scene::Quantity quantity, double x, double y, 
   out += "</g>\n";
 }
 
-// An arc from the top: its length tells the size, its sense the sign.
+// An arc from the top: its length gives the size, its sense the sign.
 void draw_arc(std::string& out, double x, double y, double r, double turn) {
   const std::string_view colour = look(Scene::Quantity::force).colour;
   // In the picture y points down: counter-clockwise is a falling angle.

@@ -10,7 +10,7 @@
 namespace linkwright::study {
 
 /// Text of a file that a study names at `key`, relative to its folder, as UTF-8 (core/csv.h, to_utf8).
-/// Nothing, and the problem told there, if it cannot be read, is no text or has more than 4 MiB.
+/// Nothing, and the problem reported there, if it cannot be read, is no text or has more than 4 MiB.
 std::optional<std::string> read_beside(ObjectReader& reader, std::string_view key,
                                        const std::filesystem::path& folder, const std::string& file);
 

@@ -243,7 +243,7 @@ void DocumentReader::finish(const std::function<Value()>& schema) {
   if (unknown_ > most_unknown_keys)
     report(Diagnostic::Severity::error, {}, {},
            fmt::format("{} more unknown keys", unknown_ - most_unknown_keys));
-  // A table that two readers open (the study room and the domain) tells its problems twice.
+  // A table that two readers open (the study module and the domain) reports its problems twice.
   std::set<std::string> told;
   const auto first = diagnostics_.begin() + static_cast<std::ptrdiff_t>(first_);
   diagnostics_.erase(std::remove_if(first, diagnostics_.end(),

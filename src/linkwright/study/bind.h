@@ -38,7 +38,7 @@ namespace linkwright::study {
 class ObjectReader;
 
 /// Reads one document: collects what is wrong with it and which keys were asked for, so that `finish` can
-/// tell the unknown ones. Values that cannot be read keep what the member held before.
+/// report the unknown ones. Values that cannot be read keep what the member held before.
 ///
 /// One mistake, one message: what could not be read is remembered, and `finish` drops the errors of meaning
 /// (ObjectReader::error) that may only follow from it, those in the same top-level table and, if the

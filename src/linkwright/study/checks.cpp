@@ -198,11 +198,12 @@ std::vector<CheckRequest> read_checks(ObjectReader& document) {
     const bool equals = reader.has("equals"), limits = reader.has("at_most") || reader.has("at_least");
     if (!equals && !limits)
       reader.error("quantity", "this check has no limit", "add at_most, at_least, or equals with tolerance");
-    if (equals && limits) reader.error("equals", "stands beside at_most or at_least", "keep one of them");
+    if (equals && limits)
+      reader.error("equals", "cannot be combined with at_most or at_least", "keep one of them");
     if (equals && !reader.has("tolerance"))
-      reader.error("equals", "needs a tolerance beside it", "computed numbers are never exactly equal");
+      reader.error("equals", "needs a tolerance", "computed numbers are never exactly equal");
     if (!equals && reader.has("tolerance"))
-      reader.error("tolerance", "belongs to equals, which this check has not");
+      reader.error("tolerance", "needs equals, which this check does not have");
     if (check.at_least && check.at_most && *check.at_least > *check.at_most)
       reader.error("at_least",
                    fmt::format("is {}, larger than at_most, which is {}", *check.at_least, *check.at_most));

@@ -171,7 +171,7 @@ bool read_value(ObjectReader& reader, const ObjectReader::Found& found, const Fi
     if (!unit) {
       const std::string_view nearest =
           element.is_string() ? nearest_word(element.as_string(), all_suffixes()) : std::string_view();
-      reader.problem(at, "is no unit that keys may carry",
+      reader.problem(at, "is not a unit that keys may carry",
                      nearest.empty() ? fmt::format("units are {}", fmt::join(all_suffixes(), ", "))
                                      : fmt::format("did you mean '{}'?", nearest));
       good = false;

@@ -38,7 +38,7 @@ math::MotionLaw motion_law(const DrivenLaw<kind>& law) {
       []<class Law>(const Driven<kind, Law>& l) { return math::MotionLaw(static_cast<const Law&>(l)); }, law);
 }
 
-constexpr Word choice_word(const math::ConstantSpeed&) { return {"constant_speed", "even motion"}; }
+constexpr Word choice_word(const math::ConstantSpeed&) { return {"constant_speed", "uniform motion"}; }
 constexpr Word choice_word(const math::CycloidalMotion&) {
   return {"cycloidal", "from rest to rest with a sine as acceleration"};
 }
@@ -51,7 +51,9 @@ constexpr Word choice_word(const math::EndConditions&) {
 constexpr Word choice_word(const math::MotionTable&) {
   return {"table", "smooth curve through values in time"};
 }
-constexpr Word choice_word(const math::HarmonicMotion&) { return {"harmonic", "sine to and fro"}; }
+constexpr Word choice_word(const math::HarmonicMotion&) {
+  return {"harmonic", "reciprocating motion, a sine of time"};
+}
 template <JointKind kind, class Law>
 constexpr Word choice_word(const Driven<kind, Law>& law) {
   return choice_word(static_cast<const Law&>(law));
@@ -68,7 +70,7 @@ constexpr Dimension dimension(JointKind kind, int order) {
   return kind == JointKind::rotary ? rotary[order] : linear[order];
 }
 
-// Beyond it the digits of a double no longer tell neighbouring positions apart.
+// Beyond it the digits of a double no longer separate neighbouring positions.
 inline constexpr double most = 1e9;
 
 constexpr Field value(JointKind kind, std::string_view key, std::string_view summary, bool required = false,

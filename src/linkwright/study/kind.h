@@ -65,7 +65,7 @@ void fields(Visitor&& visit, Seeds& s) {
         s.count);
 }
 
-/// What every study has and the study room reads: a domain finds it here and never reads these keys itself.
+/// What every study has and the study module reads: a domain finds it here and never reads these keys itself.
 struct Common {
   std::string title;
   std::string source;
@@ -102,7 +102,7 @@ struct Kind {
   /// schema_fields<...>()).
   std::function<void(SchemaWriter& document)> schema;
   /// Reads the domain's tables through the reader of the document, which also takes the problems, all of them
-  /// and not just the first. Keys that nobody asked for are reported afterwards by the study room.
+  /// and not just the first. Keys that nobody asked for are reported afterwards by the study module.
   std::function<Prepared(ObjectReader& document, const Common& common)> prepare;
 };
 

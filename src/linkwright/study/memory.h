@@ -15,7 +15,7 @@ double table_bytes(double rows, double columns);
 double population_bytes(double population, double variables);
 
 /// An error at `key` of a table when what it asks for takes more memory than may be taken: "3e+09 rows would
-/// take 23.4 TB of memory, at most 12 GB may be taken". `mend` says how to ask for less: "take fewer
+/// take 23.4 TB of memory, at most 12 GB may be taken". `fix` says how to ask for less: "take fewer
 /// samples". False when there was an error.
 bool require_memory(ObjectReader& table, std::string_view key, double bytes, std::string_view what,
                     std::string_view mend);

@@ -131,7 +131,7 @@ class Scanner {
     else if (c == '=' || c == ',' || c == '\n' || c == '[' || c == '{')
       dots_ = 0;
     if (open_.size() > deepest_nesting || dots_ > deepest_nesting)
-      problem(fmt::format("tables and arrays stand in each other more than {} deep", deepest_nesting), {});
+      problem(fmt::format("tables and arrays are nested more than {} deep", deepest_nesting), {});
   }
 
   /// Keeps track of whether a key or a value is due, and so whether a string may begin. It needs to be right

@@ -29,8 +29,7 @@ class Converter {
     const Position position = to_position(node.source().begin);
     if (depth > deepest_nesting) {
       if (!has_errors(diagnostics_))
-        problem(position,
-                fmt::format("tables and arrays stand in each other more than {} deep", deepest_nesting));
+        problem(position, fmt::format("tables and arrays are nested more than {} deep", deepest_nesting));
       return {};
     }
     Value value;

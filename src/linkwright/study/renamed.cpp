@@ -10,18 +10,23 @@
 namespace linkwright::study {
 namespace {
 
-constexpr std::string_view suspension = "suspension.", clearance = "clearance.", planar = "planar.";
+constexpr std::string_view suspension = "suspension.", clearance = "clearance.", planar = "planar.",
+                           parallel = "parallel.";
 
 constexpr std::array all_renamed{
     Renamed{NameOf::kind, "regulation", "speed_fluctuation", planar},
     Renamed{NameOf::key, "regulation", "speed_fluctuation", planar},
+    Renamed{NameOf::column, "regulated_speed", "speed_with_flywheel", planar},
     Renamed{NameOf::column, "_way", "_displacement"},
+    Renamed{NameOf::key, "parts", "aspects", parallel},
     Renamed{NameOf::mechanism, "suspension.wheel_guide", "suspension.corner"},
+    Renamed{NameOf::link, "KS", "US", suspension},
     Renamed{NameOf::word, "spin", "carrier_pitch", suspension},
     Renamed{NameOf::word, "support", "anti_pitch", suspension},
     Renamed{NameOf::word, "support_tangent", "anti_pitch_tangent", suspension},
     Renamed{NameOf::word, "support_tangent_free", "anti_pitch_tangent_free", suspension},
     Renamed{NameOf::key, "spin", "carrier_pitch", suspension},
+    Renamed{NameOf::key, "largest_spin", "largest_carrier_pitch", suspension},
     Renamed{NameOf::key, "unknown_spin", "unknown_carrier_pitch", suspension},
     Renamed{NameOf::key, "spin_technique", "carrier_pitch_technique", suspension},
     Renamed{NameOf::column, "spin", "carrier_pitch", suspension},
@@ -32,7 +37,9 @@ constexpr std::array all_renamed{
     Renamed{NameOf::target, "path_points_and_lead", "path_points_and_phase", clearance},
     Renamed{NameOf::key, "lead", "phase", clearance},
     Renamed{NameOf::column, "lead", "phase", clearance},
-    Renamed{NameOf::column, "wanted_lead", "wanted_phase", clearance},
+    Renamed{NameOf::column, "_lead", "_phase", clearance},
+    Renamed{NameOf::column, "lead_min", "phase_min", clearance},
+    Renamed{NameOf::column, "lead_max", "phase_max", clearance},
     Renamed{NameOf::column, "lead_slope", "phase_slope", clearance},
 };
 
@@ -102,6 +109,17 @@ class Reader {
     value = Value(std::move(now));
     value.position = position;
   }
+  /// "2RS-KS": the codes of the links in a name.
+  void links(Value& value, const std::string& path) {
+    if (!value.is_string()) return;
+    const std::string before = value.as_string();
+    std::string now = before;
+    for (const Renamed& r : all_renamed)
+      if (r.of == NameOf::link && mechanism_.starts_with(r.mechanism))
+        for (std::size_t at = 0; (at = now.find(r.before, at)) != std::string::npos; at += r.now.size())
+          now.replace(at, r.before.size(), r.now);
+    if (now != before) replace(value, std::move(now), before, path);
+  }
   /// "sweep.spin_deg.max": columns between dots, each with a unit.
   std::optional<std::string> columns(std::string_view text) const {
     std::string out;
@@ -135,6 +153,8 @@ class Reader {
              : path == "target"  ? NameOf::target
                                  : NameOf::word,
              at);
+      const bool of_link = path.find("mechanism.link[") != std::string::npos;
+      if (member.key == (of_link ? "type" : "sample")) links(member.value, at);
       if (member.key == "quantity" || member.key == "parameter") quantity(member.value, at);
       if (member.key == "quantities" && member.value.is_array())
         for (Value& one : member.value.as_array()) quantity(one, at);

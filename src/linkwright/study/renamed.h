@@ -14,13 +14,14 @@
 namespace linkwright::study {
 
 /// What a name names.
-enum class NameOf { kind, mechanism, target, key, word, column };
-constexpr std::array<EnumName<NameOf>, 6> names(NameOf) {
+enum class NameOf { kind, mechanism, target, key, word, link, column };
+constexpr std::array<EnumName<NameOf>, 7> names(NameOf) {
   return {{{NameOf::kind, "kind", "kind of a study"},
            {NameOf::mechanism, "mechanism", "type of a mechanism"},
            {NameOf::target, "target", "type of a target"},
            {NameOf::key, "key", "key of a table, without its unit"},
            {NameOf::word, "word", "text of a `type`, `quantity` or `quantities`"},
+           {NameOf::link, "link", "code of a link, as its `type` and in the name of a `sample`"},
            {NameOf::column, "column", "column of a table of results, without its unit"}}};
 }
 

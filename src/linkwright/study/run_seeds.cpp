@@ -42,7 +42,7 @@ std::vector<optimise::GenerationLog> restored_log(const Value& table, std::strin
   const Value& evaluations = kept_member(log, "evaluations", what);
   const std::vector<double> numbers = unpack_numbers(kept_member(log, "numbers", what), what);
   if (!evaluations.is_array() || numbers.size() != numbers_of_generation * evaluations.as_array().size())
-    throw CheckpointError(fmt::format("{}: its log is none of generations", what));
+    throw CheckpointError(fmt::format("{}: its log is not one of generations", what));
   std::vector<optimise::GenerationLog> out;
   for (std::size_t i = 0; i < evaluations.as_array().size(); ++i) {
     const Value& count = evaluations.as_array()[i];

@@ -130,7 +130,7 @@ Value constant(std::string_view word) {
   return schema;
 }
 
-/// Adds a key that the study room reads to a table that the domain describes.
+/// Adds a key that the study module reads to a table that the domain describes.
 void add_property(Value& document, std::string_view table, std::string_view key, Value schema,
                   bool required) {
   Value& described = document["properties"][table];
@@ -159,7 +159,7 @@ void make_unique(Table& table, Diagnostics& diagnostics) {
   }
 }
 
-/// Ranges { min, max } in a value: unknowns, for all that the study room knows.
+/// Ranges { min, max } in a value: unknowns, for all that the study module knows.
 std::size_t ranges_in(const Value& value) {
   std::size_t out = 0;
   if (value.is_object()) {
@@ -237,7 +237,7 @@ Result run_study(const Study& study, RunContext& context) {
     result = study.run(context);
   } catch (const Interrupted& why) {
     result.status = why.status();
-    result.headline = "Interrupted before there was anything to tell.";
+    result.headline = "Interrupted before there was anything to report.";
   }
   for (Table& table : result.tables) make_unique(table, result.diagnostics);
   for (const CheckRequest& check : study.common.checks) result.checks.push_back(evaluate(check, result));

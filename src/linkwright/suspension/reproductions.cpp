@@ -34,7 +34,7 @@ std::array<double, 5> found_at(const GuidePlan& plan, const PublishedPosition& r
   }
   const WheelAngles angles = wheel_angles(plan.side, plan.wheel, at.place.carrier.rotation);
   return {at.place.carrier.centre.x, at.place.carrier.centre.y, math::degrees(angles.toe),
-          math::degrees(angles.camber), math::degrees(angles.spin)};
+          math::degrees(angles.camber), math::degrees(angles.carrier_pitch)};
 }
 
 // Every number of the table of positions.
@@ -43,7 +43,7 @@ void add_positions(study::Comparisons& rows, const PublishedGuide& published) {
   const GuidePlan as_printed = published.example == 2 ? prepare(strut_as_printed()) : plan;
   for (std::size_t i = 0; i < published.positions.size(); ++i) {
     const PublishedPosition& row = published.positions[i];
-    const std::array printed{row.x, row.y, row.toe, row.camber, row.spin};
+    const std::array printed{row.x, row.y, row.toe, row.camber, row.carrier_pitch};
     const std::array<double, 5> ours = found_at(plan, row), with_printed = found_at(as_printed, row);
     for (std::size_t k = 0; k < printed.size(); ++k) {
       if (std::isnan(printed[k])) continue;
@@ -67,13 +67,13 @@ void add_positions(study::Comparisons& rows, const PublishedGuide& published) {
 
 /// The sum of figures over repeats.
 struct Means {
-  Deviation x, y, toe, camber, spin;
+  Deviation x, y, toe, camber, carrier_pitch;
   double coordinate_error = 0, generations = 0;
   int repeats = 0, links = 0, found = 0, movable = 0;
 
   static void add(Deviation& to, const Deviation& d) { to.largest += d.largest, to.mean += d.mean; }
   void add(const PoseDeviations& d) {
-    add(x, d.x), add(y, d.y), add(toe, d.toe), add(camber, d.camber), add(spin, d.spin);
+    add(x, d.x), add(y, d.y), add(toe, d.toe), add(camber, d.camber), add(carrier_pitch, d.carrier_pitch);
     movable += d.missed == 0;
   }
   std::array<std::array<double, 2>, 5> per_repeat() const {
@@ -81,19 +81,19 @@ struct Means {
       return std::array{d.largest / repeats / unit, d.mean / repeats / unit};
     };
     const double degree = math::radians(1);
-    return {of(x, 1), of(y, 1), of(toe, degree), of(camber, degree), of(spin, degree)};
+    return {of(x, 1), of(y, 1), of(toe, degree), of(camber, degree), of(carrier_pitch, degree)};
   }
 };
 
 /// Repeats a synthesis of the whole mechanism, other boxes each time, until interrupted.
 template <class Synthesise>
-Means repeat(const PublishedGuide& published, bool spin_open, int repeats, RunContext& context,
+Means repeat(const PublishedGuide& published, bool carrier_pitch_open, int repeats, RunContext& context,
              Synthesise&& synthesise_one) {
   const WheelGuide& truth = guide_sample(published.sample).guide;
   const CarrierTargets complete = published_targets(published);
   IndirectTask task{.targets = complete, .links = {}, .couplers = {}};
-  if (spin_open)
-    for (CarrierTarget& pose : task.targets.poses) pose.angles.spin = not_printed;
+  if (carrier_pitch_open)
+    for (CarrierTarget& pose : task.targets.poses) pose.angles.carrier_pitch = not_printed;
   Means means;
   for (int i = 1; i <= repeats && !context.interrupted(); ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
@@ -122,7 +122,7 @@ std::string better(double published, double ours) {
 
 void add_deviations(study::Comparisons& rows, const std::string& what, const std::string& source,
                     const PublishedDeviations& printed, const Means& means) {
-  const std::array all{printed.x, printed.y, printed.toe, printed.camber, printed.spin};
+  const std::array all{printed.x, printed.y, printed.toe, printed.camber, printed.carrier_pitch};
   const auto ours = means.per_repeat();
   for (std::size_t k = 0; k < all.size(); ++k)
     for (std::size_t m = 0; m < 2; ++m) {
@@ -147,7 +147,7 @@ void add_synthesis(study::Comparisons& rows, const PublishedGuide& published, Ru
   const PublishedEvolution& printed = published.evolution;
   const Means fit =
       repeat(published, false, boxes, context, [&](const IndirectTask& task, std::uint64_t seed) {
-        return synthesise(task, {.link = {.progress = false}, .spin = {}}, seed, context);
+        return synthesise(task, {.link = {.progress = false}, .carrier_pitch = {}}, seed, context);
       });
   if (fit.repeats == 0) return;
   const double percent = 100.0 * fit.found / fit.links;
@@ -213,20 +213,21 @@ void add_run_of_the_appendix(study::Comparisons& rows) {
   add("largest error of the wheel centre, m", 1.3e-8, std::max(d.x.largest, d.y.largest), 5e-10);
   add("largest error of toe, deg", 4.5e-6, math::degrees(d.toe.largest), 1e-7);
   add("largest error of camber, deg", 2.7e-6, math::degrees(d.camber.largest), 5e-8);
-  add("largest error of carrier pitch, deg", 4.0e-6, math::degrees(d.spin.largest), 5e-8);
+  add("largest error of carrier pitch, deg", 4.0e-6, math::degrees(d.carrier_pitch.largest), 5e-8);
   rows.push_back({"objective of the quasi-Newton run", source, 0.02, not_printed, "not reproduced",
                   "the point that is listed has 4.19e-4"});
 }
 
-void add_open_spin(study::Comparisons& rows, RunContext& context) {
+void add_open_carrier_pitch(study::Comparisons& rows, RunContext& context) {
   const PublishedGuide& published = published_guides()[3];
-  for (const SpinTechnique technique : {SpinTechnique::quadratic, SpinTechnique::dyad}) {
+  for (const CarrierPitchTechnique technique :
+       {CarrierPitchTechnique::quadratic, CarrierPitchTechnique::dyad}) {
     const PublishedEvolution& printed =
-        technique == SpinTechnique::quadratic ? published_quadratic() : published_dyad();
+        technique == CarrierPitchTechnique::quadratic ? published_quadratic() : published_dyad();
     const Means means =
         repeat(published, true, 3, context, [&](const IndirectTask& task, std::uint64_t seed) {
-          return synthesise(task, {.link = {}, .spin = {.technique = technique, .progress = false}}, seed,
-                            context);
+          return synthesise(task, {.link = {}, .carrier_pitch = {.technique = technique, .progress = false}},
+                            seed, context);
         });
     if (means.repeats == 0) return;
     const std::string what = fmt::format("carrier pitch unknown, {}", name_of(technique));
@@ -234,7 +235,7 @@ void add_open_spin(study::Comparisons& rows, RunContext& context) {
     rows.push_back({what + ": mean error of coordinates, m", "Poznanovic 2016, Tab. 6-15",
                     printed.coordinate_error, means.coordinate_error,
                     better(printed.coordinate_error, means.coordinate_error),
-                    "motion hardly tells one mechanism from another"});
+                    "the motion hardly distinguishes one mechanism from another"});
   }
 }
 
@@ -244,7 +245,7 @@ study::Comparisons example(std::size_t number, RunContext& context) {
   add_positions(rows, published);
   if (number == 1) add_run_of_the_appendix(rows);
   add_synthesis(rows, published, context);
-  if (number == 4) add_open_spin(rows, context);
+  if (number == 4) add_open_carrier_pitch(rows, context);
   return rows;
 }
 
@@ -327,13 +328,15 @@ std::vector<study::Reproduction> reproductions() {
        "Poznanovic 2016, section 6.4, Fig. 6-5, Tabs. 6-9 to 6-12",
        {"The hinge of link 3 points to 13 + (0.1 tan 9 deg, 0.1, 0); the other sign of the printed 9 deg "
         "misses the table by 5 mm.",
-        "Spins of positions 1 and 9 are printed as -6.12819 and 4.58125 and are -6.1281952 and 4.5812446.",
+        "The carrier pitches of positions 1 and 9 are printed as -6.12819 and 4.58125 and are -6.1281952 and "
+        "4.5812446.",
         repeats_note},
        [](RunContext& context) { return example(3, context); }},
       {"poznanovic-2016-example-4",
        "five-link rear suspension: positions, synthesis with and without the carrier pitch",
        "Poznanovic 2016, section 6.5, Fig. 6-8, Tabs. 6-13 to 6-16",
-       {"The turn of the dyad (73) is not the spin of (50), as the text has it, but the carrier that it "
+       {"The turn of the dyad (73) is not the carrier pitch of (50), as the text has it, but the carrier "
+        "that it "
         "turns "
         "(74) is right; (67) lacks the length of the rod.",
         "With the quadratic of the carrier pitch three boxes are searched here; over forty its largest "

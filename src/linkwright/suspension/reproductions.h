@@ -6,7 +6,7 @@
 
 namespace linkwright::suspension {
 
-/// The published tables about wheel guides.
+/// The published tables about wheel suspensions.
 std::vector<study::Reproduction> reproductions();
 
 }  // namespace linkwright::suspension

@@ -35,10 +35,11 @@ std::string example(const std::string& name) {
   EXPECT_FALSE(text.str().empty()) << name;
   // File names are relative to the study, which tests read from elsewhere.
   std::string out = text.str();
-  const std::string csv = "\"loose-four-bar-path.csv\"";
+  const std::string csv = "\"clearance-four-bar-path.csv\"";
   const auto found = out.find(csv);
   if (found != std::string::npos)
-    out.replace(found, csv.size(), "\"" LINKWRIGHT_SOURCE_DIR "/examples/studies/loose-four-bar-path.csv\"");
+    out.replace(found, csv.size(),
+                "\"" LINKWRIGHT_SOURCE_DIR "/examples/studies/clearance-four-bar-path.csv\"");
   return out;
 }
 const std::string& kind_example(DesignTarget target) {
@@ -59,7 +60,7 @@ void expect_plots_have_columns(const study::Result& r) {
 }
 
 TEST(ClearanceDesignStudy, LengthsAreThoseOfTheLeastSquares) {
-  const study::Result r = run_text(replaced(example("loose-four-bar-lengths"), "count = 5", "count = 1"));
+  const study::Result r = run_text(replaced(example("clearance-four-bar-lengths"), "count = 5", "count = 1"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   // The global optimum, to the digits of the reference.
   EXPECT_NEAR(objective(r, "path_objective_m"), 0.0152133e-3, 1e-10);
@@ -71,15 +72,15 @@ TEST(ClearanceDesignStudy, LengthsAreThoseOfTheLeastSquares) {
   EXPECT_NEAR(r.changes[0].before, 3.929349e-4, 1e-10);
   EXPECT_EQ(values(r, "design", "reference")[0], 0.2027109);
   EXPECT_THAT(r.headline, HasSubstr("if the clearance link leads the crank by 10°"));
-  EXPECT_THAT(fact(r, "crank turns fully wherever the pin lies"), HasSubstr("yes"));
+  EXPECT_THAT(fact(r, "crank rotates fully wherever the pin lies"), HasSubstr("yes"));
   ASSERT_EQ(r.diagnostics.size(), 1u);
-  EXPECT_THAT(to_string(r.diagnostics[0]), HasSubstr("a lead of 10° throughout cannot be had"));
+  EXPECT_THAT(to_string(r.diagnostics[0]), HasSubstr("a constant phase of 10° is impossible"));
   expect_plots_have_columns(r);
 }
 
 TEST(ClearanceDesignStudy, TheSwarmOfTheSourceSpreads) {
   const study::Result r =
-      run_text(replaced(example("loose-four-bar-lengths-swarm"), "count = 10", "count = 2"));
+      run_text(replaced(example("clearance-four-bar-lengths-swarm"), "count = 10", "count = 2"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   EXPECT_GT(objective(r, "path_objective_m"), 0.0152133e-3);
   EXPECT_LT(objective(r, "path_objective_m"), 0.4e-3);
@@ -88,17 +89,17 @@ TEST(ClearanceDesignStudy, TheSwarmOfTheSourceSpreads) {
 }
 
 TEST(ClearanceDesignStudy, MassesFollowTheCrank) {
-  const study::Result r = run_text(replaced(example("loose-four-bar-masses"), "count = 3", "count = 1"));
+  const study::Result r = run_text(replaced(example("clearance-four-bar-masses"), "count = 3", "count = 1"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   EXPECT_THAT(r.diagnostics, IsEmpty());
   EXPECT_THAT(r.headline, HasSubstr("pin and bush stay in contact, with 2.0"));
   EXPECT_LT(objective(r, "orbit_error_rad"), 4.3e-5);
-  const std::vector<double>&lead = values(r, "turn", "phase_rad"), &tension = values(r, "turn", "tension_N"),
+  const std::vector<double>&phase = values(r, "turn", "phase_rad"), &tension = values(r, "turn", "tension_N"),
         &before = values(r, "reference", "phase_rad");
-  ASSERT_EQ(lead.size(), 361u);
-  for (std::size_t i = 0; i < lead.size(); ++i)
-    EXPECT_NEAR(lead[i], 0, 1.5e-3) << i;  // a twelfth of a degree
-  EXPECT_NEAR(lead.front(), lead.back(), 1e-6);
+  ASSERT_EQ(phase.size(), 361u);
+  for (std::size_t i = 0; i < phase.size(); ++i)
+    EXPECT_NEAR(phase[i], 0, 1.5e-3) << i;  // a twelfth of a degree
+  EXPECT_NEAR(phase.front(), phase.back(), 1e-6);
   EXPECT_NEAR(*std::min_element(tension.begin(), tension.end()), objective(r, "least_tension_N"), 1e-3);
   // The periodic orbit of Table 3: 17 degrees either way.
   EXPECT_NEAR(*std::max_element(before.begin(), before.end()), 17.8 * full_turn / 360, 1e-2);
@@ -109,7 +110,7 @@ TEST(ClearanceDesignStudy, MassesFollowTheCrank) {
 
 // What the tables say of the design is what a simulation of it needs: the same motion, by other equations.
 TEST(ClearanceDesignStudy, TheDesignCanBeTakenOn) {
-  std::string text = replaced(example("loose-four-bar-masses"), "count = 3", "count = 1");
+  std::string text = replaced(example("clearance-four-bar-masses"), "count = 3", "count = 1");
   text = replaced(text, "gravity_m_per_s2 = 0.0", "gravity_m_per_s2 = 9.81");
   text = replaced(text, "speed_rad_per_s = 10.0", "speed_rad_per_s = 50.0\nstart_angle_deg = 30.0");
   text.erase(text.find("[[check]]"));
@@ -160,7 +161,8 @@ TEST(ClearanceDesignStudy, TheDesignCanBeTakenOn) {
   }
 }
 
-// Both stages with free crank angles, by the swarm of the source, and what is told when a lead is asked for.
+// Both stages with free crank angles, by the swarm of the source, and what is reported when a phase is asked
+// for.
 TEST(ClearanceDesignStudy, BothStagesInTurn) {
   std::string text = replaced(kind_example(DesignTarget::both), "at_once", "in_turn");
   text = replaced(text, "phase_deg = 0.0", "phase_deg = 10.0");
@@ -169,11 +171,11 @@ TEST(ClearanceDesignStudy, BothStagesInTurn) {
                   "method = \"particle_swarm\"\npopulation = 20\ngenerations = 30");
   const study::Result r = run_text(text);
   ASSERT_EQ(r.status, Status::done) << r.headline;
-  EXPECT_THAT(r.headline, HasSubstr("on the motion that repeats itself"));
+  EXPECT_THAT(r.headline, HasSubstr("on the periodic motion"));
   EXPECT_LT(objective(r, "first_turn_error_rad"), 0.03);
   ASSERT_FALSE(r.diagnostics.empty());
   EXPECT_THAT(to_string(r.diagnostics[0]),
-              HasSubstr("no masses come far below F2 = lead / sqrt(72) = 0.02057 rad"));
+              HasSubstr("no masses come far below F2 = phase / sqrt(72) = 0.02057 rad"));
 }
 
 TEST(ClearanceDesignStudy, BothAtOnceMeetThePathOnTheMotion) {
@@ -185,7 +187,7 @@ TEST(ClearanceDesignStudy, BothAtOnceMeetThePathOnTheMotion) {
   ASSERT_EQ(r.scenes.size(), 1u);
   const study::Scene& scene = r.scenes[0];
   EXPECT_EQ(scene.input_key, "crank_angle_rad");
-  EXPECT_THAT(scene.title, HasSubstr("play drawn"));
+  EXPECT_THAT(scene.title, HasSubstr("clearance drawn"));
   ASSERT_EQ(scene.targets.size(), 1u);
   EXPECT_TRUE(scene.targets[0].closed);
   ASSERT_EQ(scene.circles.size(), 1u);
@@ -193,7 +195,7 @@ TEST(ClearanceDesignStudy, BothAtOnceMeetThePathOnTheMotion) {
   expect_plots_have_columns(r);
 }
 
-// Bars of even mass, as linkages are built: pin and bush part, and the report says where.
+// Uniform bars, as linkages are built: pin and bush separate, and the report says where.
 TEST(ClearanceDesignStudy, TellsWhereContactIsLost) {
   std::string text = kind_example(DesignTarget::masses);
   const auto set = [&](const std::string& from, const std::string& to) { text = replaced(text, from, to); };
@@ -211,7 +213,7 @@ TEST(ClearanceDesignStudy, TellsWhereContactIsLost) {
   ASSERT_FALSE(r.solutions.empty()) << r.headline;
   EXPECT_LT(objective(r, "least_tension_N"), 0);
   EXPECT_THAT(fact(r, "contact"), HasSubstr("lost at a crank angle of"));
-  EXPECT_THAT(r.headline, HasSubstr("but pin and bush part at a crank angle of"));
+  EXPECT_THAT(r.headline, HasSubstr("but pin and bush separate at a crank angle of"));
   std::string told;
   for (const Diagnostic& d : r.diagnostics) told += to_string(d) + "\n";
   EXPECT_THAT(told, HasSubstr("what follows is outside of the model"));
@@ -246,7 +248,7 @@ TEST(ClearanceDesignStudy, GoesOnFromACheckpointWithTheSameBits) {
   for (const DesignTarget target : {DesignTarget::lengths, DesignTarget::masses, DesignTarget::both})
     ::linkwright::test::expect_resumed_alike(std::vector<study::Kind>(clearance_design_kinds()),
                                              kind_example(target), 2);
-  std::string swarm = replaced(example("loose-four-bar-lengths-swarm"), "count = 10", "count = 2");
+  std::string swarm = replaced(example("clearance-four-bar-lengths-swarm"), "count = 10", "count = 2");
   ::linkwright::test::expect_resumed_alike(std::vector<study::Kind>(clearance_design_kinds()), swarm, 2);
 }
 
@@ -286,7 +288,7 @@ TEST(ClearanceDesignStudy, NamesWhatIsWrong) {
   EXPECT_THAT(problems(masses, "clearance_mm = 1.0", "clearance_mm = 60.0"),
               HasSubstr("60 mm is more than half of the shortest link, 100 mm"));
   EXPECT_THAT(problems(masses, "ground_mm         = 200.0", "ground_mm = 140.0"),
-              HasSubstr("the crank does not turn fully wherever the pin lies in its bush"));
+              HasSubstr("the crank does not rotate fully wherever the pin lies in its bush"));
   EXPECT_THAT(problems(masses, "crank_mm          = 100.0", "crank_mm = { min = 90.0, max = 110.0 }"),
               HasSubstr("crank is a range, but masses are designed here, not lengths; write a number"));
   EXPECT_THAT(problems(masses, "rocker_mm         = 250.0\n", ""),

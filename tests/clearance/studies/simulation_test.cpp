@@ -75,7 +75,7 @@ TEST(ClearanceStudy, ReportsContactsMotionAndTheEnergyAudit) {
   EXPECT_NEAR(values(r, "contacts", "approach_m_per_s")[0], 4.3857831, 4e-5);
   EXPECT_NEAR(values(r, "contacts", "force_N")[0], 45872.2, 0.5);
   EXPECT_EQ(table(r, "contacts").names[0], "B");
-  // No more play than clearance and depth.
+  // No more displacement than clearance and depth.
   const std::vector<double>&x = values(r, "pins", "B_eccentricity_x_m"),
         &y = values(r, "pins", "B_eccentricity_y_m"), &depth = values(r, "pins", "B_depth_m");
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(std::hypot(x[i], y[i]), 5e-4 + depth[i], 1e-12) << i;
@@ -104,10 +104,10 @@ TEST(ClearanceStudy, ForcesAreThoseOfTheContact) {
   EXPECT_GT(largest(values(rubbing, "pins", "B_friction_N")), 1);
 }
 
-// A pin that stands on the ground, where a rocker is loose: the shaking force is that of all masses.
+// A pin that stands on the ground, where a rocker has clearance: the shaking force is that of all masses.
 TEST(ClearanceStudy, TheGroundFeelsItsContacts) {
   std::string text =
-      replaced(example("loose-four-bar-design-2"), "joint                = \"A\"", "joint = \"O4\"");
+      replaced(example("clearance-four-bar-design-2"), "joint                = \"A\"", "joint = \"O4\"");
   const auto from = text.find("model                = \"continuous\"");
   ASSERT_NE(from, std::string::npos) << text;
   const auto to = text.find("[", text.find("start_rate_rad_per_s", from));
@@ -130,7 +130,7 @@ TEST(ClearanceStudy, TheGroundFeelsItsContacts) {
 }
 
 TEST(ClearanceStudy, ContinuousContactKeepsToTheReference) {
-  const study::Result r = run_text(example("loose-four-bar-design-2"));
+  const study::Result r = run_text(example("clearance-four-bar-design-2"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   for (const study::Check& check : r.checks)
     EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
@@ -149,7 +149,7 @@ TEST(ClearanceStudy, ContinuousContactKeepsToTheReference) {
 }
 
 TEST(ClearanceStudy, WarnsWhereContinuousContactFails) {
-  const study::Result r = run_text(example("loose-four-bar-design-1"));
+  const study::Result r = run_text(example("clearance-four-bar-design-1"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   EXPECT_THAT(fact(r, "contact of A"), HasSubstr("lost at"));
   EXPECT_TRUE(std::any_of(r.facts.begin(), r.facts.end(), [](const study::Fact& f) {
@@ -164,7 +164,7 @@ TEST(ClearanceStudy, WarnsWhereContinuousContactFails) {
 // Without start the link begins where the ideal joint presses it, and settles about there: smaller swings
 // than from any other direction.
 TEST(ClearanceStudy, ContinuousContactStartsWhereTheJointPresses) {
-  const std::string given = example("loose-four-bar-design-2");
+  const std::string given = example("clearance-four-bar-design-2");
   const auto without = [](std::string text, const std::string& key) {
     const auto from = text.find(key);
     EXPECT_NE(from, std::string::npos) << text;
@@ -179,7 +179,7 @@ TEST(ClearanceStudy, ContinuousContactStartsWhereTheJointPresses) {
 
 TEST(ClearanceStudy, SectionsAndSpectraOfEvenDrives) {
   const study::Result r =
-      run_text(replaced(example("loose-four-bar-design-2"), "to_s    = 0.628318530717959", "to_s = 2.6"));
+      run_text(replaced(example("clearance-four-bar-design-2"), "to_s    = 0.628318530717959", "to_s = 2.6"));
   const std::vector<double>& turn = values(r, "section", "turn");
   ASSERT_EQ(turn.size(), 5u);  // 4.138 turns and the start
   EXPECT_NEAR(values(r, "section", "A_link_angle_rad")[1], 6.44656628 - 2 * 3.14159265358979, 1e-6);
@@ -195,7 +195,7 @@ TEST(ClearanceStudy, DrawsThePlayEnlarged) {
   const study::Result r = run_text(one_turn());
   ASSERT_EQ(r.scenes.size(), 1u);
   const study::Scene& scene = r.scenes[0];
-  EXPECT_EQ(scene.title, "motion, play drawn 10 x");
+  EXPECT_EQ(scene.title, "motion, clearance drawn 10 x");
   EXPECT_LE(scene.samples(), 361u);
   ASSERT_EQ(scene.circles.size(), 1u);
   EXPECT_EQ(scene.circles[0].name, "clearance of B, 0.5 mm");
@@ -230,13 +230,13 @@ TEST(ClearanceStudy, KeepsWhatItHasWhenTheMotionEnds) {
 }
 
 TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
-  const study::Result r = run_text(example("loose-four-bar-automatic"));
+  const study::Result r = run_text(example("clearance-four-bar-automatic"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   for (const study::Check& check : r.checks)
     EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
   EXPECT_EQ(fact(r, "model"),
-            "pin A parted from its bush at 0.153847 s, O2 at 88.15 deg; from there on real contact");
-  EXPECT_THAT(r.headline, HasSubstr("Pin A parts from its bush at 0.1538 s, O2 at 88.15 deg, and"));
+            "pin A separated from its bush at 0.153847 s, O2 at 88.15 deg; from there on real contact");
+  EXPECT_THAT(r.headline, HasSubstr("Pin A separates from its bush at 0.1538 s, O2 at 88.15 deg, and"));
   EXPECT_THAT(r.diagnostics, IsEmpty());
   // One motion: all rows, without a jump of the pin where the models meet (10 mm/s for 0.44 ms).
   const std::vector<double>&time = values(r, "motion", "time_s"),
@@ -276,7 +276,7 @@ TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
 }
 
 TEST(ClearanceStudy, AutomaticContactIsContinuousWhereThatHolds) {
-  const std::string text = example("loose-four-bar-design-2");
+  const std::string text = example("clearance-four-bar-design-2");
   const study::Result continuous = run_text(text);
   std::string other =
       replaced(text, "model                = \"continuous\"", "model = \"automatic\"\nbush_radius_mm = 10.0");
@@ -293,7 +293,7 @@ TEST(ClearanceStudy, AutomaticContactIsContinuousWhereThatHolds) {
 }
 
 TEST(ClearanceStudy, FindsThePeriodicRegimeByShooting) {
-  const study::Result r = run_text(example("loose-four-bar-regime"));
+  const study::Result r = run_text(example("clearance-four-bar-regime"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   for (const study::Check& check : r.checks)
     EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
@@ -302,10 +302,10 @@ TEST(ClearanceStudy, FindsThePeriodicRegimeByShooting) {
   EXPECT_THAT(fact(r, "stability"), HasSubstr("Floquet multipliers 0.87793"));
   EXPECT_EQ(table(r, "orbit").names, std::vector<std::string>{"A"});
   // It does repeat: everything at the end is what it is at the start.
-  const std::vector<double>&lead = values(r, "pins", "A_lead_rad"),
+  const std::vector<double>&phase = values(r, "pins", "A_phase_rad"),
         &tension = values(r, "pins", "A_tension_N"), &torque = values(r, "motion", "O2_drive_torque_N_m");
-  EXPECT_NEAR(lead.front(), 0.17282458, 1e-7);
-  EXPECT_NEAR(lead.back(), lead.front(), 1e-9);
+  EXPECT_NEAR(phase.front(), 0.17282458, 1e-7);
+  EXPECT_NEAR(phase.back(), phase.front(), 1e-9);
   EXPECT_NEAR(tension.back(), tension.front(), 1e-9);
   EXPECT_NEAR(torque.back(), torque.front(), 1e-9);
 }
@@ -317,7 +317,7 @@ std::string regime_of(std::string text, const std::string& run) {
 }
 TEST(ClearanceStudy, GoesOnUntilContactsRepeat) {
   const study::Result r =
-      run_text(replaced(example("loose-slider-crank-regime"), "samples = 721", "samples = 361"));
+      run_text(replaced(example("clearance-slider-crank-regime"), "samples = 721", "samples = 361"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   EXPECT_THAT(r.headline, HasSubstr("The motion repeats every turn after"));
   EXPECT_THAT(fact(r, "periodic regime"), HasSubstr("repeats every turn (0.03 s) after"));
@@ -353,12 +353,12 @@ TEST(ClearanceStudy, SaysWhenTheMotionDoesNotBecomePeriodic) {
 
 // Of design 1 continuous contact has no motion that keeps it: it goes over to real contact turn after turn.
 TEST(ClearanceStudy, AutomaticRegimesGoOnWhereContactIsLost) {
-  const study::Result r = run_text(regime_of(example("loose-four-bar-automatic"),
+  const study::Result r = run_text(regime_of(example("clearance-four-bar-automatic"),
                                              "samples = 181\nmax_turns = 2\nregime_tolerance = 1e-9"));
   EXPECT_EQ(r.status, Status::not_converged) << r.headline;
-  EXPECT_THAT(fact(r, "model"), HasSubstr("pin A parted from its bush at 0.153847 s"));
+  EXPECT_THAT(fact(r, "model"), HasSubstr("pin A separated from its bush at 0.153847 s"));
   EXPECT_THAT(fact(r, "shooting"), ::testing::AnyOf(HasSubstr("no periodic motion in continuous contact"),
-                                                    HasSubstr("but pins part on it")));
+                                                    HasSubstr("but pins separate on it")));
 }
 
 TEST(ClearanceStudy, NamesWhatRegimesCannotDo) {
@@ -395,8 +395,9 @@ TEST(ClearanceStudy, NamesWhatRegimesCannotDo) {
 }
 
 TEST(ClearanceStudy, WritesWhatItReads) {
-  for (const std::string& text : {slider_crank(), example("loose-four-bar-design-2"),
-                                  example("loose-four-bar-automatic"), example("loose-four-bar-regime")}) {
+  for (const std::string& text :
+       {slider_crank(), example("clearance-four-bar-design-2"), example("clearance-four-bar-automatic"),
+        example("clearance-four-bar-regime")}) {
     std::string messages;
     const auto first = prepare(text, messages);
     ASSERT_TRUE(first) << messages;
@@ -421,7 +422,7 @@ TEST(ClearanceStudy, StepsAreFewAtOneMicrometreAndAtTenTurnsAMinute) {
   const std::string slow = replaced(replaced(slider_crank(), "speed_rpm = 5000.0", "speed_rpm = 10.0"),
                                     "to_s    = 0.036", "to_s = 6.0");
   EXPECT_LT(steps(slow), 50000);
-  // A thousand turns of it are out of reach: told after 20000 steps, not after all that are allowed.
+  // A thousand turns of it are out of reach: reported after 20000 steps, not after all that are allowed.
   const study::Result hopeless = run_text(replaced(slow, "to_s = 6.0", "to_s = 6000.0\nmax_steps = 100000"));
   EXPECT_THAT(fact(hopeless, "integration"), ::testing::StartsWith("20000 steps"));
   EXPECT_THAT(messages(hopeless),
@@ -451,7 +452,7 @@ TEST(ClearanceStudy, WarnsOfALawThatDoesNotGiveItsRestitution) {
   EXPECT_THAT(messages(poor),
               HasSubstr("restitution = 0.05 of 'B': by flores_2011 an impact gives back 0.0"));
   EXPECT_THAT(messages(poor), HasSubstr("times the force and"));
-  EXPECT_THAT(messages(poor), HasSubstr("on the law is within 25 % of what it is told"));
+  EXPECT_THAT(messages(poor), HasSubstr("on the law is within 25 % of the given value"));
   EXPECT_THAT(messages(run_text(text)), Not(HasSubstr("restitution")));
 }
 

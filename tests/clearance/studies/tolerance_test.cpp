@@ -105,11 +105,11 @@ TEST(ToleranceStudy, BudgetsAddUpAndTellWhatToTighten) {
       run_text(replaced(four_bar(), "clearance_mm = 0.05  ", "clearance_mm = 0.045"));
   EXPECT_NEAR(parts - tighter.statistics.find("coupler_P_worst_m")->as_number(), 6.55e-6, 5e-8);
   EXPECT_THAT(r.headline,
-              HasSubstr("coupler.P errs by at most 0.143 mm (worst case, at 0°); 99 % of 2000 random "
+              HasSubstr("coupler.P deviates by at most 0.143 mm (worst case, at 0°); 99 % of 2000 random "
                         "linkages stay within 0.129 mm; 46 % of the worst case comes from pin A."));
 }
 
-// Every way of the point within the band that is told.
+// Every displacement of the point within the band that is reported.
 TEST(ToleranceStudy, BandOfAPath) {
   const study::Result r = run_text(four_bar());
   const std::vector<double>&x = values(r, "band", "coupler_P_x_m"), &y = values(r, "band", "coupler_P_y_m"),
@@ -117,7 +117,7 @@ TEST(ToleranceStudy, BandOfAPath) {
         &across = values(r, "errors", "coupler_P_across_m"),
         &worst = values(r, "errors", "coupler_P_worst_m");
   ASSERT_EQ(r.scenes.size(), 1u);
-  EXPECT_THAT(r.scenes[0].title, "motion; play and bands drawn 50 x");
+  EXPECT_THAT(r.scenes[0].title, "motion; clearances and bands drawn 50 x");
   EXPECT_EQ(r.scenes[0].traces.size(), 3u);
   EXPECT_EQ(r.scenes[0].circles.size(), 2u);
   bool narrower = false;
@@ -201,10 +201,10 @@ TEST(ToleranceStudy, WarnsNearDeadPoints) {
   EXPECT_THAT(messages(r), HasSubstr("the transmission angle of crank + coupler falls to"));
   EXPECT_THAT(messages(r), HasSubstr("of 2000 random linkages do not assemble everywhere; at "));
   EXPECT_THAT(messages(r),
-              HasSubstr("coupler.P: the random linkages err otherwise than the linear theory says at "));
+              HasSubstr("coupler.P: the errors of the random linkages differ from the linear theory at "));
   EXPECT_LT(values(r, "errors", "assembled").back(), 2000);
   EXPECT_EQ(values(r, "errors", "assembled").front(), 2000);
-  // Those that do not assemble everywhere are beyond every limit, and no share of 99 % is told.
+  // Those that do not assemble everywhere are beyond every limit, and no share of 99 % is reported.
   EXPECT_THAT(r.headline, ::testing::Not(HasSubstr("99 %")));
   EXPECT_EQ(r.statistics.find("coupler_P_99_percent_m"), nullptr);
   // Beyond it there is nothing, and the rest is kept.
@@ -226,7 +226,7 @@ TEST(ToleranceStudy, KeepsTheLinearTheoryWhenItIsStopped) {
   EXPECT_EQ(r.status, Status::cancelled);
   EXPECT_THAT(messages(r), HasSubstr("only 0 of 2000 random linkages were drawn (cancelled)"));
   EXPECT_THAT(r.headline,
-              "coupler.P errs by at most 0.143 mm (worst case, at 0°); 46 % of the worst case comes from "
+              "coupler.P deviates by at most 0.143 mm (worst case, at 0°); 46 % of the worst case comes from "
               "pin A.");
   EXPECT_TRUE(std::isnan(values(r, "errors", "coupler_P_drawn_m")[0]));
 }
@@ -301,7 +301,7 @@ draws = 100
   EXPECT_EQ(arm.status, Status::done) << messages(arm);
   EXPECT_EQ(table(arm, "errors").rows(), 12u);
   EXPECT_EQ(arm.scenes[0].input.size(), 4u);
-  // A loose elbow shifts the hand by its play.
+  // A clearance at the elbow shifts the hand by as much.
   EXPECT_THAT(table(arm, "errors").columns[2].values, Each(::testing::DoubleNear(1e-4, 1e-12)));
 }
 
@@ -356,17 +356,18 @@ TEST(ToleranceStudy, NamesWhatIsWrong) {
               HasSubstr("the coordinate of joint 'A' is not watched; add it to watch.coordinates"));
   EXPECT_THAT(problem("error_mm = 0.15", "error_deg = 0.15"), HasSubstr("error_deg"));
   EXPECT_THAT(problem("type = \"grid\"", "type = \"grid\"\nat_change_point = \"smooth\""),
-              HasSubstr("a linkage whose lengths err has no change points"));
+              HasSubstr("a linkage whose lengths deviate has no change points"));
   EXPECT_THAT(problem("[monte_carlo]", "[quality]\noutput_joint = \"B0\"\n[monte_carlo]"),
               HasSubstr("quality: belongs to the analysis of planar.linkage"));
   const std::string slider = tolerance_example("tolerances-slider-crank");
   EXPECT_THAT(problems_of(replaced(slider, "joint        = \"B\"", "joint = \"guide\"")),
               HasSubstr("joint 'guide' is prismatic; only revolute joints have clearance"));
-  // Nothing errs, nothing is looked at.
+  // Nothing deviates, nothing is looked at.
   std::string rigid = four_bar(), blind = four_bar();
   const auto from = rigid.find("# Loose pins"), to = rigid.find("# What is looked at");
   rigid.erase(from, to - from);
-  EXPECT_THAT(problems_of(rigid), HasSubstr("nothing errs; add [[clearance]] tables for loose pins"));
+  EXPECT_THAT(problems_of(rigid),
+              HasSubstr("no errors are given; add [[clearance]] tables for joint clearances"));
   const auto watched = blind.find("# What is looked at");
   blind.erase(watched, blind.find("[monte_carlo]") - watched);
   EXPECT_THAT(problems_of(blind), HasSubstr("nothing is looked at; add [[trace]] with a point"));

@@ -102,7 +102,7 @@ TEST(DriveStudy, TellsWhatIsWrongWithALaw) {
               HasSubstr("drive.times_s: must increase, but 1 s follows 1 s (row 3)"));
   EXPECT_THAT(problems("law = \"table\"\n"), HasSubstr("times"));
   EXPECT_THAT(problems("law = \"polynomial\"\nfrom_deg = 0\nduration_s = 1\n"),
-              HasSubstr("a position at the start alone is no motion"));
+              HasSubstr("a start position alone is not a motion"));
   EXPECT_THAT(problems("law = \"torque_table\"\ntimes_s = [0, 1]\ntorques_N_m = [1]\n"),
               HasSubstr("drive.torques_N_m: has 1 torques for 2 times"));
   EXPECT_THAT(problems("law = \"torque_table\"\ntimes_s = [0, 2, 1]\ntorques_N_m = [1, 2, 3]\n"),

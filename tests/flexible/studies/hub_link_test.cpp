@@ -63,7 +63,7 @@ TEST(HubLinkStudy, TellsWhatThePrintedVelocitiesMiss) {
   // At 7.5 s -2.785605 m against -1.160206 m of exact kinematics, whose largest sample is -1.656991 m.
   EXPECT_THAT(
       fact(result, "difference of the tip from chord_consistent"),
-      HasSubstr("1625 mm, 0.98 times its largest displacement: the printed velocities know no stiffening"));
+      HasSubstr("1625 mm, 0.98 times its largest displacement: the printed velocities lack the stiffening"));
   EXPECT_EQ(result.tables.back().name, "chord_consistent");
   EXPECT_EQ(result.plots.front().baseline, "chord_consistent");
   for (const study::Fact& f : run(spin_up).facts) EXPECT_THAT(f.label, Not(HasSubstr("chord_consistent")));
@@ -83,7 +83,7 @@ TEST(HubLinkStudy, AgreesWithAnElastica) {
   EXPECT_EQ(result.plots.front().baseline, "elastica");
   EXPECT_THAT(
       problems(replaced(beside, "tip_mass_kg = 0.085", "tip_mass_kg = 0.085\ngravity_m_per_s2 = 9.81")),
-      HasSubstr("compare_elastica: the elastica is driven from rest, without shaping, and knows no gravity"));
+      HasSubstr("compare_elastica: the elastica starts from rest, without shaping, and has no gravity"));
 }
 
 TEST(HubLinkStudy, ShapingLeavesLessVibration) {
@@ -141,7 +141,7 @@ TEST(HubLinkStudy, TellsWhatIsWrong) {
               HasSubstr("at most 1e7 are allowed"));
   EXPECT_THAT(problems(replaced(replaced(spin_up, "tip_mass_kg", "gravity_m_per_s2 = 9\ntip_mass_kg"),
                                 "[simulation]", "[simulation]\nkinematics = \"source_linearised\"")),
-              HasSubstr("the printed equations know neither gravity nor damping"));
+              HasSubstr("the printed equations have neither gravity nor damping"));
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST(VibrationStudy, FrequenciesAgainstTheContinuum) {
     EXPECT_LT(std::abs(column(result, "frequencies", "finer_change")[k]),
               1.1 * std::abs(column(result, "frequencies", "continuum_error")[k]) + 1e-9);
   }
-  // Too coarse: told.
+  // Too coarse: reported.
   const auto coarse =
       run(replaced(replaced(bare, "divisions = 4", "divisions = 1"), "modes = 2", "modes = 3"));
   EXPECT_THAT(
@@ -234,7 +234,7 @@ TEST(VibrationStudy, NamesWhatIsWrong) {
   EXPECT_THAT(problems(bare + "[campbell]\nto_rpm = 10\norders = [0]\n"), HasSubstr("must be more than 0"));
   EXPECT_THAT(problems(replaced(bare, "divisions = 4", "divisions = 4\nkinematics = \"source_linearised\"") +
                        "[load]\nforce_N = [0, 1]\n"),
-              HasSubstr("the printed equations know neither gravity nor damping nor stretching"));
+              HasSubstr("the printed equations have neither gravity nor damping nor stretching"));
   EXPECT_THAT(problems(replaced(replaced(bare, "[vibration]",
                                          "extensible = true\nhub_inertia_kg_m2 = 1\n[vibration]"),
                                 "divisions = 4", "divisions = 4\nhub = \"free\"") +

@@ -134,7 +134,7 @@ TEST(AssemblyModes, AtTheHomePoseTwelveSolutionsAreAtInfinity) {
     EXPECT_EQ(found.infinite, 12);
     EXPECT_EQ(found.certified, 28);
     EXPECT_FALSE(found.complete);
-    EXPECT_EQ(found.note, "28 of 40 complex solutions were found; 12 paths went off to infinity (on way 2)");
+    EXPECT_EQ(found.note, "28 of 40 complex solutions were found; 12 paths went off to infinity (attempt 2)");
     ASSERT_EQ(found.real, 16);
     EXPECT_LT(nearest(found.modes, home), 1e-12);
     // Arms' ends are in one plane, a mirror for the modes.
@@ -157,7 +157,7 @@ TEST(AssemblyModes, AreNotCalledDoneAfterOneWayThatMissesSome) {
   const std::array<double, 6> level{0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
   const AssemblyModes found = assembly_modes(reference_hexa(), level, {.attempts = 1});
   EXPECT_EQ(found.status, Status::not_converged);
-  EXPECT_EQ(found.note, "28 of 40 complex solutions were found; 12 paths went off to infinity (on way 1)");
+  EXPECT_EQ(found.note, "28 of 40 complex solutions were found; 12 paths went off to infinity (attempt 1)");
 }
 
 TEST(AssemblyModes, AtATypeTwoSingularityTwoOfThemMeet) {
@@ -169,7 +169,7 @@ TEST(AssemblyModes, AtATypeTwoSingularityTwoOfThemMeet) {
   EXPECT_EQ(found.finite, 38);
   EXPECT_EQ(found.singular, 2);
   EXPECT_EQ(found.note,
-            "38 of 40 complex solutions were found; 2 paths met others at the end (singular) (on way 2)");
+            "38 of 40 complex solutions were found; 2 paths met others at the end (singular) (attempt 2)");
   // A double solution is known to half the digits.
   EXPECT_LT(nearest(found.modes, pose), 1e-4);
   const auto least =

@@ -218,7 +218,7 @@ TEST(DexteritySynthesis, TellsWhatIsMissed) {
   task.limits.size = infinity;
   const DexterityDesign short_arms = assess(task, std::vector{0.1, 0.2, 0.3, 0.3});
   EXPECT_EQ(short_arms.status, Status::infeasible);
-  EXPECT_NE(short_arms.reason.find("is asked for"), std::string::npos) << short_arms.reason;
+  EXPECT_NE(short_arms.reason.find("is required"), std::string::npos) << short_arms.reason;
 }
 
 TEST(DexteritySynthesis, EndsWhenCancelled) {

@@ -283,10 +283,9 @@ TEST(PiDesignSynthesis, TellsWhatIsWrong) {
             "transmission angle = 2 rad, allowed: at least 0, below pi/2");
   EXPECT_EQ(with([](PiRequirements& r) { r.stroke = 0; }), "stroke = 0 m");
   EXPECT_EQ(with([](PiRequirements& r) { r.telescoping = 1; }), "telescoping ratio = 1, allowed: above 1");
-  EXPECT_EQ(
-      with([](PiRequirements& r) { r.torque = r.quantum = 0; }),
-      "neither a torque with a force limit nor a quantum with a resolution is required: the joint could "
-      "be as small as you like");
+  EXPECT_EQ(with([](PiRequirements& r) { r.torque = r.quantum = 0; }),
+            "neither a torque with a force limit nor a quantum with a resolution is required: the joint "
+            "could become arbitrarily small");
   EXPECT_NE(test::message([] { closed_form_design({.half_travel = 1}); }).find("as small as you like"),
             std::string::npos);
   EXPECT_NE(test::message([] { designed(reference_requirements(), -1); }).find("-1 starts"),

@@ -107,7 +107,7 @@ TEST(Drives, TellWhereAPiJointEnds) {
   EXPECT_EQ(toggle.status, Status::done);
   EXPECT_NEAR(toggle.rate, 0, 1e-16);
   EXPECT_EQ(arm_angle(drive, 0.35, 0.6).status, Status::no_assembly);
-  // The first leg with the trouble is told.
+  // The first leg with the trouble is reported.
   const Robot robot = reference_delta();
   const DrivesState state = drives_at(robot, reference_drives(), std::array{0.5, -1.0, 3.0});
   EXPECT_EQ(state.status, Status::limit_reached);

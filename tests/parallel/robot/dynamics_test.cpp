@@ -233,7 +233,8 @@ TEST(RobotDynamics, AgreesWithLagrangesEquationOfTheEnergies) {
       }
       return out;
     };
-    // Central differences err by h^2 times third derivatives and eps/h: some 1e-9 of what is differentiated.
+    // Central differences deviate by h^2 times third derivatives and eps/h: some 1e-9 of what is
+    // differentiated.
     constexpr double h = 1e-5;
     Vector6 force{};
     for (int k = 0; k < n; ++k) {

@@ -67,7 +67,7 @@ TEST(Jacobians, OfTheReferencePoses) {
 }
 
 TEST(Jacobians, AgreeWithDifferencesOfTheInversePosition) {
-  // Central differences with h = 1e-5 m err by about h^2 times third derivatives, and eps/h: 1e-9.
+  // Central differences with h = 1e-5 m deviate by about h^2 times third derivatives, and eps/h: 1e-9.
   constexpr double h = 1e-5;
   for (const auto& [id, robot, length, mode] : jacobian_references) {
     SCOPED_TRACE(id);

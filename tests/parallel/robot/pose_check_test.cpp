@@ -20,7 +20,7 @@ constexpr double degree = pi / 180;
 
 // What the plain functions say of a pose: the other route to everything that the kernel computes.
 struct Plain {
-  Hurdle hurdle = Hurdle::none;
+  Criterion criterion = Criterion::none;
   std::array<double, pose_index_count> index;
   double margin = 1;  // how far, relatively, the nearest limit is
 };
@@ -30,7 +30,7 @@ Plain plain(const PoseConditions& c, const Pose& pose) {
   out.index.fill(nan);
   const ArmAngles angles = inverse(c.robot, pose, c.mode);
   if (angles.status != Status::done) {
-    out.hurdle = Hurdle::leg;
+    out.criterion = Criterion::leg;
     out.margin = std::abs(angles.shortfall);
     return out;
   }
@@ -69,42 +69,43 @@ Plain plain(const PoseConditions& c, const Pose& pose) {
     set(PoseIndex::worst_resolution, step.worst);
     set(PoseIndex::speed_factor, speed_factor(c.robot, at, drives.drive));
   }
-  const auto demand = [&](bool met, Hurdle hurdle, double margin) {
+  const auto demand = [&](bool met, Criterion criterion, double margin) {
     out.margin = std::min(out.margin, std::abs(margin));
-    if (!met && out.hurdle == Hurdle::none) out.hurdle = hurdle;
+    if (!met && out.criterion == Criterion::none) out.criterion = criterion;
   };
   out.margin = std::min(out.margin, input);  // the edge of what the legs reach
-  demand(c.assembly == 0 || determinant(c.robot, at) * c.assembly > 0, Hurdle::assembly, q.rods);
+  demand(c.assembly == 0 || determinant(c.robot, at) * c.assembly > 0, Criterion::assembly, q.rods);
   if (c.robot.freedom == Freedom::space_translation) {
-    demand(c.constraint == 0 || q.constraint * c.constraint > 0, Hurdle::constraint, q.constraint);
-    demand(q.constraint_index >= c.least_constraint, Hurdle::constraint,
+    demand(c.constraint == 0 || q.constraint * c.constraint > 0, Criterion::constraint, q.constraint);
+    demand(q.constraint_index >= c.least_constraint, Criterion::constraint,
            q.constraint_index - c.least_constraint);
   }
-  demand(drives.status == Status::done, Hurdle::travel, 1);
-  demand(lowest_elbow >= c.least_elbow && highest_elbow <= c.most_elbow, Hurdle::elbow,
+  demand(drives.status == Status::done, Criterion::travel, 1);
+  demand(lowest_elbow >= c.least_elbow && highest_elbow <= c.most_elbow, Criterion::elbow,
          std::min(std::abs(lowest_elbow - c.least_elbow), std::abs(highest_elbow - c.most_elbow)));
-  demand(swing <= c.most_swing, Hurdle::swing, swing - c.most_swing);
+  demand(swing <= c.most_swing, Criterion::swing, swing - c.most_swing);
   if (!std::isnan(drive_transmission))
-    demand(drive_transmission >= c.least_drive_transmission, Hurdle::drive_transmission,
+    demand(drive_transmission >= c.least_drive_transmission, Criterion::drive_transmission,
            drive_transmission - c.least_drive_transmission);
-  demand(q.transmission >= c.least_transmission, Hurdle::transmission, q.transmission - c.least_transmission);
-  demand(1 / q.condition >= c.least_conditioning, Hurdle::conditioning,
+  demand(q.transmission >= c.least_transmission, Criterion::transmission,
+         q.transmission - c.least_transmission);
+  demand(1 / q.condition >= c.least_conditioning, Criterion::conditioning,
          1 / q.condition - c.least_conditioning);
   return out;
 }
 
 struct Found {
-  std::vector<Hurdle> hurdle;
+  std::vector<Criterion> criterion;
   std::array<std::vector<double>, pose_index_count> index;
   PoseFindings room() {
-    PoseFindings out{.hurdle = hurdle};
+    PoseFindings out{.criterion = criterion};
     for (std::size_t k = 0; k < pose_index_count; ++k) out.index[k] = index[k];
     return out;
   }
 };
 Found all_of(const PoseConditions& c, const std::vector<Pose>& poses) {
   Found out;
-  out.hurdle.resize(poses.size());
+  out.criterion.resize(poses.size());
   for (auto& row : out.index) row.resize(poses.size());
   check_poses(c, poses, out.room());
   return out;
@@ -169,15 +170,15 @@ TEST(PoseCheck, AgreesWithThePlainFunctions) {
       if (most_turn > 0) pose.rotation = math::turn_about(Vec3{turn(), turn(), turn()});
     }
     const Found found = all_of(conditions, poses);
-    std::array<int, hurdle_count> count{};
+    std::array<int, criterion_count> count{};
     for (std::size_t n = 0; n < poses.size(); ++n) {
       SCOPED_TRACE(n);
       const Plain expected = plain(conditions, poses[n]);
       if (expected.margin < 1e-9) continue;  // where rounding decides
-      EXPECT_EQ(name_of(found.hurdle[n]), name_of(expected.hurdle));
-      ++count[static_cast<std::size_t>(expected.hurdle)];
+      EXPECT_EQ(name_of(found.criterion[n]), name_of(expected.criterion));
+      ++count[static_cast<std::size_t>(expected.criterion)];
       // Both routes lose digits near singularities, as many as 1/sine and 1/condition say.
-      const double near = expected.hurdle == Hurdle::leg
+      const double near = expected.criterion == Criterion::leg
                               ? 1
                               : std::abs(expected.index[slot(PoseIndex::input_transmission)] *
                                          expected.index[slot(PoseIndex::conditioning)]);
@@ -191,20 +192,20 @@ TEST(PoseCheck, AgreesWithThePlainFunctions) {
         }
       }
     }
-    // Every hurdle that the conditions set is met by some.
-    const auto some = [&](Hurdle h, bool set) {
+    // Every criterion that the conditions set is met by some.
+    const auto some = [&](Criterion h, bool set) {
       EXPECT_EQ(count[static_cast<std::size_t>(h)] > 0, set) << name_of(h);
     };
     const PoseConditions& c = conditions;
-    some(Hurdle::none, true);
-    some(Hurdle::leg, true);
-    some(Hurdle::travel, true);
-    some(Hurdle::constraint, c.constraint != 0);
-    some(Hurdle::elbow, c.least_elbow > 0);
-    some(Hurdle::swing, c.most_swing < pi / 2);
-    some(Hurdle::drive_transmission, c.least_drive_transmission > 0);
-    some(Hurdle::transmission, c.least_transmission > 0);
-    some(Hurdle::conditioning, c.least_conditioning > 0);
+    some(Criterion::none, true);
+    some(Criterion::leg, true);
+    some(Criterion::travel, true);
+    some(Criterion::constraint, c.constraint != 0);
+    some(Criterion::elbow, c.least_elbow > 0);
+    some(Criterion::swing, c.most_swing < pi / 2);
+    some(Criterion::drive_transmission, c.least_drive_transmission > 0);
+    some(Criterion::transmission, c.least_transmission > 0);
+    some(Criterion::conditioning, c.least_conditioning > 0);
   }
 }
 
@@ -218,9 +219,9 @@ TEST(PoseCheck, AsksOnlyWhatIsWanted) {
   const Found whole = all_of(c, poses);
   std::vector<Vec3> positions;
   for (const Pose& p : poses) positions.push_back(p.position);
-  std::vector<Hurdle> hurdle(poses.size());
-  check_poses(c, positions, {}, {.hurdle = hurdle});
-  EXPECT_EQ(hurdle, whole.hurdle);
+  std::vector<Criterion> criterion(poses.size());
+  check_poses(c, positions, {}, {.criterion = criterion});
+  EXPECT_EQ(criterion, whole.criterion);
   for (std::size_t k = 0; k < pose_index_count; ++k) {
     std::vector<double> row(poses.size());
     PoseFindings one;
@@ -229,7 +230,7 @@ TEST(PoseCheck, AsksOnlyWhatIsWanted) {
     for (std::size_t n = 0; n < row.size(); ++n)
       EXPECT_TRUE(row[n] == whole.index[k][n] || (std::isnan(row[n]) && std::isnan(whole.index[k][n])));
   }
-  EXPECT_EQ(check_pose(c, poses[5]), whole.hurdle[5]);
+  EXPECT_EQ(check_pose(c, poses[5]), whole.criterion[5]);
 }
 
 TEST(PoseCheck, EveryInstructionSetAgrees) {
@@ -243,15 +244,15 @@ TEST(PoseCheck, EveryInstructionSetAgrees) {
   const double x[8] = {0, 0.1, 0.2, 0.3, -0.1, -0.2, 0, 2}, y[8] = {0, 0, 0.1, -0.1, 0.2, -0.2, 0.3, 0},
                z[8] = {-0.8, -0.7, -0.6, -0.8, -0.9, -0.7, -0.8, -0.8};
   task.position = {x, y, z};
-  double hurdle[8], rods[8], conditioning[8];
-  task.hurdle = hurdle;
+  double criterion[8], rods[8], conditioning[8];
+  task.criterion = criterion;
   task.wanted[slot(PoseIndex::rods)] = task.wanted[slot(PoseIndex::conditioning)] = true;
   task.index[slot(PoseIndex::rods)] = rods;
   task.index[slot(PoseIndex::conditioning)] = conditioning;
   pose_check_baseline(task);
   for (int n = 0; n < 8; ++n) {
     const Plain expected = plain({.robot = robot}, {{x[n], y[n], z[n]}});
-    EXPECT_EQ(hurdle[n], n == 7 ? 1 : 0);
+    EXPECT_EQ(criterion[n], n == 7 ? 1 : 0);
     if (n == 7) continue;
     EXPECT_NEAR(rods[n], expected.index[slot(PoseIndex::rods)], 1e-14);
     EXPECT_NEAR(conditioning[n], expected.index[slot(PoseIndex::conditioning)], 1e-14);
@@ -262,15 +263,15 @@ TEST(PoseCheck, EveryInstructionSetAgrees) {
 TEST(PoseCheck, WholeTurnsAndEmptyTravels) {
   PoseConditions c{.robot = reference_five_bar(), .mode = {-1, 1}};
   const Pose pose{{0.05, 0.45, 0}};
-  EXPECT_EQ(check_pose(c, pose), Hurdle::none);
+  EXPECT_EQ(check_pose(c, pose), Criterion::none);
   const auto angle = inverse(c.robot, pose, c.mode).angle;
   c.drives[0].lowest = angle[0] - 1e-6;
   c.drives[0].highest = angle[0] + 1e-6;
-  EXPECT_EQ(check_pose(c, pose), Hurdle::none);
+  EXPECT_EQ(check_pose(c, pose), Criterion::none);
   c.drives[0].lowest = angle[0] + 0.5e-6;
-  EXPECT_EQ(check_pose(c, pose), Hurdle::travel);
+  EXPECT_EQ(check_pose(c, pose), Criterion::travel);
   c.drives[0] = {.lowest = 4, .highest = 5};  // angles lie in (-pi, pi]
-  EXPECT_EQ(check_pose(c, pose), Hurdle::travel);
+  EXPECT_EQ(check_pose(c, pose), Criterion::travel);
 }
 
 TEST(PoseCheck, AssemblyOfAPose) {
@@ -280,8 +281,8 @@ TEST(PoseCheck, AssemblyOfAPose) {
   EXPECT_EQ(assembly_at(reference_delta(), {{0, 0, -2}}), 0);
 }
 
-// Inverse kinematics takes the poses on both sides of the zero; the constraint has its own hurdle, after the
-// assembly.
+// Inverse kinematics takes the poses on both sides of the zero; the constraint has its own criterion, after
+// the assembly.
 TEST(PoseCheck, APoseBeyondTheConstraintIsOfAnotherAssembly) {
   const Robot clear = delta({.base_radius = 0.145, .platform_radius = 0.045, .arm = 0.5, .rod = 0.5});
   const Pose home{{0, 0, -0.6}}, beyond{{0.3, 0, -0.44}};
@@ -289,13 +290,13 @@ TEST(PoseCheck, APoseBeyondTheConstraintIsOfAnotherAssembly) {
   EXPECT_EQ(marks, (Marks{-1, 1}));
   EXPECT_EQ(marks_at(clear, beyond), (Marks{-1, -1}));
   PoseConditions c{.robot = clear, .assembly = marks.assembly};
-  EXPECT_EQ(check_pose(c, beyond), Hurdle::none);
+  EXPECT_EQ(check_pose(c, beyond), Criterion::none);
   c.constraint = marks.constraint;
-  EXPECT_EQ(check_pose(c, home), Hurdle::none);
-  EXPECT_EQ(check_pose(c, beyond), Hurdle::constraint);
+  EXPECT_EQ(check_pose(c, home), Criterion::none);
+  EXPECT_EQ(check_pose(c, beyond), Criterion::constraint);
   c.constraint = 0;
   c.least_constraint = 0.2;
-  EXPECT_EQ(check_pose(c, beyond), Hurdle::constraint);
+  EXPECT_EQ(check_pose(c, beyond), Criterion::constraint);
   EXPECT_EQ(marks_at(reference_hexa(), {{0, 0, -0.5}}), (Marks{1, 1}));
   EXPECT_EQ(marks_at(clear, {{0, 0, -2}}), Marks{});
 }
@@ -331,9 +332,9 @@ TEST(PoseCheck, RefusesConditionsWithAProblem) {
 TEST(PoseCheck, AllocatesNothing) {
   const auto all = cases();
   std::vector<Pose> poses(500, Pose{{0, 0, -0.5}});
-  std::vector<Hurdle> hurdle(poses.size());
+  std::vector<Criterion> criterion(poses.size());
   const auto before = test::allocations();
-  check_poses(all[2].conditions, poses, {.hurdle = hurdle});
+  check_poses(all[2].conditions, poses, {.criterion = criterion});
   EXPECT_EQ(test::allocations(), before);
 }
 

@@ -132,7 +132,7 @@ TEST(Statics, SingularPosesAreTold) {
   EXPECT_NEAR(soft.eigenvalue[0], 0, 1e-9 * soft.eigenvalue[5]);
   EXPECT_GT(soft.eigenvalue[1], 1e-4 * soft.eigenvalue[5]);
 
-  // An arm that its screw cannot hold: the leg and its effort are told, torques and rod forces are kept.
+  // An arm that its screw cannot hold: the leg and its effort are reported, torques and rod forces are kept.
   StaticsCase toggle = statics_cases[0];
   const Vector6 angles = toggle.angles();
   toggle.drives[1].mounting = angles[1] - pi / 2;

@@ -298,7 +298,7 @@ TEST(SerialPiArm, TorquesAgreeWithLagrangesEquation) {
     ASSERT_FALSE(problem(arm, masses));
     const SerialLoads loads = inverse_dynamics(arm, masses, q, speed, second, force);
     EXPECT_EQ(loads.status, Status::done);
-    // Central differences err by some 1e-10 of the terms.
+    // Central differences deviate by some 1e-10 of the terms.
     constexpr double h = 1e-5;
     const Matrix2 j = jacobian(arm, q);
     for (int k = 0; k < 2; ++k) {

@@ -23,36 +23,37 @@ SerialConditions conditions() {
   return out;
 }
 
-// The hurdles in their order by the functions of the arm alone.
-SerialHurdle expected(const SerialConditions& c, const Vector2& point) {
+// The criteria in their order by the functions of the arm alone.
+SerialCriterion expected(const SerialConditions& c, const Vector2& point) {
   const SerialAngles q = inverse(c.arm, point, c.mode);
-  if (q.status != Status::done) return SerialHurdle::reach;
+  if (q.status != Status::done) return SerialCriterion::reach;
   for (std::size_t k = 0; k < 2; ++k)
     if (drive_at(c.arm.drive[k], c.arm.arm[k], q.angle[k]).status != Status::done)
-      return SerialHurdle::travel;
+      return SerialCriterion::travel;
   // By the law of cosines.
   const double x = point[0] - c.arm.offset[0], y = point[1] - c.arm.offset[1];
   const double elbow = std::acos((0.09 + 0.0625 - x * x - y * y) / 0.15);
-  if (elbow < c.least_elbow || elbow > c.most_elbow) return SerialHurdle::elbow;
+  if (elbow < c.least_elbow || elbow > c.most_elbow) return SerialCriterion::elbow;
   const SerialQuality quality_at = quality(c.arm, q.angle);
   for (const double t : quality_at.transmission)
-    if (t < c.least_drive_transmission) return SerialHurdle::drive_transmission;
-  return quality_at.condition > 1 / c.least_conditioning ? SerialHurdle::conditioning : SerialHurdle::none;
+    if (t < c.least_drive_transmission) return SerialCriterion::drive_transmission;
+  return quality_at.condition > 1 / c.least_conditioning ? SerialCriterion::conditioning
+                                                         : SerialCriterion::none;
 }
 
-TEST(SerialPiWorkspace, StopsAtTheFirstHurdle) {
+TEST(SerialPiWorkspace, StopsAtTheFirstCriterion) {
   const SerialConditions c = conditions();
   RandomStream random({.seed = 5});
-  std::array<int, serial_hurdle_count> seen{};
+  std::array<int, serial_criterion_count> seen{};
   for (int trial = 0; trial < 20'000; ++trial) {
     const Vector2 point{1.3 * random.uniform() - 0.6, 1.3 * random.uniform() - 0.65};
     const SerialPlace place = look_at(c, point);
-    ASSERT_EQ(place.hurdle, expected(c, point)) << point[0] << ' ' << point[1];
-    ++seen[static_cast<std::size_t>(place.hurdle)];
-    EXPECT_EQ(std::isnan(place[SerialIndex::sine]), place.hurdle == SerialHurdle::reach);
+    ASSERT_EQ(place.criterion, expected(c, point)) << point[0] << ' ' << point[1];
+    ++seen[static_cast<std::size_t>(place.criterion)];
+    EXPECT_EQ(std::isnan(place[SerialIndex::sine]), place.criterion == SerialCriterion::reach);
   }
-  for (const SerialHurdle h : {SerialHurdle::none, SerialHurdle::reach, SerialHurdle::travel,
-                               SerialHurdle::elbow, SerialHurdle::drive_transmission})
+  for (const SerialCriterion h : {SerialCriterion::none, SerialCriterion::reach, SerialCriterion::travel,
+                                  SerialCriterion::elbow, SerialCriterion::drive_transmission})
     EXPECT_GT(seen[static_cast<std::size_t>(h)], 10) << name_of(h);
 }
 
@@ -67,8 +68,9 @@ TEST(SerialPiWorkspace, MapCoversTheAnnulus) {
   EXPECT_NEAR(map.position(map.place.size() / 2)[0], 1.06, 1e-12);
   EXPECT_NEAR(map.position(map.place.size() - 1)[1], 1.98 + 0.552, 1e-12);
   // Some 870 cells of 16 mm2 lie on the edges and are counted or not at random.
-  EXPECT_NEAR(static_cast<double>(map.count(SerialHurdle::none)) * map.cell(), reachable_area(c.arm), 1e-3);
-  EXPECT_EQ(map.count(SerialHurdle::none) + map.count(SerialHurdle::reach), map.place.size());
+  EXPECT_NEAR(static_cast<double>(map.count(SerialCriterion::none)) * map.cell(), reachable_area(c.arm),
+              1e-3);
+  EXPECT_EQ(map.count(SerialCriterion::none) + map.count(SerialCriterion::reach), map.place.size());
 }
 
 TEST(SerialPiWorkspace, StopsWhenAsked) {
@@ -76,7 +78,7 @@ TEST(SerialPiWorkspace, StopsWhenAsked) {
   context.cancel();
   const SerialMap map = workspace(conditions(), whole_reach(conditions().arm, 0.01), context);
   EXPECT_EQ(map.status, Status::cancelled);
-  EXPECT_EQ(map.count(SerialHurdle::open), map.place.size());
+  EXPECT_EQ(map.count(SerialCriterion::open), map.place.size());
 }
 
 TEST(SerialPiWorkspace, RefusesGridsWithoutSense) {

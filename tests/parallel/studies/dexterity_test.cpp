@@ -65,7 +65,7 @@ TEST(DexterityStudy, GoesOnFromACheckpointWithTheSameBits) {
       2);
 }
 
-// Without limits the smallest robot is singular: a limit is put in, and told.
+// Without limits the smallest robot is singular: a limit is put in, and reported.
 TEST(DexterityStudy, PutsALimitInWhereTheSmallestWouldBeSingular) {
   const auto result = run_text(head + "goal = \"size\"\n");
   EXPECT_EQ(result.status, Status::done) << result.headline;

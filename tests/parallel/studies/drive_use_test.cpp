@@ -46,7 +46,7 @@ TEST(DriveUseStudy, FindsThePeakAndWhereTheLimitIsFirstNotKept) {
   EXPECT_THAT(
       judge.failures()[0].text,
       HasSubstr(
-          "torque of drive 1 is 20 N m, the limit is 10 N m, 200 % of it is asked for (step 1 (line) at"));
+          "torque of drive 1 is 20 N m, the limit is 10 N m, 200 % of it is required (step 1 (line) at"));
   EXPECT_THAT(judge.failures()[0].text, HasSubstr("; it begins in step 1 (line) at 0.0689"));
   // What comes after the end does not count.
   PathJudge before(motion, motors);
@@ -78,10 +78,10 @@ TEST(DriveUseStudy, TheWorstComesFirst) {
   EXPECT_THAT(failures[0].text, HasSubstr("Pi-joint 2 would be at 34.38 deg, travel -28.65 to 28.65 deg"));
   EXPECT_THAT(failures[1].text, HasSubstr("screw force of drive 1 is"));
   EXPECT_THAT(failures[2].text,
-              HasSubstr("speed of drive 2 is 3 m/s, the limit is 1 m/s, 300 % of it is asked for"));
+              HasSubstr("speed of drive 2 is 3 m/s, the limit is 1 m/s, 300 % of it is required"));
   EXPECT_THAT(failures[3].text,
-              HasSubstr("diagonal and arm of Pi-joint 2 is 0.500, at least 0.999 is asked for"));
-  EXPECT_THAT(failures[4].text, HasSubstr("transmission index is 0.200, at least 0.300 is asked for"));
+              HasSubstr("diagonal and arm of Pi-joint 2 is 0.500, at least 0.999 is required"));
+  EXPECT_THAT(failures[4].text, HasSubstr("transmission index is 0.200, at least 0.300 is required"));
   judge.fail(Severity::impossible, 0.01, Status::no_assembly, "too far");
   EXPECT_EQ(judge.failures().front().text, "too far");
   const Table table = uses_table(judge.uses());
@@ -90,7 +90,7 @@ TEST(DriveUseStudy, TheWorstComesFirst) {
   study::Result result;
   add_verdict(result, judge, motion, motion.duration(), true);
   EXPECT_EQ(result.status, Status::no_assembly);
-  EXPECT_EQ(result.headline, "It fails: too far. The first of 6 troubles begins in step 1 (line) at 0 s.");
+  EXPECT_EQ(result.headline, "It fails: too far. The first of 6 failures begins in step 1 (line) at 0 s.");
 }
 
 TEST(DriveUseStudy, DemandsTellHowFarLimitsAreKept) {

@@ -96,11 +96,11 @@ TEST(MotionStudy, SaysWhereItFailsAndWhy) {
   EXPECT_THAT(stopped.headline, HasSubstr("arm 1 would be at 14.13 deg"));
   EXPECT_THAT(stopped.headline, HasSubstr("travel 30.00 to 80.00 deg"));
   const auto stiff = run_text(whole + "[limits]\ntransmission = 0.95\n");
-  EXPECT_THAT(stiff.headline, HasSubstr("at least 0.950 is asked for"));
+  EXPECT_THAT(stiff.headline, HasSubstr("at least 0.950 is required"));
   const auto leaning = run_text(whole + "[limits]\nrod_swing_deg = 1\n");
   EXPECT_THAT(leaning.headline, HasSubstr("out of the plane of its arm, allowed are 1.00 deg"));
   const auto straight = run_text(whole + "[limits]\nlargest_elbow_deg = 90\n");
-  EXPECT_THAT(straight.headline, HasSubstr("at most 90.00 deg is asked for"));
+  EXPECT_THAT(straight.headline, HasSubstr("at most 90.00 deg is required"));
 }
 
 TEST(MotionStudy, NoticesAPathThroughASingularity) {
@@ -126,11 +126,11 @@ TEST(MotionStudy, APathThroughAConstraintSingularityFails) {
   const auto result = run_text(clear + "[limits]\ntransmission = 0.5\n");
   EXPECT_EQ(result.status, Status::singular);
   EXPECT_EQ(result.headline,
-            "It fails: step 1 (line) at 0.222832 s, 90.29 % of its way: the rods of legs 2 and 3 lie level; "
+            "It fails: step 1 (line) at 0.222832 s, 90.29 % of its path: the rods of legs 2 and 3 lie level; "
             "the platform "
             "can turn about y (constraint singularity).");
   EXPECT_EQ(fact(result, "constraint index falls to"),
-            "0.001 in step 1 (line) at 0.222415 s, 90.15 % of its way");
+            "0.001 in step 1 (line) at 0.222415 s, 90.15 % of its path");
   EXPECT_THAT(fact(result, "judged up to"), HasSubstr("step 1 (line) at 0.222415 s"));
   EXPECT_NEAR(column(result, "motion", "constraint_index").front(), 0.5750328416639233, 1e-12);
   EXPECT_NEAR(column(result, "motion", "constraint_determinant").back(), -0.08832494325551095, 1e-9);
@@ -138,7 +138,7 @@ TEST(MotionStudy, APathThroughAConstraintSingularityFails) {
   const auto limited =
       run_text(replaced(clear, "[300, 0, -440]", "[210, 0, -488]") + "[limits]\nconstraint = 0.2\n");
   EXPECT_EQ(limited.status, Status::limit_reached);
-  EXPECT_THAT(limited.headline, HasSubstr("the constraint index falls below 0.200, which is asked for"));
+  EXPECT_THAT(limited.headline, HasSubstr("the constraint index falls below 0.200, which is required"));
   EXPECT_EQ(
       run_text(replaced(clear, "[300, 0, -440]", "[180, 0, -504]") + "[limits]\nconstraint = 0.2\n").status,
       Status::done);
@@ -167,7 +167,7 @@ TEST(MotionStudy, VerdictsDoNotDependOnTheTable) {
   }
   const auto out = run_text(reach);
   EXPECT_EQ(out.status, Status::no_assembly);
-  EXPECT_THAT(out.headline, HasSubstr("step 1 (line) at 0.110088 s, 96.21 % of its way: leg 1 is straight"));
+  EXPECT_THAT(out.headline, HasSubstr("step 1 (line) at 0.110088 s, 96.21 % of its path: leg 1 is straight"));
 }
 
 // The use of a drive is the largest of the path: all rows of a fine table stay below it, and come close.

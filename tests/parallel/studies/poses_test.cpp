@@ -153,8 +153,8 @@ TEST(PosesStudy, EqualMarksProveNothingYet) {
                                "[[pose]]\nposition_mm = [258.4, 150, -450]\n");
   EXPECT_EQ(result.status, Status::done);
   EXPECT_EQ(column(result, "poses", "joined_to_home").at(0), 0);
-  EXPECT_THAT(test::fact(result, "pose 1: way from home"),
-              HasSubstr("the straight way is blocked at 38.94 %"));
+  EXPECT_THAT(test::fact(result, "pose 1: path from home"),
+              HasSubstr("the straight path is blocked at 38.94 %"));
 }
 
 TEST(PosesStudy, AHexaTellsOfThreeWays) {
@@ -163,8 +163,8 @@ TEST(PosesStudy, AHexaTellsOfThreeWays) {
       run_text(at_home +
                "[[pose]]\nname = \"turned\"\nposition_mm = [0, 0, -500]\nrotation_deg = [0, 0, 60]\n"
                "[[pose]]\nname = \"beyond\"\nposition_mm = [0, 0, -500]\nrotation_deg = [0, 0, 170]\n");
-  EXPECT_THAT(test::fact(result, "turned: way from home"), HasSubstr("the straight way is free"));
-  EXPECT_THAT(test::fact(result, "beyond: way from home"), HasSubstr("of another assembly than home"));
+  EXPECT_THAT(test::fact(result, "turned: path from home"), HasSubstr("the straight path is free"));
+  EXPECT_THAT(test::fact(result, "beyond: path from home"), HasSubstr("of another assembly than home"));
   EXPECT_THAT(test::table(result, "poses").status, ::testing::ElementsAre("done", "branch_lost"));
   EXPECT_THAT(column(result, "poses", "joined_to_home"), ::testing::ElementsAre(1, -1));
 }
@@ -179,7 +179,7 @@ TEST(PosesStudy, ArmsOfAHexaAreLedFromHome) {
   EXPECT_EQ(result.status, Status::done);
   EXPECT_NEAR(column(result, "poses", "x_m").at(0), 0.05, 1e-5);
   EXPECT_NEAR(column(result, "poses", "rotation_z_rad").at(0), 0.25, 1e-4);
-  EXPECT_THAT(test::fact(result, "pose 1: way from home"), HasSubstr("the arms lead there"));
+  EXPECT_THAT(test::fact(result, "pose 1: path from home"), HasSubstr("the arms lead there"));
 }
 
 TEST(PosesStudy, TellsWhatDoesNotFitTogether) {

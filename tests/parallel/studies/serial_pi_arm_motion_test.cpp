@@ -97,11 +97,11 @@ TEST(SerialMotionStudy, SaysWhereItFailsAndWhy) {
   EXPECT_THAT(stopped.headline, HasSubstr("Pi-joint 2 would be at "));
   EXPECT_THAT(stopped.headline, HasSubstr("travel -5.00 to 15.00 deg"));
   EXPECT_THAT(run_text(serial_motion + "[limits]\nconditioning = 0.99\n").headline,
-              HasSubstr("at least 0.990 is asked for"));
+              HasSubstr("at least 0.990 is required"));
   EXPECT_THAT(run_text(serial_motion + "[limits]\ndrive_transmission = 0.99\n").headline,
               HasSubstr("sine of the angle between diagonal and arm of Pi-joint"));
   EXPECT_THAT(run_text(serial_motion + "[limits]\nlargest_elbow_deg = 60\n").headline,
-              HasSubstr("at most 60.00 deg is asked for"));
+              HasSubstr("at most 60.00 deg is required"));
   const auto line = run_text(serial_mechanism + "[home]\nposition_mm = [610, -20, 0]\n" +
                              replaced(serial_line, "[420, 240, 0]", "[500, -20, 0]"));
   EXPECT_EQ(line.status, Status::singular);

@@ -72,8 +72,8 @@ TEST(WorkspaceStudy, TellsWhatCanBePromised) {
     const auto at = [&](double radius) {
       return check_pose(conditions, {{radius * std::cos(angle[i]), radius * std::sin(angle[i]), z[i]}});
     };
-    EXPECT_EQ(at(to[i] - 1e-6), Hurdle::none);
-    EXPECT_NE(at(to[i] + 1e-6), Hurdle::none);
+    EXPECT_EQ(at(to[i] - 1e-6), Criterion::none);
+    EXPECT_NE(at(to[i] + 1e-6), Criterion::none);
   }
 }
 

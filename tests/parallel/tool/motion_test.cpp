@@ -44,7 +44,7 @@ void expect_consistent(const ToolMotion& motion, const ToolLimits& limits) {
   for (int i = 1; i < 200; ++i) {
     const double t = motion.duration() * i / 200;
     const ToolState a = motion(t - h), s = motion(t), b = motion(t + h);
-    // A central difference errs by h^2 / 6 of the third derivative, or by h / 2 of a step of the next one
+    // A central difference deviates by h^2 / 6 of the third derivative, or by h / 2 of a step of the next one
     // within it, and by rounding, 1e-15 of values up to 1 over h.
     EXPECT_LT(norm((1 / (2 * h)) * (b.position - a.position) - s.velocity), h * h * limits.jerk + 2e-9);
     EXPECT_LT(norm((1 / (2 * h)) * (b.velocity - a.velocity) - s.acceleration), h * limits.jerk + 2e-9);
@@ -454,7 +454,7 @@ TEST(ToolMotion, TellsTheShareOfTheWayOfAStep) {
   EXPECT_NEAR(motion.share_at(first + 0.5).value_or(-1), -1, 0);
   EXPECT_NEAR(*motion.share_at(first * 1.5 + 1), 0.5, 1e-12);
   EXPECT_EQ(motion.share_at(motion.duration()), 1);
-  EXPECT_THAT(motion.where_exactly(first / 2), HasSubstr(" s, 50 % of its way"));
+  EXPECT_THAT(motion.where_exactly(first / 2), HasSubstr(" s, 50 % of its path"));
 }
 
 }  // namespace

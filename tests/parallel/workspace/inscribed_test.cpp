@@ -49,7 +49,7 @@ void passes(const Setting& s, InscribedShape shape, const Inscribed& found, doub
     if (shape == InscribedShape::ball && across + d.z * d.z > 1) continue;
     d = shrink * d;
     failed += check_pose(s.task.conditions, {found.centre + Vec3{d.x * found.half.x, d.y * found.half.y,
-                                                                 d.z * found.half.z}}) != Hurdle::none;
+                                                                 d.z * found.half.z}}) != Criterion::none;
   }
   EXPECT_EQ(failed, 0);
 }

@@ -53,8 +53,8 @@ TEST(WorkspaceRays, EndWhereTheLegsAreStraight) {
   EXPECT_EQ(ray.direction.z, -1);
   EXPECT_NEAR(-0.8 - ray.reach(), test::number_at(computed("delta-singular"), "type1_z_m"), 2e-12);
   ASSERT_EQ(ray.stretch.size(), 1u);
-  EXPECT_EQ(ray.stretch[0].before, Hurdle::none);
-  EXPECT_EQ(ray.stretch[0].after, Hurdle::leg);
+  EXPECT_EQ(ray.stretch[0].before, Criterion::none);
+  EXPECT_EQ(ray.stretch[0].after, Criterion::leg);
 }
 
 TEST(WorkspaceRays, FindStretchesBehindGaps) {
@@ -69,7 +69,7 @@ TEST(WorkspaceRays, FindStretchesBehindGaps) {
   EXPECT_NEAR(s[0].to, 0.2, 2e-9);  // the hole of the other leg, 0.3 away
   EXPECT_NEAR(s[1].from, 0.4, 2e-9);
   EXPECT_NEAR(s[1].to, 0.6, 2e-9);
-  EXPECT_EQ(s[1].before, Hurdle::leg);
+  EXPECT_EQ(s[1].before, Criterion::leg);
 }
 
 TEST(WorkspaceRays, DoNotDependOnThreadsAndStop) {
@@ -86,8 +86,8 @@ TEST(WorkspaceRays, DoNotDependOnThreadsAndStop) {
     EXPECT_NEAR(norm(directions[i]), 1, 1e-15);
     EXPECT_EQ(first.ray[i].reach(), second.ray[i].reach());
     const double reach = first.ray[i].reach();
-    EXPECT_EQ(check_pose(c, {Vec3{0, 0, -0.8} + reach * first.ray[i].direction}), Hurdle::none);
-    EXPECT_NE(check_pose(c, {Vec3{0, 0, -0.8} + (reach + 1e-8) * first.ray[i].direction}), Hurdle::none);
+    EXPECT_EQ(check_pose(c, {Vec3{0, 0, -0.8} + reach * first.ray[i].direction}), Criterion::none);
+    EXPECT_NE(check_pose(c, {Vec3{0, 0, -0.8} + (reach + 1e-8) * first.ray[i].direction}), Criterion::none);
   }
   const Rays stopped = position_rays(c, {{0, 0, -0.8}}, directions, search, none);
   EXPECT_EQ(stopped.status, Status::cancelled);
@@ -101,8 +101,8 @@ TEST(WorkspaceRays, YawOfTheReferenceHexaEndsAtItsSingularity) {
   // At yaw +-1.6147 rad the robot is singular of type 2.
   EXPECT_NEAR(found.most_yaw, 1.614713769, 2e-9);
   EXPECT_NEAR(found.least_yaw, -found.most_yaw, 1e-9);
-  EXPECT_EQ(found.most_yaw_hurdle, Hurdle::assembly);
-  EXPECT_EQ(found.least_yaw_hurdle, Hurdle::assembly);
+  EXPECT_EQ(found.most_yaw_criterion, Criterion::assembly);
+  EXPECT_EQ(found.least_yaw_criterion, Criterion::assembly);
   // Three pairs of legs: the tilts repeat after 120 deg, and the mirror image in y turns the other way about
   // y.
   ASSERT_EQ(found.tilts.size(), 36u);
@@ -115,7 +115,7 @@ TEST(WorkspaceRays, YawOfTheReferenceHexaEndsAtItsSingularity) {
   EXPECT_EQ(check_pose(c, {{0, 0, -0.5},
                            math::turn_about(found.tilt * Vec3{std::cos(found.tilt_azimuth),
                                                               std::sin(found.tilt_azimuth), 0})}),
-            Hurdle::none);
+            Criterion::none);
 }
 
 TEST(WorkspaceRays, ARotationThatDoesNotPassHasNoRange) {
@@ -123,7 +123,7 @@ TEST(WorkspaceRays, ARotationThatDoesNotPassHasNoRange) {
   const RotationRange found = rotation_range(c, {{0, 0, -0.5}}, 4, {.longest = 1, .step = 0.1}, RunContext());
   EXPECT_EQ(found.tilt, 0);
   EXPECT_EQ(found.most_yaw, 0);
-  EXPECT_EQ(found.tilt_hurdle, Hurdle::assembly);
+  EXPECT_EQ(found.tilt_criterion, Criterion::assembly);
 }
 
 TEST(WorkspaceRays, RefuseWhatMakesNoSense) {

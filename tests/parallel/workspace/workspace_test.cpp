@@ -16,7 +16,7 @@ using test::number_at;
 // The reference counts let a node on the boundary go either way.
 constexpr double nodes = 3;
 
-double count_before(const WorkspaceMap& map, Hurdle first) {
+double count_before(const WorkspaceMap& map, Criterion first) {
   std::size_t out = 0;
   for (const auto in : nodes_before(map, first)) out += in;
   return static_cast<double>(out);
@@ -37,11 +37,11 @@ TEST(Workspace, OfTheReferenceDelta) {
   const WorkspaceMap map = workspace(task, RunContext());
   EXPECT_EQ(map.status, Status::done);
   EXPECT_EQ(map.nodes, (std::array<std::size_t, 3>{101, 101, 61}));
-  EXPECT_NEAR(count_before(map, Hurdle::travel), number_at(expected, "counts.reachable"), nodes);
-  EXPECT_NEAR(count_before(map, Hurdle::transmission), number_at(expected, "counts.pi_range"), nodes);
+  EXPECT_NEAR(count_before(map, Criterion::travel), number_at(expected, "counts.reachable"), nodes);
+  EXPECT_NEAR(count_before(map, Criterion::transmission), number_at(expected, "counts.pi_range"), nodes);
   const WorkspaceTotals total = totals(map);
-  EXPECT_EQ(static_cast<double>(total.passing), count_before(map, Hurdle::open));
-  EXPECT_NEAR(count_before(map, Hurdle::open), number_at(expected, "counts.pi_range_lti"), nodes);
+  EXPECT_EQ(static_cast<double>(total.passing), count_before(map, Criterion::open));
+  EXPECT_NEAR(count_before(map, Criterion::open), number_at(expected, "counts.pi_range_lti"), nodes);
   EXPECT_NEAR(total.measure, number_at(expected, "volumes_m3.pi_range_lti"), nodes * map.cell);
   EXPECT_NEAR(map.cell, 8e-6, 1e-18);
   // Three nodes of 44273 move the mean by no more than their share.
@@ -54,12 +54,12 @@ TEST(Workspace, OfTheReferenceDeltaWithItsConstraint) {
   WorkspaceTask task = delta_task();
   task.conditions.constraint = 1;
   WorkspaceMap map = workspace(task, RunContext());
-  EXPECT_NEAR(count_before(map, Hurdle::travel), number_at(expected, "reachable_same_sign"), nodes);
-  EXPECT_NEAR(count_before(map, Hurdle::open), number_at(expected, "pi_range_lti_same_sign"), nodes);
+  EXPECT_NEAR(count_before(map, Criterion::travel), number_at(expected, "reachable_same_sign"), nodes);
+  EXPECT_NEAR(count_before(map, Criterion::open), number_at(expected, "pi_range_lti_same_sign"), nodes);
   task.conditions.least_constraint = 0.2;
   task.wanted[slot(PoseIndex::constraint_index)] = true;
   map = workspace(task, RunContext());
-  EXPECT_NEAR(count_before(map, Hurdle::travel), number_at(expected, "reachable_chi_at_least_02"), nodes);
+  EXPECT_NEAR(count_before(map, Criterion::travel), number_at(expected, "reachable_chi_at_least_02"), nodes);
   EXPECT_NEAR(totals(map).index[slot(PoseIndex::constraint_index)].least,
               number_at(expected, "pi_range_lti_least_chi"), 1e-9);
 }
@@ -88,8 +88,8 @@ TEST(Workspace, OfTheReferenceDeltaOnAFineGrid) {
   task.grid.step = 0.01;
   const WorkspaceMap map = workspace(task, RunContext());
   const Value& expected = computed("delta-workspace");
-  EXPECT_NEAR(count_before(map, Hurdle::travel) * map.cell, number_at(expected, "volumes_h001_m3.reachable"),
-              nodes * map.cell);
+  EXPECT_NEAR(count_before(map, Criterion::travel) * map.cell,
+              number_at(expected, "volumes_h001_m3.reachable"), nodes * map.cell);
   EXPECT_NEAR(totals(map).measure, number_at(expected, "volumes_h001_m3.pi_range_lti"), nodes * map.cell);
 }
 
@@ -104,9 +104,9 @@ TEST(Workspace, OfTheReferenceHexa) {
                              .rotation = math::turn_z(yaw * pi / 180)};
     const WorkspaceMap map = workspace(task, RunContext());
     const std::string key = yaw == 0 ? "yaw_deg=0" : "yaw_deg=25";
-    EXPECT_NEAR(count_before(map, Hurdle::transmission),
+    EXPECT_NEAR(count_before(map, Criterion::transmission),
                 number_at(test::at(computed("hexa-workspace"), key), "pi_range"), nodes);
-    EXPECT_NEAR(count_before(map, Hurdle::open),
+    EXPECT_NEAR(count_before(map, Criterion::open),
                 number_at(test::at(computed("hexa-workspace"), key), "pi_range_lti"), nodes);
   }
 }
@@ -130,7 +130,7 @@ TEST(Workspace, DoesNotDependOnThreads) {
   one.set_threads(1);
   two.set_threads(2);
   const WorkspaceMap first = workspace(task, one), second = workspace(task, two);
-  EXPECT_EQ(first.hurdle, second.hurdle);
+  EXPECT_EQ(first.criterion, second.criterion);
   for (std::size_t k = 0; k < pose_index_count; ++k)
     for (std::size_t n = 0; n < first.count(); ++n)
       EXPECT_TRUE(first.index[k][n] == second.index[k][n] ||
@@ -143,12 +143,12 @@ TEST(Workspace, SummariesStateTheirSet) {
   task.wanted[slot(PoseIndex::transmission)] = true;
   const WorkspaceMap map = workspace(task, RunContext());
   const IndexSummary usable = summary(map, PoseIndex::transmission, passing(map));
-  const IndexSummary reachable = summary(map, PoseIndex::transmission, nodes_before(map, Hurdle::travel));
+  const IndexSummary reachable = summary(map, PoseIndex::transmission, nodes_before(map, Criterion::travel));
   EXPECT_GE(usable.least, 0.5);
   EXPECT_LT(reachable.least, 0.5);
   EXPECT_GT(reachable.count, usable.count);
   EXPECT_EQ(map.index[slot(PoseIndex::transmission)][usable.least_at], usable.least);
-  EXPECT_EQ(check_pose(task.conditions, {map.position(usable.greatest_at)}), Hurdle::none);
+  EXPECT_EQ(check_pose(task.conditions, {map.position(usable.greatest_at)}), Criterion::none);
   EXPECT_TRUE(std::isnan(summary(map, PoseIndex::transmission, NodeSet(map.count())).mean));
   EXPECT_THROW(summary(map, PoseIndex::rods, passing(map)), ContractError);
 }
@@ -158,7 +158,7 @@ TEST(Workspace, StopsWhenAsked) {
   context.cancel();
   const WorkspaceMap map = workspace(delta_task(), context);
   EXPECT_EQ(map.status, Status::cancelled);
-  EXPECT_EQ(totals(map).count[static_cast<std::size_t>(Hurdle::open)], map.count());
+  EXPECT_EQ(totals(map).count[static_cast<std::size_t>(Criterion::open)], map.count());
   EXPECT_EQ(totals(map).passing, 0u);
 }
 

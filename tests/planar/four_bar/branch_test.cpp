@@ -83,8 +83,8 @@ TEST(FourBarBranch, HasTheLimitsOfBothSides) {
   }
 }
 
-// Turning evenly, without weight, a parallelogram of uniform bars has only radial forces at its rocker: the
-// coupler's half mass and its own.
+// Turning uniformly, without weight, a parallelogram of uniform bars has only radial forces at its rocker:
+// the coupler's half mass and its own.
 TEST(FourBarBranch, ForcesThatStayFiniteAreThere) {
   const FourBar l{.ground = 0.6, .crank = 0.2, .coupler = 0.6, .rocker = 0.2};
   const FourBarMasses uniform{{1, 0.01, 0.1, 0}, {3, 0.09, 0.3, 0}, {1, 0.01, 0.1, 0}};

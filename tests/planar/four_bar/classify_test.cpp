@@ -27,6 +27,12 @@ bool within(const std::vector<AngleInterval>& intervals, double angle, double sl
   });
 }
 
+TEST(Classify, TypesInWordsEndWithTheirCode) {
+  EXPECT_EQ(in_words(FourBarType::crank_rocker), "crank-rocker");
+  EXPECT_EQ(in_words(FourBarType::triple_rocker_0pi),
+            "non-Grashof, input through 0, output through pi (0pi)");
+}
+
 TEST(Classify, NamesThePublishedTypes) {
   const auto& rows = at(path_case("TYPES"), "computed.rows").as_array();
   ASSERT_EQ(rows.size(), 8u);

@@ -57,7 +57,7 @@ TEST(LinkageElimination, AgreesWithTheMassMatrixOnElasticBodies) {
 TEST(LinkageElimination, AgreesOnTwoElasticBodiesOfAFourBar) {
   const ElasticLinkage e = made(four_bar(), {strip(2, 5), strip(3, 3)}, {{0.7, 20, 0}});
   std::vector<InputMotion> inputs{{0.7, 20, -4}};
-  for (const InputCourse& c : e.free) inputs.push_back({c.value + 0.01, c.rate + 0.1, 0});
+  for (const InputDrive& c : e.free) inputs.push_back({c.value + 0.01, c.rate + 0.1, 0});
   std::vector<bool> free(inputs.size(), true);
   free[0] = false;
   expect_same(e.linkage, e.plan, free, inputs, 1e-11);

@@ -43,7 +43,7 @@ TEST(LinkageForm, HoldsEverySampleWithoutLoss) {
   }
 }
 
-// A four-bar as it is drawn at a crank angle of 60 degrees, crossed: the drawing tells mode and lengths.
+// A four-bar as it is drawn at a crank angle of 60 degrees, crossed: the drawing gives mode and lengths.
 TEST(LinkageForm, TakesTheModeFromADrawing) {
   LinkageForm form;
   form.drawn = true;

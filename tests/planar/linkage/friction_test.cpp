@@ -223,7 +223,7 @@ Turn simulated(const FreeCrank& crank, double angle, double speed, double time) 
   const Linkage l = crank.linkage();
   const LinkagePlan p = planned(l);
   Turn out;
-  const InputCourse free{{}, angle, speed};
+  const InputDrive free{{}, angle, speed};
   const std::vector<double> times{0, time / 2, time};
   out.report = simulate(l, p, std::span(&free, 1), times, {}, [&](const SimulationInstant& now) {
     out.last = now.inputs[0];

@@ -136,7 +136,7 @@ TEST(LinkageKernel, IsTheSameForBatches) {
       }
     }
     for (std::size_t k = 1; k < parts.size(); ++k)
-      needed[k] = needed_wrench(p.masses[k], parts[k], spread<B>(gravity));
+      needed[k] = needed_wrench(p.masses[k], parts[k], broadcast<B>(gravity));
     std::vector<Wrench<B>> torque(p.inputs());
     for (std::size_t k = p.groups.size(); k-- > 0;) {
       const Group& g = p.groups[k];

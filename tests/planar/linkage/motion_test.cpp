@@ -48,7 +48,7 @@ TEST(LinkageMotion, RatesAreDerivatives) {
           solve_motion(p, in, n);
           for (std::size_t k = 0; k < parts; ++k) {
             const PartState<double>& b = n.parts[k + 1];
-            const Vec<double> turning = b.speed * left(b.direction);
+            const Vec<double> turning = b.speed * perpendicular(b.direction);
             const double values[] = {b.origin.x,   b.origin.y,   b.direction.x, b.direction.y,
                                      b.velocity.x, b.velocity.y, b.speed};
             const double rates[] = {

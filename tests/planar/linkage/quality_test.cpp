@@ -195,12 +195,12 @@ TEST(LinkageQuality, InflectionCircleHoldsThePointsWithoutCurvature) {
                             s = relative_motion(base, body_state(p, m, body));
     for (int i = 1; i < 8; ++i) {
       const Vec<double> start = g.pole - g.circle_centre;
-      const Vec<double> x = g.circle_centre + turn(unit(0.7 * i), start);
-      const Vec<double> r = unturn(base.direction, x - base.origin);
+      const Vec<double> x = g.circle_centre + rotate(unit(0.7 * i), start);
+      const Vec<double> r = rotate_inverse(base.direction, x - base.origin);
       const PointMotion point{r, velocity_at(s, r), acceleration_at(s, r)};
       EXPECT_NEAR(path_curvature(point) * g.circle_radius, 0, 1e-11);
     }
-    const Vec<double> still = unturn(base.direction, g.acceleration_pole - base.origin);
+    const Vec<double> still = rotate_inverse(base.direction, g.acceleration_pole - base.origin);
     EXPECT_NEAR(norm(acceleration_at(s, still)), 0, 1e-12);
   }
   // A point that runs round a pivot has the curvature of its circle.

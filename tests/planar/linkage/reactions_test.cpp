@@ -475,7 +475,7 @@ TEST(LinkageReactions, OfASlotAreNormalToIt) {
 
 // ---- loads
 
-// One bar on a pin and a slider, which tell springs and forces apart.
+// One bar on a pin and a slider, which distinguish springs and forces.
 Linkage loaded_bar() {
   Linkage l = grounded({{"O", {0, 0}}, {"hook", {0.3, 0.4}}});
   add_bar(l, "bar", "O", "end", 0.5);

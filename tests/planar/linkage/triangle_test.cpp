@@ -86,7 +86,7 @@ TEST(LinkageTriangle, HasADrivenPinAsWell) {
   LinkageMotion m(p);
   const double angle = 0.7;
   solve_position(p, std::vector<InputMotion>{{angle, 1, 0}}, m);
-  const double inner = angle_of(unturn(m.parts[1].direction, m.parts[2].direction));
+  const double inner = angle_of(rotate_inverse(m.parts[1].direction, m.parts[2].direction));
   Linkage k = l;
   k.driven.clear();
   k.modes.clear();

@@ -258,7 +258,7 @@ TEST(PathFitter, ConvergesQuadraticallyOntoAnExactPath) {
   }
 }
 
-// The limit moves with the crank angles when the crank need not turn fully.
+// The limit moves with the crank angles when the crank need not rotate fully.
 TEST(PathFitter, MeetsTheTransmissionLimitOverAnArc) {
   const FourBar rocker{
       .ground = 2, .crank = 1.5, .coupler = 1.2, .rocker = 1.1, .coupler_u = 0.8, .coupler_v = 0.5};

@@ -48,7 +48,7 @@ TEST(SliderPathProblem, PublishedDesignsHaveTheComputedErrorsAndStrokes) {
     EXPECT_NEAR(rotation_margin(m.parameters), number_at(entry, "computed.rotation_margin_m"), 1e-8) << id;
     double low = 1e9, high = -1e9;
     for (const double angle : angles) {
-      const double way = slider_crank_pose(m, angle).way;
+      const double way = slider_crank_pose(m, angle).displacement;
       low = std::min(low, way), high = std::max(high, way);
     }
     EXPECT_NEAR(high - low, number_at(entry, "computed.stroke_sampled_m"), 1e-8) << id;
@@ -94,8 +94,9 @@ TEST(SliderPathProblem, PosesAreThoseOfTheLinkage) {
       EXPECT_NEAR(std::abs(pose.point - point), 0, sharp);
       EXPECT_NEAR(std::abs(pose.slider - slider), 0, sharp);
       const Complex guide = std::polar(1.0, f.guide_angle);
-      EXPECT_NEAR(std::abs(Complex(f.pivot_x, f.pivot_y) + guide * Complex(pose.way, f.offset) - slider), 0,
-                  2 * sharp);
+      EXPECT_NEAR(
+          std::abs(Complex(f.pivot_x, f.pivot_y) + guide * Complex(pose.displacement, f.offset) - slider), 0,
+          2 * sharp);
     }
   }
 }
@@ -234,7 +235,7 @@ TEST(SliderPathProblem, RefusesWhatIsNoProblem) {
   EXPECT_THAT(refused([](auto& p) { p.max_pressure_angle = 2; }), HasSubstr("greatest pressure angle"));
   EXPECT_THAT(refused([](auto& p) { p.stroke = {2, 1}; }), HasSubstr("stroke is limited to 2 to 1"));
   EXPECT_THAT(refused([](auto& p) { p.crank_rotates_fully = false, p.stroke.upper = 1; }),
-              HasSubstr("the crank need not turn fully"));
+              HasSubstr("the crank need not rotate fully"));
   EXPECT_EQ(refused([](auto& p) { p.free_timing = true, p.offsets.clear(); }), "none");
 }
 

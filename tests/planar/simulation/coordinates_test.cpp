@@ -15,10 +15,10 @@ namespace {
 using namespace test;
 
 // Both routes share nothing but loads and masses: same motion to the tolerance.
-void expect_same(const Linkage& l, const std::vector<InputCourse>& courses, double to, double tolerance) {
+void expect_same(const Linkage& l, const std::vector<InputDrive>& drives, double to, double tolerance) {
   const LinkagePlan p = planned(l);
-  const SimulationRun free = simulated(l, p, courses, evenly(0, to, 21)),
-                      all = simulated(l, p, courses, evenly(0, to, 21), {}, simulate_all_coordinates);
+  const SimulationRun free = simulated(l, p, drives, evenly(0, to, 21)),
+                      all = simulated(l, p, drives, evenly(0, to, 21), {}, simulate_all_coordinates);
   ASSERT_EQ(free.report.status, Status::done) << free.report.message;
   ASSERT_EQ(all.report.status, Status::done) << all.report.message;
   ASSERT_EQ(all.rows.size(), free.rows.size());
@@ -27,7 +27,7 @@ void expect_same(const Linkage& l, const std::vector<InputCourse>& courses, doub
     for (const InputMotion& i : row.inputs) scale = std::max(scale, std::abs(i.acceleration));
   for (std::size_t i = 0; i < free.rows.size(); ++i) {
     SCOPED_TRACE(free.rows[i].time);
-    for (std::size_t k = 0; k < courses.size(); ++k) {
+    for (std::size_t k = 0; k < drives.size(); ++k) {
       EXPECT_NEAR(all.rows[i].inputs[k].value, free.rows[i].inputs[k].value, tolerance);
       EXPECT_NEAR(all.rows[i].inputs[k].acceleration, free.rows[i].inputs[k].acceleration,
                   100 * tolerance * scale);
@@ -59,8 +59,8 @@ TEST(AllCoordinates, RunAroundAGeneralGroup) {
 }
 TEST(AllCoordinates, FollowGears) {
   const LinkageSample s = geared_five_bar_sample();
-  const std::vector<InputCourse> courses(s.from.size(), InputCourse{{}, s.from[0], 1});
-  expect_same(s.linkage, courses, 0.5, 1e-6);
+  const std::vector<InputDrive> drives(s.from.size(), InputDrive{{}, s.from[0], 1});
+  expect_same(s.linkage, drives, 0.5, 1e-6);
 }
 
 // A double rocker swings through dead points of either rocker for many periods: energy stays, and the joints
@@ -78,11 +78,11 @@ TEST(AllCoordinates, PassDeadPointsOfEitherRocker) {
   set_mode(l, "coupler", "right", AssemblyMode::plus);
   set_uniform_all(l, 1);
   const LinkagePlan p = planned(l);
-  const InputCourse course{{}, 1.3, 0};
+  const InputDrive drive{{}, 1.3, 0};
   int plus = 0, minus = 0;
   double worst = 0;
   const SimulationReport r = simulate_all_coordinates(
-      l, p, std::span(&course, 1), evenly(0, 10, 1001), {}, [&](const SimulationInstant& now) {
+      l, p, std::span(&drive, 1), evenly(0, 10, 1001), {}, [&](const SimulationInstant& now) {
         if (now.status != Status::done) return true;
         (now.motion->modes.back() > 0 ? plus : minus) += 1;
         worst = std::max(worst, open_joints(l, p, *now.motion));

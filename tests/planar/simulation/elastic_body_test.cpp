@@ -86,7 +86,7 @@ TEST(ElasticBody, TurningRodIsPulledByWhatLiesBeyond) {
   const ElasticLinkage e = made(l, {rod}, {{0.3, speed, 0}});
   LinkageMotion motion(e.plan);
   std::vector<InputMotion> inputs{{0.3, speed, 0}};
-  for (const InputCourse& c : e.free) inputs.push_back({c.value, c.rate, 0});
+  for (const InputDrive& c : e.free) inputs.push_back({c.value, c.rate, 0});
   solve_motion(e.plan, inputs, motion);
   LinkageForces forces;
   solve_forces(e.linkage, e.plan, motion, 0, 0.3, forces);
@@ -205,12 +205,11 @@ TEST(ElasticBody, RodOfASliderCrankKeepsItsAccountOfEnergy) {
     rod.damping = damping;
     const ElasticLinkage e = made(l, {rod}, {{0, 100, 0}});
     double most = 0;
-    const SimulationReport r =
-        simulate(e.linkage, e.plan, courses(e, 100), times_to(2 * pi / 100, 50), {},
-                 [&](const SimulationInstant& now) {
-                   most = std::max(most, std::abs(bent_body(e, e.pieces[0], *now.motion).deflections[2]));
-                   return true;
-                 });
+    const SimulationReport r = simulate(
+        e.linkage, e.plan, drives(e, 100), times_to(2 * pi / 100, 50), {}, [&](const SimulationInstant& now) {
+          most = std::max(most, std::abs(bent_body(e, e.pieces[0], *now.motion).deflections[2]));
+          return true;
+        });
     ASSERT_EQ(r.status, Status::done) << r.message;
     EXPECT_LE(r.largest_drift, 1e-6 * r.peak_energy);
     EXPECT_GT(most, 1e-4);  // it does bend
@@ -230,7 +229,7 @@ TEST(ElasticBody, GoesToTheRigidLinkageAsItGetsStiff) {
     const ElasticLinkage e = made(l, {rod}, {{0, 60, 0}});
     double worst = 0, deflection = 0;
     const SimulationReport r = simulate(
-        e.linkage, e.plan, courses(e, 60), times_to(pi / 60, 400), {}, [&](const SimulationInstant& now) {
+        e.linkage, e.plan, drives(e, 60), times_to(pi / 60, 400), {}, [&](const SimulationInstant& now) {
           solve_position(rigid, now.inputs.first(1), there);
           worst = std::max(
               worst, norm(body_state(e.plan, *now.motion, 3).origin - body_state(rigid, there, 3).origin));
@@ -255,7 +254,7 @@ TEST(ElasticBody, DampingDecaysAsKelvinAndVoigtHaveIt) {
   const ElasticLinkage e = made(four_bar(), {coupler}, {{0.7, 0, 0}});
   const double natural = AtRest(e, {{0.7, 0, 0}}).first_frequency();
   const double ratio = natural * coupler.damping / 2, damped = natural * std::sqrt(1 - ratio * ratio);
-  std::vector<InputCourse> free = courses(e, 0);
+  std::vector<InputDrive> free = drives(e, 0);
   free[0].law = math::ConstantSpeed{0.7, 0};
   const double start = 1e-5;
   free[1].value += start;
@@ -287,7 +286,7 @@ TEST(ElasticBody, CouplerAndRockerBendTogether) {
   const ElasticLinkage e = made(l, {strip(2, 2), rocker}, {{0.7, 20, 0}});
   EXPECT_TRUE(e.plan.closed_form());
   ASSERT_EQ(e.free.size(), 5u);
-  std::vector<InputCourse> free = courses(e, 20);
+  std::vector<InputDrive> free = drives(e, 20);
   free[0].law = math::ConstantSpeed{0.7, 20};
   std::vector<double> deflections[2];
   const auto run = [&](auto route, std::vector<double>& out) {
@@ -327,7 +326,7 @@ TEST(ElasticBody, SlowRodBearsTheMomentsOfItsInertia) {
   const double scale = density * area * speed * speed * 0.05 * length * length / (9 * std::sqrt(3.0));
   BentBody worst;
   const SimulationReport r = simulate(
-      e.linkage, e.plan, courses(e, speed), times_to(2 * pi / speed, 60),
+      e.linkage, e.plan, drives(e, speed), times_to(2 * pi / speed, 60),
       {.method = math::OdeMethod::bdf, .relative_tolerance = 1e-7}, [&](const SimulationInstant& now) {
         if (now.time < pi / speed / 2) return true;
         const BentBody bent = bent_body(e, e.pieces[0], *now.motion);
@@ -364,7 +363,7 @@ TEST(ElasticBody, SlowRodBearsTheMomentsOfItsInertia) {
 }
 
 TEST(ElasticBody, BendsInGroupsWithoutClosedFormAndInDrivenBodies) {
-  // A plate on three legs; a crank that bends, too.
+  // A plate on three legs; a flexible crank, too.
   Linkage l = grounded({{"O", {0, 0}}, {"G", {1.2, -0.2}}, {"H", {0.8, 1.1}}});
   add_bar(l, "crank", "O", "A", 0.2);
   add_bar(l, "leg1", "A", "P", 0.5);
@@ -388,7 +387,7 @@ TEST(ElasticBody, BendsInGroupsWithoutClosedFormAndInDrivenBodies) {
   ASSERT_EQ(e.status, Status::done);
   EXPECT_EQ(e.free.size(), 5u);
   EXPECT_FALSE(e.plan.closed_form());
-  std::vector<InputCourse> free = courses(e, 10);
+  std::vector<InputDrive> free = drives(e, 10);
   free[0].law = math::ConstantSpeed{1, 10};
   const SimulationReport r = simulate(e.linkage, e.plan, free, times_to(0.02, 10), {},
                                       [](const SimulationInstant&) { return true; });
@@ -425,7 +424,7 @@ TEST(ElasticBody, KeepsWhatIsOnTheBodyInItsPlace) {
   // Where it starts, the tracer is where that of the rigid linkage is.
   LinkageMotion bent(e.plan);
   std::vector<InputMotion> inputs{{0.7, 0, 0}};
-  for (const InputCourse& c : e.free) inputs.push_back({c.value, c.rate, 0});
+  for (const InputDrive& c : e.free) inputs.push_back({c.value, c.rate, 0});
   solve_position(e.plan, inputs, bent);
   const LinkagePlan rigid = plan(l).plan;
   LinkageMotion straight(rigid);
@@ -453,7 +452,7 @@ TEST(ElasticBody, SaysWhatIsWrong) {
   EXPECT_THAT(with([](ElasticBody& b) { b.body = 9; }),
               HasSubstr("elastic_body.9: body number 9 does not exist"));
   EXPECT_THAT(with([](ElasticBody& b) { b.body = 0; }),
-              HasSubstr("elastic_body.ground: the ground does not bend"));
+              HasSubstr("elastic_body.ground: the ground cannot be flexible"));
   EXPECT_THAT(refusal(l, {strip(2, 4), strip(2, 3)}), HasSubstr("elastic_body.coupler: is given twice"));
   EXPECT_THAT(with([](ElasticBody& b) { b.area = 0; }), HasSubstr("area 0 m2 and density 7850 kg/m3 must be "
                                                                   "finite and above 0"));

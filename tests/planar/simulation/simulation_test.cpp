@@ -80,7 +80,7 @@ TEST(Simulate, SqueezesAsAndrewsMechanism) {
   InputMotion crank;
   LinkageForces forces;
   LinkageMotion there(p);
-  const InputCourse course{{}, s.from[0], 0};
+  const InputDrive drive{{}, s.from[0], 0};
   const std::vector<double> times{0, 0.03};
   const auto at_end = [&](const SimulationInstant& now) {
     crank = now.inputs[0];
@@ -89,12 +89,12 @@ TEST(Simulate, SqueezesAsAndrewsMechanism) {
     EXPECT_LT(now.motion->closure_residual, 1e-14);
     return true;
   };
-  SimulationReport r = simulate(l, p, std::span(&course, 1), times, {}, at_end);
+  SimulationReport r = simulate(l, p, std::span(&drive, 1), times, {}, at_end);
   ASSERT_EQ(r.status, Status::done) << r.message;
   EXPECT_NEAR(crank.value, y[0], 1e-9 * y[0]);  // nine digits at the tolerance of 1e-9
   EXPECT_LT(r.largest_drift, 1e-8);
 
-  r = simulate(l, p, std::span(&course, 1), times, {.relative_tolerance = 1e-12, .absolute_tolerance = 1e-13},
+  r = simulate(l, p, std::span(&drive, 1), times, {.relative_tolerance = 1e-12, .absolute_tolerance = 1e-13},
                at_end);
   ASSERT_EQ(r.status, Status::done) << r.message;
   EXPECT_LT(r.largest_drift, 1e-11);
@@ -206,13 +206,13 @@ TEST(Simulate, StopsAtAChangePoint) {
       run.report.message,
       ::testing::AllOf(::testing::StartsWith("the motion stops at 1 s with O at"),
                        ::testing::HasSubstr("stands at a change point, where it can go on in two ways")));
-  EXPECT_NEAR(run.report.time, 1, 1e-9);  // no force: an even turn, from 1 rad to 0
+  EXPECT_NEAR(run.report.time, 1, 1e-9);  // no force: uniform rotation, from 1 rad to 0
   EXPECT_GE(run.rows.size(), 10u);        // and perhaps that of 1 s itself
   ASSERT_EQ(run.report.passages.size(), 1u);
 }
 
-// Without forces the parallelogram turns evenly for ever; the antiparallelogram that keep_sign turns onto has
-// an inertia that changes, and keeps its energy after the kink.
+// Without forces the parallelogram turns uniformly for ever; the antiparallelogram that keep_sign turns onto
+// has an inertia that changes, and keeps its energy after the kink.
 TEST(Simulate, TurnsOntoTheOtherBranchWithAnImpact) {
   const Linkage l = parallelogram();
   const LinkagePlan p = planned(l);
@@ -282,10 +282,10 @@ TEST(Simulate, KeepsRowsWhenCancelled) {
   const Linkage l = pendulum(1);
   const LinkagePlan p = planned(l);
   RunContext context;
-  const InputCourse course;
+  const InputDrive drive;
   std::size_t rows = 0;
   const SimulationReport r = simulate(
-      l, p, std::span(&course, 1), evenly(0, 100, 1001), {},
+      l, p, std::span(&drive, 1), evenly(0, 100, 1001), {},
       [&](const SimulationInstant&) {
         if (++rows == 20) context.cancel();
         return true;
@@ -304,7 +304,7 @@ TEST(Simulate, BalancesTheEnergyOfLoadsAndDrives) {
   l.springs.push_back({"s", point_named(l, "bar 2.to"), point_named(l, "ground.base"), 20, 0.7, 1.5});
   l.torques.push_back({.name = "t", .body = 2, .from = 0, .torque = 1.5});
   const LinkagePlan p = planned(l);
-  const InputCourse driven{math::HarmonicMotion{0.2, 0.7, 0.8, 0}, 0, 0}, free{{}, 0.9, 0};
+  const InputDrive driven{math::HarmonicMotion{0.2, 0.7, 0.8, 0}, 0, 0}, free{{}, 0.9, 0};
   const SimulationRun run = simulated(l, p, {driven, free}, evenly(0, 4, 41));
   ASSERT_EQ(run.report.status, Status::done) << run.report.message;
   EXPECT_GT(run.report.peak_energy, 5);
@@ -349,7 +349,7 @@ TEST(Simulate, StaysAtRestWhereFrictionHolds) {
   EXPECT_NEAR(run.rows.back().inputs[0].value, (2 - 0.981) * 2, 1e-6);
 }
 
-// Two bars whose elbow rubs hard: it sticks while the shoulder swings on. That is told soon, by name.
+// Two bars whose elbow rubs hard: it sticks while the shoulder swings on. That is reported soon, by name.
 TEST(Simulate, NamesAJointThatSticksWhileOthersMove) {
   Linkage l = pendulum(2);
   const std::size_t elbow = 1;
@@ -367,7 +367,7 @@ TEST(Simulate, NamesAJointThatSticksWhileOthersMove) {
 TEST(Simulate, EndsStepsAtTheKinksOfLaws) {
   const Linkage l = pendulum(2);
   const LinkagePlan p = planned(l);
-  const InputCourse driven{math::CycloidalMotion{.from = 0.2, .to = 1.4, .duration = 0.5}, 0, 0},
+  const InputDrive driven{math::CycloidalMotion{.from = 0.2, .to = 1.4, .duration = 0.5}, 0, 0},
       free{{}, 0.3, 0};
   const SimulationRun whole = simulated(l, p, {driven, free}, evenly(0, 2, 5));
   ASSERT_EQ(whole.report.status, Status::done);
@@ -383,7 +383,7 @@ TEST(Simulate, EndsStepsAtTheKinksOfLaws) {
   Linkage pushed = l;
   pushed.torques.push_back(
       {.name = "motor", .body = 2, .torque = 1, .factor = {LoadArgument::time, {0.1, 0.4, 3}, {0, 1, 0}}});
-  EXPECT_THAT(breaks_of(pushed, std::vector<InputCourse>{driven, free}, 0, 2),
+  EXPECT_THAT(breaks_of(pushed, std::vector<InputDrive>{driven, free}, 0, 2),
               ::testing::ElementsAre(0.1, 0.4, 0.5));
 }
 

@@ -33,7 +33,7 @@ TEST(BalancingStudyRead, ProblemsTellWhereAndHow) {
   EXPECT_THAT(problems_of(replaced(test::four_bar_masses, "crank_m   = 0.1", "crnk_m = 0.1")),
               HasSubstr("mechanism.parameters.crnk_m"));
   EXPECT_THAT(problems_of(replaced(test::linkage_weights, "initial = 0.1 }", "begin = 0.1 }")),
-              HasSubstr("the designed number lacks `initial`"));
+              HasSubstr("the design variable lacks `initial`"));
   EXPECT_THAT(problems_of(replaced(test::four_bar_masses, "ground_m  = 0.6", "ground_m  = 0.9")),
               HasSubstr("the initial design has no answer everywhere: no_assembly at crank_angle_rad"));
   EXPECT_THAT(problems_of(test::linkage_weights + "[[constraint]]\nquantity = \"O_N\"\nmeasure = \"rms\"\n"),
@@ -49,7 +49,7 @@ TEST(BalancingStudyRead, ProblemsTellWhereAndHow) {
               HasSubstr("mechanism.link[0].attached[0].mass_kg: is -0.1 kg, must be at least 0 kg"));
   fixed = replaced(replaced(fixed, "mass_kg    = -0.1", "mass_kg    = 0.1"), "mass_kg    = -0.1",
                    "mass_kg = 0.1");
-  EXPECT_THAT(problems_of(fixed), HasSubstr("nothing is designed: every number is fixed"));
+  EXPECT_THAT(problems_of(fixed), HasSubstr("there is no design variable: every number is fixed"));
   EXPECT_THAT(problems_of(replaced(test::arm_weights, "reference = 1.0", "reference = 0.0")),
               HasSubstr("reference"));
 }

@@ -19,7 +19,7 @@ struct Bent {
   LinkageMotion motion{elastic.plan};
   std::vector<InputMotion> inputs{{0.7, 10, 0}};
   Bent() {
-    for (const InputCourse& c : elastic.free) inputs.push_back({c.value, c.rate, 0});
+    for (const InputDrive& c : elastic.free) inputs.push_back({c.value, c.rate, 0});
     inputs[2] = {0.02, 0.6, 8};
     inputs[3] = {0.01, -0.4, -30};
   }

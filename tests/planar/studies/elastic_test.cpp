@@ -145,7 +145,7 @@ TEST(LinkageElasticStudy, ReportsBendingBesideTheRigidLinkage) {
     }
   }
   EXPECT_THAT(r.headline, AllOf(HasSubstr("Rod bends by up to "), HasSubstr(" MPa "),
-                                HasSubstr(" mm from A; guide way error up to ")));
+                                HasSubstr(" mm from A; guide displacement error up to ")));
   EXPECT_THAT(fact(r, "rod: first frequency on two pins"),
               HasSubstr("104.2 Hz, 10.4 times the largest input speed; 4 segments"));
   EXPECT_THAT(fact(r, "integration"), HasSubstr("explicit_runge_kutta_8, as no body is damped; "));
@@ -298,7 +298,7 @@ TEST(LinkageElasticStudy, NamesWhatIsWrong) {
   EXPECT_THAT(wrong("body                = \"rod\"", "body = \"rot\""),
               AllOf(HasSubstr("there is no body 'rot'"), HasSubstr("did you mean 'rod'?")));
   EXPECT_THAT(wrong("body                = \"rod\"", "body = \"ground\""),
-              HasSubstr("'ground' the ground does not bend"));
+              HasSubstr("'ground' the ground cannot be flexible"));
   EXPECT_THAT(wrong("body                = \"rod\"", "body = \"slider\""),
               HasSubstr("'slider' has its joints in one place"));
   EXPECT_THAT(wrong("segments            = 4", "segments = 0"), HasSubstr("segments"));
@@ -316,7 +316,7 @@ TEST(LinkageElasticStudy, NamesWhatIsWrong) {
               HasSubstr("joint 'B' sits away from the ends of the beam"));
   EXPECT_THAT(problems_of(with_rod() + rod), HasSubstr("'rod' is given twice"));
   EXPECT_THAT(problems_of(replaced(slider_crank, "samples = 101", "samples = 101\ndeflection_scale = 10")),
-              HasSubstr("no body bends"));
+              HasSubstr("no body is flexible"));
   EXPECT_THAT(problems_of(replaced(with_rod(), "mass_kg   = 0.5", "")), HasSubstr("'crank' has none"));
 }
 

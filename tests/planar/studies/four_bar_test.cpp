@@ -57,7 +57,7 @@ std::vector<std::string> keys(const Table& table) {
   return out;
 }
 
-// Where the crank points along the ground 450 mm of links are to span 500: told in the unit of the study.
+// Where the crank points along the ground 450 mm of links are to span 500: reported in the unit of the study.
 TEST(ReactionsStudyRun, TellsTheGapInTheUnitsOfTheStudy) {
   const study::Result r =
       run({{"3 parameters",

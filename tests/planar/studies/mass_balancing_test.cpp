@@ -33,7 +33,7 @@ void expect_same_tables(const BalancingStudy& s) {
   std::mt19937_64 random(7);
   for (int trial = 0; trial < 5; ++trial) {
     std::vector<double> x;
-    for (const study::DesignedNumber& n : s.designed.numbers)
+    for (const study::DesignVariable& n : s.designed.numbers)
       x.push_back(std::uniform_real_distribution(n.lower, n.upper)(random));
     const Table fast = table(x), slow = design_table(s, x, columns);
     for (const std::string& key : columns) {

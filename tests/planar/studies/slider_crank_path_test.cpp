@@ -89,7 +89,7 @@ TEST(SliderPathStudyRead, APathThatEndsWhereItBeginsIsClosed) {
 TEST(SliderPathStudyRead, ObjectivesLimitsAndMethodsMustFit) {
   const std::string path = target(std::string("closed = true\n") + square);
   EXPECT_THAT(problems_of(path + "[[objective]]\ntype = \"slider.stroke\"\n"),
-              HasSubstr("the stroke alone tells nothing of the path"));
+              HasSubstr("the stroke alone says nothing about the path"));
   EXPECT_THAT(problems_of(path + both + both), HasSubstr("an objective stands twice"));
   EXPECT_THAT(problems_of(path + "[optimiser]\nmethod = \"nsga2\"\n"),
               HasSubstr("nsga2 gives fronts of several objectives"));
@@ -217,7 +217,7 @@ seeds = { first = 1, count = 2 }
   ASSERT_EQ(r.solutions.size(), 8u);
   EXPECT_NEAR(r.solutions.front().objectives.find("stroke_m")->as_number(), 0.721316, 1e-5);
   EXPECT_NEAR(r.solutions.back().objectives.find("stroke_m")->as_number(), 0.45, 1e-9);
-  // 0.036813 with both senses searched; the study searches the one that the steps tell.
+  // 0.036813 with both senses searched; the study searches the one that the steps give.
   EXPECT_LT(r.solutions.back().objectives.find("path_error_sum_sq_m2")->as_number(), 0.0369);
   EXPECT_EQ(r.statistics.find("success_rate")->as_number(), 1);
   EXPECT_EQ(r.plots.front().table, "front");
@@ -315,7 +315,7 @@ TEST(SliderPathStudyRun, TheDeadlineKeepsWhatThereIs) {
   EXPECT_FALSE(result.headline.empty());
 }
 
-// A guide whose direction is told leaves two sides for the slider: both are searched, and the answer says
+// A guide whose direction is given leaves two sides for the slider: both are searched, and the answer says
 // which.
 TEST(SliderPathStudyRun, BothSidesOfAFixedGuide) {
   const std::string fixed =

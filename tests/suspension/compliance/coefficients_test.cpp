@@ -19,15 +19,15 @@ using test::numbers;
 
 Compliance five_rods(const WheelGuide& guide, Support support = Support::spring, double spring = 30000) {
   const auto rods =
-      numbers(at(published("5KS-compliance-and-rod-forces"), "inputs.rod_axial_stiffness_N_per_m"));
+      numbers(at(published("5US-compliance-and-rod-forces"), "inputs.rod_axial_stiffness_N_per_m"));
   return solve_compliance(guide, {{guide.wheel.centre, {}}, 0}, 0, elastic_rods(guide, rods, spring),
                           support);
 }
 
 // The load cases of the reference, with its signs turned to those of the coefficients.
 TEST(ComplianceCoefficients, Reference) {
-  const ComplianceCoefficients found = compliance_coefficients(five_rods(guide_sample("5KS").guide));
-  const Value& cases = at(published("5KS-compliance-and-rod-forces"), "computed.load_cases");
+  const ComplianceCoefficients found = compliance_coefficients(five_rods(guide_sample("5US").guide));
+  const Value& cases = at(published("5US-compliance-and-rod-forces"), "computed.load_cases");
   const auto expect = [&](double value, double expected) {
     EXPECT_NEAR(value, expected, 1e-9 * std::abs(expected) + 1e-16);
   };
@@ -54,7 +54,7 @@ TEST(ComplianceCoefficients, Reference) {
 // A torque that the body takes: the power of the load in any motion is that of the force on the contact
 // point of a wheel that turns freely, but for the turn of the wheel's axis in its own plane.
 TEST(ComplianceCoefficients, TorqueTakenByTheBody) {
-  const WheelGuide& guide = guide_sample("5KS").guide;
+  const WheelGuide& guide = guide_sample("5US").guide;
   const Compliance found = five_rods(guide);
   const GuidePlan plan = prepare(guide);
   const GuideRates rates = solve_rates(plan, reference_position(plan), Driver::wheel_centre_z);
@@ -76,7 +76,7 @@ TEST(ComplianceCoefficients, TorqueTakenByTheBody) {
 }
 
 TEST(ComplianceCoefficients, AreTheSameForBothWheels) {
-  const WheelGuide& guide = guide_sample("5KS").guide;
+  const WheelGuide& guide = guide_sample("5US").guide;
   for (Support support : {Support::spring, Support::contact_held}) {
     const ComplianceCoefficients left = compliance_coefficients(five_rods(guide, support));
     const ComplianceCoefficients right = compliance_coefficients(five_rods(mirrored(guide), support));
@@ -99,7 +99,7 @@ TEST(ComplianceCoefficients, AreTheSameForBothWheels) {
 // The rack joins the wheels. Against a rack that is held and against one that is free to move: with opposing
 // lateral forces a symmetric axle does not move it, with parallel ones it does.
 TEST(AxleCompliance, ParallelAndOpposing) {
-  const WheelGuide& guide = guide_sample("5KS").guide;
+  const WheelGuide& guide = guide_sample("5US").guide;
   const Compliance left = five_rods(guide, Support::contact_held),
                    right = five_rods(mirrored(guide), Support::contact_held);
   const AxleCompliance held = axle_compliance(left, right, rigid), soft = axle_compliance(left, right, 4e6);
@@ -116,7 +116,7 @@ TEST(AxleCompliance, ParallelAndOpposing) {
   }
   const AxleResponse parallel = respond(soft, LoadCase::lateral, Pairing::parallel);
   EXPECT_NEAR(respond(held, LoadCase::lateral, Pairing::parallel).left.toe, alone, 1e-15);
-  // The force on the rack by both sides over its stiffness; the guides themselves do not hold the rack.
+  // The force on the rack by both sides over its stiffness; the suspensions themselves do not hold the rack.
   double on_rack = 0;
   const WheelLoad load = unit_load(left, LoadCase::lateral);
   for (const JointForce& joint : respond(left, load).joints)
@@ -132,7 +132,7 @@ TEST(AxleCompliance, ParallelAndOpposing) {
 // The rack's stiffness in the matrix against a tie rod that is softer by it: one wheel alone, the rack along
 // the tie rod's line so that both are springs in series.
 TEST(AxleCompliance, RackInSeriesWithTheTieRod) {
-  WheelGuide guide = guide_sample("5KS").guide;
+  WheelGuide guide = guide_sample("5US").guide;
   guide.rack_direction = unit(guide.links[2].carrier[0] - guide.links[2].body[0]);
   const auto compliance = [&](const WheelGuide& of, double tie_rod) {
     return solve_compliance(of, {{of.wheel.centre, {}}, 0}, 0,
@@ -157,7 +157,7 @@ TEST(AxleCompliance, RackInSeriesWithTheTieRod) {
 }
 
 TEST(AxleCompliance, Contract) {
-  const WheelGuide& guide = guide_sample("5KS").guide;
+  const WheelGuide& guide = guide_sample("5US").guide;
   const Compliance left = five_rods(guide);
   EXPECT_THAT(test::message([&] { axle_compliance(left, left, 1e6); }),
               ::testing::StartsWith("axle_compliance: the first wheel is left, the second left"));

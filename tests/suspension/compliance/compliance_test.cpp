@@ -34,7 +34,7 @@ GuidePosition solve(const WheelGuide& guide, double travel, double rack) {
 }
 
 std::vector<double> reference_rods() {
-  return numbers(at(published("5KS-compliance-and-rod-forces"), "inputs.rod_axial_stiffness_N_per_m"));
+  return numbers(at(published("5US-compliance-and-rod-forces"), "inputs.rod_axial_stiffness_N_per_m"));
 }
 constexpr double reference_spring = 30000;
 
@@ -59,8 +59,8 @@ GuideElasticity rubber(const WheelGuide& guide) {
 }
 
 TEST(Compliance, ReferenceOfRodsWithASpring) {
-  const Value& reference = published("5KS-compliance-and-rod-forces");
-  const WheelGuide& guide = guide_sample("5KS").guide;
+  const Value& reference = published("5US-compliance-and-rod-forces");
+  const WheelGuide& guide = guide_sample("5US").guide;
   const GuidePosition here = solve(guide, 0, 0);
   EXPECT_EQ(number_at(reference, "inputs.spring_stiffness_N_per_m"), reference_spring);
   const Compliance found = solve_compliance(
@@ -109,7 +109,7 @@ TEST(Compliance, ReferenceOfRodsWithASpring) {
 // Rods as bodies on balls of finite stiffness against the sum of k w w^T with the three springs of each rod
 // in series; a ball's stiffness across the rod moves nothing.
 TEST(Compliance, RodsOnElasticBallsAgainstTheirSum) {
-  const WheelGuide& guide = guide_sample("5KS").guide;
+  const WheelGuide& guide = guide_sample("5US").guide;
   const GuidePosition here = solve(guide, 0.04, -0.02);
   GuideElasticity elasticity{.spring = reference_spring};
   Matrix sum = Matrix::Zero();
@@ -218,7 +218,7 @@ TEST(Compliance, RigidJointsGiveStaticsAndKinematics) {
 // A wishbone with two bushings: the pair's stiffness against turning about the vertical is that of two radial
 // springs at their distance; here from the forces.
 TEST(Compliance, TwoBushingsShareTheLoad) {
-  const WheelGuide& guide = guide_sample("2RS-KS").guide;
+  const WheelGuide& guide = guide_sample("2RS-US").guide;
   const GuidePosition here = solve(guide, 0, 0);
   GuideElasticity elasticity{.links = {{.body = {bushing(2e6, 9e6, 0, 0), bushing(1e6, 5e6, 0, 0)}}, {}, {}},
                              .spring = 25000};
@@ -231,7 +231,7 @@ TEST(Compliance, TwoBushingsShareTheLoad) {
   const double first = dot(moved.joints[0].force, axis), second = dot(moved.joints[1].force, axis);
   EXPECT_GT(std::abs(first), 100);
   EXPECT_NEAR(first, 2 * second, 1e-8);
-  // With the links rigid against the same load the sums are the same: the guide is determinate.
+  // With the links rigid against the same load the sums are the same: the suspension is determinate.
   const GuideForces rigid_forces =
       solve_forces(guide, prepare(guide), here, {{1000, 0, 0}, {}}, Support::spring_held);
   EXPECT_LT(distance(moved.joints[0].force + moved.joints[1].force, rigid_forces.joints[0].force), 1e-8);
@@ -239,7 +239,7 @@ TEST(Compliance, TwoBushingsShareTheLoad) {
 
 // A full matrix in turned axes is the same element as numbers in others.
 TEST(Compliance, FullMatrixInItsOwnAxes) {
-  const WheelGuide& guide = guide_sample("RS-3KS").guide;
+  const WheelGuide& guide = guide_sample("RS-3US").guide;
   const GuidePosition here = solve(guide, 0.02, 0);
   const auto with = [&](const JointStiffness& joint) {
     GuideElasticity elasticity = rubber(guide);
@@ -268,7 +268,7 @@ TEST(Compliance, FullMatrixInItsOwnAxes) {
 
 // A sixth rod: the kinematic solver refuses it, elastic joints carry it.
 TEST(Compliance, RedundantGuide) {
-  WheelGuide guide = guide_sample("5KS").guide;
+  WheelGuide guide = guide_sample("5US").guide;
   guide.links.push_back({.body = {{0.05, 0.4, 0.1}}, .carrier = {{0.02, 0.66, 0.1}}});
   std::vector<double> rods = reference_rods();
   rods.push_back(8e6);
@@ -279,7 +279,7 @@ TEST(Compliance, RedundantGuide) {
       solve_compliance(guide, here, 0, elastic_rods(guide, rods, reference_spring), Support::spring);
   ASSERT_EQ(found.status, Status::done) << found.reason;
   // The rod adds k w w^T.
-  const WheelGuide& five = guide_sample("5KS").guide;
+  const WheelGuide& five = guide_sample("5US").guide;
   Matrix sum = eigen(solve_compliance(five, here, 0, elastic_rods(five, reference_rods(), reference_spring),
                                       Support::spring)
                          .at_centre)
@@ -296,7 +296,7 @@ TEST(Compliance, RedundantGuide) {
 
   const Compliance locked = solve_compliance(guide, here, 0, {.spring = 1e4}, Support::spring_held);
   EXPECT_EQ(locked.status, Status::singular);
-  EXPECT_THAT(locked.reason, ::testing::StartsWith("rigid joints hold the carrier more than once"));
+  EXPECT_THAT(locked.reason, ::testing::StartsWith("rigid joints constrain the carrier more than once"));
   EXPECT_THAT(test::message([&] { respond(locked, {}); }),
               ::testing::StartsWith("respond: the compliance is singular: rigid joints hold"));
   const Compliance loose = solve_compliance(five, here, 0, {}, Support::spring);
@@ -306,7 +306,7 @@ TEST(Compliance, RedundantGuide) {
 
 // The other wheel: all that is a number is the same, all that is a vector its mirror image.
 TEST(Compliance, MirroredWheel) {
-  const WheelGuide& guide = guide_sample("RS-SP-KS").guide;
+  const WheelGuide& guide = guide_sample("RS-SP-US").guide;
   const WheelGuide other = mirrored(guide);
   const auto moved = [&](const WheelGuide& of, double rack, const WheelLoad& load) {
     return respond(solve_compliance(of, solve(of, 0.02, rack).place, rack, rubber(of), Support::spring),
@@ -346,14 +346,14 @@ TEST(Compliance, GeometricStiffnessIsThatOfTheWheelRate) {
 }
 
 TEST(Compliance, Contract) {
-  WheelGuide guide = guide_sample("5KS").guide;
+  WheelGuide guide = guide_sample("5US").guide;
   const GuidePlace here{{guide.wheel.centre, {}}, 0};
   EXPECT_THAT(test::message([&] { solve_compliance(guide, here, 0, {.spring = -1}, Support::spring); }),
               ::testing::StartsWith("solve_compliance: 1 problems, the first: "));
   guide.spring.reset();
-  EXPECT_THAT(
-      test::message([&] { solve_compliance(guide, here, 0, {}, Support::spring_held); }),
-      ::testing::StartsWith("solve_compliance: the support is 'spring_held', and the guide has no spring"));
+  EXPECT_THAT(test::message([&] { solve_compliance(guide, here, 0, {}, Support::spring_held); }),
+              ::testing::StartsWith(
+                  "solve_compliance: the support is 'spring_held', and the suspension has no spring"));
   EXPECT_THAT(test::message([&] {
                 solve_compliance(guide, here, 0, {}, Support::contact_held, PointLoad{{}, {0, 0, 1}});
               }),

@@ -13,7 +13,7 @@ ElasticAssembly at_reference(const WheelGuide& guide, const GuideElasticity& ela
 }
 
 TEST(ElasticAssembly, BodiesAndJoints) {
-  const ElasticAssembly five = at_reference(guide_sample("5KS").guide);
+  const ElasticAssembly five = at_reference(guide_sample("5US").guide);
   EXPECT_EQ(five.origin.size(), 6u);
   EXPECT_EQ(five.displacements(), 36);
   EXPECT_EQ(five.joints.size(), 10u);
@@ -26,7 +26,7 @@ TEST(ElasticAssembly, BodiesAndJoints) {
   EXPECT_EQ(direct.joints[0].second, 0);
   EXPECT_TRUE(direct.joints[0].at_carrier);
   // The strut's slide holds it against turning about its line.
-  EXPECT_EQ(at_reference(guide_sample("SP-3KS").guide).held_turns.size(), 3u);
+  EXPECT_EQ(at_reference(guide_sample("SP-3US").guide).held_turns.size(), 3u);
   const ElasticAssembly coupled = at_reference(guide_sample("interconnected").guide);
   ASSERT_EQ(coupled.couplers.size(), 1u);
   EXPECT_EQ(coupled.couplers[0].first, 1);
@@ -35,7 +35,7 @@ TEST(ElasticAssembly, BodiesAndJoints) {
 }
 
 TEST(ElasticAssembly, AxesTurnWithWhatTheyAreFixedTo) {
-  const WheelGuide& guide = guide_sample("2RS-KS").guide;
+  const WheelGuide& guide = guide_sample("2RS-US").guide;
   const GuidePlace turned{{guide.wheel.centre, math::turn_z(0.1)}, 0};
   const JointStiffness skew{.axis = {0, 0, 3}, .across = {2, 0, 1}};
   const ElasticAssembly found =
@@ -50,7 +50,7 @@ TEST(ElasticAssembly, AxesTurnWithWhatTheyAreFixedTo) {
 }
 
 TEST(ElasticAssembly, ABushingThatHoldsTheTurnOfARodLeavesItNotIdle) {
-  const WheelGuide& guide = guide_sample("5KS").guide;
+  const WheelGuide& guide = guide_sample("5US").guide;
   const auto idle = [&](const JointStiffness& joint) {
     return at_reference(guide, {.links = {{.body = {joint}}, {}, {}, {}, {}}}).held_turns.size();
   };

@@ -41,14 +41,14 @@ TEST(WheelRate, AgainstForcesOfOtherPositions) {
     }
 }
 
-// A spring off the line of a rod that turns about it as its K joint says: against other positions, and
+// A spring off the line of a rod that turns about it as its U joint says: against other positions, and
 // against the second derivatives of the position.
 TEST(WheelRate, SpringOffTheLineOfARod) {
   const SpringLaw law{28000, 5200};
   for (const int link : {0, 1, 2})
     for (const std::optional<Vec3>& axis :
          {std::optional<Vec3>{}, std::optional<Vec3>{Vec3{0.8, 0.5, 0.6}}}) {
-      WheelGuide guide = guide_sample("5KS").guide;
+      WheelGuide guide = guide_sample("5US").guide;
       guide.spring->link = link;
       guide.links[link].cross_axis = axis;
       const DerivativePlan plan = prepare_derivatives(guide, {});
@@ -86,7 +86,7 @@ TEST(WheelRate, LevelArmUnderAnUprightSpring) {
 }
 
 TEST(WheelRate, Contract) {
-  WheelGuide guide = guide_sample("5KS").guide;
+  WheelGuide guide = guide_sample("5US").guide;
   const GuidePlan plan = prepare(guide);
   EXPECT_THAT(test::message([&] {
                 wheel_rate(guide, plan, reference_position(plan), {-1, 0});
@@ -97,7 +97,7 @@ TEST(WheelRate, Contract) {
                 const GuidePlan bare = prepare(guide);
                 wheel_rate(guide, bare, reference_position(bare), {1, 0});
               }),
-              ::testing::StartsWith("wheel_rate: the guide has no spring"));
+              ::testing::StartsWith("wheel_rate: the suspension has no spring"));
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ double power(const WheelLoad& load, const Twist& twist) {
 }
 
 TEST(Statics, RodsAndSpringOfTheReference) {
-  const Value& reference = published("5KS-compliance-and-rod-forces");
-  const WheelGuide& guide = guide_sample("5KS").guide;
+  const Value& reference = published("5US-compliance-and-rod-forces");
+  const WheelGuide& guide = guide_sample("5US").guide;
   const GuidePlan plan = prepare(guide);
   const GuidePosition here = reference_position(plan);
   const Vec3 up{0, 0, number_at(reference, "inputs.static_load_N")};
@@ -41,11 +41,11 @@ TEST(Statics, RodsAndSpringOfTheReference) {
   EXPECT_NEAR(found.support, number_at(reference, "computed.spring_force_by_virtual_work_N"), 1e-9 * 4000);
 }
 
-// A spring off the line of a rod: its K joint gives moments about neither of its axes, the ball joint none at
+// A spring off the line of a rod: its U joint gives moments about neither of its axes, the ball joint none at
 // all, and virtual work gives the spring's force from the travel.
 TEST(Statics, SpringOffTheLineOfARod) {
   for (const int link : {0, 1, 2}) {
-    WheelGuide guide = guide_sample("5KS").guide;
+    WheelGuide guide = guide_sample("5US").guide;
     guide.spring->link = link;
     const GuidePlan plan = prepare(guide);
     const GuidePosition here =
@@ -140,7 +140,7 @@ TEST(Statics, EveryJointOfEveryMechanism) {
       if (joint.at_carrier) add(joint.force, joint.moment, joint.point);
       const GuideLink& link = guide.links[joint.link];
       const char letter = joint.at_carrier ? name_of(link.type).back() : name_of(link.type).front();
-      if (letter == 'S' || letter == 'K') {
+      if (letter == 'S' || letter == 'U') {
         EXPECT_LT(norm(joint.moment), 1e-8);
       }
       if (letter == 'R') {
@@ -192,7 +192,7 @@ TEST(Statics, VirtualPower) {
 }
 
 TEST(Statics, AHeldHeightTakesWhatTheSpringWouldTake) {
-  const WheelGuide& guide = guide_sample("SP-3KS").guide;
+  const WheelGuide& guide = guide_sample("SP-3US").guide;
   const GuidePlan plan = prepare(guide);
   const GuidePosition here = reference_position(plan);
   const GuideForces found = solve_forces(guide, plan, here, some_load, Support::wheel_centre_held);
@@ -204,7 +204,7 @@ TEST(Statics, AHeldHeightTakesWhatTheSpringWouldTake) {
 }
 
 TEST(Statics, ALimitOfTravelHasNoBalance) {
-  const WheelGuide& guide = guide_sample("2RS-KS").guide;
+  const WheelGuide& guide = guide_sample("2RS-US").guide;
   const GuidePlan plan = prepare(guide);
   const GuidePosition limit =
       solve_position(plan, Driver::wheel_centre_z, {0.5, 0}, reference_position(plan));

@@ -41,7 +41,7 @@ TEST(PublishedTargets, BoxesHoldTheOptimum) {
   DirectTask task = published_direct_task();
   place_published_boxes(task, 3);
   ASSERT_EQ(task.designed.size(), 9U);
-  for (const DesignedNumber& d : task.designed) {
+  for (const DesignVariable& d : task.designed) {
     EXPECT_NEAR(d.upper - d.lower, 0.150, 1e-15);
     EXPECT_LT(d.lower, at(task.guide, d.number));
     EXPECT_GT(d.upper, at(task.guide, d.number));

@@ -101,7 +101,7 @@ TEST(DirectSynthesis, ThreadsDoNotMatter) {
 }
 
 TEST(DirectSynthesis, TakesBumpSteerOutOfADoubleWishbone) {
-  DirectTask task{.guide = guide_sample("2RS-KS").guide};
+  DirectTask task{.guide = guide_sample("2RS-US").guide};
   for (int axis = 0; axis < 3; ++axis) {
     const DesignNumber number{DesignKind::body, 2, 0, axis};
     const double now = suspension::at(task.guide, number);

@@ -39,7 +39,7 @@ TEST(Assemblies, OfAllSamplesFulfilTheEquationsAndBeginWithTheReference) {
 }
 
 TEST(Assemblies, ASeedDecidesEverything) {
-  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  const GuidePlan plan = prepare(guide_sample("5US").guide);
   const auto first = assemblies(plan, Driver::wheel_centre_z, {0, 0}, 7, 60);
   const auto second = assemblies(plan, Driver::wheel_centre_z, {0, 0}, 7, 60);
   ASSERT_EQ(first.size(), second.size());

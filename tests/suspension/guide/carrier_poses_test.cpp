@@ -40,15 +40,15 @@ TEST(CarrierPoses, AreReadFromColumnsInAnyUnit) {
   EXPECT_DOUBLE_EQ(pose.centre.y, 0.7657);
   EXPECT_DOUBLE_EQ(pose.angles.toe, M_PI);
   EXPECT_DOUBLE_EQ(pose.angles.camber, -0.03);
-  EXPECT_DOUBLE_EQ(pose.angles.spin, -0.5 * M_PI / 180);
-  EXPECT_TRUE(spin_is_given(*targets));
+  EXPECT_DOUBLE_EQ(pose.angles.carrier_pitch, -0.5 * M_PI / 180);
+  EXPECT_TRUE(carrier_pitch_is_given(*targets));
 }
 
-TEST(CarrierPoses, SpinMayBeLeftOut) {
+TEST(CarrierPoses, CarrierPitchMayBeLeftOut) {
   Diagnostics found;
   const auto targets = read("centre_x_m,centre_y_m,centre_z_m,toe_deg,camber_deg\n0,0.768,0.1,0,0\n", found);
   ASSERT_TRUE(targets);
-  EXPECT_FALSE(spin_is_given(*targets));
+  EXPECT_FALSE(carrier_pitch_is_given(*targets));
   EXPECT_EQ(targets->poses[0].rack, 0);
 }
 

@@ -33,7 +33,7 @@ TEST(GuideConstraints, DerivativesAgainstDifferences) {
         if (all_on_rack) {
           guide = mirrored(guide);
           for (GuideLink& link : guide.links) link.moved_by_rack = true;
-          if (guide.links[0].type == LinkType::KS) {
+          if (guide.links[0].type == LinkType::US) {
             const auto& rod = guide.links[0];
             guide.spring = GuideSpring{{0, -0.4, 0.6}, rod.body[0] + 0.6 * (rod.carrier[0] - rod.body[0]), 0};
           } else if (guide.links[0].type == LinkType::SR) {
@@ -74,7 +74,7 @@ TEST(GuideConstraints, DerivativesAgainstDifferences) {
 }
 
 TEST(GuideConstraints, DriverRateIsTheLastRow) {
-  const GuidePlan plan = prepare(guide_sample("2RS-KS").guide);
+  const GuidePlan plan = prepare(guide_sample("2RS-US").guide);
   const GuidePlace place{{plan.wheel.centre, math::turn_about({0.02, 0.03, -0.1})}, 0};
   GuideEquations at;
   evaluate(plan, place, 0.01, Driver::spring, 0.002, at);
@@ -86,7 +86,7 @@ TEST(GuideConstraints, DriverRateIsTheLastRow) {
 }
 
 TEST(GuideConstraints, WorstMisfitNamesTheLink) {
-  WheelGuide guide = guide_sample("5KS").guide;
+  WheelGuide guide = guide_sample("5US").guide;
   const auto& rod = guide.links[3];
   guide.links[3].length = norm(rod.carrier[0] - rod.body[0]) - 0.002;
   const GuidePlan plan = prepare(guide);
@@ -96,11 +96,11 @@ TEST(GuideConstraints, WorstMisfitNamesTheLink) {
 }
 
 TEST(GuideConstraints, Contract) {
-  WheelGuide guide = guide_sample("5KS").guide;
+  WheelGuide guide = guide_sample("5US").guide;
   guide.links.pop_back();
   EXPECT_THAT(test::message([&] { prepare(guide); }),
               ::testing::HasSubstr("the count of constraints leaves 2 freedoms"));
-  guide = guide_sample("5KS").guide;
+  guide = guide_sample("5US").guide;
   guide.wheel.tyre_diameter = -1;
   EXPECT_THAT(test::message([&] { prepare(guide); }),
               ::testing::HasSubstr(
@@ -108,7 +108,7 @@ TEST(GuideConstraints, Contract) {
   guide = guide_sample("interconnected").guide;
   const GuidePlan plan = prepare(guide);
   EXPECT_THAT(test::message([&] { driver_value(plan, {}, 0, Driver::spring); }),
-              ::testing::HasSubstr("the driver is the spring, and the guide has none"));
+              ::testing::HasSubstr("the driver is the spring, and the suspension has none"));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ WheelGuide with_rods(const WheelGuide& guide, int link) {
   const GuideLink arm = guide.links[link];
   out.links.erase(out.links.begin() + link);
   for (int k : {0, 1}) {
-    GuideLink rod{.name = "rod " + std::to_string(k), .type = LinkType::KS};
+    GuideLink rod{.name = "rod " + std::to_string(k), .type = LinkType::US};
     rod.body = {arm.type == LinkType::RS ? arm.body[k] : arm.body[0]};
     rod.carrier = {arm.type == LinkType::RS ? arm.carrier[0] : arm.carrier[k]};
     out.links.push_back(rod);
@@ -40,10 +40,10 @@ WheelGuide with_rods(const WheelGuide& guide, int link) {
 
 TEST(Constructions, KnowWhichOfTheTwelveMechanismsHaveThem) {
   const std::map<std::string, std::pair<bool, bool>> wanted{
-      {"R", {false, true}},       {"RR-KS", {false, false}},  {"S-2KS", {false, false}},
-      {"2RS-KS", {true, true}},   {"RS-SR-KS", {true, true}}, {"RS-SP-KS", {true, true}},
-      {"2SR-KS", {true, true}},   {"SR-SP-KS", {true, true}}, {"RS-3KS", {false, false}},
-      {"SR-3KS", {false, false}}, {"SP-3KS", {false, false}}, {"5KS", {false, false}}};
+      {"R", {false, true}},       {"RR-US", {false, false}},  {"S-2US", {false, false}},
+      {"2RS-US", {true, true}},   {"RS-SR-US", {true, true}}, {"RS-SP-US", {true, true}},
+      {"2SR-US", {true, true}},   {"SR-SP-US", {true, true}}, {"RS-3US", {false, false}},
+      {"SR-3US", {false, false}}, {"SP-3US", {false, false}}, {"5US", {false, false}}};
   for (const auto& [name, has] : wanted) {
     const WheelGuide& guide = guide_sample(name).guide;
     const GuideConstruction found = construction_of(guide);
@@ -55,14 +55,14 @@ TEST(Constructions, KnowWhichOfTheTwelveMechanismsHaveThem) {
     EXPECT_EQ(wheel.geometric_axis.has_value(), has.first) << name;
     EXPECT_EQ(std::isfinite(wheel.arms.roll_centre_height), has.second) << name;
   }
-  EXPECT_THAT(why_no_axis(guide_sample("RS-3KS").guide), HasSubstr("one ball joint holds the carrier ("));
-  EXPECT_THAT(why_no_axis(guide_sample("5KS").guide), HasSubstr("no ball joint holds the carrier"));
-  EXPECT_THAT(why_no_planes(guide_sample("5KS").guide), HasSubstr("no link is an arm with a plane"));
+  EXPECT_THAT(why_no_axis(guide_sample("RS-3US").guide), HasSubstr("one ball joint holds the carrier ("));
+  EXPECT_THAT(why_no_axis(guide_sample("5US").guide), HasSubstr("no ball joint holds the carrier"));
+  EXPECT_THAT(why_no_planes(guide_sample("5US").guide), HasSubstr("no link is an arm with a plane"));
 }
 
 // Numbers by intersection of projected lines, made outside of this program.
 TEST(Constructions, OfADoubleWishboneAreThoseOfTheDrawingBoard) {
-  const WheelParameters wheel = at(guide_sample("2RS-KS").guide);
+  const WheelParameters wheel = at(guide_sample("2RS-US").guide);
   ASSERT_TRUE(wheel.geometric_axis);
   const SteeringAxis& axis = *wheel.geometric_axis;
   constexpr double rounding = 1e-13;
@@ -88,7 +88,7 @@ TEST(Constructions, OfADoubleWishboneAreThoseOfTheDrawingBoard) {
 
 // The axis with the spring held passes through both ball joints, too: another route, by the steering motion.
 TEST(Constructions, GeometricAxisIsTheOneWithTheSpringHeld) {
-  for (const char* name : {"2RS-KS", "RS-SP-KS"})
+  for (const char* name : {"2RS-US", "RS-SP-US"})
     for (double travel : {-0.06, 0.0, 0.05})
       for (double rack : {-0.04, 0.0, 0.05}) {
         const WheelParameters wheel = at(guide_sample(name).guide, travel, rack);
@@ -108,20 +108,20 @@ TEST(Constructions, GeometricAxisIsTheOneWithTheSpringHeld) {
 
 // With a height held the lower ball joint gives way.
 TEST(Constructions, GeometricAxisIsNotTheOneWithAHeightHeld) {
-  const WheelParameters wheel = at(guide_sample("2RS-KS").guide);
+  const WheelParameters wheel = at(guide_sample("2RS-US").guide);
   EXPECT_GT(std::abs(wheel.axis_at_contact->caster - wheel.geometric_axis->caster), 1e-3);
   EXPECT_GT(std::abs(wheel.axis_at_height->caster - wheel.geometric_axis->caster), 1e-3);
 }
 
 // Two rods that share an end are the arm, with the same axis and the same planes.
 TEST(Constructions, RodsThatShareAnEndAreAnArm) {
-  for (const auto& [name, link] : {std::pair{"2RS-KS", 0}, {"2RS-KS", 1}, {"RS-SR-KS", 1}, {"2SR-KS", 0}}) {
+  for (const auto& [name, link] : {std::pair{"2RS-US", 0}, {"2RS-US", 1}, {"RS-SR-US", 1}, {"2SR-US", 0}}) {
     const WheelGuide& guide = guide_sample(name).guide;
     const WheelGuide rods = with_rods(guide, link);
     const bool blade = guide.links[link].type == LinkType::SR;
     const WheelParameters one = at(guide, 0.04), other = at(rods, 0.04);
     // A blade as two rods from one body point keeps its plane, but the carrier turns about no ball joint
-    // there that a second look at the rods would tell.
+    // there that a second look at the rods would show.
     EXPECT_EQ(other.geometric_axis.has_value(), !blade) << name;
     if (!blade) {
       EXPECT_NEAR(one.geometric_axis->caster, other.geometric_axis->caster, 1e-12);
@@ -130,7 +130,7 @@ TEST(Constructions, RodsThatShareAnEndAreAnArm) {
     EXPECT_NEAR(one.arms.side_swing_angle, other.arms.side_swing_angle, 1e-11) << name;
   }
   // A third rod at the ball joint holds a point, but lies in no plane with the others.
-  WheelGuide rods = with_rods(guide_sample("2RS-KS").guide, 0);
+  WheelGuide rods = with_rods(guide_sample("2RS-US").guide, 0);
   GuideLink third = rods.links.back();
   third.name = "third";
   third.body[0].z += 0.1;
@@ -147,7 +147,7 @@ TEST(Constructions, RodsThatShareAnEndAreAnArm) {
 // Where the tie rod's line meets the axis in which the planes meet, the wheel turns about that axis as it
 // travels: the construction and the motion agree, and there is neither bump steer nor pitch.
 TEST(Constructions, AgreeWithTheMotionWhereTheTieRodAgrees) {
-  for (const char* name : {"2RS-KS", "RS-SP-KS"}) {
+  for (const char* name : {"2RS-US", "RS-SP-US"}) {
     WheelGuide guide = guide_sample(name).guide;
     guide.wheel.toe = 0;  // the contact point then lies in the transverse plane of the wheel centre
     const WheelParameters before = at(guide);
@@ -201,7 +201,7 @@ TEST(Constructions, ParallelArmsHaveARollCentre) {
                              .body = {{-0.2, 0.35, z}, {0.2, 0.35, z}},
                              .carrier = {{0, 0.7, z + 0.35 * slope}}});
     guide.links.push_back(
-        {.type = LinkType::KS, .body = {{-0.15, 0.35, 0}}, .carrier = {{-0.15, 0.7, 0.35 * slope}}});
+        {.type = LinkType::US, .body = {{-0.15, 0.35, 0}}, .carrier = {{-0.15, 0.7, 0.35 * slope}}});
     return at(guide);
   };
   const WheelParameters level = build(0);
@@ -214,9 +214,9 @@ TEST(Constructions, ParallelArmsHaveARollCentre) {
 }
 
 TEST(Constructions, RightWheelsAreTheMirrorImage) {
-  for (const char* name : {"2RS-KS", "RS-SP-KS", "SR-SP-KS", "R"}) {
+  for (const char* name : {"2RS-US", "RS-SP-US", "SR-SP-US", "R"}) {
     const WheelGuide& guide = guide_sample(name).guide;
-    const double rack = name == std::string("2RS-KS") ? 0.03 : 0;
+    const double rack = name == std::string("2RS-US") ? 0.03 : 0;
     const WheelParameters a = at(guide, 0.04, rack), b = at(mirrored(guide), 0.04, -rack);
     EXPECT_NEAR(a.front_view_camber, b.front_view_camber, 1e-13);
     EXPECT_NEAR(a.arms.roll_centre_height, b.arms.roll_centre_height, 1e-12) << name;

@@ -14,7 +14,7 @@ TEST(DesignNumbers, EveryHardPointOnceAndWithANameOfItsOwn) {
   for (const GuideSample& sample : guide_samples()) {
     WheelGuide guide = sample.guide;
     for (GuideLink& link : guide.links)
-      if (link.type == LinkType::KS) link.length = norm(link.carrier[0] - link.body[0]);
+      if (link.type == LinkType::US) link.length = norm(link.carrier[0] - link.body[0]);
     std::set<std::string> labels;
     std::set<const double*> places;
     for (const DesignNumber& number : hard_points(guide)) {
@@ -30,7 +30,7 @@ TEST(DesignNumbers, EveryHardPointOnceAndWithANameOfItsOwn) {
 }
 
 TEST(DesignNumbers, AreCalledByLinkPointAndAxis) {
-  WheelGuide guide = guide_sample("2RS-KS").guide;
+  WheelGuide guide = guide_sample("2RS-US").guide;
   guide.links[0].name = "lower arm";
   EXPECT_EQ(label(guide, {DesignKind::body, 0, 1, 2}), "lower arm.body_2_z");
   EXPECT_EQ(label(guide, {DesignKind::carrier, 0, 0, 0}), "lower arm.carrier_x");
@@ -42,7 +42,7 @@ TEST(DesignNumbers, AreCalledByLinkPointAndAxis) {
 }
 
 TEST(DesignNumbers, ThatAGuideDoesNotHaveAreRefused) {
-  const WheelGuide guide = guide_sample("5KS").guide;
+  const WheelGuide guide = guide_sample("5US").guide;
   const auto message = [&](const DesignNumber& number) -> std::string {
     try {
       at(guide, number);
@@ -51,7 +51,7 @@ TEST(DesignNumbers, ThatAGuideDoesNotHaveAreRefused) {
     }
     return {};
   };
-  EXPECT_NE(message({DesignKind::length, 1}).find("the guide has no number length, index 1"),
+  EXPECT_NE(message({DesignKind::length, 1}).find("the suspension has no number length, index 1"),
             std::string::npos);
   EXPECT_NE(message({DesignKind::body, 5}).find("no number body, index 5"), std::string::npos);
   EXPECT_NE(message({DesignKind::body, 0, 1}).find("point 1"), std::string::npos);

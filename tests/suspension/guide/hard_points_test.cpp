@@ -56,7 +56,7 @@ TEST(HardPoints, ReadsCsvAsSpreadsheetsWriteIt) {
                            "# from the drawing\n\nname\tx_mm\ty_cm\tz_m\nTie rod, inner\t1,5\t2\t3\n",
                            "sep=;\n\"Name\";x (mm);y (cm);z (m)\n\"Tie rod, inner\";1.5;2;3;;\n"})
     EXPECT_EQ(read(text), std::vector{expected}) << text;
-  // The headings of a printed list name no units: its own are told by the study.
+  // The headings of a printed list name no units: its own are given by the study.
   EXPECT_EQ(read("name\tx\ty\tz\nb\t1\t2\t3\n"), (std::vector<HardPoint>{{"b", {0.001, 0.002, 0.003}}}));
   EXPECT_THAT(problems_of("# a\nname,x_mm,y_mm,z_mm\n\n# b\nfront,1,2,\n"),
               HasSubstr("points.txt:5:1: error: front: a coordinate is missing"));
@@ -68,7 +68,7 @@ TEST(HardPoints, ReadsBackWhatItsTableWrites) {
 }
 
 TEST(HardPoints, OfAGuideGoByItsLinks) {
-  const std::vector<HardPoint> points = points_of(guide_sample("2RS-KS").guide);
+  const std::vector<HardPoint> points = points_of(guide_sample("2RS-US").guide);
   ASSERT_EQ(points.size(), 11U);
   EXPECT_EQ(points[1], (HardPoint{"lower_wishbone_body_2", {-0.17, 0.37, -0.1}}));
   EXPECT_EQ(points[7], (HardPoint{"tie_rod_carrier", {-0.14, 0.7, -0.042}}));

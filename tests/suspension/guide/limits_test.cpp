@@ -42,7 +42,7 @@ GuideLimits all_kinds() {
 }
 
 TEST(GuideLimits, DerivativesAgreeWithDifferences) {
-  const WheelGuide guide = guide_sample("2RS-KS").guide;
+  const WheelGuide guide = guide_sample("2RS-US").guide;
   std::vector<DesignNumber> numbers = hard_points(guide);
   numbers.push_back({DesignKind::wheel_centre, 0, 0, 1});
   const Looked exact = look(guide, all_kinds(), numbers);
@@ -66,7 +66,7 @@ TEST(GuideLimits, DerivativesAgreeWithDifferences) {
 
 TEST(GuideLimits, AreWhatAnyPointOfTheLinesSays) {
   // Against many points of both lines: never nearer than the limit says, and as near within the spacing.
-  const WheelGuide guide = guide_sample("5KS").guide;
+  const WheelGuide guide = guide_sample("5US").guide;
   GuideLimits limits;
   limits.links = {{0, 1, 0.0}, {2, 3, 0.0}, {3, 4, 0.0}};
   limits.tyres = {{0, {0.4, 0.62, 0.2}, 0.0}};
@@ -99,7 +99,7 @@ TEST(GuideLimits, AreWhatAnyPointOfTheLinesSays) {
 }
 
 TEST(GuideLimits, HaveSignsAndNames) {
-  WheelGuide guide = guide_sample("5KS").guide;
+  WheelGuide guide = guide_sample("5US").guide;
   guide.links[0].name = "front rod";
   GuideLimits limits;
   const Vec3 p = guide.links[0].body[0];
@@ -119,12 +119,12 @@ TEST(GuideLimits, HaveSignsAndNames) {
 }
 
 TEST(GuideLimits, OfLinksThatAreNotThereAreRefused) {
-  const WheelGuide guide = guide_sample("5KS").guide;
+  const WheelGuide guide = guide_sample("5US").guide;
   GuideLimits limits;
   limits.links = {{0, 5, 0.01}};
-  EXPECT_THAT(
-      [&] { limit_answers(guide, limits, {}, {}, {}); },
-      ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("a limit for link 5, the guide has 5")));
+  EXPECT_THAT([&] { limit_answers(guide, limits, {}, {}, {}); },
+              ::testing::ThrowsMessage<ContractError>(
+                  ::testing::HasSubstr("a limit for link 5, the suspension has 5")));
   limits = {};
   limits.keep_out = {{0, true, 1, {}}};
   EXPECT_THAT([&] { limit_answers(guide, limits, {}, {}, {}); },

@@ -18,7 +18,7 @@ std::string told(const Diagnostics& found) {
   return out;
 }
 
-/// All lengths of a guide by a factor.
+/// All lengths of a suspension by a factor.
 WheelGuide enlarged(const WheelGuide& guide, double factor, bool tyre) {
   WheelGuide out = guide;
   out.wheel.centre = factor * guide.wheel.centre;
@@ -36,7 +36,7 @@ WheelGuide enlarged(const WheelGuide& guide, double factor, bool tyre) {
 
 TEST(Plausibility, GuidesThatAreMeantPassInSilence) {
   for (const GuideSample& sample : guide_samples()) {
-    if (sample.guide.wheel.centre.y == 0) continue;  // counted from the wheel centre: told below
+    if (sample.guide.wheel.centre.y == 0) continue;  // counted from the wheel centre: reported below
     EXPECT_EQ(told(implausible(sample.guide)), "") << sample.name;
     EXPECT_EQ(told(implausible(mirrored(sample.guide))), "") << sample.name;
     // A model car, a lorry.
@@ -48,7 +48,7 @@ TEST(Plausibility, GuidesThatAreMeantPassInSilence) {
 }
 
 TEST(Plausibility, ATyreOfAnotherUnitIsTold) {
-  WheelGuide guide = guide_sample("2RS-KS").guide;
+  WheelGuide guide = guide_sample("2RS-US").guide;
   guide.wheel.tyre_diameter = 640;  // 640 in tyre_diameter_m: a radius of 210 tracks
   EXPECT_THAT(told(implausible(guide)),
               AllOf(HasSubstr("error: wheel: the tyre's radius is 320 m, the joints lie "),
@@ -60,12 +60,12 @@ TEST(Plausibility, ATyreOfAnotherUnitIsTold) {
 }
 
 TEST(Plausibility, PointsOfAnotherUnitAreTold) {
-  const WheelGuide& guide = guide_sample("2RS-KS").guide;
+  const WheelGuide& guide = guide_sample("2RS-US").guide;
   EXPECT_THAT(told(implausible(enlarged(guide, 1000, true))),
-              AllOf(HasSubstr("error: hard_points: the farthest point of the guide lies 443"),
+              AllOf(HasSubstr("error: hard_points: the farthest point of the suspension lies 443"),
                     HasSubstr("are these millimetres in keys of metres?")));
   EXPECT_THAT(told(implausible(enlarged(guide, 0.001, true))),
-              AllOf(HasSubstr("error: hard_points: the farthest point of the guide lies 0.44"),
+              AllOf(HasSubstr("error: hard_points: the farthest point of the suspension lies 0.44"),
                     HasSubstr("are these metres in keys of millimetres?")));
   // One point of a list.
   WheelGuide one = guide;
@@ -79,7 +79,7 @@ TEST(Plausibility, PointsOfAnotherUnitAreTold) {
 }
 
 TEST(Plausibility, AxesThatChangePlacesAreTold) {
-  WheelGuide guide = guide_sample("2RS-KS").guide;
+  WheelGuide guide = guide_sample("2RS-US").guide;
   const auto turned = [](const Vec3& p) { return Vec3{p.y, p.x, p.z}; };
   guide.wheel.centre = turned(guide.wheel.centre);
   for (GuideLink& link : guide.links)
@@ -92,7 +92,7 @@ TEST(Plausibility, AxesThatChangePlacesAreTold) {
                     "x = 760 mm: do the axes change places?"),
           HasSubstr("[mechanism.hard_points] x = ")));
   // Counted from the wheel centre.
-  guide = guide_sample("2RS-KS").guide;
+  guide = guide_sample("2RS-US").guide;
   guide.wheel.centre = {0, 0, 0};
   for (GuideLink& link : guide.links)
     for (auto* points : {&link.body, &link.carrier})
@@ -101,7 +101,7 @@ TEST(Plausibility, AxesThatChangePlacesAreTold) {
   EXPECT_THAT(told(implausible(guide)), AllOf(HasSubstr("warning: wheel: the wheel centre lies at y = 0 mm"),
                                               HasSubstr("has no track"), HasSubstr("origin_mm")));
   // Outboard: y counted from somewhere else.
-  guide = guide_sample("2RS-KS").guide;
+  guide = guide_sample("2RS-US").guide;
   for (GuideLink& link : guide.links)
     for (auto* points : {&link.body, &link.carrier})
       for (Vec3& p : *points) p.y = 2 * 0.76 - p.y;

@@ -40,10 +40,10 @@ void expect_same(const WheelGuide& a, const WheelGuide& b) {
 }
 
 TEST(GuideSamples, AreThePublishedOnes) {
-  const std::map<std::string, std::string> examples{{"front_5KS", "ex1-forward"},
-                                                    {"strut_SP-3KS", "ex2-forward"},
+  const std::map<std::string, std::string> examples{{"front_5US", "ex1-forward"},
+                                                    {"strut_SP-3US", "ex2-forward"},
                                                     {"interconnected", "ex3-forward"},
-                                                    {"rear_5KS", "ex4-forward"}};
+                                                    {"rear_5US", "ex4-forward"}};
   ASSERT_EQ(guide_samples().size(), 16u);
   for (const GuideSample& sample : guide_samples()) {
     SCOPED_TRACE(sample.name);
@@ -66,8 +66,8 @@ TEST(GuideSamples, AreNamedByTheirStructureAndMove) {
 }
 
 TEST(GuideSamples, UnknownName) {
-  EXPECT_THAT(test::message([] { guide_sample("6KS"); }),
-              ::testing::StartsWith("guide_sample: no sample '6KS'; there are R, RR-KS, S-2KS"));
+  EXPECT_THAT(test::message([] { guide_sample("6US"); }),
+              ::testing::StartsWith("guide_sample: no sample '6US'; there are R, RR-US, S-2US"));
 }
 
 }  // namespace

@@ -12,21 +12,21 @@ namespace {
 using ::testing::ElementsAre;
 
 TEST(Structure, ReadsAndWritesNames) {
-  EXPECT_EQ(parse_structure("SR-3KS").structure,
-            (Structure{LinkType::SR, LinkType::KS, LinkType::KS, LinkType::KS}));
+  EXPECT_EQ(parse_structure("SR-3US").structure,
+            (Structure{LinkType::SR, LinkType::US, LinkType::US, LinkType::US}));
   EXPECT_EQ(parse_structure("R").structure, Structure{LinkType::R});
-  EXPECT_EQ(structure_name(parse_structure("3SS-SP").structure), "SP-3KS");
+  EXPECT_EQ(structure_name(parse_structure("3SS-SP").structure), "SP-3US");
   for (const Structure& one : basic_structures())
     EXPECT_EQ(parse_structure(structure_name(one)).structure, one);
 }
 
 TEST(Structure, NamesMistakesOfAName) {
   EXPECT_EQ(parse_structure("SR-3KX").problem,
-            "'KX' in 'SR-3KX' is no link type; there are R, RR, S, RS, SR, SP, KS, SS");
-  EXPECT_EQ(parse_structure("9KS").problem, "'9KS' in '9KS': a count lies between 1 and 5");
-  EXPECT_EQ(parse_structure("SR--KS").problem,
-            "'SR--KS' has nothing between its '-': write link types such as SR-3KS");
-  EXPECT_EQ(parse_structure("").problem, "'' has nothing between its '-': write link types such as SR-3KS");
+            "'KX' in 'SR-3KX' is no link type; there are R, RR, S, RS, SR, SP, US, SS");
+  EXPECT_EQ(parse_structure("9US").problem, "'9US' in '9US': a count lies between 1 and 5");
+  EXPECT_EQ(parse_structure("SR--US").problem,
+            "'SR--US' has nothing between its '-': write link types such as SR-3US");
+  EXPECT_EQ(parse_structure("").problem, "'' has nothing between its '-': write link types such as SR-3US");
   EXPECT_FALSE(parse_structure("3").problem.empty());
   EXPECT_TRUE(parse_structure("3").structure.empty());
 }
@@ -49,32 +49,32 @@ TEST(Structure, TwelveBasicMechanisms) {
 
 TEST(Structure, DesignParameters) {
   int sum = 0;
-  for (LinkType type : parse_structure("5KS").structure) sum += design_parameters(type);
+  for (LinkType type : parse_structure("5US").structure) sum += design_parameters(type);
   EXPECT_EQ(sum, 30);  // the unknowns of the first published example
   EXPECT_EQ(design_parameters(LinkType::RR), 8);
 }
 
 TEST(Structure, WrongCountsAreToldWithTheirSum) {
-  WheelGuide guide = guide_sample("2RS-KS").guide;
+  WheelGuide guide = guide_sample("2RS-US").guide;
   guide.links.pop_back();
   Diagnostics found = check_structure(guide);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].message,
             "the links take 4 of the carrier's 6 freedoms (2 RS takes 4), 5 are to be taken");
-  EXPECT_EQ(found[0].hint, "the wheel could move in 2 ways: add links");
+  EXPECT_EQ(found[0].hint, "the wheel would have 2 degrees of freedom: add links");
 
-  guide = guide_sample("5KS").guide;
+  guide = guide_sample("5US").guide;
   guide.links.push_back(guide.links[0]);
   guide.links.back().name = "sixth rod";
   found = check_structure(guide);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].message,
-            "the links take 6 of the carrier's 6 freedoms (6 KS takes 6), 5 are to be taken");
+            "the links take 6 of the carrier's 6 freedoms (6 US takes 6), 5 are to be taken");
   EXPECT_EQ(found[0].hint, "redundant links need elastic joints: rigid ones would lock, or fit by luck");
 }
 
 TEST(Structure, EqualLinksLoseRank) {
-  WheelGuide guide = guide_sample("5KS").guide;
+  WheelGuide guide = guide_sample("5US").guide;
   guide.links[4] = guide.links[3];
   guide.links[4].name = "double";
   const Diagnostics found = check_structure(guide);
@@ -87,7 +87,7 @@ TEST(Structure, EqualLinksLoseRank) {
 }
 
 TEST(Structure, TrailingLinkWithALateralHingeHardlyHoldsPitch) {
-  WheelGuide guide = guide_sample("SR-3KS").guide;
+  WheelGuide guide = guide_sample("SR-3US").guide;
   guide.links[0].carrier = {{0.05, 0.6, -0.09}, {0.05, 0.7, -0.09}};
   const Diagnostics found = check_structure(guide);
   ASSERT_EQ(found.size(), 1u);

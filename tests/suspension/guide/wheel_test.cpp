@@ -36,13 +36,13 @@ TEST(Wheel, AnglesComeBack) {
       // A few roundings.
       EXPECT_NEAR(back.toe, there.toe, 1e-15);
       EXPECT_NEAR(back.camber, there.camber, 1e-15);
-      EXPECT_NEAR(back.spin, there.spin, 1e-15);
+      EXPECT_NEAR(back.carrier_pitch, there.carrier_pitch, 1e-15);
       const WheelAngles rates = angle_rates(side, there, angular_velocity(side, there, {0.7, -0.4, 0.9}));
       EXPECT_NEAR(rates.toe, 0.7, 1e-15);
       EXPECT_NEAR(rates.camber, -0.4, 1e-15);
-      EXPECT_NEAR(rates.spin, 0.9, 1e-15);
+      EXPECT_NEAR(rates.carrier_pitch, 0.9, 1e-15);
     }
-  EXPECT_EQ(wheel_angles(Side::left, wheel, {}).spin, 0);
+  EXPECT_EQ(wheel_angles(Side::left, wheel, {}).carrier_pitch, 0);
 }
 
 TEST(Wheel, AngularVelocityAndContactAgainstDifferences) {
@@ -51,7 +51,8 @@ TEST(Wheel, AngularVelocityAndContactAgainstDifferences) {
   const WheelAngles here{0.31, -0.12, 0.23}, rates{0.7, -0.4, 0.9};
   const Vec3 velocity{0.1, 0.2, 1.0};
   const auto later = [&](double t) {
-    return WheelAngles{here.toe + t * rates.toe, here.camber + t * rates.camber, here.spin + t * rates.spin};
+    return WheelAngles{here.toe + t * rates.toe, here.camber + t * rates.camber,
+                       here.carrier_pitch + t * rates.carrier_pitch};
   };
   for (Side side : {Side::left, Side::right}) {
     const Mat3 more = carrier_rotation(side, wheel, later(h)),

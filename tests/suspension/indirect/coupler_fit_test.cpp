@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "linkwright/suspension/indirect/guide_errors.h"
-#include "linkwright/suspension/indirect/synthesis_spin.h"
+#include "linkwright/suspension/indirect/synthesis_carrier_pitch.h"
 #include "support/message.h"
 #include "tests/suspension/synthesis_cases.h"
 
@@ -57,8 +57,8 @@ TEST(CouplerFit, IsTheBestPlaceOfItsBox) {
       const double px = within(box.lower.x, box.upper.x), py = within(box.lower.y, box.upper.y),
                    pz = within(box.lower.z, box.upper.z);
       begin.point = {px, py, pz};
-      const SpinFit other = fit_together(e.targets, links, std::vector{task}, e.links, std::vector{begin},
-                                         {.distinct_links = 0});
+      const CarrierPitchFit other = fit_together(e.targets, links, std::vector{task}, e.links,
+                                                 std::vector{begin}, {.distinct_links = 0});
       least = std::min(least, other.coupler_errors.at(0).rms());
     }
     EXPECT_LE(fit.rms, least * (1 + 1e-4) + 1e-12) << seed;
@@ -71,7 +71,7 @@ TEST(CouplerFit, RefusesLinksItCannotJoin) {
     return message([&] { fit_coupler(e.targets, e.links, task); });
   };
   EXPECT_THAT(told({.name = "c", .first = 0, .second = 1}),
-              HasSubstr("coupler 'c': link 1 is of type KS, needs SR"));
+              HasSubstr("coupler 'c': link 1 is of type US, needs SR"));
   EXPECT_THAT(told({.name = "c", .first = 0, .second = 5}), HasSubstr("coupler 'c': link 5 of 3"));
   EXPECT_THAT(told({.name = "c", .second = 2, .least_offset = 1}),
               HasSubstr("coupler 'c': offset of at least 1 m and at most inf m on a link of 0.286"));

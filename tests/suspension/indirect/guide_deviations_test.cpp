@@ -12,7 +12,7 @@ namespace {
 
 TEST(GuideDeviations, AreNoneForTheMechanismItself) {
   for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward", "mechanism-R",
-                         "mechanism-RR-KS", "mechanism-S-2KS", "mechanism-2RS-KS", "mechanism-RS-SP-KS"}) {
+                         "mechanism-RR-US", "mechanism-S-2US", "mechanism-2RS-US", "mechanism-RS-SP-US"}) {
     const test::Example e = test::published_example(id);
     const ConstraintError error = constraint_error(e.guide, e.targets);
     EXPECT_LT(error.gap, 1e-13) << id;  // positions hold 1e-15
@@ -20,7 +20,7 @@ TEST(GuideDeviations, AreNoneForTheMechanismItself) {
     EXPECT_EQ(d.status, Status::done);
     EXPECT_EQ(d.missed, 0);
     EXPECT_LT(d.x.largest, 1e-12) << id;
-    EXPECT_LT(d.spin.largest, 1e-11) << id;
+    EXPECT_LT(d.carrier_pitch.largest, 1e-11) << id;
   }
 }
 
@@ -59,11 +59,11 @@ TEST(GuideDeviations, PositionsOutOfReachAreCounted) {
   EXPECT_LT(d.x.largest, 1e-12);
 }
 
-TEST(GuideDeviations, ASpinThatIsNotPrescribedIsNoDeviation) {
+TEST(GuideDeviations, ACarrierPitchThatIsNotPrescribedIsNoDeviation) {
   test::Example e = test::published_example("ex4-forward");
-  for (CarrierTarget& pose : e.targets.poses) pose.angles.spin = nan;
+  for (CarrierTarget& pose : e.targets.poses) pose.angles.carrier_pitch = nan;
   const PoseDeviations d = pose_deviations(e.guide, e.targets);
-  EXPECT_EQ(d.spin.largest, 0);
+  EXPECT_EQ(d.carrier_pitch.largest, 0);
   EXPECT_LT(d.toe.largest, 1e-12);
 }
 
@@ -90,12 +90,12 @@ TEST(GuideDeviations, ThePublishedRun) {
   EXPECT_NEAR(std::max(d.x.largest, d.y.largest), computed("centre_error_max_m"), 1e-13);
   EXPECT_NEAR(d.toe.largest / degree, computed("toe_error_max_deg"), 1e-10);
   EXPECT_NEAR(d.camber.largest / degree, computed("camber_error_max_deg"), 1e-10);
-  EXPECT_NEAR(d.spin.largest / degree, computed("spin_error_max_deg"), 1e-10);
+  EXPECT_NEAR(d.carrier_pitch.largest / degree, computed("spin_error_max_deg"), 1e-10);
   // Two digits are printed.
   EXPECT_NEAR(std::max(d.x.largest, d.y.largest), printed("centre_error_max_m"), 5e-10);
   EXPECT_NEAR(d.toe.largest / degree, printed("toe_error_max_deg"), 1e-7);
   EXPECT_NEAR(d.camber.largest / degree, printed("camber_error_max_deg"), 5e-8);
-  EXPECT_NEAR(d.spin.largest / degree, printed("spin_error_max_deg"), 5e-8);
+  EXPECT_NEAR(d.carrier_pitch.largest / degree, printed("spin_error_max_deg"), 5e-8);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 struct Case {
   test::Example example;
-  CarrierTargets open;  ///< without spins
+  CarrierTargets open;  ///< without carrier pitches
   std::vector<LinkTask> links;
   std::vector<CouplerTask> couplers;
 };
@@ -26,7 +26,7 @@ struct Case {
 Case make_case(const char* id, double edge = 0.05) {
   Case c{.example = test::published_example(id)};
   c.open = c.example.targets;
-  for (CarrierTarget& pose : c.open.poses) pose.angles.spin = nan;
+  for (CarrierTarget& pose : c.open.poses) pose.angles.carrier_pitch = nan;
   RandomStream random({3, 17});
   for (const GuideLink& link : c.example.links) c.links.push_back(test::random_task(link, edge, random));
   for (const Coupler& k : c.example.guide.couplers)
@@ -39,8 +39,8 @@ Case make_case(const char* id, double edge = 0.05) {
 }
 
 TEST(GuideErrors, VanishForTheMechanismItself) {
-  for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "mechanism-RR-KS", "mechanism-S-2KS",
-                         "mechanism-R", "mechanism-RS-SR-KS"}) {
+  for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "mechanism-RR-US", "mechanism-S-2US",
+                         "mechanism-R", "mechanism-RS-SR-US"}) {
     const Case c = make_case(id);
     GuideErrors errors(c.example.targets, c.links, c.couplers);
     std::vector<double> x(errors.unknowns()), rows(errors.rows());
@@ -101,54 +101,55 @@ void expect_derivatives(GuideErrors& errors, std::uint64_t seed, const char* wha
 }
 
 TEST(GuideErrors, DerivativesAgainstDifferences) {
-  for (const char* id : {"ex2-forward", "ex3-forward", "mechanism-RR-KS", "mechanism-S-2KS", "mechanism-R",
-                         "mechanism-RS-SR-KS"}) {
+  for (const char* id : {"ex2-forward", "ex3-forward", "mechanism-RR-US", "mechanism-S-2US", "mechanism-R",
+                         "mechanism-RS-SR-US"}) {
     const Case c = make_case(id);
     GuideErrors given(c.example.targets, c.links, c.couplers);
     expect_derivatives(given, 1, id);
-    GuideErrors each(c.open, c.links, c.couplers, SpinTechnique::each);
-    EXPECT_EQ(each.spin_unknowns(), c.open.poses.size() - 1);
+    GuideErrors each(c.open, c.links, c.couplers, CarrierPitchTechnique::each);
+    EXPECT_EQ(each.carrier_pitch_unknowns(), c.open.poses.size() - 1);
     expect_derivatives(each, 2, id);
   }
   for (const char* id : {"ex3-forward", "ex4-forward"}) {
     const Case c = make_case(id);
-    GuideErrors quadratic(c.open, c.links, c.couplers, SpinTechnique::quadratic);
-    EXPECT_EQ(quadratic.spin_unknowns(), 3u);
+    GuideErrors quadratic(c.open, c.links, c.couplers, CarrierPitchTechnique::quadratic);
+    EXPECT_EQ(quadratic.carrier_pitch_unknowns(), 3u);
     expect_derivatives(quadratic, 3, id);
   }
   for (const char* id : {"ex1-forward", "ex4-forward"}) {
     const Case c = make_case(id);
-    GuideErrors dyad(c.open, c.links, c.couplers, SpinTechnique::dyad);
-    EXPECT_EQ(dyad.spin_unknowns(), 0u);
+    GuideErrors dyad(c.open, c.links, c.couplers, CarrierPitchTechnique::dyad);
+    EXPECT_EQ(dyad.carrier_pitch_unknowns(), 0u);
     expect_derivatives(dyad, 4, id, 1e-6);
   }
 }
 
-TEST(GuideErrors, TechniquesGiveTheSpinsBack) {
+TEST(GuideErrors, TechniquesGiveTheCarrierPitchesBack) {
   const Case c = make_case("ex4-forward");
-  GuideErrors dyad(c.open, c.links, {}, SpinTechnique::dyad);
+  GuideErrors dyad(c.open, c.links, {}, CarrierPitchTechnique::dyad);
   std::vector<double> x(dyad.unknowns()), rows(dyad.rows());
   dyad.start_from(c.example.links, {}, x);
   ASSERT_TRUE(dyad.evaluate(x, rows, {}));
   EXPECT_LT(dyad.totals(rows).largest, 1e-13);
   for (std::size_t i = 0; i < c.open.poses.size(); ++i)
-    EXPECT_NEAR(dyad.targets().poses[i].angles.spin, c.example.targets.poses[i].angles.spin, 1e-12);
+    EXPECT_NEAR(dyad.targets().poses[i].angles.carrier_pitch, c.example.targets.poses[i].angles.carrier_pitch,
+                1e-12);
 
-  GuideErrors quadratic(c.open, c.links, {}, SpinTechnique::quadratic);
+  GuideErrors quadratic(c.open, c.links, {}, CarrierPitchTechnique::quadratic);
   x.assign(quadratic.unknowns(), 0);
   quadratic.start_from(c.example.links, {}, x);
   x[30] = 0.2, x[31] = 0.3, x[32] = -0.7;
   ASSERT_TRUE(quadratic.evaluate(x, rows, {}));
-  const auto spin = [&](std::size_t i) { return quadratic.targets().poses[i].angles.spin; };
-  EXPECT_EQ(spin(6), 0);
-  EXPECT_NEAR(spin(12), 0.2 * 0.15 + 0.3 * 0.0225, 1e-15);
-  EXPECT_NEAR(spin(0), -0.2 * 0.15 - 0.7 * 0.0225, 1e-15);
+  const auto carrier_pitch = [&](std::size_t i) { return quadratic.targets().poses[i].angles.carrier_pitch; };
+  EXPECT_EQ(carrier_pitch(6), 0);
+  EXPECT_NEAR(carrier_pitch(12), 0.2 * 0.15 + 0.3 * 0.0225, 1e-15);
+  EXPECT_NEAR(carrier_pitch(0), -0.2 * 0.15 - 0.7 * 0.0225, 1e-15);
 }
 
 TEST(GuideErrors, ADyadThatDoesNotReachTellsByHowMuch) {
   Case c = make_case("ex4-forward", 0.02);
   for (PointBox& box : c.links[0].body) box.lower.y -= 1, box.upper.y -= 1;  // the rod is a metre longer
-  GuideErrors dyad(c.open, c.links, {}, SpinTechnique::dyad);
+  GuideErrors dyad(c.open, c.links, {}, CarrierPitchTechnique::dyad);
   std::vector<double> x(dyad.unknowns()), rows(dyad.rows());
   std::size_t apart = 0;
   RandomStream random({1});
@@ -164,21 +165,23 @@ TEST(GuideErrors, ADyadThatDoesNotReachTellsByHowMuch) {
 
 TEST(GuideErrors, WhatIsRefused) {
   Case c = make_case("ex3-forward");
-  const auto told = [&](SpinTechnique technique) {
+  const auto told = [&](CarrierPitchTechnique technique) {
     return message([&] { GuideErrors(c.open, c.links, c.couplers, technique); });
   };
   c.couplers[0].second = 1;
-  EXPECT_THAT(told(SpinTechnique::each), HasSubstr("coupler 'coupler': from a link of type KS to one of type "
-                                                   "KS, needs KS and SR"));
+  EXPECT_THAT(told(CarrierPitchTechnique::each),
+              HasSubstr("coupler 'coupler': from a link of type US to one of type "
+                        "US, needs US and SR"));
   c.couplers[0].second = 4;
-  EXPECT_THAT(told(SpinTechnique::each), HasSubstr("coupler 'coupler': link 4 of 3"));
+  EXPECT_THAT(told(CarrierPitchTechnique::each), HasSubstr("coupler 'coupler': link 4 of 3"));
   c.couplers.clear();
   c.links.erase(c.links.begin(), c.links.begin() + 2);
-  EXPECT_THAT(told(SpinTechnique::dyad), HasSubstr("no KS link makes a dyad with the carrier"));
+  EXPECT_THAT(told(CarrierPitchTechnique::dyad), HasSubstr("no US link makes a dyad with the carrier"));
   const Case steered = make_case("ex1-forward");
-  EXPECT_THAT(message([&] { GuideErrors(steered.open, steered.links, {}, SpinTechnique::quadratic); }),
-              HasSubstr("position 10 has the rack at -0.075 m: a quadratic of the travel does not know the "
-                        "rack"));
+  EXPECT_THAT(
+      message([&] { GuideErrors(steered.open, steered.links, {}, CarrierPitchTechnique::quadratic); }),
+      HasSubstr("position 10 has the rack at -0.075 m: a quadratic of the travel does not know the "
+                "rack"));
 }
 
 }  // namespace

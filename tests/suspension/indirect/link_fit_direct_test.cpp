@@ -13,8 +13,8 @@ namespace {
 
 TEST(LinkFitDirect, LinksOfEveryMechanismHaveNoErrors) {
   for (const char* id :
-       {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward", "mechanism-R", "mechanism-RR-KS",
-        "mechanism-S-2KS", "mechanism-2RS-KS", "mechanism-RS-SP-KS", "mechanism-2SR-KS"}) {
+       {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward", "mechanism-R", "mechanism-RR-US",
+        "mechanism-S-2US", "mechanism-2RS-US", "mechanism-RS-SP-US", "mechanism-2SR-US"}) {
     const test::Example e = test::published_example(id);
     for (const GuideLink& link : e.links) {
       const LinkMotion motion = link_motion(e.targets, link.moved_by_rack);
@@ -29,7 +29,7 @@ TEST(LinkFitDirect, LinksOfEveryMechanismHaveNoErrors) {
 TEST(LinkFitDirect, DerivativesAreThoseOfTheErrors) {
   const test::Example e = test::published_example("ex1-forward");
   for (const LinkType type :
-       {LinkType::KS, LinkType::RS, LinkType::SR, LinkType::RR, LinkType::SP, LinkType::S, LinkType::R}) {
+       {LinkType::US, LinkType::RS, LinkType::SR, LinkType::RR, LinkType::SP, LinkType::S, LinkType::R}) {
     GuideLink link{.type = type};
     for (int k = 0; k < body_points(type); ++k) link.body.push_back({0.2 - 0.3 * k, 0.4, -0.1 + 0.05 * k});
     for (int k = 0; k < carrier_points(type); ++k)

@@ -27,9 +27,9 @@ TEST(LinkFitMotion, PlacesPointsAsTheCarrierDoes) {
   }
 }
 
-TEST(LinkFitMotion, NeedsTheSpin) {
+TEST(LinkFitMotion, NeedsTheCarrierPitch) {
   test::Example e = test::published_example("ex1-forward");
-  e.targets.poses[3].angles.spin = nan;
+  e.targets.poses[3].angles.carrier_pitch = nan;
   EXPECT_THAT(linkwright::test::message([&] { link_motion(e.targets, false); }),
               ::testing::HasSubstr("a position does not give the carrier pitch"));
 }

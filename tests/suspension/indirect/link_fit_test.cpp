@@ -54,11 +54,11 @@ TEST(LinkFit, LinksOfTheExamplesAreFoundFromEveryBox) {
 }
 
 TEST(LinkFit, OtherTypesOfLinks) {
-  for (const char* id : {"mechanism-RR-KS", "mechanism-2RS-KS", "mechanism-RS-SP-KS", "mechanism-2SR-KS",
-                         "mechanism-S-2KS", "mechanism-R"}) {
+  for (const char* id : {"mechanism-RR-US", "mechanism-2RS-US", "mechanism-RS-SP-US", "mechanism-2SR-US",
+                         "mechanism-S-2US", "mechanism-R"}) {
     const test::Example e = test::published_example(id);
     for (const GuideLink& link : e.links) {
-      if (link.type == LinkType::KS && e.links.size() < 4 && e.targets.poses.size() < 10)
+      if (link.type == LinkType::US && e.links.size() < 4 && e.targets.poses.size() < 10)
         continue;  // families
       const Tally tally = solve_boxes(e, link, 100, 1e-6);
       EXPECT_EQ(tally.solved, 100) << id << " " << name_of(link.type);
@@ -195,12 +195,12 @@ TEST(LinkFit, FewestPositionsArePublishedOnes) {
   const auto expect = [&](const char* key, double found) {
     EXPECT_DOUBLE_EQ(found, test::number_at(published_counts, key)) << key;
   };
-  expect("five_KS", fewest_positions(30, 5));
-  expect("five_KS_without_spin", fewest_positions(30, 5, 5));
-  expect("SP_3KS", fewest_positions(23, 5));
-  expect("double_wishbone_2RS_KS", fewest_positions(20, 5));
-  expect("mcpherson_RS_SP_KS", fewest_positions(18, 5));
-  expect("single_KS", fewest_positions(6, 1));
+  expect("five_US", fewest_positions(30, 5));
+  expect("five_US_without_spin", fewest_positions(30, 5, 5));
+  expect("SP_3US", fewest_positions(23, 5));
+  expect("double_wishbone_2RS_US", fewest_positions(20, 5));
+  expect("mcpherson_RS_SP_US", fewest_positions(18, 5));
+  expect("single_US", fewest_positions(6, 1));
   expect("single_RS_or_SR", fewest_positions(7, 2));
   expect("single_SP", fewest_positions(5, 2));
   expect("single_RR", fewest_positions(8, 4));
@@ -220,7 +220,7 @@ TEST(LinkFit, RefusesWhatItCannotDo) {
   EXPECT_THAT(
       told(e.targets),
       HasSubstr("link 'link 1' of type RS needs 2 points on the body and 1 on the carrier, got 1 and 1"));
-  task.type = LinkType::KS;
+  task.type = LinkType::US;
   EXPECT_THAT(told({.wheel = e.targets.wheel, .poses = {}}),
               HasSubstr("link 'link 1': no position besides the reference"));
   std::swap(task.body[0].lower, task.body[0].upper);

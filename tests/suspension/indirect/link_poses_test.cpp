@@ -38,11 +38,11 @@ TEST(LinkPoses, TakeTheirPointsAlong) {
   }
 }
 
-// A K joint is two hinges: about the axis that stands in the body, then about the one that turns with the
+// A U joint is two hinges: about the axis that stands in the body, then about the one that turns with the
 // rod. The angles follow from where the rod has gone.
 TEST(LinkPoses, AKJointIsTwoHinges) {
   for (const std::optional<Vec3>& axis : {std::optional<Vec3>{}, std::optional<Vec3>{Vec3{0.9, 0.3, -0.4}}}) {
-    WheelGuide guide = guide_sample("5KS").guide;
+    WheelGuide guide = guide_sample("5US").guide;
     guide.spring->link = 2;  // the tie rod, which the rack moves
     guide.links[2].cross_axis = axis;
     ASSERT_TRUE(guide.links[2].moved_by_rack);
@@ -75,7 +75,7 @@ TEST(LinkPoses, AKJointIsTwoHinges) {
 }
 
 TEST(LinkPoses, ASpringOnARodOfAnotherLengthKeepsItsShare) {
-  WheelGuide guide = guide_sample("5KS").guide;
+  WheelGuide guide = guide_sample("5US").guide;
   const Vec3 from = guide.links[0].body[0], to = guide.links[0].carrier[0];
   guide.links[0].length = 1.02 * norm(to - from);
   guide.spring = {{0, 0.5, 0.4}, from + 0.6 * (to - from), 0};

@@ -21,7 +21,7 @@ TEST(PublishedGuides, AreThoseOfTheReference) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const std::vector<double> wanted = test::numbers(rows[i]);
       const PublishedPosition& p = guide.positions[i];
-      const std::vector<double> found{p.travel, p.rack, p.x, p.y, p.toe, p.camber, p.spin};
+      const std::vector<double> found{p.travel, p.rack, p.x, p.y, p.toe, p.camber, p.carrier_pitch};
       const std::array<std::size_t, 7> column{1, 2, 3, 4, 6, 7, 8};
       for (std::size_t k = 0; k < 7; ++k) {
         if (column[k] < wanted.size())
@@ -74,8 +74,8 @@ TEST(PublishedGuides, TheStrutAsPrintedMissesItsTable) {
     ASSERT_EQ(at.status, Status::done);
     const WheelAngles angles = wheel_angles(Side::left, plan.wheel, at.place.carrier.rotation);
     const std::array found{at.place.carrier.centre.x, at.place.carrier.centre.y, math::degrees(angles.toe),
-                           math::degrees(angles.camber), math::degrees(angles.spin)};
-    const std::array table{row.x, row.y, row.toe, row.camber, row.spin};
+                           math::degrees(angles.camber), math::degrees(angles.carrier_pitch)};
+    const std::array table{row.x, row.y, row.toe, row.camber, row.carrier_pitch};
     for (std::size_t k = 0; k < 5; ++k) largest[k] = std::max(largest[k], std::abs(found[k] - table[k]));
   }
   const std::array keys{"x_m", "y_m", "toe_deg", "camber_deg", "carrier_spin_deg"};
@@ -99,7 +99,7 @@ TEST(PublishedGuides, BoxesHoldTheTrueLinks) {
     // 22 coordinates in example 3, three of them those of the coupler's point.
     EXPECT_EQ(unknowns, (std::array{30, 23, 19, 30})[static_cast<std::size_t>(guide.example - 1)]);
   }
-  const WheelGuide& truth = guide_sample("front_5KS").guide;
+  const WheelGuide& truth = guide_sample("front_5US").guide;
   const std::vector<LinkTask> tasks = published_tasks(truth, 1);
   std::vector<GuideLink> links = truth.links;
   links[0].body[0].x += 3e-3;

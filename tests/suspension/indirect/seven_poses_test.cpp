@@ -90,12 +90,12 @@ TEST(SevenPoses, AllSolutionsAreKept) {
 }
 
 TEST(SevenPoses, LinksOfAMechanismAreWhatFitsAllPositions) {
-  for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward", "mechanism-5KS"}) {
+  for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward", "mechanism-5US"}) {
     const test::Example e = test::published_example(id);
     for (const bool moved : {false, true}) {
       const SevenPoseReport report = seven_pose_rods(e.targets, moved);
       for (const GuideLink& link : e.links) {
-        if (link.type != LinkType::KS || link.moved_by_rack != moved) continue;
+        if (link.type != LinkType::US || link.moved_by_rack != moved) continue;
         // Conditions of 1e7 in examples 3 and 4.
         EXPECT_LT(nearest(report, link, 1e-9), 1e-6) << id << " " << link.name;
       }
@@ -127,7 +127,7 @@ TEST(SevenPoses, EverySubsetOfPositionsTellsTheLinks) {
 }
 
 TEST(SevenPoses, ArmsComeAsFamilies) {
-  for (const char* id : {"mechanism-RS-3KS", "mechanism-2RS-KS", "mechanism-2SR-KS", "ex3-forward"}) {
+  for (const char* id : {"mechanism-RS-3US", "mechanism-2RS-US", "mechanism-2SR-US", "ex3-forward"}) {
     const test::Example e = test::published_example(id);
     const SevenPoseReport report = seven_pose_rods(e.targets, false);
     EXPECT_EQ(report.status, Status::singular) << id;

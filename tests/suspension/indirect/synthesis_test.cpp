@@ -81,7 +81,7 @@ TEST(IndirectSynthesis, ExactRodsAreStartsWhereOthersFail) {
 }
 
 TEST(IndirectSynthesis, HingedArmsAreReported) {
-  const test::Example e = test::published_example("mechanism-RS-3KS");
+  const test::Example e = test::published_example("mechanism-RS-3US");
   IndirectTask task{.targets = e.targets, .links = {given_link(e.links[1])}, .couplers = {}};
   task.links[0].body[0] = box_around({0.5, 0.5, 0.5}, 0.02);  // no rod is there
   RunContext context;
@@ -97,7 +97,7 @@ TEST(IndirectSynthesis, LinksThatShareACouplerAreFittedTogetherAtLast) {
   for (CarrierTarget& pose : e.targets.poses) {  // five decimals, as the source prints them
     const auto round = [](double& v, double unit) { v = std::round(v / unit) * unit; };
     round(pose.centre.x, 1e-5), round(pose.centre.y, 1e-5);
-    round(pose.angles.toe, 1e-5 * M_PI / 180), round(pose.angles.spin, 1e-5 * M_PI / 180);
+    round(pose.angles.toe, 1e-5 * M_PI / 180), round(pose.angles.carrier_pitch, 1e-5 * M_PI / 180);
   }
   const IndirectTask task = whole(e, 1);
   RunContext context;
@@ -128,31 +128,32 @@ TEST(IndirectSynthesis, LinksThatShareACouplerAreFittedTogetherAtLast) {
       1e-15);
 }
 
-TEST(IndirectSynthesis, AGivenRodSettlesTheSpin) {
+TEST(IndirectSynthesis, AGivenRodSettlesTheCarrierPitch) {
   // Section 5.3.5.1: with one rod adopted the others are found one by one from complete positions.
   const test::Example e = test::published_example("ex4-forward");
   RunContext context;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     IndirectTask task = whole(e, seed);
-    for (CarrierTarget& pose : task.targets.poses) pose.angles.spin = nan;
+    for (CarrierTarget& pose : task.targets.poses) pose.angles.carrier_pitch = nan;
     task.links[0] = given_link(e.links[0]);
     const IndirectSynthesis found = synthesise(task, {}, seed, context);
     ASSERT_EQ(found.status, Status::done) << seed;
     EXPECT_EQ(found.fewest, 24 / 4.0 + 1);  // six unknowns less
     EXPECT_EQ(found.guide.links[0].body, e.links[0].body);
     for (std::size_t i = 0; i < e.targets.poses.size(); ++i)
-      EXPECT_NEAR(found.targets.poses[i].angles.spin, e.targets.poses[i].angles.spin, 1e-10);
+      EXPECT_NEAR(found.targets.poses[i].angles.carrier_pitch, e.targets.poses[i].angles.carrier_pitch,
+                  1e-10);
     EXPECT_LT(constraint_error(found.guide, found.targets).gap, 1e-8);
     const PoseDeviations d = pose_deviations(found.guide, e.targets);
-    EXPECT_LT(d.x.largest, 1e-7);  // errors of 1e-8 m at most, and what the guide makes of them
-    EXPECT_LT(d.spin.largest, 1e-6);
+    EXPECT_LT(d.x.largest, 1e-7);  // errors of 1e-8 m at most, and what the suspension makes of them
+    EXPECT_LT(d.carrier_pitch.largest, 1e-6);
   }
 }
 
 TEST(IndirectSynthesis, AGivenRodThatDoesNotReachIsTold) {
   const test::Example e = test::published_example("ex4-forward");
   IndirectTask task = whole(e, 1);
-  for (CarrierTarget& pose : task.targets.poses) pose.angles.spin = nan;
+  for (CarrierTarget& pose : task.targets.poses) pose.angles.carrier_pitch = nan;
   GuideLink rod = e.links[2];
   rod.carrier[0] = e.targets.wheel.centre + Vec3{0.001, -0.1, 0};
   task.links[2] = given_link(rod);
@@ -165,15 +166,15 @@ TEST(IndirectSynthesis, AGivenRodThatDoesNotReachIsTold) {
       << found.findings[0].message;
 }
 
-TEST(IndirectSynthesis, LinksAndSpinsTogether) {
+TEST(IndirectSynthesis, LinksAndCarrierPitchesTogether) {
   const test::Example e = test::published_example("ex4-forward");
   IndirectTask task = whole(e, 1);
-  for (CarrierTarget& pose : task.targets.poses) pose.angles.spin = nan;
+  for (CarrierTarget& pose : task.targets.poses) pose.angles.carrier_pitch = nan;
   RunContext context;
-  const IndirectSynthesis found = synthesise(task, {.spin = {.tolerance = 1e-6}}, 1, context);
+  const IndirectSynthesis found = synthesise(task, {.carrier_pitch = {.tolerance = 1e-6}}, 1, context);
   EXPECT_EQ(found.status, Status::done);
   EXPECT_EQ(found.fewest, 8.5);
-  EXPECT_TRUE(spin_is_given(found.targets));
+  EXPECT_TRUE(carrier_pitch_is_given(found.targets));
   EXPECT_NEAR(constraint_error(found.guide, found.targets).gap, found.largest, 1e-12);
 }
 

@@ -31,7 +31,7 @@ double at(const Table& t, std::string_view key, std::size_t row) {
 
 TEST(AxleStudy, TellsTheAntiFeaturesOfFrontAndRear) {
   // Reference figures of the double wishbone at the front and the semi-trailing arm at the rear.
-  const study::Result front = run_text(study("2RS-KS", vehicle));
+  const study::Result front = run_text(study("2RS-US", vehicle));
   EXPECT_NEAR(at(front.tables[0], "anti_dive_outboard_percent", 0), 22.44960845365772, 1e-7);
   EXPECT_NEAR(at(front.tables[0], "anti_lift_drive_percent", 0), -2.770800471872947, 1e-7);
   const study::Result rear = run_text(study("R", vehicle + "axle = \"rear\"\n"));
@@ -41,7 +41,7 @@ TEST(AxleStudy, TellsTheAntiFeaturesOfFrontAndRear) {
 
 TEST(AxleStudy, RollsASymmetricAxleAlikeBothWays) {
   const study::Result result =
-      run_text(study("2RS-KS", "[axle.roll]\nfrom_deg = -4\nto_deg = 4\nstep_deg = 2\n"));
+      run_text(study("2RS-US", "[axle.roll]\nfrom_deg = -4\nto_deg = 4\nstep_deg = 2\n"));
   const Table& roll = table(result, "roll");
   ASSERT_EQ(roll.rows(), 5U);
   for (std::size_t i = 0; i < 5; ++i) {
@@ -56,7 +56,7 @@ TEST(AxleStudy, RollsASymmetricAxleAlikeBothWays) {
 
 TEST(AxleStudy, SteersBothWheelsOnOneRack) {
   const study::Result result = run_text(
-      study("2RS-KS", vehicle + "[axle]\nrack_per_turn_mm = 50\n[axle.rack]\nvalues_mm = [-40, 0, 40]\n"));
+      study("2RS-US", vehicle + "[axle]\nrack_per_turn_mm = 50\n[axle.rack]\nvalues_mm = [-40, 0, 40]\n"));
   const Table& steer = table(result, "steer");
   EXPECT_NEAR(at(steer, "left_steer_rad", 0), -at(steer, "right_steer_rad", 2), 1e-12);
   EXPECT_NEAR(at(steer, "ackermann_percent", 0), at(steer, "ackermann_percent", 2), 1e-9);
@@ -69,11 +69,11 @@ TEST(AxleStudy, SteersBothWheelsOnOneRack) {
 TEST(AxleStudyRead, NamesWhatIsWrong) {
   EXPECT_THAT(problems_of(study("R", "[axle.rack]\nvalues_mm = [0]\n")),
               HasSubstr("axle.rack: no link is moved by the rack"));
-  EXPECT_THAT(problems_of(study("rear_5KS", "[axle.roll]\nvalues_deg = [0]\n")),
+  EXPECT_THAT(problems_of(study("rear_5US", "[axle.roll]\nvalues_deg = [0]\n")),
               HasSubstr("axle.roll: the wheel centre lies in the middle of the vehicle: there is no axle"));
   EXPECT_THAT(problems_of(study("R", "[vehicle]\nwheelbase_m = 2.7\n")),
               HasSubstr("vehicle.centre_height_m: this key is missing"));
-  EXPECT_THAT(problems_of(study("2RS-KS", "[axle.roll]\nfrom_deg = 1\n")),
+  EXPECT_THAT(problems_of(study("2RS-US", "[axle.roll]\nfrom_deg = 1\n")),
               HasSubstr("axle.roll.to: is missing; write from_deg, to_deg and step_deg"));
 }
 

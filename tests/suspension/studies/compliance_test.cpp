@@ -18,7 +18,7 @@ using test::run_text;
 using test::table;
 using ::testing::HasSubstr;
 
-// The sample 5KS with the stiffness of its spring.
+// The sample 5US with the stiffness of its spring.
 std::string compliance_study(const std::string& rest, const std::string& stiffness = "") {
   std::string text =
       "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\n"
@@ -28,7 +28,7 @@ std::string compliance_study(const std::string& rest, const std::string& stiffne
       stiffness;
   const auto link = [&](const char* name, const char* body, const char* carrier, const char* more = "") {
     text +=
-        fmt::format("[[mechanism.link]]\nname = \"{}\"\ntype = \"KS\"\nbody_m = [{}]\ncarrier_m = [{}]\n{}",
+        fmt::format("[[mechanism.link]]\nname = \"{}\"\ntype = \"US\"\nbody_m = [{}]\ncarrier_m = [{}]\n{}",
                     name, body, carrier, more);
   };
   link("lower front rod", "0.2, 0.36, -0.1", "0.022, 0.7, -0.125");
@@ -84,7 +84,7 @@ TEST(ComplianceStudyRead, NamesWhatIsWrong) {
                   "[[compliance.joint]]\nlink = \"tie rod\"\nend = \"body\"\naxial_N_per_mm = 1\n")),
               HasSubstr("compliance.joint[0].radial: is missing; a bushing has both"));
   const std::string wishbone =
-      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\nsample = \"2RS-KS\"\n"
+      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\nsample = \"2RS-US\"\n"
       "[sweep.travel]\nvalues_mm = [0]\n[compliance]\n";
   EXPECT_THAT(problems_of(wishbone + rods()),
               HasSubstr("no link is called 'lower front rod'; there are: lower wishbone"));

@@ -26,7 +26,7 @@ TEST(DirectStudy, TakesBumpSteerAwayByTheInnerTieRodPoint) {
   ASSERT_EQ(result.status, Status::done) << result.headline;
   ASSERT_EQ(result.changes.size(), 1U);
   EXPECT_LT(result.changes[0].after, 0.2 * result.changes[0].before);
-  // Told by the curves of the found design, too.
+  // Reported by the curves of the found design, too.
   const Table &found = table(result, "sweep"), &initial = table(result, "initial");
   const auto spread = [](const Table& t) {
     const auto& toe = t.find("toe_rad")->values;

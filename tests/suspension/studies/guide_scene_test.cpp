@@ -12,7 +12,7 @@ namespace {
 
 TEST(GuideScene, DrawsWheelsOfBothSidesOverTheGrid) {
   const study::Result result = test::run_text(
-      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\nsample = \"2RS-KS\"\n"
+      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\nsample = \"2RS-US\"\n"
       "[sweep.travel]\nfrom_mm = -80\nto_mm = 80\nstep_mm = 40\n[sweep.rack]\nvalues_mm = [-30, 0, 30]\n");
   const study::Scene& scene = result.scenes.at(0);
   EXPECT_TRUE(scene.spatial());

@@ -30,7 +30,7 @@ using ::testing::HasSubstr;
 TEST(GuideStudy, ReadsPrintedHardPointsOfTheRightWheelInAnotherFrame) {
   const auto folder = std::filesystem::temp_directory_path() / "linkwright_hard_points";
   std::filesystem::create_directories(folder);
-  const WheelGuide& left = guide_sample("2RS-KS").guide;
+  const WheelGuide& left = guide_sample("2RS-US").guide;
   std::ofstream file(folder / "car.txt");
   file << "$ printed in mm: X rearward, Y right, Z up\n";
   const auto print = [&](const char* name, const Vec3& at) {
@@ -72,7 +72,7 @@ type = "RS"
 points = ["UCA front", "UCA rear", "UCA outer"]
 [[mechanism.link]]
 name = "tie rod"
-type = "KS"
+type = "US"
 points = ["Tie rod inner", "Tie rod outer"]
 moved_by = "rack"
 [mechanism.spring]
@@ -80,7 +80,7 @@ points = ["Spring top", "Spring bottom"]
 attached_to = "lower wishbone"
 )" + sweep + racks;
   const study::Result right = run_text(text, folder);
-  const study::Result known = run_text(sample("2RS-KS", sweep + racks));
+  const study::Result known = run_text(sample("2RS-US", sweep + racks));
   ASSERT_EQ(right.status, Status::done);
   for (const char* key : {"toe_rad", "camber_rad", "carrier_pitch_rad", "half_track_change_m",
                           "roll_centre_height_m", "caster_rad", "kingpin_inclination_rad", "trail_m",
@@ -96,9 +96,9 @@ attached_to = "lower wishbone"
 }
 
 TEST(GuideStudyRead, NamesWhatIsWrongWithTheMechanism) {
-  const std::string good = sample("5KS", sweep);
-  EXPECT_THAT(problems_of(replaced(good, "5KS", "5KX")),
-              HasSubstr("mechanism.sample: there is no sample '5KX'; there are: R, RR-KS"));
+  const std::string good = sample("5US", sweep);
+  EXPECT_THAT(problems_of(replaced(good, "5US", "5KX")),
+              HasSubstr("mechanism.sample: there is no sample '5KX'; there are: R, RR-US"));
   EXPECT_THAT(problems_of(replaced(good, "[sweep", "[mechanism.wheel]\ntyre_diameter_m = 0.6\n[sweep")),
               HasSubstr("mechanism.wheel: a sample brings its own; remove it, or the sample"));
   EXPECT_THAT(problems_of(head + sweep), AllOf(HasSubstr("mechanism.wheel: this key is missing"),
@@ -111,19 +111,19 @@ TEST(GuideStudyRead, NamesWhatIsWrongWithTheMechanism) {
       problems_of(wheel + link("RS", "body_m = [0, 0.3, 0]\ncarrier_m = [0, 0.7, 0]\n") + sweep),
       HasSubstr("mechanism.link[0].body_m: a link of type RS needs 2 points here, there are 1; two points on "
                 "the axis: [[x, y, z], [x, y, z]]"));
-  EXPECT_THAT(problems_of(wheel + link("KS", "points = [\"a\", \"b\"]\n") + sweep),
+  EXPECT_THAT(problems_of(wheel + link("US", "points = [\"a\", \"b\"]\n") + sweep),
               HasSubstr("mechanism.link[0].points: there is no hard point 'a': there are none; give "
                         "[mechanism.hard_points] file"));
   EXPECT_THAT(
       problems_of(wheel +
-                  link("KS", "body_m = { near = [0, 0.3, 0], box_m = 0.1 }\ncarrier_m = [0, 0.7, 0]\n") +
+                  link("US", "body_m = { near = [0, 0.3, 0], box_m = 0.1 }\ncarrier_m = [0, 0.7, 0]\n") +
                   sweep),
-      HasSubstr("mechanism.link[0].body_m: is open, but nothing is looked for in this kind of study"));
+      HasSubstr("mechanism.link[0].body_m: is a design variable, but this kind of study has none"));
   // One rod leaves the carrier five freedoms.
-  EXPECT_THAT(problems_of(wheel + link("KS", "body_m = [0, 0.3, 0]\ncarrier_m = [0, 0.7, 0]\n") + sweep),
+  EXPECT_THAT(problems_of(wheel + link("US", "body_m = [0, 0.3, 0]\ncarrier_m = [0, 0.7, 0]\n") + sweep),
               HasSubstr("mechanism"));
   EXPECT_THAT(problems_of(wheel + "[mechanism.hard_points]\nx = \"left\"\n" +
-                          link("KS", "body_m = [0, 0.3, 0]\ncarrier_m = [0, 0.7, 0]\n") + sweep),
+                          link("US", "body_m = [0, 0.3, 0]\ncarrier_m = [0, 0.7, 0]\n") + sweep),
               HasSubstr("x and y both lie along left and right"));
   EXPECT_THAT(problems_of(wheel + "[mechanism.hard_points]\nfile = \"nowhere.csv\"\n" + sweep),
               HasSubstr("mechanism.hard_points.file: cannot read './nowhere.csv'; file names are relative"));
@@ -143,13 +143,13 @@ TEST(GuideStudyRead, CanonicalStudiesAreStudiesOfTheSameGuide) {
 }
 
 TEST(GuideStudyRead, WhatIsFixedToARodOffItsLineIsKept) {
-  // The rods of the 5KS sample, and its spring on the first of them.
-  const WheelGuide& guide = guide_sample("5KS").guide;
+  // The rods of the 5US sample, and its spring on the first of them.
+  const WheelGuide& guide = guide_sample("5US").guide;
   const auto at = [](const Vec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); };
   std::string text =
       head + "[mechanism.wheel]\ncentre_m = " + at(guide.wheel.centre) + "\ntyre_diameter_m = 0.63\n";
   for (const GuideLink& l : guide.links)
-    text += fmt::format("[[mechanism.link]]\nname = \"{}\"\ntype = \"KS\"\nbody_m = {}\ncarrier_m = {}\n",
+    text += fmt::format("[[mechanism.link]]\nname = \"{}\"\ntype = \"US\"\nbody_m = {}\ncarrier_m = {}\n",
                         l.name, at(l.body[0]), at(l.carrier[0]));
   const std::string first = guide.links[0].name;
   text += "[mechanism.spring]\nbody_m = " + at(guide.spring->body) +
@@ -166,7 +166,7 @@ TEST(GuideStudyRead, WhatIsFixedToARodOffItsLineIsKept) {
               1e-9);
   // With an axis of its own it moves otherwise, and the canonical study keeps it.
   const std::string other =
-      replaced(text, "type = \"KS\"\n", "type = \"KS\"\ncross_axis = [1.0, 0.5, 0.2]\n");
+      replaced(text, "type = \"US\"\n", "type = \"US\"\ncross_axis = [1.0, 0.5, 0.2]\n");
   EXPECT_GT(std::abs(column(run_text(other), "motion_ratio").at(4) - column(result, "motion_ratio").at(4)),
             1e-4);
   std::string messages;

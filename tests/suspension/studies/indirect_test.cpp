@@ -29,7 +29,7 @@ TEST(IndirectStudy, FindsTheRodsThatThePositionsComeFrom) {
   EXPECT_EQ(result.statistics.find("success_rate")->as_number(), 1);
   const study::Solution& best = result.solutions.at(0);
   EXPECT_LT(best.objectives.find("max_constraint_error_m")->as_number(), 1e-9);
-  EXPECT_EQ(best.label, "5KS");
+  EXPECT_EQ(best.label, "5US");
   // Poznanovic 2016, example 1; the positions are given with 10 digits, and link 1 is determined to about
   // 1e-4 of their errors.
   const auto value = [&](std::string_view key) {
@@ -74,8 +74,8 @@ TEST(IndirectStudy, ListsEveryRodThroughSevenPositions) {
 }
 
 TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
-  // Positions of a guide with a wishbone (RS), and rods that are asked for.
-  const WheelGuide& guide = guide_sample("RS-3KS").guide;
+  // Positions of a suspension with a wishbone (RS), and rods that are asked for.
+  const WheelGuide& guide = guide_sample("RS-3US").guide;
   const GuidePlan plan = prepare(guide);
   const auto at = [](const Vec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); };
   std::string text = "schema = 1\nkind = \"synthesis\"\n[mechanism]\ntype = \"suspension.corner\"\n";
@@ -84,7 +84,7 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
                   at(guide.wheel.centre), guide.wheel.toe, guide.wheel.camber, guide.wheel.tyre_diameter);
   int open = 0;
   for (const GuideLink& l : guide.links) {
-    const bool rod = l.type == LinkType::KS;
+    const bool rod = l.type == LinkType::US;
     const std::string ends =
         rod && open++ == 0 ? fmt::format("body_m = {{ near = {}, box_m = 0.1 }}\ncarrier_m = {}\n",
                                          at(l.body[0]), at(l.carrier[0]))
@@ -101,7 +101,7 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
     const WheelAngles a = wheel_angles(Side::left, guide.wheel, p.place.carrier.rotation);
     text +=
         fmt::format("[[target.pose]]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\ncarrier_pitch_rad = {}\n",
-                    at(p.place.carrier.centre), a.toe, a.camber, a.spin);
+                    at(p.place.carrier.centre), a.toe, a.camber, a.carrier_pitch);
   }
   const study::Result result = run_text(text);
   const Table& arms = test::table(result, "seven_pose_arms");
@@ -123,7 +123,7 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
 TEST(IndirectStudy, GoesOnFromACheckpointWithTheSameBits) {
   ::linkwright::test::expect_resumed_alike(test::kinds(),
                                            replaced(poses_example(), "count = 10 }", "count = 3 }"), 3);
-  // Positions that no exact guide takes: the links keep what they miss.
+  // Positions that no exact suspension takes: the links keep what they miss.
   ::linkwright::test::expect_resumed_alike(
       test::kinds(),
       replaced(replaced(poses_example(), "toe_deg = -6.688676046", "toe_deg = -5.5"), "count = 10 }",
@@ -156,7 +156,7 @@ TEST(IndirectStudy, SaysWhatItLacksWhenPositionsCannotBeTaken) {
   const study::Result result =
       run_text(replaced(poses_example(), "toe_deg = -6.688676046", "toe_deg = -5.5"));
   EXPECT_NE(result.status, Status::done);
-  EXPECT_THAT(result.headline, HasSubstr("No exact wheel guide found"));
+  EXPECT_THAT(result.headline, HasSubstr("No exact wheel suspension found"));
   EXPECT_EQ(result.statistics.find("success_rate")->as_number(), 0);
 }
 

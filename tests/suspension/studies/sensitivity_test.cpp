@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 std::string study(const std::string& rest) {
   return "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\nsample = "
-         "\"2RS-KS\"\n"
+         "\"2RS-US\"\n"
          "[sweep.travel]\nfrom_mm = -60\nto_mm = 60\nstep_mm = 30\n" +
          rest;
 }
@@ -43,7 +43,7 @@ type = "RS"
 body_m = [[0.12, 0.44, 0.165], [-0.14, 0.44, 0.15]]
 carrier_m = [-0.022, 0.665, 0.215]
 [[mechanism.link]]
-type = "KS"
+type = "US"
 body_m = [-0.125, 0.415, )" +
                            fmt::format("{}", -0.047 + shift) +
                            R"(]

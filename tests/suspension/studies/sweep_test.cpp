@@ -28,10 +28,10 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(SweepStudy, TablesAGridAsTheLibrarySolvesIt) {
-  const study::Result result = run_text(sample("5KS", sweep + racks));
+  const study::Result result = run_text(sample("5US", sweep + racks));
   ASSERT_EQ(result.status, Status::done) << result.headline;
   ASSERT_EQ(result.tables.at(0).rows(), 15U);
-  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  const GuidePlan plan = prepare(guide_sample("5US").guide);
   const GuidePosition reference = reference_position(plan);
   for (std::size_t i = 0; i < 15; ++i) {
     const GuideInput input{column(result, "travel_m")[i], column(result, "rack_m")[i]};
@@ -40,7 +40,7 @@ TEST(SweepStudy, TablesAGridAsTheLibrarySolvesIt) {
     const GuideRow row{at, wheel, Driver::spring};
     // Another way to the same position: rounding.
     for (const GuideColumn& c : guide_columns()) {
-      if (!why_missing(guide_sample("5KS").guide, c).empty()) {
+      if (!why_missing(guide_sample("5US").guide, c).empty()) {
         EXPECT_EQ(result.tables.at(0).find(c.key), nullptr) << c.key;
         continue;
       }
@@ -55,7 +55,7 @@ TEST(SweepStudy, TablesAGridAsTheLibrarySolvesIt) {
 
 TEST(SweepStudy, KeepsToTheQuantitiesThatAreAskedFor) {
   const study::Result result =
-      run_text(sample("5KS", sweep + "[output]\nquantities = [\"toe\", \"track\"]\n"));
+      run_text(sample("5US", sweep + "[output]\nquantities = [\"toe\", \"track\"]\n"));
   std::vector<std::string> keys;
   for (const Column& c : result.tables.at(0).columns) keys.push_back(c.key);
   EXPECT_EQ(keys, (std::vector<std::string>{"travel_m", "rack_m", "toe_rad", "half_track_change_m", "track_m",
@@ -63,11 +63,11 @@ TEST(SweepStudy, KeepsToTheQuantitiesThatAreAskedFor) {
 }
 
 TEST(SweepStudy, ToldLimitsAreWhereRowsEnd) {
-  const study::Result whole = run_text(sample("SP-3KS", sweep));
+  const study::Result whole = run_text(sample("SP-3US", sweep));
   const double highest = whole.tables.at(1).find("highest_travel_m")->values.at(0) * 1e3;
   const std::string to = fmt::format("{:.3f}", highest - 1), beyond = fmt::format("{:.3f}", highest + 1);
   const study::Result result =
-      run_text(sample("SP-3KS", "[sweep.travel]\nvalues_mm = [0, " + to + ", " + beyond + "]\n"));
+      run_text(sample("SP-3US", "[sweep.travel]\nvalues_mm = [0, " + to + ", " + beyond + "]\n"));
   EXPECT_EQ(result.status, Status::no_assembly);
   EXPECT_EQ(result.tables.at(0).status, (std::vector<std::string>{"done", "done", "no_assembly"}));
   EXPECT_TRUE(std::isnan(column(result, "toe_rad").at(2)));
@@ -77,8 +77,8 @@ TEST(SweepStudy, ToldLimitsAreWhereRowsEnd) {
 }
 
 TEST(SweepStudy, LaysAnotherGuideBehindTheCurves) {
-  const std::string text = sample("2RS-KS", sweep) + "[baseline.mechanism]\nsample = \"RS-SP-KS\"\n";
-  const study::Result result = run_text(text), other = run_text(sample("RS-SP-KS", sweep));
+  const std::string text = sample("2RS-US", sweep) + "[baseline.mechanism]\nsample = \"RS-SP-US\"\n";
+  const study::Result result = run_text(text), other = run_text(sample("RS-SP-US", sweep));
   const auto baseline = std::find_if(result.tables.begin(), result.tables.end(),
                                      [](const Table& t) { return t.name == "baseline"; });
   ASSERT_NE(baseline, result.tables.end());
@@ -87,14 +87,14 @@ TEST(SweepStudy, LaysAnotherGuideBehindTheCurves) {
   // From the study that it stands in, too.
   const auto folder = std::filesystem::temp_directory_path() / "linkwright_sweep_study";
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / "before.toml") << sample("RS-SP-KS", sweep);
+  std::ofstream(folder / "before.toml") << sample("RS-SP-US", sweep);
   const study::Result read =
-      run_text(sample("2RS-KS", sweep) + "[baseline]\nfile = \"before.toml\"\n", folder);
+      run_text(sample("2RS-US", sweep) + "[baseline]\nfile = \"before.toml\"\n", folder);
   EXPECT_EQ(read.tables.at(0).find("toe_rad")->values, column(result, "toe_rad"));
   std::filesystem::remove_all(folder);
-  EXPECT_THAT(problems_of(sample("2RS-KS", sweep) + "[baseline]\nfile = \"nowhere.toml\"\n"),
+  EXPECT_THAT(problems_of(sample("2RS-US", sweep) + "[baseline]\nfile = \"nowhere.toml\"\n"),
               HasSubstr("baseline.file: ./nowhere.toml: error: there is no such file"));
-  EXPECT_THAT(problems_of(sample("2RS-KS", sweep) + "[baseline]\n"),
+  EXPECT_THAT(problems_of(sample("2RS-US", sweep) + "[baseline]\n"),
               HasSubstr("baseline.file: the baseline is missing"));
 }
 
@@ -108,7 +108,7 @@ TEST(SweepStudy, ListsOtherAssemblies) {
 
 TEST(SweepStudy, SteersAboutTheAxisThatIsAskedFor) {
   const auto caster = [&](const std::string& lock) {
-    return run_text(sample("2RS-KS", "[sweep]\n" + lock + "[sweep.travel]\nvalues_mm = [0]\n"))
+    return run_text(sample("2RS-US", "[sweep]\n" + lock + "[sweep.travel]\nvalues_mm = [0]\n"))
         .tables.at(0)
         .find("caster_rad")
         ->values.at(0);
@@ -119,10 +119,10 @@ TEST(SweepStudy, SteersAboutTheAxisThatIsAskedFor) {
 }
 
 TEST(SweepStudy, TellsOtherDefinitionsBesideItsOwn) {
-  const study::Result result = run_text(sample("2RS-KS", "[sweep.travel]\nvalues_mm = [0]\n"));
+  const study::Result result = run_text(sample("2RS-US", "[sweep.travel]\nvalues_mm = [0]\n"));
   EXPECT_NEAR(column(result, "geometric_caster_rad").at(0), column(result, "caster_rad").at(0), 1e-12);
   EXPECT_NEAR(column(result, "contact_held_caster_rad").at(0),
-              run_text(sample("2RS-KS",
+              run_text(sample("2RS-US",
                               "[sweep]\nsteering_lock = \"contact_z\"\n"
                               "[sweep.travel]\nvalues_mm = [0]\n"))
                   .tables.at(0)
@@ -136,7 +136,7 @@ TEST(SweepStudy, TellsOtherDefinitionsBesideItsOwn) {
 
 TEST(SweepStudy, TellsWhyAQuantityHasNoValues) {
   const std::string quantities = "[output]\nquantities = [\"geometric_axis\", \"arm_planes\", \"spring\"]\n";
-  const study::Result result = run_text(sample("front_5KS", sweep + quantities));
+  const study::Result result = run_text(sample("front_5US", sweep + quantities));
   EXPECT_EQ(result.status, Status::done);
   EXPECT_TRUE(std::isnan(column(result, "geometric_caster_rad").at(0)));
   ASSERT_EQ(result.diagnostics.size(), 3U);
@@ -146,18 +146,18 @@ TEST(SweepStudy, TellsWhyAQuantityHasNoValues) {
               HasSubstr("'geometric_axis' has no values: no ball joint holds the carrier"));
   EXPECT_THAT(to_string(result.diagnostics[2]), HasSubstr("'arm_planes' has no values: no link is an arm"));
   EXPECT_THAT(
-      problems_of(sample("front_5KS", sweep + "[sensitivity]\nquantities = [\"geometric_caster\"]\n")),
-      HasSubstr("sensitivity.quantities: this guide has no 'geometric_caster': no ball joint"));
+      problems_of(sample("front_5US", sweep + "[sensitivity]\nquantities = [\"geometric_caster\"]\n")),
+      HasSubstr("sensitivity.quantities: this suspension has no 'geometric_caster': no ball joint"));
 }
 
 TEST(SweepStudyRead, NamesWhatIsWrongWithTheSweep) {
-  EXPECT_THAT(problems_of(sample("front_5KS", "[sweep.travel]\ncoordinate = \"spring\"\nvalues_mm = [0]\n")),
+  EXPECT_THAT(problems_of(sample("front_5US", "[sweep.travel]\ncoordinate = \"spring\"\nvalues_mm = [0]\n")),
               HasSubstr("sweep.travel.coordinate: there is no spring"));
   EXPECT_THAT(problems_of(sample("R", sweep + racks)), HasSubstr("sweep.rack: no link is moved by the rack"));
 }
 
 TEST(SolveGrid, GoesOutwardsAndStopsWhenCancelled) {
-  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  const GuidePlan plan = prepare(guide_sample("5US").guide);
   const std::vector<double> travels{-0.05, 0, 0.05}, displacements{-0.02, 0.02};
   RunContext context;
   EXPECT_EQ(solve_grid(plan, Driver::wheel_centre_z, travels, displacements, context).positions.size(), 6U);
@@ -167,7 +167,7 @@ TEST(SolveGrid, GoesOutwardsAndStopsWhenCancelled) {
 }
 
 TEST(SolveGrid, LooksWithinALongRowAndKeepsItsMiddle) {
-  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  const GuidePlan plan = prepare(guide_sample("5US").guide);
   std::vector<double> travels;
   for (int i = 0; i < 10000; ++i) travels.push_back(1e-5 * (i - 300));
   RunContext context;
@@ -183,7 +183,7 @@ TEST(SolveGrid, LooksWithinALongRowAndKeepsItsMiddle) {
 }
 
 TEST(SolveGrid, ARackThatWasCutShortDoesNotCountBehindAWholeOne) {
-  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  const GuidePlan plan = prepare(guide_sample("5US").guide);
   std::vector<double> travels;
   for (int i = 0; i < 300; ++i) travels.push_back(1e-5 * i);
   RunContext context;
@@ -195,7 +195,7 @@ TEST(SolveGrid, ARackThatWasCutShortDoesNotCountBehindAWholeOne) {
 }
 
 TEST(SweepStudy, InterruptedTellsThePositionsSoFar) {
-  const std::string text = sample("2RS-KS", "[sweep.travel]\nfrom_mm = -50\nto_mm = 50\nstep_mm = 0.05\n") +
+  const std::string text = sample("2RS-US", "[sweep.travel]\nfrom_mm = -50\nto_mm = 50\nstep_mm = 0.05\n") +
                            "[axle.roll]\nfrom_deg = -3\nto_deg = 3\nstep_deg = 0.01\n";
   const auto run = [&](std::int64_t allowed) {
     const LooksAllowed looks(allowed);
@@ -220,15 +220,15 @@ TEST(SweepStudy, InterruptedTellsThePositionsSoFar) {
 
 TEST(SweepStudyRead, RefusesWhatHasNoRoom) {
   const MemoryLimit limit(10e6);
-  EXPECT_THAT(problems_of(sample("2RS-KS", "[sweep.travel]\nfrom_mm = -80\nto_mm = 80\nsamples = 50000\n")),
+  EXPECT_THAT(problems_of(sample("2RS-US", "[sweep.travel]\nfrom_mm = -80\nto_mm = 80\nsamples = 50000\n")),
               AllOf(HasSubstr("sweep.travel: 50000 travels with 1 racks would take "),
                     HasSubstr("of memory, at most 10 MB may be taken; take fewer travels or racks")));
   const std::string short_sweep = "[sweep.travel]\nvalues_mm = [0]\n";
-  EXPECT_THAT(problems_of(sample("2RS-KS", short_sweep) +
+  EXPECT_THAT(problems_of(sample("2RS-US", short_sweep) +
                           "[axle.roll]\nfrom_deg = -3\nto_deg = 3\nsamples = 50000\n"),
               AllOf(HasSubstr("axle.roll: 50000 positions of the axle would take "),
                     HasSubstr("at most 10 MB may be taken; take fewer values")));
-  EXPECT_THAT(problems_of(sample("2RS-KS", short_sweep) + "[tolerances]\ntolerance_mm = 0.5\n"
+  EXPECT_THAT(problems_of(sample("2RS-US", short_sweep) + "[tolerances]\ntolerance_mm = 0.5\n"
                                                           "quantities = [\"toe\", \"camber\"]\n"
                                                           "samples = 1000000\n"),
               AllOf(HasSubstr("tolerances.samples: 1000000 designs with 2 quantities at 1 travels would take "

@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string travel(const std::string& keys) {
-  return "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\nsample = \"5KS\"\n"
+  return "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"suspension.corner\"\nsample = \"5US\"\n"
          "[sweep.travel]\n" +
          keys;
 }

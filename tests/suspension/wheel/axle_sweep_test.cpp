@@ -72,7 +72,7 @@ TEST(AxleSweep, RollCentreOfUnequalTravel) {
 // Roll stands both wheels on a plane road; its rates against differences, and at rest against the gains of a
 // wheel.
 TEST(AxleSweep, Roll) {
-  for (const char* name : {"2RS-KS", "SR-3KS", "R", "5KS"}) {
+  for (const char* name : {"2RS-US", "SR-3US", "R", "5US"}) {
     SCOPED_TRACE(name);
     const WheelGuide& guide = guide_sample(name).guide;
     const AxlePlan plan = prepare_axle(guide);
@@ -107,7 +107,7 @@ TEST(AxleSweep, Roll) {
 
 // A wheel that stands fixed to the body leans with it.
 TEST(AxleSweep, CamberAgainstTheRoad) {
-  const AxlePlan plan = prepare_axle(guide_sample("2RS-KS").guide);
+  const AxlePlan plan = prepare_axle(guide_sample("2RS-US").guide);
   const AxlePosition here = solve_roll(plan, 0.04, 0, 0, reference_position(plan));
   const AxleParameters found = parameters(plan, here);
   // Toe is small, so that camber and roll add.
@@ -116,7 +116,7 @@ TEST(AxleSweep, CamberAgainstTheRoad) {
 }
 
 TEST(AxleSweep, LeaningToTheOtherSideIsTheMirrorImage) {
-  const AxlePlan plan = prepare_axle(guide_sample("RS-SP-KS").guide);
+  const AxlePlan plan = prepare_axle(guide_sample("RS-SP-US").guide);
   const AxlePosition start = reference_position(plan);
   const AxleParameters one = parameters(plan, solve_roll(plan, 0.03, 0.01, 0.02, start));
   const AxleParameters other = parameters(plan, solve_roll(plan, -0.03, 0.01, -0.02, start));
@@ -132,7 +132,7 @@ TEST(AxleSweep, LeaningToTheOtherSideIsTheMirrorImage) {
 }
 
 TEST(AxleSweep, AckermannOverTheRack) {
-  for (const char* name : {"2RS-KS", "RS-SP-KS", "RS-3KS", "SP-3KS", "5KS"}) {
+  for (const char* name : {"2RS-US", "RS-SP-US", "RS-3US", "SP-3US", "5US"}) {
     SCOPED_TRACE(name);
     const AxlePlan plan = prepare_axle(guide_sample(name).guide);
     const Value& reference = at(published(std::string("mechanism-") + name), "computed.ackermann");
@@ -160,7 +160,7 @@ TEST(AxleSweep, AckermannOverTheRack) {
 }
 
 TEST(AxleSweep, ALimitOfOneWheelIsToldAndTheRestGoesOn) {
-  const AxlePlan plan = prepare_axle(guide_sample("2RS-KS").guide);
+  const AxlePlan plan = prepare_axle(guide_sample("2RS-US").guide);
   const std::array values{0.0, 0.6, 0.05};
   const auto rows = sweep_axle(plan, AxleMotion::parallel, values, {.driver = Driver::wheel_centre_z});
   EXPECT_EQ(rows[1].position.status, Status::no_assembly);
@@ -172,7 +172,7 @@ TEST(AxleSweep, ALimitOfOneWheelIsToldAndTheRestGoesOn) {
 }
 
 TEST(AxleSweep, InterruptedGivesTheRowsSoFar) {
-  const AxlePlan plan = prepare_axle(guide_sample("2RS-KS").guide);
+  const AxlePlan plan = prepare_axle(guide_sample("2RS-US").guide);
   std::vector<double> rolls;
   for (int i = 0; i < 10000; ++i) rolls.push_back(1e-6 * i);
   const RunContext context;
@@ -184,7 +184,7 @@ TEST(AxleSweep, InterruptedGivesTheRowsSoFar) {
 }
 
 TEST(AxleSweep, Contract) {
-  const WheelGuide& guide = guide_sample("2RS-KS").guide;
+  const WheelGuide& guide = guide_sample("2RS-US").guide;
   EXPECT_THAT(test::message([&] { prepare_axle(guide, guide); }),
               ::testing::StartsWith("prepare_axle: the first wheel is left, the second left"));
   EXPECT_THAT(test::message([&] {

@@ -46,7 +46,7 @@ TEST(Axle, ReferenceAxleAndRollCentreOfUnequalTravel) {
 }
 
 TEST(Axle, RollCentreOfEqualTravelLiesInTheMiddle) {
-  const WheelGuide& guide = guide_sample("2RS-KS").guide;
+  const WheelGuide& guide = guide_sample("2RS-US").guide;
   const WheelParameters left = parameters(guide, 0.03), right = parameters(mirrored(guide), 0.03);
   const auto found = roll_centre(left, right);
   ASSERT_TRUE(found);
@@ -59,7 +59,7 @@ TEST(Axle, RollCentreOfEqualTravelLiesInTheMiddle) {
 
 // Against two positions of the contact point, and a wheel that has to lean with the body.
 TEST(Axle, RollGains) {
-  const WheelGuide& guide = guide_sample("2RS-KS").guide;
+  const WheelGuide& guide = guide_sample("2RS-US").guide;
   for (const WheelGuide& one : {guide, mirrored(guide)}) {
     const GuidePlan plan = prepare(one);
     const RollGains found = roll_gains(parameters(one, 0));
@@ -81,7 +81,7 @@ TEST(Axle, RollGains) {
 }
 
 TEST(Axle, AckermannOfTheSteeredMechanisms) {
-  for (const char* name : {"2RS-KS", "RS-SP-KS", "RS-3KS", "SP-3KS", "5KS"}) {
+  for (const char* name : {"2RS-US", "RS-SP-US", "RS-3US", "SP-3US", "5US"}) {
     SCOPED_TRACE(name);
     const WheelGuide& guide = guide_sample(name).guide;
     const Value& reference = at(published(std::string("mechanism-") + name), "computed.ackermann");

@@ -28,7 +28,7 @@ WheelParameters differenced(F f, double h) {
 }
 
 /// Largest difference of two sets, relative to numbers of at least 1; parameters of more than 5 (centres
-/// far away) are left out, differences cannot tell their derivatives.
+/// far away) are left out, differences cannot give their derivatives.
 double apart(const WheelParameters& a, const WheelParameters& b, const WheelParameters& values, int& count) {
   std::vector<double> sizes, first;
   WheelParameters scratch;
@@ -111,30 +111,30 @@ TEST(Derivatives, AgreeWithDifferencesOfSolvedDesigns) {
 }
 
 TEST(Derivatives, HoldWhatDrives) {
-  for (const char* name : {"2RS-KS", "RS-SP-KS", "RR-KS"})
+  for (const char* name : {"2RS-US", "RS-SP-US", "RR-US"})
     expect_exact(guide_sample(name).guide, name,
                  {{Driver::spring, {0.02, 0.01}}, {Driver::contact_z, {0.05, 0}}});
 }
 
 TEST(Derivatives, OfPrescribedLengthsAndCouplers) {
-  WheelGuide lengths = guide_sample("5KS").guide;
+  WheelGuide lengths = guide_sample("5US").guide;
   for (GuideLink& link : lengths.links) link.length = norm(link.carrier[0] - link.body[0]);
   *lengths.links[1].length += 0.003;
-  expect_exact(lengths, "5KS with lengths", {{Driver::wheel_centre_z, {0.03, 0.01}}});
+  expect_exact(lengths, "5US with lengths", {{Driver::wheel_centre_z, {0.03, 0.01}}});
   const WheelGuide coupled = guide_sample("interconnected").guide;
   expect_exact(coupled, "interconnected", {{Driver::wheel_centre_z, {0.05, 0}}});
-  WheelGuide right = mirrored(guide_sample("2RS-KS").guide);
+  WheelGuide right = mirrored(guide_sample("2RS-US").guide);
   expect_exact(right, "right wheel", {{Driver::wheel_centre_z, {0.03, -0.02}}});
 }
 
 TEST(Derivatives, OfWhatIsFixedToARodOffItsLine) {
   for (const int link : {0, 2}) {
-    WheelGuide guide = guide_sample("5KS").guide;
+    WheelGuide guide = guide_sample("5US").guide;
     guide.spring->link = link;
-    expect_exact(guide, "5KS, spring on a rod", {{Driver::wheel_centre_z, {0.045, 0.02}}});
+    expect_exact(guide, "5US, spring on a rod", {{Driver::wheel_centre_z, {0.045, 0.02}}});
     guide.links[link].cross_axis = Vec3{0.7, 0.5, -0.6};
     guide.links[link].length = norm(guide.links[link].carrier[0] - guide.links[link].body[0]) + 0.004;
-    expect_exact(guide, "5KS, spring on a rod of another length", {{Driver::spring, {0.01, -0.01}}});
+    expect_exact(guide, "5US, spring on a rod of another length", {{Driver::spring, {0.01, -0.01}}});
   }
   WheelGuide coupled = guide_sample("interconnected").guide;
   const GuideLink& rod = coupled.links[coupled.couplers[0].first];
@@ -166,7 +166,7 @@ TEST(Derivatives, AlongTravelAndRackAgreeWithDifferences) {
 }
 
 TEST(Derivatives, AtRestAreTheSameWithoutRates) {
-  const WheelGuide guide = guide_sample("2RS-KS").guide;
+  const WheelGuide guide = guide_sample("2RS-US").guide;
   const DerivativePlan plan = prepare_derivatives(guide, hard_points(guide));
   const GuidePosition at =
       solve_position(plan.plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan.plan));
@@ -180,7 +180,7 @@ TEST(Derivatives, AtRestAreTheSameWithoutRates) {
 }
 
 TEST(Derivatives, WhereLinksLoseRankThereAreNone) {
-  WheelGuide guide = guide_sample("5KS").guide;
+  WheelGuide guide = guide_sample("5US").guide;
   guide.links[4] = guide.links[3];
   guide.links[4].name = "double";
   const DerivativePlan plan = prepare_derivatives(guide, hard_points(guide));
@@ -194,7 +194,7 @@ TEST(Derivatives, WhereLinksLoseRankThereAreNone) {
 }
 
 TEST(Derivatives, OfNumbersThatAreNotThereAreRefused) {
-  EXPECT_THROW(prepare_derivatives(guide_sample("5KS").guide, {{DesignKind::length, 0}}), ContractError);
+  EXPECT_THROW(prepare_derivatives(guide_sample("5US").guide, {{DesignKind::length, 0}}), ContractError);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace linkwright::suspension {
 namespace {
 
 TEST(GuideColumns, HaveKeysOfTheirOwnAndNumbersOfASteeredGuideWithSpring) {
-  const GuidePlan plan = prepare(guide_sample("2RS-KS").guide);
+  const GuidePlan plan = prepare(guide_sample("2RS-US").guide);
   const GuidePosition at =
       solve_position(plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan));
   const WheelParameters wheel = wheel_parameters(plan, at);
@@ -48,7 +48,7 @@ TEST(GuideColumns, AreMissingForAReason) {
 }
 
 TEST(SteeringAxisOf, TakesWhatIsHeld) {
-  const GuidePlan plan = prepare(guide_sample("2RS-KS").guide);
+  const GuidePlan plan = prepare(guide_sample("2RS-US").guide);
   const WheelParameters wheel = wheel_parameters(plan, reference_position(plan));
   EXPECT_EQ(steering_axis_of(wheel, Driver::spring)->lock, Driver::spring);
   EXPECT_EQ(steering_axis_of(wheel, Driver::wheel_centre_z)->lock, Driver::wheel_centre_z);

@@ -49,7 +49,7 @@ void expect_row(const GuidePlan& plan, const Value& row) {
   EXPECT_LT(distance(position.place.carrier.centre, point(at(row, "wheel_centre_m"))), close_value);
   EXPECT_NEAR(found.angles.toe, number_at(row, "toe_rad"), close_value);
   EXPECT_NEAR(found.angles.camber, number_at(row, "camber_rad"), close_value);
-  EXPECT_NEAR(found.angles.spin, number_at(row, "carrier_spin_rad"), close_value);
+  EXPECT_NEAR(found.angles.carrier_pitch, number_at(row, "carrier_spin_rad"), close_value);
   EXPECT_LT(distance(found.contact, point(at(row, "contact_m"))), close_value);
   expect_rate(found.toe_by_travel, row, "dtoe_dz_rad_per_m");
   expect_rate(found.camber_by_travel, row, "dcamber_dz_rad_per_m");
@@ -107,13 +107,15 @@ TEST(WheelParameters, PublishedTables) {
       const WheelParameters found = wheel_parameters(plan, position);
       EXPECT_NEAR(found.angles.toe, number_at(row, "toe_rad"), angles);
       EXPECT_NEAR(found.angles.camber, number_at(row, "camber_rad"), angles);
-      EXPECT_NEAR(found.angles.spin, number_at(row, "carrier_spin_rad"), angles);
+      EXPECT_NEAR(found.angles.carrier_pitch, number_at(row, "carrier_spin_rad"), angles);
       const auto table = test::numbers(rows[i]);
       const auto& columns = at(published(id), "published.columns").as_array();
-      const std::map<std::string, double> ours{
-          {"x_m", position.place.carrier.centre.x},           {"y_m", position.place.carrier.centre.y},
-          {"z_m", position.place.carrier.centre.z},           {"toe_deg", math::degrees(found.angles.toe)},
-          {"camber_deg", math::degrees(found.angles.camber)}, {"spin_deg", math::degrees(found.angles.spin)}};
+      const std::map<std::string, double> ours{{"x_m", position.place.carrier.centre.x},
+                                               {"y_m", position.place.carrier.centre.y},
+                                               {"z_m", position.place.carrier.centre.z},
+                                               {"toe_deg", math::degrees(found.angles.toe)},
+                                               {"camber_deg", math::degrees(found.angles.camber)},
+                                               {"spin_deg", math::degrees(found.angles.carrier_pitch)}};
       for (std::size_t k = 3; k < columns.size(); ++k)  // after index, travel and rack
         EXPECT_NEAR(ours.at(columns[k].as_string()), table[k], 5.6e-6) << columns[k].as_string() << " " << i;
       EXPECT_GE(columns.size(), 7u);
@@ -133,7 +135,7 @@ TEST(WheelParameters, PositionsWithPrescribedLengths) {
   for (int i = 0; i < 5; ++i) {
     const Value& body = i < 2 ? at(in, "body_points_01_02_m").as_array()[i]
                               : at(computed, "points_03_04_05_m").as_array()[i - 2];
-    guide.links.push_back({.type = LinkType::KS,
+    guide.links.push_back({.type = LinkType::US,
                            .body = {point(body)},
                            .carrier = {point(carrier[i])},
                            .length = lengths[i],
@@ -156,7 +158,7 @@ TEST(WheelParameters, PositionsWithPrescribedLengths) {
 TEST(WheelParameters, BothContactVelocities) {
   const Value& reference = published("contact-velocity-definitions");
   const Value& computed = at(reference, "computed");
-  const GuidePlan plan = prepare(guide_sample("front_5KS").guide);
+  const GuidePlan plan = prepare(guide_sample("front_5US").guide);
   const GuidePosition position =
       solve(plan, number_at(reference, "inputs.travel_m"), number_at(reference, "inputs.rack_m"));
   const WheelParameters found = wheel_parameters(plan, position);
@@ -193,7 +195,7 @@ TEST(WheelParameters, RatesAreDifferencesOfValues) {
 // With the spring held the lower arm stands still, so that the wheel turns about the line through both ball
 // joints.
 TEST(WheelParameters, SteeringAxisPassesThroughBothBallJoints) {
-  for (const char* name : {"2RS-KS", "RS-SP-KS"})
+  for (const char* name : {"2RS-US", "RS-SP-US"})
     for (double travel : {-0.06, 0.0, 0.05})
       for (double rack : {-0.04, 0.0, 0.05}) {
         SCOPED_TRACE(name);
@@ -218,7 +220,7 @@ TEST(WheelParameters, SteeringAxisPassesThroughBothBallJoints) {
 // The same motion from equations with the spring as driver, and from those with the height: a second exact
 // route.
 TEST(WheelParameters, SteeringMotionByTwoRoutes) {
-  const GuidePlan plan = prepare(guide_sample("5KS").guide);
+  const GuidePlan plan = prepare(guide_sample("5US").guide);
   const GuidePosition position = solve(plan, 0.04, 0.03);
   const GuideRates at_height = solve_rates(plan, position, Driver::wheel_centre_z);
   for (Driver lock : {Driver::spring, Driver::contact_z}) {
@@ -230,14 +232,14 @@ TEST(WheelParameters, SteeringMotionByTwoRoutes) {
 }
 
 TEST(WheelParameters, RightWheelHasTheNumbersOfTheLeftAtTheOppositeRack) {
-  const WheelGuide& guide = guide_sample("2RS-KS").guide;
+  const WheelGuide& guide = guide_sample("2RS-US").guide;
   const GuidePlan left = prepare(guide), right = prepare(mirrored(guide));
   const WheelParameters a = wheel_parameters(left, solve(left, 0.05, -0.03));
   const WheelParameters b = wheel_parameters(right, solve(right, 0.05, 0.03));
   const auto same = [](double x, double y) { EXPECT_NEAR(x, y, 1e-13); };
   same(a.angles.toe, b.angles.toe);
   same(a.angles.camber, b.angles.camber);
-  same(a.angles.spin, b.angles.spin);
+  same(a.angles.carrier_pitch, b.angles.carrier_pitch);
   same(a.half_track_change, b.half_track_change);
   same(a.wheelbase_change, b.wheelbase_change);
   same(a.toe_by_travel, b.toe_by_travel);
@@ -263,7 +265,7 @@ TEST(WheelParameters, RightWheelHasTheNumbersOfTheLeftAtTheOppositeRack) {
 
 // By the equations with the contact point's height as driver: another exact route.
 TEST(WheelParameters, SteeringAxisWithTheContactHeld) {
-  for (const char* name : {"2RS-KS", "5KS", "SP-3KS"}) {
+  for (const char* name : {"2RS-US", "5US", "SP-3US"}) {
     const GuidePlan plan = prepare(guide_sample(name).guide);
     const GuidePosition position = solve(plan, 0.03, -0.025);
     const WheelParameters found = wheel_parameters(plan, position);
@@ -300,7 +302,7 @@ TEST(WheelParameters, PitchOfTheTravelScrew) {
 
 // The trace of the wheel's plane in a transverse plane against the vertical.
 TEST(WheelParameters, CamberInTheFrontView) {
-  const GuidePlan plan = prepare(guide_sample("2RS-KS").guide);
+  const GuidePlan plan = prepare(guide_sample("2RS-US").guide);
   for (double rack : {-0.06, 0.0, 0.06}) {
     const GuidePosition position = solve(plan, -0.05, rack);
     const WheelParameters found = wheel_parameters(plan, position);
@@ -353,8 +355,8 @@ TEST(WheelParameters, ArmsOfAWheelThatOnlyShiftsAreInfinite) {
   WheelGuide guide{.wheel = {{0, 0.7, 0}, 0, 0, 0.6}};
   for (const Vec3& at :
        {Vec3{0.1, 0.6, -0.1}, Vec3{-0.1, 0.6, -0.1}, Vec3{0.1, 0.6, 0.2}, Vec3{-0.1, 0.6, 0.2}})
-    guide.links.push_back({.type = LinkType::KS, .body = {at - Vec3{0, 0.3, 0.01}}, .carrier = {at}});
-  guide.links.push_back({.type = LinkType::KS, .body = {{-0.5, 0.6, 0}}, .carrier = {{-0.1, 0.6, 0}}});
+    guide.links.push_back({.type = LinkType::US, .body = {at - Vec3{0, 0.3, 0.01}}, .carrier = {at}});
+  guide.links.push_back({.type = LinkType::US, .body = {{-0.5, 0.6, 0}}, .carrier = {{-0.1, 0.6, 0}}});
   const GuidePlan plan = prepare(guide);
   const WheelParameters found = wheel_parameters(plan, reference_position(plan));
   ASSERT_EQ(found.status, Status::done);

@@ -12,7 +12,7 @@ namespace linkwright::suspension {
 namespace {
 
 TEST(WheelQuantities, EachIsAnotherNumberOfTheParameters) {
-  const GuidePlan plan = prepare(guide_sample("2RS-KS").guide);
+  const GuidePlan plan = prepare(guide_sample("2RS-US").guide);
   const GuidePosition at =
       solve_position(plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan));
   const WheelParameters parameters = wheel_parameters(plan, at);
@@ -32,7 +32,7 @@ TEST(WheelQuantities, EachIsAnotherNumberOfTheParameters) {
 }
 
 TEST(WheelQuantities, WhatAPositionShowsByItselfIsKnownWithoutMotions) {
-  WheelGuide guide = guide_sample("2RS-KS").guide;
+  WheelGuide guide = guide_sample("2RS-US").guide;
   guide.links[1] = guide.links[0];
   guide.links[1].name = "double";
   const GuidePlan plan = prepare(guide);
@@ -43,7 +43,7 @@ TEST(WheelQuantities, WhatAPositionShowsByItselfIsKnownWithoutMotions) {
       EXPECT_EQ(std::isfinite(value_of(parameters, name.value)), at_rest(name.value)) << name.name;
     }
   // Constructions are known there as well; only derivatives take their time for them with the motions.
-  const GuidePlan wishbones = prepare(guide_sample("2RS-KS").guide);
+  const GuidePlan wishbones = prepare(guide_sample("2RS-US").guide);
   const WheelParameters drawn = wheel_parameters(wishbones, reference_position(wishbones));
   EXPECT_TRUE(std::isfinite(value_of(drawn, WheelQuantity::geometric_caster)));
   EXPECT_FALSE(at_rest(WheelQuantity::geometric_caster));

@@ -13,7 +13,7 @@
 namespace linkwright::suspension {
 namespace {
 
-constexpr std::array steered{"2RS-KS", "RS-SP-KS", "RS-3KS", "SP-3KS", "5KS"};
+constexpr std::array steered{"2RS-US", "RS-SP-US", "RS-3US", "SP-3US", "5US"};
 
 GuidePosition solve(const GuidePlan& plan, double travel, double rack) {
   return solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan));
@@ -38,7 +38,7 @@ TEST(Steering, LeverArmsByTheScrewAxis) {
         ASSERT_TRUE(axis);
         const double rate = dot(twist.turning, axis->direction) / found->toe_by_rack;
         const double outboard = guide.side == Side::left ? 1 : -1;
-        const double pitch = outboard * axis->pitch;  // that of a right wheel is told as in the mirror
+        const double pitch = outboard * axis->pitch;  // that of a right wheel is given as in the mirror
         const auto arm = [&](const Vec3& force, const Vec3& at) {
           return rate *
                  (dot(axis->direction, cross(at - axis->point, force)) + pitch * dot(axis->direction, force));
@@ -48,9 +48,10 @@ TEST(Steering, LeverArmsByTheScrewAxis) {
         EXPECT_NEAR(found->load_arm, arm({0, 0, 1}, wheel.contact), 1e-12);
         // The wheel free to turn: the force without its moment about the wheel's axis, but for the turn of
         // that axis in its own plane (toe and camber together).
-        const Vec3 spin = wheel_axis(guide.side, wheel.angles.toe, wheel.angles.camber);
-        const double torque = dot(cross(wheel.contact - here.place.carrier.centre, Vec3{1, 0, 0}), spin);
-        const double share = rate * dot(axis->direction, spin);
+        const Vec3 carrier_pitch = wheel_axis(guide.side, wheel.angles.toe, wheel.angles.camber);
+        const double torque =
+            dot(cross(wheel.contact - here.place.carrier.centre, Vec3{1, 0, 0}), carrier_pitch);
+        const double share = rate * dot(axis->direction, carrier_pitch);
         const double cant =
             guide.wheel.tyre_diameter / 2 * std::sin(wheel.angles.camber) * std::cos(wheel.angles.toe);
         EXPECT_NEAR(found->drive_arm, arm({1, 0, 0}, wheel.contact) - torque * share - cant, 1e-12);
@@ -60,7 +61,7 @@ TEST(Steering, LeverArmsByTheScrewAxis) {
 // Straight ahead a force along the wheel has nearly the scrub radius as its arm: the axis is upright but for
 // caster and inclination.
 TEST(Steering, SignsOfTheArms) {
-  const GuidePlan plan = prepare(guide_sample("2RS-KS").guide);
+  const GuidePlan plan = prepare(guide_sample("2RS-US").guide);
   const GuidePosition here = reference_position(plan);
   const auto found = steering_parameters(plan, here, Driver::spring);
   const WheelParameters wheel = wheel_parameters(plan, here);
@@ -89,7 +90,8 @@ TEST(Steering, AgainstPositionsWithTheSpringHeld) {
     const double toe = (more.angles.toe - less.angles.toe) / (2 * step);
     EXPECT_NEAR(found->toe_by_rack, toe, 1e-7);
     EXPECT_NEAR(found->camber_by_toe * toe, (more.angles.camber - less.angles.camber) / (2 * step), 1e-7);
-    EXPECT_NEAR(found->spin_by_toe * toe, (more.angles.spin - less.angles.spin) / (2 * step), 1e-7);
+    EXPECT_NEAR(found->carrier_pitch_by_toe * toe,
+                (more.angles.carrier_pitch - less.angles.carrier_pitch) / (2 * step), 1e-7);
     EXPECT_NEAR(found->contact_rise_by_rack, (more.contact.z - less.contact.z) / (2 * step), 1e-8);
     EXPECT_NEAR(found->load_arm * found->toe_by_rack, found->contact_rise_by_rack, 1e-14);
     EXPECT_NEAR(found->drive_arm * toe, (more.contact.x - less.contact.x) / (2 * step), 1e-7);
@@ -97,7 +99,7 @@ TEST(Steering, AgainstPositionsWithTheSpringHeld) {
 }
 
 TEST(Steering, MirroredWheel) {
-  const WheelGuide& guide = guide_sample("5KS").guide;
+  const WheelGuide& guide = guide_sample("5US").guide;
   const GuidePlan left = prepare(guide), right = prepare(mirrored(guide));
   const auto a = steering_parameters(left, solve(left, 0.01, 0.02), Driver::spring);
   const auto b = steering_parameters(right, solve(right, 0.01, -0.02), Driver::spring);
@@ -117,7 +119,7 @@ TEST(Steering, Ratio) {
 }
 
 TEST(Steering, NothingToSteer) {
-  WheelGuide guide = guide_sample("SR-3KS").guide;
+  WheelGuide guide = guide_sample("SR-3US").guide;
   const GuidePlan plan = prepare(guide);
   EXPECT_FALSE(is_steered(plan));
   EXPECT_FALSE(steering_parameters(plan, reference_position(plan), Driver::spring));
@@ -126,7 +128,7 @@ TEST(Steering, NothingToSteer) {
                 const GuidePlan bare = prepare(guide);
                 steering_parameters(bare, reference_position(bare), Driver::spring);
               }),
-              ::testing::StartsWith("steering_parameters: the spring is held, and the guide has none"));
+              ::testing::StartsWith("steering_parameters: the spring is held, and the suspension has none"));
 }
 
 }  // namespace

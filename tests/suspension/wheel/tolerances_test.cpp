@@ -22,7 +22,7 @@ ToleranceTask task_of(const char* name, double tolerance) {
 }
 
 TEST(Tolerances, OfOneNumberAreItsDerivative) {
-  ToleranceTask task = task_of("2RS-KS", 0);
+  ToleranceTask task = task_of("2RS-US", 0);
   task.numbers = {{{DesignKind::body, 2, 0, 2}, 1e-5}};
   RunContext context;
   const ToleranceBands found = tolerance_bands(task, {}, context);
@@ -48,7 +48,7 @@ TEST(Tolerances, OfOneNumberAreItsDerivative) {
 
 TEST(Tolerances, AddUpBySizeAndBySquare) {
   RunContext context;
-  const ToleranceBands found = tolerance_bands(task_of("5KS", 5e-4), {}, context);
+  const ToleranceBands found = tolerance_bands(task_of("5US", 5e-4), {}, context);
   for (const auto& curve : found.bands)
     for (const Band& band : curve) {
       double sum = 0, square = 0;
@@ -69,7 +69,7 @@ TEST(Tolerances, SmallOnesScatterAsTheRootSumOfSquaresSays) {
   for (const Scatter scatter : {Scatter::uniform, Scatter::normal}) {
     RunContext context;
     const ToleranceBands found =
-        tolerance_bands(task_of("5KS", 1e-5), {.samples = n, .scatter = scatter, .seed = 7}, context);
+        tolerance_bands(task_of("5US", 1e-5), {.samples = n, .scatter = scatter, .seed = 7}, context);
     EXPECT_EQ(found.samples, n);
     for (const auto& curve : found.bands)
       for (const Band& band : curve) {
@@ -89,7 +89,7 @@ TEST(Tolerances, SmallOnesScatterAsTheRootSumOfSquaresSays) {
 }
 
 TEST(Tolerances, ThreadsDoNotMatter) {
-  const ToleranceTask task = task_of("2RS-KS", 1e-3);
+  const ToleranceTask task = task_of("2RS-US", 1e-3);
   std::vector<ToleranceBands> found;
   for (const int threads : {1, 3}) {
     RunContext context;
@@ -105,7 +105,7 @@ TEST(Tolerances, ThreadsDoNotMatter) {
 }
 
 TEST(Tolerances, KeepToWhatIsThere) {
-  ToleranceTask task = task_of("5KS", 1e-4);
+  ToleranceTask task = task_of("5US", 1e-4);
   task.inputs.push_back({0.5, 0});
   RunContext context;
   const ToleranceBands found = tolerance_bands(task, {.samples = 10}, context);
@@ -115,7 +115,7 @@ TEST(Tolerances, KeepToWhatIsThere) {
   EXPECT_EQ(found.bands[0][3].solved, 0);
   RunContext stopped;
   stopped.cancel();
-  const ToleranceBands none = tolerance_bands(task_of("5KS", 1e-4), {.samples = 10}, stopped);
+  const ToleranceBands none = tolerance_bands(task_of("5US", 1e-4), {.samples = 10}, stopped);
   EXPECT_EQ(none.status, Status::cancelled);
   EXPECT_EQ(none.samples, 0);
   EXPECT_TRUE(std::isfinite(none.bands[0][0].worst_case));
@@ -123,7 +123,7 @@ TEST(Tolerances, KeepToWhatIsThere) {
 
 // What a round has drawn when it is cut short is not used; the rounds before it are, to the bit.
 TEST(Tolerances, InterruptedKeepTheRoundsSoFar) {
-  const ToleranceTask task = task_of("5KS", 1e-4);
+  const ToleranceTask task = task_of("5US", 1e-4);
   RunContext context;
   context.set_threads(1);
   const ToleranceBands part = tolerance_bands(task, {.samples = 1024, .seed = 5}, context);
@@ -140,11 +140,11 @@ TEST(Tolerances, InterruptedKeepTheRoundsSoFar) {
 
 TEST(Tolerances, ContractsAreChecked) {
   RunContext context;
-  ToleranceTask task = task_of("5KS", -1e-4);
+  ToleranceTask task = task_of("5US", -1e-4);
   EXPECT_THAT([&] { tolerance_bands(task, {}, context); },
               ::testing::ThrowsMessage<ContractError>(
                   ::testing::HasSubstr("tolerance -0.0001 of lower front rod.body_x")));
-  task = task_of("5KS", 1e-4);
+  task = task_of("5US", 1e-4);
   task.curves.clear();
   EXPECT_THAT([&] { tolerance_bands(task, {}, context); },
               ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("3 positions, 0 curves")));

@@ -21,8 +21,8 @@ namespace linkwright::clearance {
 
 /// What a study designs: its `target.type`.
 enum class DesignTarget {
-  lengths,  ///< "path_points": lengths for a path, the clearance link at a presumed lead
-  masses,   ///< "phase": masses that make the clearance link keep its lead
+  lengths,  ///< "path_points": lengths for a path, the clearance link at a presumed phase
+  masses,   ///< "phase": masses that make the clearance link keep its phase
   both      ///< "path_points_and_phase"
 };
 
@@ -30,8 +30,7 @@ enum class DesignTarget {
 enum class DesignStages { in_turn, at_once };
 constexpr std::array<EnumName<DesignStages>, 2> names(DesignStages) {
   return {{{DesignStages::in_turn, "in_turn", "lengths for the presumed phase, then masses that keep it"},
-           {DesignStages::at_once, "at_once",
-            "after that both together, for the path on the motion that repeats itself"}}};
+           {DesignStages::at_once, "at_once", "then both together, for the path on the periodic motion"}}};
 }
 
 /// `[mechanism.parameters]`, in the order of ClearanceLength.
@@ -92,7 +91,7 @@ struct DesignMassesForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignMassesForm& m) {
-  visit(Field{.key = "coupler", .summary = "from the loose pin to the rocker"}, m.coupler);
+  visit(Field{.key = "coupler", .summary = "from the clearance joint to the rocker"}, m.coupler);
   visit(Field{.key = "rocker", .summary = "from its pivot to the coupler"}, m.rocker);
 }
 
@@ -136,10 +135,10 @@ void fields(Visitor&& visit, DesignMechanismForm& m) {
               .required = true},
         m.clearance);
   if (m.target != DesignTarget::masses)
-    visit(Field{.key = "crank_rotates_fully", .summary = "the crank turns fully and is the shortest link"},
+    visit(Field{.key = "crank_rotates_fully", .summary = "the crank rotates fully and is the shortest link"},
           m.crank_rotates_fully);
   visit(Field{.key = "parameters",
-              .summary = "lengths: numbers, or { min, max } where they are designed",
+              .summary = "lengths: fixed numbers, or { min, max } for design variables",
               .required = m.target == DesignTarget::masses},
         m.parameters);
   if (m.target == DesignTarget::lengths) return;
@@ -154,7 +153,7 @@ struct DesignDriveForm {
 template <class Visitor>
 void fields(Visitor&& visit, DesignDriveForm& d) {
   visit(Field{.key = "speed",
-              .summary = "of the crank, which turns evenly; counter-clockwise positive",
+              .summary = "of the crank, which rotates uniformly; counter-clockwise positive",
               .dimension = Dimension::speed_angular,
               .minimum = -1e6,
               .maximum = 1e6,
@@ -182,19 +181,20 @@ void fields(Visitor&& visit, DesignTimingForm& t) {
         t.step);
   visit(Field{.key = "angles", .summary = "or the crank angle of each point", .dimension = Dimension::angle},
         t.angles);
-  visit(Field{.key = "free_within",
-              .summary = "each angle may be so much more or less; if absent it is prescribed",
-              .dimension = Dimension::angle,
-              .minimum = 0,
-              .maximum = 3.2,
-              .exclusive_minimum = true},
-        t.free_within);
+  visit(
+      Field{.key = "free_within",
+            .summary = "each angle may deviate by this much in either direction; if absent it is prescribed",
+            .dimension = Dimension::angle,
+            .minimum = 0,
+            .maximum = 3.2,
+            .exclusive_minimum = true},
+      t.free_within);
 }
 
 /// `[target]`.
 struct DesignTargetForm : planar::PathPointsForm {
   DesignTarget target = DesignTarget::both;
-  double lead = 0;
+  double phase = 0;
   int samples = 72;
   DesignStages stages = DesignStages::in_turn;
   DesignTimingForm timing;
@@ -202,11 +202,11 @@ struct DesignTargetForm : planar::PathPointsForm {
 template <class Visitor>
 void fields(Visitor&& visit, DesignTargetForm& t) {
   visit(Field{.key = "phase",
-              .summary = "by how much the clearance link is to be ahead of the crank",
+              .summary = "wanted angle of the clearance link ahead of the crank",
               .dimension = Dimension::angle,
               .minimum = -3.2,
               .maximum = 3.2},
-        t.lead);
+        t.phase);
   if (t.target != DesignTarget::lengths)
     visit(Field{.key = "samples",
                 .summary = "points of the turn at which the phase is compared",
@@ -220,7 +220,7 @@ void fields(Visitor&& visit, DesignTargetForm& t) {
   fields(visit, static_cast<planar::PathPointsForm&>(t));
 }
 
-/// `[reference]`: a design that the answer is put beside.
+/// `[reference]`: a design that the answer is compared with.
 struct DesignReferenceForm {
   DesignTarget target = DesignTarget::both;
   std::string label = "reference";
@@ -246,10 +246,10 @@ void fields(Visitor&& visit, RecommendedDesign& r) {
         r.starts);
 }
 constexpr Word choice_word(const RecommendedDesign&) {
-  return {"recommended", "least squares from many starts; of masses on the motion that repeats itself"};
+  return {"recommended", "least squares from many starts; of masses on the periodic motion"};
 }
 /// The population methods minimise the objectives of the source: the misfit of the path, and the misfit of
-/// the lead over the first turn. Violated constraints cost a constant, Eq. (23).
+/// the phase over the first turn. Violated constraints cost a constant, Eq. (23).
 using DesignMethod = optimise::MethodChoice<optimise::Constraints::penalty, RecommendedDesign>;
 struct DesignOptimiser {
   DesignMethod method;
@@ -269,7 +269,7 @@ struct ClearanceDesignValues {
 struct ClearanceDesignStudy {
   DesignTarget target = DesignTarget::both;
   DesignStages stages = DesignStages::in_turn;
-  ClearancePathProblem path;  ///< without points when lengths are not designed
+  ClearancePathProblem path;  ///< without points when lengths are no design variables
   ClearanceMassProblem mass;  ///< its model has the fixed lengths when only masses are designed
   bool closed = false;        ///< the points go round with the crank
   DesignMethod method;
@@ -279,7 +279,7 @@ struct ClearanceDesignStudy {
 
   bool has_path() const { return target != DesignTarget::masses; }
   bool has_masses() const { return target != DesignTarget::lengths; }
-  double lead() const { return has_masses() ? mass.lead : path.lead; }  ///< wanted, or presumed
+  double phase() const { return has_masses() ? mass.phase : path.phase; }  ///< wanted, or presumed
 };
 
 /// What a seed came to.
@@ -327,18 +327,18 @@ struct DesignRow {
 struct DesignMeasures {
   ClearanceFourBar model;
   // The path, where there is one.
-  ClearancePathDesign presumed;  ///< with the clearance link at the presumed lead
+  ClearancePathDesign presumed;  ///< with the clearance link at the presumed phase
   /// Places of the tracing point at the targets: on the turn of the rows, or, without masses, with the
-  /// presumed lead.
+  /// presumed phase.
   std::vector<std::complex<double>> reached;
   double rms = 0, largest = 0;  ///< m, of these
   double anywhere = 0;          ///< m: largest distance with the pin anywhere in its bush
   // The motion, where there are masses.
   ClearanceMassDesign motion;
-  bool repeats = false;  ///< the rows are of the orbit; else of the turn that starts with the wanted lead
+  bool repeats = false;  ///< the rows are of the orbit; else of the turn that starts with the wanted phase
   ClearanceRun run;      ///< over the turn
   double least_at = 0;   ///< rad: crank angle of the least tension
-  double work_mean = 0;  ///< mean of sin(lead) weighted by the tension
+  double work_mean = 0;  ///< mean of sin(phase) weighted by the tension
   std::vector<DesignRow> rows;
 };
 /// Looks at `context`, if there is one, while the motion is integrated: an interruption leaves the rows so
@@ -346,15 +346,15 @@ struct DesignMeasures {
 DesignMeasures measure_design(const ClearanceDesignStudy& study, const ClearanceDesignValues& values,
                               const RunContext* context = nullptr);
 
-/// Lead of a row, within half a turn of the wanted one.
-double lead_of(const ClearanceDesignStudy& study, const DesignRow& row);
+/// Phase of a row, within half a turn of the wanted one.
+double phase_of(const ClearanceDesignStudy& study, const DesignRow& row);
 /// Targets and where the tracing point comes; `before` may be null.
 Table design_points(const ClearanceDesignStudy& study, const DesignMeasures& design,
                     const DesignMeasures* before);
 Table design_turn(const ClearanceDesignStudy& study, const DesignMeasures& design, std::string name);
 /// All that a simulation of the design asks for: "linkage-points", "linkage-masses", "linkage-start".
 std::vector<Table> design_linkage_tables(const ClearanceDesignStudy& study, const DesignMeasures& design);
-/// The design in motion over its turn, play enlarged.
+/// The design in motion over its turn, the clearance drawn enlarged.
 study::Scene design_scene(const ClearanceDesignStudy& study, const DesignMeasures& design);
 
 study::Result report_clearance_design(const ClearanceDesignStudy& study, const study::Common& common,

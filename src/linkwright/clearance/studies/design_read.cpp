@@ -34,7 +34,7 @@ std::array<Range, clearance_length_count> bounds_of_path(const std::vector<doubl
           Range{-pi, pi}};
 }
 
-// Eight ranges of two bodies; what is missing is told.
+// Eight ranges of two bodies; what is missing is reported.
 std::array<Range, clearance_mass_count> masses_of(study::ObjectReader& table, const DesignMassesForm& form,
                                                   bool fixed) {
   constexpr std::array<std::string_view, 4> keys = {"mass_kg", "centre_u_mm", "centre_v_mm", "inertia_kg_m2"};
@@ -113,7 +113,7 @@ void read_path(study::ObjectReader& mechanism, study::ObjectReader& target, cons
   planar::read_path_points(target, common, t, s.path.x, s.path.y);
   read_timing(target, t.timing, common.units, s);
   s.path.clearance = m.clearance;
-  s.path.lead = t.lead;
+  s.path.phase = t.phase;
   s.path.branch = m.branch;
   s.path.crank_turns_fully = m.crank_rotates_fully;
   if (s.path.x.size() < 3 || s.path.y.size() != s.path.x.size()) return;
@@ -139,7 +139,7 @@ void read_masses(study::ObjectReader& document, study::ObjectReader& mechanism,
   s.mass.model.link_damping = m.damping.link;
   s.mass.model.linkage.branch = m.branch;
   s.mass.crank = {drive.start_angle, drive.speed};
-  s.mass.lead = t.lead;
+  s.mass.phase = t.phase;
   s.mass.samples = t.samples;
   if (drive_table.has(Field{.key = "speed", .summary = {}, .dimension = Dimension::speed_angular}) &&
       drive.speed == 0)
@@ -164,7 +164,7 @@ void read_masses(study::ObjectReader& document, study::ObjectReader& mechanism,
     mechanism.error("clearance", fmt::format("{:.6g} mm is more than half of the shortest link, {:.6g} mm",
                                              1e3 * m.clearance, 1e3 * shortest));
   else if (!turns_fully(s.mass.model))
-    mechanism.error("parameters", "the crank does not turn fully wherever the pin lies in its bush",
+    mechanism.error("parameters", "the crank does not rotate fully wherever the pin lies in its bush",
                     "ground + crank + clearance must be less than coupler + rocker, and ground - crank - "
                     "clearance more than the difference of coupler and rocker");
 }
@@ -273,7 +273,7 @@ study::Kind kind_of(DesignTarget target) {
   kind.summary = target == DesignTarget::lengths
                      ? "lengths of a four-bar for a path although its crank pin has clearance"
                  : target == DesignTarget::masses
-                     ? "masses of a four-bar that keep a loose crank pin pressed into its bush"
+                     ? "masses of a four-bar that keep its crank pin, a clearance joint, in contact"
                      : "lengths and masses of a four-bar whose crank pin has clearance, in turn or at once";
   kind.example = example_of(target);
   kind.schema = [target](study::SchemaWriter& document) {
@@ -290,7 +290,7 @@ study::Kind kind_of(DesignTarget target) {
       table("environment", "weight", false, planar::Environment{});
     }
     table("target", "what is wanted", true, DesignTargetForm{});
-    table("reference", "a design that the answer is put beside", false, DesignReferenceForm{});
+    table("reference", "a design that the answer is compared with", false, DesignReferenceForm{});
     table("optimiser", "how designs are searched", false, DesignOptimiser{});
   };
   kind.prepare = [target](study::ObjectReader& document, const study::Common& common) {

@@ -126,7 +126,7 @@ class DesignReporter {
       result_.headline = "No masses found: none within the bounds press pin and bush together.";
     else
       result_.headline =
-          "No design found: no start of the search assembles at every point and turns its crank fully.";
+          "No design found: no start of the search assembles at every point and rotates its crank fully.";
   }
 
   // ---- what is designed
@@ -157,12 +157,12 @@ class DesignReporter {
   double separation_angle(const DesignMeasures& d) const {
     return s_.mass.crank.angle + s_.mass.crank.speed * d.run.first_separation;
   }
-  // Largest and least lead over the turn, wrapped about the wanted one.
-  std::pair<double, double> leads(const DesignMeasures& d) const {
+  // Largest and least phase over the turn, wrapped about the wanted one.
+  std::pair<double, double> phases(const DesignMeasures& d) const {
     double low = infinity, high = -infinity;
     for (const DesignRow& r : d.rows) {
-      const double lead = lead_of(s_, r);
-      low = std::min(low, lead), high = std::max(high, lead);
+      const double phase = phase_of(s_, r);
+      low = std::min(low, phase), high = std::max(high, phase);
     }
     return {low, high};
   }
@@ -184,15 +184,15 @@ class DesignReporter {
       out.objectives["presumed_path_error_rms_m"] = d_.presumed.rms;
     }
     if (s_.has_masses()) {
-      const auto [low, high] = leads(d_);
+      const auto [low, high] = phases(d_);
       out.objectives["orbit_error_rad"] = d_.motion.orbit_error;
       out.objectives["first_turn_error_rad"] = d_.motion.transient_error;
-      out.objectives["lead_min_rad"] = low;
-      out.objectives["lead_max_rad"] = high;
+      out.objectives["phase_min_rad"] = low;
+      out.objectives["phase_max_rad"] = high;
       out.objectives["least_tension_N"] = d_.run.least_tension;
       out.objectives["least_tension_crank_angle_rad"] = d_.least_at;
       out.objectives["separated_share"] = d_.run.separated;
-      out.objectives["start_lead_rad"] = d_.rows.empty() ? nan : lead_of(s_, d_.rows[0]);
+      out.objectives["start_phase_rad"] = d_.rows.empty() ? nan : phase_of(s_, d_.rows[0]);
       out.objectives["start_link_rate_rad_per_s"] = d_.rows.empty() ? nan : d_.rows[0].link.rate;
     }
     out.classification = Value::object();
@@ -304,7 +304,7 @@ class DesignReporter {
     const std::string pale = before_ ? fmt::format(" (pale: {})", s_.reference_label) : "";
     const char* before = before_ ? "reference" : "";
     if (s_.has_path()) {
-      plot("path", "Path: targets and where the tracing point comes", "points", "crank_angle_rad",
+      plot("path", "Path: targets and the points reached", "points", "crank_angle_rad",
            {"target_x_m", "target_y_m", "x_m", "y_m"}, Style::polar);
       std::vector<std::string> distances{"distance_m"};
       if (before_) distances.emplace_back("reference_distance_m");
@@ -357,18 +357,18 @@ class DesignReporter {
       fact("wherever the pin lies in its bush",
            fmt::format("at most {} off the points", metres(d_.anywhere)));
     }
-    fact("crank turns fully wherever the pin lies", turns_fully(d_.model) ? "yes" : "no",
+    fact("crank rotates fully wherever the pin lies", turns_fully(d_.model) ? "yes" : "no",
          turns_fully(d_.model) ? Verdict::good : Verdict::bad);
     if (s_.has_masses()) {
       fact("contact", contact_text(d_), lost(d_) ? Verdict::bad : Verdict::good);
-      const auto [low, high] = leads(d_);
+      const auto [low, high] = phases(d_);
       fact("phase of the clearance link",
            fmt::format("{:.2f}° to {:.2f}° over the turn, wanted {:.4g}°", math::degrees(low),
-                       math::degrees(high), math::degrees(s_.lead())));
+                       math::degrees(high), math::degrees(s_.phase())));
       if (d_.repeats)
         fact("phase objective F2",
              fmt::format(
-                 "{:.4g} rad on the motion that repeats, {:.4g} rad in the first turn from the wanted phase",
+                 "{:.4g} rad on the periodic motion, {:.4g} rad in the first turn from the wanted phase",
                  d_.motion.orbit_error, d_.motion.transient_error));
       else
         fact("phase objective F2",
@@ -402,8 +402,8 @@ class DesignReporter {
       add("distance_m", "path error (m)", "max", before_->largest, d_.largest, false);
     }
     if (!s_.has_masses()) return;
-    add("phase_rad", "phase objective F2 on the motion that repeats (rad)", "rms",
-        before_->motion.orbit_error, d_.motion.orbit_error, true);
+    add("phase_rad", "phase objective F2 on the periodic motion (rad)", "rms", before_->motion.orbit_error,
+        d_.motion.orbit_error, true);
     add("phase_rad", "phase objective F2 of the first turn (rad)", "rms", before_->motion.transient_error,
         d_.motion.transient_error, true);
     add("tension_N", "tension (N)", "min", before_->run.least_tension, d_.run.least_tension, false);
@@ -413,34 +413,35 @@ class DesignReporter {
     for (const auto& v : d_.presumed.violations)
       warn(fmt::format("the design violates {} by {:.3g}", v.reason, v.amount));
     if (!turns_fully(d_.model))
-      warn("the crank does not turn fully with the pin anywhere in its bush",
+      warn("the crank does not rotate fully with the pin anywhere in its bush",
            "lengthen coupler and rocker, or take a shorter crank");
     const bool passive = s_.target == DesignTarget::lengths || s_.stages == DesignStages::in_turn;
-    if (s_.lead() > 0 && passive) {
-      const double least = s_.lead() / std::sqrt(double(s_.mass.samples));
+    if (s_.phase() > 0 && passive) {
+      const double least = s_.phase() / std::sqrt(double(s_.mass.samples));
       warn(fmt::format(
-               "a lead of {:.4g}° throughout cannot be had: over a turn that repeats itself the pin does "
-               "no work on a passive coupler in contact, so the sine of the phase, weighted by the "
+               "a constant phase of {:.4g}° is impossible: over a turn of a periodic motion the pin does no "
+               "work on a passive coupler in contact, so the sine of the phase, weighted by the "
                "tension, has the mean 0{}",
-               math::degrees(s_.lead()),
-               s_.has_masses() ? fmt::format("; no masses come far below F2 = lead / sqrt({}) = {:.4g} rad",
+               math::degrees(s_.phase()),
+               s_.has_masses() ? fmt::format("; no masses come far below F2 = phase / sqrt({}) = {:.4g} rad",
                                              s_.mass.samples, least)
-                               : ", and the path is another one than presumed here"),
-           "phase_deg = 0 is what masses can do");
+                               : ", and the path differs from the one presumed here"),
+           "masses can achieve phase_deg = 0");
     }
     if (!s_.has_masses()) return;
     if (!d_.repeats)
       warn(
-          "no motion that repeats itself was found; tables and tension are of the first turn from the wanted "
+          "no periodic motion was found; tables and tension are of the first turn from the wanted "
           "phase",
-          "allow more mass at the loose pin");
+          "allow more mass at the clearance joint");
     if (d_.run.status != Status::done) warn(fmt::format("the turn ends early: {}", d_.run.message));
     if (lost(d_))
       warn(fmt::format(
-               "pin and bush part at a crank angle of {:.1f}° (least tension {:.4g} N at {:.1f}°): what "
+               "pin and bush separate at a crank angle of {:.1f}° (least tension {:.4g} N at {:.1f}°): what "
                "follows is outside of the model",
                wrapped_degrees(separation_angle(d_)), d_.run.least_tension, wrapped_degrees(d_.least_at)),
-           "simulate it with model = \"contact\", or allow a heavier coupler with its mass at the loose pin");
+           "simulate it with model = \"contact\", or allow a heavier coupler with its mass at the clearance "
+           "joint");
   }
 
   void headline() {
@@ -452,18 +453,18 @@ class DesignReporter {
     if (s_.has_path()) {
       text = fmt::format("The linkage passes the {} points within {} (root mean square {})",
                          d_.reached.size(), metres(d_.largest), metres(d_.rms));
-      text += s_.has_masses() ? (d_.repeats ? " on the motion that repeats itself" : " in the first turn")
+      text += s_.has_masses() ? (d_.repeats ? " on the periodic motion" : " in the first turn")
                               : fmt::format(" if the clearance link leads the crank by {:.4g}°",
-                                            math::degrees(s_.lead()));
+                                            math::degrees(s_.phase()));
     } else {
-      const auto [low, high] = leads(d_);
-      text =
-          fmt::format("The clearance link keeps within {:.2g}° of its lead of {:.4g}°",
-                      math::degrees(std::max(high - s_.lead(), s_.lead() - low)), math::degrees(s_.lead()));
+      const auto [low, high] = phases(d_);
+      text = fmt::format("The clearance link keeps within {:.2g}° of its phase of {:.4g}°",
+                         math::degrees(std::max(high - s_.phase(), s_.phase() - low)),
+                         math::degrees(s_.phase()));
     }
     if (s_.has_masses())
       text += lost(d_) ? fmt::format(
-                             ", but pin and bush part at a crank angle of {:.1f}°: the design is outside "
+                             ", but pin and bush separate at a crank angle of {:.1f}°: the design is outside "
                              "of the model",
                              wrapped_degrees(separation_angle(d_)))
                        : fmt::format("; pin and bush stay in contact, with {:.4g} N at least",

@@ -116,7 +116,7 @@ ClearanceDesignAnswer answer_of(const ClearanceDesignStudy& s, std::uint64_t see
 }
 
 // The turn from `start`, its rows, and where the tracing point is at the angles of the path.
-void follow_turn(const ClearanceDesignStudy& s, const EvenCrank& crank, const LinkState& start,
+void follow_turn(const ClearanceDesignStudy& s, const UniformCrank& crank, const LinkState& start,
                  std::span<const double> angles, const RunContext* context, DesignMeasures& out) {
   const double sense = std::copysign(1.0, crank.speed), period = full_turn / std::abs(crank.speed);
   const auto count = static_cast<std::size_t>(s.samples);
@@ -157,7 +157,7 @@ void follow_turn(const ClearanceDesignStudy& s, const EvenCrank& crank, const Li
   out.work_mean = weighted / tension;
 }
 
-// Without masses: the clearance link at its presumed lead.
+// Without masses: the clearance link at its presumed phase.
 void follow_presumed(const ClearanceDesignStudy& s, DesignMeasures& out) {
   const double first = s.path.crank_angles.empty() ? 0 : s.path.crank_angles[0];
   const double sense =
@@ -166,7 +166,7 @@ void follow_presumed(const ClearanceDesignStudy& s, DesignMeasures& out) {
     DesignRow row;
     row.time = full_turn * i / (s.samples - 1);
     row.crank = first + sense * row.time;
-    row.link = {row.crank + s.path.lead, sense};
+    row.link = {row.crank + s.path.phase, sense};
     row.instant.position = clearance_position(out.model, row.crank, row.link.angle);
     row.instant.status = row.instant.position.status;
     out.rows.push_back(row);
@@ -179,7 +179,7 @@ CostName cost_name(const ClearanceDesignStudy& s) {
   if (s.target == DesignTarget::lengths) return {"path_objective_m", "path objective F1 (m)"};
   if (s.target == DesignTarget::both) return {"path_rms_m", "root mean square distance on the motion (m)"};
   return std::holds_alternative<RecommendedDesign>(s.method)
-             ? CostName{"orbit_error_rad", "phase objective F2 on the motion that repeats (rad)"}
+             ? CostName{"orbit_error_rad", "phase objective F2 on the periodic motion (rad)"}
              : CostName{"first_turn_error_rad", "phase objective F2 of the first turn (rad)"};
 }
 
@@ -203,7 +203,7 @@ DesignMeasures measure_design(const ClearanceDesignStudy& s, const ClearanceDesi
     out.repeats = out.motion.status == Status::done;
     follow_turn(s, mass.crank,
                 out.repeats ? out.motion.orbit.start(mass.crank)
-                            : LinkState{mass.crank.angle + mass.lead, mass.crank.speed},
+                            : LinkState{mass.crank.angle + mass.phase, mass.crank.speed},
                 angles, context, out);
   } else {
     follow_presumed(s, out);
@@ -213,7 +213,7 @@ DesignMeasures measure_design(const ClearanceDesignStudy& s, const ClearanceDesi
   for (std::size_t k = 0; k < angles.size(); ++k) {
     const std::complex<double> target{s.path.x[k], s.path.y[k]};
     if (!moves)
-      out.reached.push_back(clearance_position(out.model, angles[k], angles[k] + s.path.lead).point);
+      out.reached.push_back(clearance_position(out.model, angles[k], angles[k] + s.path.phase).point);
     const double off = std::abs(out.reached[k] - target);
     sum += off * off;
     out.largest = std::max(out.largest, off);

@@ -38,8 +38,8 @@ ClearanceStudy as_linkage(const DesignMeasures& d) {
 
 }  // namespace
 
-double lead_of(const ClearanceDesignStudy& s, const DesignRow& r) {
-  return s.lead() + std::remainder(r.link.angle - r.crank - s.lead(), full_turn);
+double phase_of(const ClearanceDesignStudy& s, const DesignRow& r) {
+  return s.phase() + std::remainder(r.link.angle - r.crank - s.phase(), full_turn);
 }
 
 Table design_points(const ClearanceDesignStudy& s, const DesignMeasures& d, const DesignMeasures* before) {
@@ -88,9 +88,9 @@ Table design_turn(const ClearanceDesignStudy& s, const DesignMeasures& d, std::s
   add("contact_angle_rad", "direction of the clearance link (rad)",
       [](const DesignRow& r) { return r.link.angle; });
   add("wanted_contact_angle_rad", "wanted direction (rad)",
-      [&](const DesignRow& r) { return r.crank + s.lead(); });
-  add("phase_rad", "phase of the clearance link (rad)", [&](const DesignRow& r) { return lead_of(s, r); });
-  add("wanted_phase_rad", "wanted phase (rad)", [&](const DesignRow&) { return s.lead(); });
+      [&](const DesignRow& r) { return r.crank + s.phase(); });
+  add("phase_rad", "phase of the clearance link (rad)", [&](const DesignRow& r) { return phase_of(s, r); });
+  add("wanted_phase_rad", "wanted phase (rad)", [&](const DesignRow&) { return s.phase(); });
   if (s.has_masses()) {
     add("link_speed_rad_per_s", "speed of the clearance link (rad/s)",
         [](const DesignRow& r) { return r.link.rate; });

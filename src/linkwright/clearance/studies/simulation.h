@@ -40,15 +40,15 @@ struct PeriodicRun {
   double tolerance = 1e-5;  ///< for states of a section, see ClearanceRegime::change
 };
 constexpr Word choice_word(const PeriodicRun&) {
-  return {"periodic", "what the motion comes to: one that repeats itself with the drives"};
+  return {"periodic", "the steady state: a motion that repeats with the drives"};
 }
 
 /// A study as read.
 struct ClearanceStudy {
   planar::Linkage linkage;
   planar::LinkagePlan plan;
-  std::vector<planar::InputCourse> courses;  ///< one an input
-  double from = 0;                           ///< s
+  std::vector<planar::InputDrive> drives;  ///< one an input
+  double from = 0;                         ///< s
   std::variant<TransientRun, PeriodicRun> regime;
   double period = 0;   ///< s, of the drives, for what needs it; 0 = there is none
   int samples = 1001;  ///< from start to end, or of a period
@@ -111,9 +111,9 @@ struct RecordedRow {
 struct ClearanceRegime {
   int turns = 0;   ///< periods of the drives after which it repeats; 0: not found
   int waited = 0;  ///< periods from the start to where it was seen to repeat; 0: found by shooting
-  /// Largest change of a pin over `turns` periods, or, without, over the last one: ways as shares of the
-  /// clearance, speeds as shares of the largest of all sections; of a clearance link the sine and cosine of
-  /// its angle, and its speed as a share of one turn a period.
+  /// Largest change of a pin over `turns` periods, or, without, over the last one: displacements as shares of
+  /// the clearance, speeds as shares of the largest of all sections; of a clearance link the sine and cosine
+  /// of its angle, and its speed as a share of one turn a period.
   double change = nan;
   std::optional<JointOrbit> orbit;  ///< of continuous contact, where that was looked for
 };
@@ -166,15 +166,16 @@ void add_facts(const ClearanceStudy& study, const ClearanceRecording& recording,
 /// Tables, plots and facts.
 study::Result report_clearance(const ClearanceStudy& study, ClearanceRecording recording);
 
-/// The linkage in motion with its play enlarged so that one sees it. Of a row it takes the record, whose
-/// input is that of the scene, and the eccentricities of the pins; of the study the linkage and its pins.
+/// The linkage in motion with its clearances enlarged so that one sees them. Of a row it takes the record,
+/// whose input is that of the scene, and the eccentricities of the pins; of the study the linkage and its
+/// pins.
 study::Scene clearance_scene(const ClearanceStudy& study, const ClearanceRecording& recording,
                              std::string input_key = "time_s", std::string input_label = "time");
 
 // ---- shared with other studies of clearance
 // --------------------------------------------------------------------
 
-/// The joint that `name`, found at `key` of a table, means. Nothing, and the problem told, when there is
+/// The joint that `name`, found at `key` of a table, means. Nothing, and the problem reported, when there is
 /// none.
 std::optional<int> joint_named(study::ObjectReader& table, std::string_view key, const std::string& name,
                                const planar::Linkage& linkage);

@@ -14,7 +14,7 @@ namespace {
 constexpr double poor_balance = 1e-5;
 // Of the radius of the pin: depths beyond it are outside of the law of contact.
 constexpr double deep_share = 0.1;
-// Of the coefficient of restitution: a law that is off by more is told.
+// Of the coefficient of restitution: a law that is off by more is reported.
 constexpr double far_restitution = 0.25;
 
 std::string newtons(double force) {
@@ -113,7 +113,7 @@ class Facts {
              "{:.6g} s, in continuous contact; found in {} steps of Newton's method, a period changes it by "
              "{:.2g}{}",
              s_.period, orbit.iterations, orbit.residual,
-             taken ? "" : "; but pins part on it, or it is unstable"),
+             taken ? "" : "; but pins separate on it, or it is unstable"),
          taken ? Verdict::good : Verdict::plain);
     std::string multipliers;
     for (const std::complex<double>& m : orbit.multipliers)
@@ -125,7 +125,7 @@ class Facts {
          unstable ? Verdict::bad : Verdict::good);
     if (unstable && taken)
       warn("the periodic motion is unstable: a real linkage leaves it",
-           "model = \"automatic\" goes on turn after turn to the motion that it comes to");
+           "model = \"automatic\" follows it, turn after turn, until it repeats");
   }
   static std::string_view summary_of(OrbitStability stability) {
     for (const auto& word : names(OrbitStability{}))
@@ -147,9 +147,9 @@ class Facts {
       fact("model", "continuous contact holds throughout", Verdict::good);
       return;
     }
-    fact("model", fmt::format("pin {} parted from its bush at {:.6g} s{}; from there on real contact{}",
+    fact("model", fmt::format("pin {} separated from its bush at {:.6g} s{}; from there on real contact{}",
                               name(at(r_.parted)), r_.switched, where_switched(),
-                              s_.pins() > 1 ? " of all loose pins" : ""));
+                              s_.pins() > 1 ? " of all clearance joints" : ""));
   }
   void contact_facts() {
     if (!(duration() > 0)) return;
@@ -202,7 +202,7 @@ class Facts {
                      depth > c.bush_radius ? ", which is more than the bush is wide" : ""),
          "stiffer bodies (modulus, stiffness), less mass or less speed; real bodies would yield or break");
   }
-  // A law that does not give the coefficient of restitution that it is told.
+  // A law that does not give the given coefficient of restitution.
   void poor_restitution(std::size_t k) {
     const ContactLaw& law = s_.contacts[k].law;
     const ImpactShape shape = impact_shape(law);
@@ -211,7 +211,7 @@ class Facts {
              "restitution = {:g} of '{}': by {} an impact gives back {:.3g} of its speed, with {:.3g} "
              "times the force and {:.3g} times the depth of an elastic one",
              law.restitution, name(k), name_of(law.damping), shape.restitution, shape.force, shape.depth),
-         fmt::format("from {:g} on the law is within {:g} % of what it is told",
+         fmt::format("from {:g} on the law is within {:g} % of the given value",
                      least_restitution(law.damping, far_restitution), 100 * far_restitution));
   }
   void continuous_facts() {
@@ -229,9 +229,10 @@ class Facts {
            fmt::format("lost at {:.4g} s; without contact {:.3g} % of the time, least tension {:.4g} N",
                        v.first_separation, 100 * v.separated, v.least_tension),
            Verdict::bad);
-      warn(fmt::format("the pin of '{}' is taken to touch its bush always, but they part at {:.4g} s: what "
-                       "follows is outside of the model",
-                       name(k), v.first_separation),
+      warn(fmt::format(
+               "the pin of '{}' is taken to touch its bush always, but they separate at {:.4g} s: what "
+               "follows is outside of the model",
+               name(k), v.first_separation),
            "model = \"contact\" computes flights and impacts, model = \"automatic\" from there on");
     }
   }
@@ -248,7 +249,7 @@ class Facts {
   std::string motion_headline() const {
     const bool begins = result_.headline.empty();
     if (r_.went_over())
-      return fmt::format("{} {} parts from its bush at {:.4g} s{}, and {} contacts with up to {} follow",
+      return fmt::format("{} {} separates from its bush at {:.4g} s{}, and {} contacts with up to {} follow",
                          begins ? "Pin" : "pin", name(at(r_.parted)), r_.switched, where_switched(),
                          r_.events.size(), newtons(largest_force_));
     if (real())

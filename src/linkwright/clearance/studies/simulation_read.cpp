@@ -331,16 +331,15 @@ void fields(Visitor&& visit, ClearanceStudy& s) {
         s.samples);
   visit(Field{.key = "rtol", .summary = "relative tolerance of a step", .minimum = 1e-13, .maximum = 1e-3},
         s.relative_tolerance);
-  visit(
-      Field{.key = "max_steps", .summary = "steps after which it is given up", .minimum = 1, .maximum = 1e9},
-      s.max_steps);
+  visit(Field{.key = "max_steps", .summary = "largest number of steps", .minimum = 1, .maximum = 1e9},
+        s.max_steps);
 }
 
 namespace {
 
 // The period of the drives, which a periodic regime needs.
 void find_period(study::ObjectReader& table, ClearanceStudy& s) {
-  const DrivePeriod found = drive_period(s.courses, s.plan.rotary);
+  const DrivePeriod found = drive_period(s.drives, s.plan.rotary);
   s.period = found.period;
   if (!s.periodic()) return;
   if (found.period == 0) {
@@ -391,13 +390,13 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
     return prepared;
   }
   Value::Array drives, clearances;
-  s.courses = planar::read_courses(document, *description, drives);
+  s.drives = planar::read_input_drives(document, *description, drives);
   planar::write_linkage(*description, prepared.canonical);
   s.linkage = std::move(description->linkage);
   s.plan = std::move(description->plan);
   s.traces = std::move(description->traces);
   read_clearances(document, s, common.units, clearances);
-  if (simulation && s.courses.size() == s.plan.inputs()) find_period(*simulation, s);
+  if (simulation && s.drives.size() == s.plan.inputs()) find_period(*simulation, s);
   if (simulation && !document.document().has_errors()) check_memory(*simulation, s);
   prepared.canonical["drive"] = Value(std::move(drives));
   prepared.canonical["clearance"] = Value(std::move(clearances));
@@ -416,7 +415,7 @@ study::Kind clearance_kind() {
   kind.quantities = planar::linkage_quantity_words();
   kind.schema = [](study::SchemaWriter& document) {
     planar::describe_linkage(document, planar::LinkageType::linkage);
-    planar::describe_courses(document);
+    planar::describe_input_drives(document);
     document.property(Field{.key = "clearance", .summary = "pins that have clearance", .required = true},
                       study::schema_array(study::schema_fields<PinForm>()));
     document.property(Field{.key = "simulation", .summary = "time and tolerances", .required = true},

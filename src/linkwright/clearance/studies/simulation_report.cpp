@@ -161,18 +161,18 @@ class SimulationReporter {
   }
 
   // With one rotary drive the clearance link runs before it.
-  bool leads() const { return s_.plan.inputs() == 1 && s_.plan.rotary[0]; }
-  void add_lead(Table& table, std::size_t k) {
-    std::vector<double> lead =
+  bool has_phase() const { return s_.plan.inputs() == 1 && s_.plan.rotary[0]; }
+  void add_phase(Table& table, std::size_t k) {
+    std::vector<double> phase =
         column(r_.rows, [&](const RecordedRow& r) { return r.pins[k].angle - r.inputs[0].value; });
-    if (!lead.empty()) {
-      const double turns = lead[0] - math::wrap_angle(lead[0]);
-      for (double& v : lead) v -= turns;
+    if (!phase.empty()) {
+      const double turns = phase[0] - math::wrap_angle(phase[0]);
+      for (double& v : phase) v -= turns;
     }
     table.add(
-        key(k) + "_lead_rad",
+        key(k) + "_phase_rad",
         fmt::format("{} clearance link before {} (rad)", name(k), planar::input_joint(s_.linkage, 0).name),
-        std::move(lead));
+        std::move(phase));
   }
   static void unwrap_known(std::vector<double>& angles) {
     double last = nan;
@@ -213,9 +213,9 @@ class SimulationReporter {
             [](const PinInstant& p) { return p.angle_acceleration; });
         add("_tension_N", "tension of the clearance link, positive in contact (N)",
             [](const PinInstant& p) { return p.normal; });
-        if (leads()) add_lead(table, k);
+        if (has_phase()) add_phase(table, k);
       }
-      // The way of the pin beside the circle that it is in.
+      // The path of the pin beside the circle that it is in.
       std::vector<double> circle_x, circle_y;
       for (std::size_t i = 0; i < rows(); ++i) {
         const double angle = 2 * pi * double(i) / double(std::max<std::size_t>(rows() - 1, 1));
@@ -277,9 +277,9 @@ class SimulationReporter {
       spectrum.push_back(key(k) + "_amplitude_N");
       for (const char* end : {"_force_x_N", "_force_y_N"}) map.push_back(key(k) + end);
       for (const char* end : {"_time_share_x", "_time_share_y"}) times.push_back(key(k) + end);
-      angles.push_back(key(k) + (contact() ? "_contact_angle_rad" : "_lead_rad"));
+      angles.push_back(key(k) + (contact() ? "_contact_angle_rad" : "_phase_rad"));
     }
-    plot("hodograph", "Ways of the pins in their bushes", "hodograph", "", hodograph, Style::polar);
+    plot("hodograph", "Paths of the pins in their bushes", "hodograph", "", hodograph, Style::polar);
     plot("contact-forces",
          contact() ? "Contact forces" : "Tension of the clearance links: contact while positive", "pins",
          "time_s", forces);
@@ -291,7 +291,7 @@ class SimulationReporter {
          "the bush",
          "contact_map", "", times, Style::polar);
     plot("contact-angles",
-         contact() ? "Where the pins touch: directions in their bushes" : "Leads of the clearance links",
+         contact() ? "Where the pins touch: directions in their bushes" : "Phases of the clearance links",
          "pins", "time_s", angles, contact() ? Style::points : Style::line);
     if (!contact()) {
       std::vector<std::string> speeds;
@@ -323,7 +323,7 @@ class SimulationReporter {
            {key(k) + (contact() ? "_eccentricity_rate_x_m_per_s" : "_link_speed_rad_per_s")}, Style::points);
     plot("energies", "Energies", "motion", "time_s",
          {"kinetic_energy_J", "potential_energy_J", "contact_energy_J", "dissipated_energy_J", "work_J"});
-    plot("energy-audit", "Energy audit: what does not balance", "motion", "time_s", {"energy_drift_J"});
+    plot("energy-audit", "Energy audit: imbalance", "motion", "time_s", {"energy_drift_J"});
   }
 
   const ClearanceStudy& s_;

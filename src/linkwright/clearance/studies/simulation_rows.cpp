@@ -30,7 +30,7 @@ Vec<double> place_of(const planar::Linkage& l, const planar::LinkagePlan& plan,
 ClearanceRows::ClearanceRows(const ClearanceStudy& study, ClearanceRecording& out,
                              std::function<bool(RecordedRow&&)> keep)
     : s_(study), out_(out), keep_(std::move(keep)) {
-  out_.columns = planar::driven_columns(s_.linkage, s_.plan, s_.quantities, s_.traces, s_.courses);
+  out_.columns = planar::driven_columns(s_.linkage, s_.plan, s_.quantities, s_.traces, s_.drives);
 }
 
 // ---- columns of a linkage whose joints are others ---------------------------------------------------------
@@ -49,7 +49,7 @@ ClearanceRows::Value ClearanceRows::value_of(const planar::LinkageColumn& column
     if (column.key == key + "_N")
       return [k](const planar::LinkageInstant&, const RecordedRow& r) { return norm(r.pins[k].force); };
   }
-  for (std::size_t k = s_.courses.size(); k < plan.inputs(); ++k)
+  for (std::size_t k = s_.drives.size(); k < plan.inputs(); ++k)
     if (planar::input_key(linkage, plan, k) == column.key)
       return [k](const planar::LinkageInstant& i, const RecordedRow&) { return i.inputs[k].value; };
   const auto found = std::find_if(own.begin(), own.end(), [&](const auto& o) { return o.key == column.key; });
@@ -141,7 +141,7 @@ PinInstant ClearanceRows::pin_in_contact(const ContactRow& c, std::size_t k) {
   const bool pin_first = s_.contacts[k].pin == PinSide::first;
   const Vec<double> e = planar::vec(state.eccentricity);
   const Vec<double> n = norm(e) > 0 ? (1 / norm(e)) * e : Vec<double>{1, 0};
-  const Vec<double> on_pin = -state.normal * n - state.friction * left(n);
+  const Vec<double> on_pin = -state.normal * n - state.friction * perpendicular(n);
   const Vec<double> where =
       place_of(open_->linkage, open_->plan, *c.motion, pin_first ? pin.first : pin.second) +
       (s_.contacts[k].bush_radius - s_.contacts[k].clearance) * n;
@@ -152,7 +152,7 @@ PinInstant ClearanceRows::pin_in_contact(const ContactRow& c, std::size_t k) {
     force.force = number(side == 0 ? -on_second : on_second);
     const planar::PartState<double> frame = planar::body_state(open_->plan, *c.motion, force.point.body);
     pressed_.bodies[at(force.point.body)].points[at(force.point.point)].at =
-        number(unturn(frame.direction, where - frame.origin));
+        number(rotate_inverse(frame.direction, where - frame.origin));
   }
   // The clearance link, had it stayed: the way between the points from the first body to the second.
   const std::complex<double> way = pin_first ? -state.eccentricity : state.eccentricity;
@@ -188,7 +188,7 @@ bool ClearanceRows::finish(RecordedRow row, const Stage& stage, std::span<const 
   const planar::LinkageInstant instant{row.time, {inputs.begin(), inputs.end()}, &motion, &forces_};
   for (const Value& value : stage.values)
     row.values.push_back(row.status == Status::done ? value(instant, row) : nan);
-  row.inputs.assign(inputs.begin(), inputs.begin() + static_cast<std::ptrdiff_t>(s_.courses.size()));
+  row.inputs.assign(inputs.begin(), inputs.begin() + static_cast<std::ptrdiff_t>(s_.drives.size()));
   row.record.status = row.status;
   row.record.input = row.time;
   for (int b = 0; b < static_cast<int>(s_.linkage.bodies.size()); ++b)
@@ -199,7 +199,7 @@ bool ClearanceRows::finish(RecordedRow row, const Stage& stage, std::span<const 
     for (std::size_t k = 0; k < s_.pins(); ++k)
       row.record.joints[at(s_.joint_of(k))].force = row.pins[k].force;
     row.record.drives.assign(forces_.drives.begin(),
-                             forces_.drives.begin() + static_cast<std::ptrdiff_t>(s_.courses.size()));
+                             forces_.drives.begin() + static_cast<std::ptrdiff_t>(s_.drives.size()));
   }
   return keep_(std::move(row));
 }

@@ -18,12 +18,12 @@ constexpr int most_periods = 8;
 
 std::vector<math::MotionCurve> curves_of(const ClearanceStudy& s) {
   std::vector<math::MotionCurve> out;
-  for (const planar::InputCourse& c : s.courses)
+  for (const planar::InputDrive& c : s.drives)
     if (c.law) out.emplace_back(*c.law);
   return out;
 }
 bool all_driven(const ClearanceStudy& s) {
-  return std::all_of(s.courses.begin(), s.courses.end(), [](const auto& c) { return c.law.has_value(); });
+  return std::all_of(s.drives.begin(), s.drives.end(), [](const auto& c) { return c.law.has_value(); });
 }
 std::vector<InputMotion> inputs_at(const std::vector<math::MotionCurve>& curves, double t) {
   std::vector<InputMotion> out;
@@ -56,7 +56,7 @@ class Recorder {
         context_(context),
         same_(1e-12 * std::max({std::abs(s.from), std::abs(s.to()), s.to() - s.from})),
         rows_(s, out_, [this](RecordedRow&& row) { return keep(std::move(row)); }) {
-    for (const planar::InputCourse& c : s_.courses)
+    for (const planar::InputDrive& c : s_.drives)
       start_.push_back(c.law ? math::MotionCurve(*c.law)(s_.from).value : c.value);
     for (const ContactJoint& c : s_.contacts) contact_numbers_.push_back(c.joint);
   }
@@ -195,7 +195,7 @@ class Recorder {
   }
   void with_contacts() {
     const ContactRun run = simulate_contact(
-        s_.linkage, s_.contacts, s_.courses, times_,
+        s_.linkage, s_.contacts, s_.drives, times_,
         {.tolerance = s_.relative_tolerance,
          .max_steps = s_.max_steps,
          .stop_when_hopeless = s_.periodic() == nullptr},
@@ -206,7 +206,7 @@ class Recorder {
   }
   void with_continuous_contact() {
     const JointClearanceRun run = simulate_joint_clearance(
-        s_.linkage, starts_, s_.courses, times_, continuous_options(),
+        s_.linkage, starts_, s_.drives, times_, continuous_options(),
         [&](const JointClearanceRow& row) { return rows_.add(row); }, &context_, AtSeparation::go_on,
         s_.periodic() ? AtHopeless::go_on : AtHopeless::stop);
     fail(run.status, run.message);
@@ -218,7 +218,7 @@ class Recorder {
     for (std::size_t k = 0; k < starts_.size(); ++k)
       pins.push_back({s_.contacts[k], starts_[k].angle, starts_[k].rate});
     const AutomaticContactRun run = simulate_automatic_contact(
-        s_.linkage, pins, s_.courses, times_,
+        s_.linkage, pins, s_.drives, times_,
         {.tolerance = s_.relative_tolerance,
          .max_steps = s_.max_steps,
          .stop_when_hopeless = s_.periodic() == nullptr},
@@ -283,7 +283,7 @@ class Recorder {
     options.relative_tolerance = std::min(options.relative_tolerance, 1e-10);
     options.absolute_tolerance = 0.01 * options.relative_tolerance;
     JointOrbit orbit =
-        find_joint_orbit(s_.linkage, starts_, s_.courses, s_.from, s_.period, options, &context_);
+        find_joint_orbit(s_.linkage, starts_, s_.drives, s_.from, s_.period, options, &context_);
     const bool found = orbit.status == Status::done;
     const bool interrupted = orbit.status == Status::cancelled || orbit.status == Status::deadline;
     if (interrupted) fail(orbit.status, orbit.message);
@@ -310,7 +310,7 @@ class Recorder {
   bool pressed_directions(double t, std::vector<double>& directions) {
     planar::LinkageMotion motion(s_.plan);
     std::vector<InputMotion> inputs;
-    for (const planar::InputCourse& c : s_.courses) {
+    for (const planar::InputDrive& c : s_.drives) {
       InputMotion now{c.value, c.rate, 0};
       if (c.law) {
         const math::Motion m = math::MotionCurve(*c.law)(t);
@@ -373,7 +373,7 @@ class Recorder {
       }
     } else if (times.size() > 1) {
       planar::simulate(
-          s_.linkage, s_.plan, s_.courses, times, {},
+          s_.linkage, s_.plan, s_.drives, times, {},
           [&](const planar::SimulationInstant& i) {
             add_ideal(i.time, i.status, i.inputs, *i.motion);
             return true;
@@ -381,7 +381,7 @@ class Recorder {
           &context_);
     }
   }
-  // Paths as lines: finer than the rows where a law tells what is between them.
+  // Paths as lines: finer than the rows where a law says what is between them.
   void paths() {
     out_.ideal_paths.resize(s_.traces.size());
     if (s_.traces.empty() || out_.ideal.empty()) return;

@@ -11,7 +11,7 @@
 namespace linkwright::clearance {
 namespace {
 
-// Turns below which a section tells nothing, and rows below which a spectrum does.
+// Turns below which a section says nothing, and rows below which a spectrum does.
 constexpr std::size_t least_turns = 3, least_rows = 32;
 constexpr int map_directions = 72;
 
@@ -154,8 +154,8 @@ Table orbit_table(const ClearanceStudy& s, const JointOrbit& orbit) {
   add("link_angle_rad", "direction of the clearance link at the start (rad)",
       [](const ClearanceState& c) { return math::wrap_angle(c.angle); });
   add("link_speed_rad_per_s", "its speed (rad/s)", [](const ClearanceState& c) { return c.rate; });
-  if (s.plan.inputs() != 1 || !s.plan.rotary[0] || !s.courses[0].law) return table;
-  const math::Motion crank = math::MotionCurve(*s.courses[0].law)(s.from);
+  if (s.plan.inputs() != 1 || !s.plan.rotary[0] || !s.drives[0].law) return table;
+  const math::Motion crank = math::MotionCurve(*s.drives[0].law)(s.from);
   add("phase_rad", "phase from the drive (rad)",
       [&](const ClearanceState& c) { return math::angle_difference(c.angle, crank.value); });
   if (crank.rate != 0)

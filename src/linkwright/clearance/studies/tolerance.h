@@ -35,9 +35,9 @@ study::Result run_tolerance_study(const ToleranceStudy& study, RunContext& conte
 // ---- between running and reporting
 // -----------------------------------------------------------------------------
 
-/// What errs as one thing, in the order of `quantity_count`.
+/// What deviates as one thing, in the order of `quantity_count`.
 struct ToleranceQuantity {
-  enum class Kind { point, angle, way, force, torque } kind = Kind::point;
+  enum class Kind { point, angle, displacement, force, torque } kind = Kind::point;
   std::string key;            ///< "coupler_P", "B0_angle", "A_force", "O_drive_torque"
   std::string name;           ///< "coupler.P", "angle of B0"
   std::size_t first = 0;      ///< its first value
@@ -95,8 +95,8 @@ struct PathBand {
 };
 PathBand path_band(const ToleranceStudy& study, const ToleranceRecording& recording, std::size_t point);
 
-/// The linkage in motion with the band of every traced point and the play of its pins, both enlarged `scale`
-/// times.
+/// The linkage in motion with the band of every traced point and the clearance of its pins, both enlarged
+/// `scale` times.
 study::Scene tolerance_scene(const ToleranceStudy& study, const ToleranceRecording& recording,
                              const std::vector<PathBand>& bands, double scale);
 /// 1, 2, 5, 10, ... so that the bands can be seen.

@@ -42,11 +42,12 @@ struct LengthForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, LengthForm& t) {
-  visit(Field{.key = "body", .summary = "body whose length errs", .required = true}, t.body);
+  visit(Field{.key = "body", .summary = "body whose length deviates", .required = true}, t.body);
   visit(Field{.key = "from", .summary = "point of the body that stays", .required = true}, t.from);
   visit(Field{.key = "to", .summary = "point of the body that is nearer to it or farther", .required = true},
         t.to);
-  visit(range("tolerance", "the distance errs by at most this, either way", Dimension::length), t.tolerance);
+  visit(range("tolerance", "the distance deviates by at most this, in either direction", Dimension::length),
+        t.tolerance);
 }
 
 struct WatchForm {
@@ -55,10 +56,10 @@ struct WatchForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, WatchForm& w) {
-  visit(Field{.key = "coordinates", .summary = "joints whose angle or way is looked at"}, w.coordinates);
-  visit(Field{.key = "forces", .summary = "joints whose force is looked at"}, w.forces);
-  visit(Field{.key = "drives", .summary = "whether torques and forces of the drives are looked at"},
-        w.drives);
+  visit(Field{.key = "coordinates", .summary = "joints whose angle or displacement is reported"},
+        w.coordinates);
+  visit(Field{.key = "forces", .summary = "joints whose force is reported"}, w.forces);
+  visit(Field{.key = "drives", .summary = "whether torques and forces of the drives are reported"}, w.drives);
 }
 
 struct MonteCarloForm {
@@ -89,7 +90,7 @@ std::string hint_for(std::string_view name, const std::vector<std::string_view>&
   return nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest);
 }
 
-// ---- what is loose
+// ---- what has clearance
 // ----------------------------------------------------------------------------------------------------
 
 void read_pins(study::ObjectReader& document, ToleranceStudy& s, Value& canonical) {
@@ -190,9 +191,11 @@ void read_watch(study::ObjectReader& document, ToleranceStudy& s, Value& canonic
       const bool has_one = type == planar::JointType::revolute || type == planar::JointType::prismatic;
       const bool driven = std::find(l.driven.begin(), l.driven.end(), j) != l.driven.end();
       if (!has_one)
-        table->error("coordinates", fmt::format("joint '{}' is {}; only revolute and prismatic joints have "
-                                                "an angle or a way",
-                                                name, name_of(type)));
+        table->error(
+            "coordinates",
+            fmt::format(
+                "joint '{}' is {}; only revolute and prismatic joints have an angle or a displacement", name,
+                name_of(type)));
       else if (driven)
         table->error("coordinates", fmt::format("joint '{}' is driven: its coordinate is given", name));
       return has_one && !driven;
@@ -200,7 +203,8 @@ void read_watch(study::ObjectReader& document, ToleranceStudy& s, Value& canonic
   for (const std::string& name : form.forces)
     add("forces", name, s.outputs.forces, [&](int j) {
       const bool has_one = l.joints[at(j)].type != planar::JointType::gear;
-      if (!has_one) table->error("forces", fmt::format("joint '{}' is a gear: no force is told of it", name));
+      if (!has_one)
+        table->error("forces", fmt::format("joint '{}' is a gear: its force is not reported", name));
       return has_one;
     });
   s.outputs.drives = form.drives;
@@ -327,8 +331,8 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
                    "leave it out, or take mechanism.type = \"planar.linkage\"");
   if (auto sweep = document.table("sweep"); sweep && sweep->has("at_change_point"))
     sweep->error("at_change_point",
-                 "a linkage whose lengths err has no change points: its ways part there, and the linear "
-                 "theory ends",
+                 "a linkage whose lengths deviate has no change points: its branches separate there, and the "
+                 "linear theory ends",
                  "leave it out, and sweep up to the change point");
   // A linkage without inputs has no sweep.
   if (Value& sweep = prepared.canonical["sweep"]; sweep.is_object())
@@ -336,8 +340,8 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   read_pins(document, s, prepared.canonical);
   read_lengths(document, s, prepared.canonical);
   if (s.tolerance_count() == 0 && !document.document().has_errors())
-    document.error("clearance", "nothing errs",
-                   "add [[clearance]] tables for loose pins or [[tolerance]] tables for lengths");
+    document.error("clearance", "no errors are given",
+                   "add [[clearance]] tables for joint clearances or [[tolerance]] tables for lengths");
   read_watch(document, s, prepared.canonical);
   read_limits(document, s, prepared.canonical);
   if (!document.document().has_errors()) check_memory(document, s);
@@ -350,7 +354,7 @@ void describe(study::SchemaWriter& document) {
   planar::describe_linkage_motion(document, planar::LinkageType::linkage, false);
   document.property(Field{.key = "clearance", .summary = "pins that have clearance"},
                     study::schema_array(study::schema_fields<LoosePinForm>()));
-  document.property(Field{.key = "tolerance", .summary = "lengths that err"},
+  document.property(Field{.key = "tolerance", .summary = "lengths that deviate"},
                     study::schema_array(study::schema_fields<LengthForm>()));
   document.property(Field{.key = "watch", .summary = "what is looked at beside the traced points"},
                     study::schema_fields<WatchForm>());

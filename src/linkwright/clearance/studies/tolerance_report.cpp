@@ -260,7 +260,7 @@ class ToleranceReporter {
     };
     told([](Status s) { return s != Status::done && s != Status::infeasible; },
          "have no answer: the linkage does not assemble there or stands at a dead point",
-         "sweep over a range where it moves; the analysis of planar.linkage tells that range");
+         "sweep over a range where it moves; the analysis of planar.linkage reports that range");
     told([](Status s) { return s == Status::infeasible; },
          "are at the end of the motion: linkages with the least errors do not assemble there",
          "end the sweep before them");
@@ -283,7 +283,7 @@ class ToleranceReporter {
           least = row;
       warn(fmt::format("{} of {} random linkages do not assemble everywhere; at {} {} of them do not", apart,
                        r_.random.draws, where(least), r_.random.draws - r_.random.samples[least].assembled),
-           "they count as beyond every limit; what else is told of random linkages is about the others");
+           "they count as beyond every limit; all other figures of random linkages are about the rest");
     }
     for (std::size_t q = 0; q < quantities(); ++q) linearity(q);
   }
@@ -299,7 +299,7 @@ class ToleranceReporter {
     for (std::size_t row = 0; row < rows(); ++row) {
       const MonteCarloSample& m = r_.random.samples[row];
       const double linear = r_.root_mean_square(row, q);
-      // Where the first order hardly errs at all the second one is all there is, and small.
+      // Where the first order hardly deviates at all the second one is all there is, and small.
       if (r_.linear[row].status != Status::done || m.assembled < 2 || linear < 0.05 * largest) continue;
       double squares = 0;
       for (std::size_t i = quantity.first; i < quantity.first + quantity.size; ++i)
@@ -311,7 +311,7 @@ class ToleranceReporter {
     }
     if (count > 0)
       warn(fmt::format(
-               "{}: the random linkages err otherwise than the linear theory says at {} of {} positions, "
+               "{}: the errors of the random linkages differ from the linear theory at {} of {} positions, "
                "by {:.0f} % (root mean square) at {}",
                quantity.name, count, rows(), 100 * most, where(farthest)),
            "take the random linkages there; worst case and budget are of the linear theory");
@@ -326,7 +326,7 @@ class ToleranceReporter {
       return;
     }
     std::string& text = result_.headline;
-    text = fmt::format("{} errs by at most {} (worst case, at {})", main.name, shown(main.kind, worst(0)),
+    text = fmt::format("{} deviates by at most {} (worst case, at {})", main.name, shown(main.kind, worst(0)),
                        where(main.worst_row));
     if (text[0] >= 'a' && text[0] <= 'z' && main.kind != Kind::point)
       text[0] = static_cast<char>(text[0] - 'a' + 'A');

@@ -32,7 +32,7 @@ std::vector<ToleranceQuantity> quantities_of(const planar::LinkageStudy& s, cons
   for (const int j : o.coordinates) {
     const planar::LinkageJoint& joint = l.joints[at(j)];
     const bool turns = joint.type == planar::JointType::revolute;
-    add(turns ? Kind::angle : Kind::way,
+    add(turns ? Kind::angle : Kind::displacement,
         planar::identifier(joint.name) + (turns ? "_angle" : "_displacement"),
         (turns ? "angle of " : "displacement of ") + joint.name);
   }
@@ -107,7 +107,7 @@ void record_motion(const ToleranceStudy& s, ToleranceRecording& r, bool time, co
 std::string unit_key(Kind kind) {
   switch (kind) {
     case Kind::point:
-    case Kind::way:
+    case Kind::displacement:
       return "m";
     case Kind::angle:
       return "rad";
@@ -124,7 +124,7 @@ std::string unit_label(Kind kind) { return kind == Kind::torque ? "N m" : unit_k
 std::string shown(Kind kind, double value) {
   switch (kind) {
     case Kind::point:
-    case Kind::way:
+    case Kind::displacement:
       return fmt::format("{:.3g} mm", 1e3 * value);
     case Kind::angle:
       return fmt::format("{:.3g}°", math::degrees(value));
@@ -190,7 +190,7 @@ ToleranceRecording record_tolerances(const ToleranceStudy& s, RunContext& contex
   for (const auto& row : r.rows.inputs) samples.insert(samples.end(), row.begin(), row.end());
   const planar::Linkage& l = s.motion.linkage;
   r.linear = clearance_sensitivity(l, s.tolerances, s.outputs, samples, r.rows.time, &context);
-  // Interrupted: everything is told of the samples that there are.
+  // Interrupted: everything is reported of the samples that there are.
   r.rows.time.resize(r.linear.size());
   r.rows.inputs.resize(r.linear.size());
   r.run_length = std::min(r.run_length, r.linear.size());
@@ -231,7 +231,7 @@ PathBand path_band(const ToleranceStudy& s, const ToleranceRecording& r, std::si
     // Where a point turns back its neighbours lie at one place.
     if (!(norm(way) > least)) way = place(after) - place(row);
     if (!(norm(way) > least)) continue;
-    const planar::Vec<double> n = (1 / norm(way)) * left(way);
+    const planar::Vec<double> n = (1 / norm(way)) * perpendicular(way);
     const double *x = r.linear[row].derivatives.data() + i * parameters, *y = x + parameters;
     const auto across = [&](std::size_t j) { return n.x * x[j] + n.y * y[j]; };
     double error = 0;

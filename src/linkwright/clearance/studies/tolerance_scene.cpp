@@ -28,10 +28,10 @@ study::Scene tolerance_scene(const ToleranceStudy& s, const ToleranceRecording& 
   const bool time = std::holds_alternative<study::TimeSamples>(s.motion.sweep);
   const std::size_t axis = s.motion.plan.inputs() - 1;
   const std::string& driven = planar::input_joint(l, axis).name;
-  study::Scene scene =
-      planar::linkage_scene(l, s.motion.plan, r.records, s.outputs.points, tolerance_input_key(s),
-                            time ? "time" : driven + (s.motion.plan.rotary[axis] ? " angle" : " way"));
-  scene.title = fmt::format("motion; play and bands drawn {:g} x", scale);
+  study::Scene scene = planar::linkage_scene(
+      l, s.motion.plan, r.records, s.outputs.points, tolerance_input_key(s),
+      time ? "time" : driven + (s.motion.plan.rotary[axis] ? " angle" : " displacement"));
+  scene.title = fmt::format("motion; clearances and bands drawn {:g} x", scale);
   // The two edges of each band, as far as the worst error across the path carries the point.
   for (std::size_t p = 0; p < bands.size(); ++p) {
     const std::size_t i = r.quantities[p].first;
@@ -52,7 +52,7 @@ study::Scene tolerance_scene(const ToleranceStudy& s, const ToleranceRecording& 
       scene.traces.push_back({point, name, closed});
     }
   }
-  // A circle at each loose pin, as large as its play.
+  // A circle at each clearance joint, as large as its clearance.
   for (const PinTolerance& pin : s.tolerances.pins) {
     const planar::LinkageJoint& joint = l.joints[at(pin.joint)];
     int centre = joint.first.point;

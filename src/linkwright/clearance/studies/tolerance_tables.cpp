@@ -171,10 +171,10 @@ class Tabler {
     const double variance = std::pow(r_.root_mean_square(row, q), 2), all = r_.worst(q);
     const auto part = [](double of, double total) { return total > 0 ? of / total : 0; };
     const std::string unit = unit_key(quantity.kind), label = unit_label(quantity.kind);
-    const bool length = quantity.kind == Kind::point || quantity.kind == Kind::way;
+    const bool length = quantity.kind == Kind::point || quantity.kind == Kind::displacement;
     add("tolerance_m", "tolerance (m)", [&](std::size_t k) { return tolerance_range(s_, k); });
     add("worst_" + unit,
-        fmt::format("part of the worst case at {} ({})", tolerance_place(s_, r_, row), label),
+        fmt::format("contribution to the worst case at {} ({})", tolerance_place(s_, r_, row), label),
         [&](std::size_t k) { return r_.contribution(row, q, k); });
     add("worst_share", "share of the worst case",
         [&](std::size_t k) { return part(r_.contribution(row, q, k), all); });
@@ -189,7 +189,7 @@ class Tabler {
     add_inputs(over);
     for (const std::size_t k : order)
       over.add(planar::identifier(r_.tolerances[k]) + "_" + unit,
-               fmt::format("part of {} ({})", r_.tolerances[k], label),
+               fmt::format("contribution of {} ({})", r_.tolerances[k], label),
                column([&](std::size_t i) { return r_.contribution(i, q, k); }));
     finish(std::move(over));
   }

@@ -326,8 +326,9 @@ step_s = 0.005
                       study::schema_fields<ArmForm>());
     document.property(Field{.key = "drive", .summary = "what turns hub and hinges", .required = true},
                       study::schema_array(study::schema_fields<ArmDriveForm>()));
-    document.property(Field{.key = "shaping", .summary = "all drives in shares that cancel a vibration"},
-                      study::schema_fields<ShapingForm>());
+    document.property(
+        Field{.key = "shaping", .summary = "input shaping of all drives that cancels a vibration"},
+        study::schema_fields<ShapingForm>());
     document.property(Field{.key = "simulation", .summary = "how it is followed in time", .required = true},
                       study::schema_fields<SimulationForm>());
   };

@@ -78,7 +78,7 @@ Start start_of(const ChainStudy& s, const Chain& chain, study::Result& result) {
                                     {},
                                     {},
                                     "simulation.start",
-                                    "no equilibrium was found at the start, the links start straight",
+                                    "no equilibrium was found at the start; the links start straight",
                                     "they bend too far under their weight: take more divisions"});
   }
   return out;

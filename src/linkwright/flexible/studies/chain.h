@@ -18,8 +18,7 @@ namespace linkwright::flexible {
 enum class StartForm { undeformed, equilibrium };
 constexpr std::array<EnumName<StartForm>, 2> names(StartForm) {
   return {{{StartForm::undeformed, "undeformed", "straight links"},
-           {StartForm::equilibrium, "equilibrium",
-            "links bent as their weight bends them with hub and hinges held"}}};
+           {StartForm::equilibrium, "equilibrium", "links bent by their weight, with hub and hinges held"}}};
 }
 
 /// `[simulation]`.
@@ -34,19 +33,18 @@ struct SimulationForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, SimulationForm& s) {
-  visit(beam_fields::number("end", "time to which it is followed", Dimension::time, true, true), s.end);
+  visit(beam_fields::number("end", "end of the simulated time", Dimension::time, true, true), s.end);
   visit(beam_fields::number("step", "longest step of the integration", Dimension::time, false, true), s.step);
   visit(Field{.key = "start", .summary = "how the links are at time 0"}, s.start);
-  visit(Field{.key = "extrapolate", .summary = "with half the step, too, and to the limit of both"},
-        s.extrapolate);
+  visit(Field{.key = "extrapolate", .summary = "repeat with half the step and extrapolate"}, s.extrapolate);
   visit(beam_fields::number("tolerance", "halve the step until the tip moves by no more", Dimension::length,
                             false, true),
         s.tolerance);
   visit(Field{.key = "modes", .summary = "frequencies in the table of modes", .minimum = 1, .maximum = 20},
         s.modes);
-  visit(
-      Field{.key = "compare_divisions", .summary = "again with twice the divisions, and tell the difference"},
-      s.compare_divisions);
+  visit(Field{.key = "compare_divisions",
+              .summary = "repeat with twice the divisions and report the difference"},
+        s.compare_divisions);
   visit(
       Field{.key = "deflection_scale",
             .summary = "how many times as large the scene draws the bending; default: to scale where it can "

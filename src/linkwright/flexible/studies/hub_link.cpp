@@ -69,7 +69,7 @@ std::optional<HubLinkStudy> read_study(study::ObjectReader& document, const stud
       (b.gravity > 0 || b.mass_damping > 0 || b.stiffness_damping > 0 || b.extensible ||
        s.simulation.start == StartForm::equilibrium)) {
     simulation->error("kinematics",
-                      "the printed equations know neither gravity nor damping nor stretching nor equilibrium",
+                      "the printed equations have neither gravity nor damping nor stretching nor equilibrium",
                       "take chord_consistent");
     return std::nullopt;
   }
@@ -78,9 +78,9 @@ std::optional<HubLinkStudy> read_study(study::ObjectReader& document, const stud
     if (how.free() || s.drive.shaping || s.simulation.start == StartForm::equilibrium || b.gravity > 0 ||
         b.mass_damping > 0 || b.stiffness_damping > 0 || b.extensible || b.theory == Theory::timoshenko)
       simulation->error("compare_elastica",
-                        "the elastica is driven from rest, without shaping, and knows no gravity, damping "
+                        "the elastica starts from rest, without shaping, and has no gravity, damping "
                         "of the link, stretching or shear",
-                        "leave it out, or what it does not know");
+                        "leave it out, or what it does not have");
   }
   check_shaping(chain_study(s), *drive);
   if (document.document().has_errors() || !fits_memory(document, s.samples, 2 * s.simulation.divisions))
@@ -123,7 +123,7 @@ void compare_kinematics(const HubLinkStudy& s, study::Result& result, std::vecto
                    fmt::format("{}, {:.2f} times its largest displacement{}", millimetres(difference),
                                difference / largest,
                                s.simulation.kinematics == Kinematics::source_linearised
-                                   ? ": the printed velocities know no stiffening by the speed"
+                                   ? ": the printed velocities lack the stiffening by the speed"
                                    : ""),
                    study::Fact::Verdict::plain});
 }

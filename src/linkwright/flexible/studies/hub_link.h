@@ -32,7 +32,7 @@ struct HubDriveForm {
 template <class Visitor>
 void fields(Visitor&& visit, HubDriveForm& d) {
   visit(Field{.key = "law", .summary = "what turns the hub", .required = true}, d.law);
-  visit(Field{.key = "shaping", .summary = "the drive in shares that cancel a vibration"}, d.shaping);
+  visit(Field{.key = "shaping", .summary = "input shaping of the drive that cancels a vibration"}, d.shaping);
 }
 
 /// `[simulation]`.
@@ -47,10 +47,11 @@ void fields(Visitor&& visit, HubSimulationForm& s) {
   visit(Field{.key = "divisions", .summary = "of the link, two cells each", .minimum = 1, .maximum = 1000},
         s.divisions);
   visit(Field{.key = "kinematics", .summary = "how the joints of the chain move"}, s.kinematics);
-  visit(Field{.key = "compare_elastica",
-              .summary = "again as a smooth line of polynomials, by another method in time, and tell the "
-                         "difference"},
-        s.compare_elastica);
+  visit(
+      Field{.key = "compare_elastica",
+            .summary =
+                "repeat with a beam of polynomials, integrated by another method, and report the difference"},
+      s.compare_elastica);
 }
 
 /// A simulation as read.

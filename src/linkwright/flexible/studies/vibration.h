@@ -51,7 +51,7 @@ void fields(Visitor&& visit, CampbellForm& c) {
       c.samples);
   visit(Field{.key = "orders",
               .summary =
-                  "what excites the link, in multiples of the speed: where they meet a frequency is told",
+                  "orders of excitation, multiples of the speed: where one meets a frequency is reported",
               .minimum = 0,
               .maximum = 1e4,
               .exclusive_minimum = true},

@@ -27,7 +27,7 @@ std::optional<VibrationStudy> read_study(study::ObjectReader& document, const st
   if (s.vibration.kinematics == Kinematics::source_linearised &&
       (b.gravity > 0 || b.mass_damping > 0 || b.stiffness_damping > 0 || b.extensible || load)) {
     vibration->error("kinematics",
-                     "the printed equations know neither gravity nor damping nor stretching, and no large "
+                     "the printed equations have neither gravity nor damping nor stretching, and no large "
                      "deflections under a load",
                      "take chord_consistent");
     return std::nullopt;

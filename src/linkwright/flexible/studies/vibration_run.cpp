@@ -16,7 +16,7 @@ namespace linkwright::flexible {
 namespace {
 
 constexpr double turn_of = 2 * pi;
-/// Share of a frequency by which twice the divisions, or the continuum, may change it before it is told.
+/// Share of a frequency by which twice the divisions, or the continuum, may change it before it is reported.
 constexpr double poor_frequency = 0.01;
 
 std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
@@ -343,7 +343,7 @@ class Analyst {
     } else {
       result_.status = found.status;
       warn("load",
-           fmt::format("the load could be raised to {:.3g} % only ({}); what is told is about that",
+           fmt::format("the load could only be raised to {:.3g} % ({}); the results are for that load",
                        100 * found.share, to_string(found.status)),
            found.status == Status::singular ? "the link is about to buckle" : hint_for_cells());
     }
@@ -351,10 +351,9 @@ class Analyst {
       warn("load", "the link does not stay like that: it has buckled", "take a smaller load along it");
     if (const double kink = largest_kink(chain_, found.state.q); kink > kink_limit)
       warn("vibration.divisions",
-           fmt::format(
-               "two bars stand {:.2g} rad to each other, more than {:g}: the cells are too long for what "
-               "they bend",
-               kink, kink_limit),
+           fmt::format("two bars stand {:.2g} rad to each other, more than {:g}: the cells are too long for "
+                       "this curvature",
+                       kink, kink_limit),
            "take more divisions");
   }
 

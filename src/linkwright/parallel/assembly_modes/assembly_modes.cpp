@@ -212,7 +212,7 @@ std::string note_on(const AssemblyModes& found, const Found& how) {
   if (how.infinite > 0) out += fmt::format("; {} paths went off to infinity", how.infinite);
   if (how.singular > 0) out += fmt::format("; {} paths met others at the end (singular)", how.singular);
   if (how.lost > 0) out += fmt::format("; {} paths were lost on the way", how.lost);
-  return out + fmt::format(" (on way {})", how.ways);
+  return out + fmt::format(" (attempt {})", how.ways);
 }
 
 }  // namespace

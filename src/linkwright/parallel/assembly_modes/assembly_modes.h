@@ -10,7 +10,7 @@
 
 namespace linkwright::parallel {
 
-/// One way to put a hexa together at given arm angles.
+/// One assembly mode of a hexa at given arm angles.
 struct AssemblyMode {
   Pose pose;
   double residual = 0;  ///< largest error of a rod's length (m)

@@ -53,9 +53,9 @@ bool is_out_of_reach(const DexterityStand& stand) {
 
 std::string described(const DexterityStand& stand) {
   if (is_out_of_reach(stand))
-    return fmt::format("leg {} does not reach ({:.4g}, {:.4g}, {:.4g}) m, and all of the region is asked for",
+    return fmt::format("leg {} does not reach ({:.4g}, {:.4g}, {:.4g}) m, and the whole region is required",
                        stand.leg + 1, stand.place.x, stand.place.y, stand.place.z);
-  std::string text = fmt::format("{} is {:.6g}, {} {:.6g} is asked for", name_of(stand.limit), stand.value,
+  std::string text = fmt::format("{} is {:.6g}, {} {:.6g} is required", name_of(stand.limit), stand.value,
                                  stand.at_least ? "at least" : "at most", stand.bound);
   const bool of_pose =
       stand.limit == DexterityLimit::conditioning || stand.limit == DexterityLimit::constraint;

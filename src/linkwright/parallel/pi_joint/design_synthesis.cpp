@@ -210,7 +210,7 @@ std::optional<std::string> problem(const PiRequirements& r) {
   if (!(r.telescoping > 1)) return fmt::format("telescoping ratio = {}, allowed: above 1", r.telescoping);
   if (!(least_jacobian(r).value > 0))
     return "neither a torque with a force limit nor a quantum with a resolution is required: the joint could "
-           "be as small as you like";
+           "become arbitrarily small";
   return {};
 }
 

@@ -13,7 +13,7 @@
 namespace linkwright::parallel {
 
 struct PiScrew {
-  double lead = 0;        ///< h > 0: way of the nut for one turn (m)
+  double lead = 0;        ///< h > 0: travel of the nut for one turn (m)
   double efficiency = 1;  ///< eta in (0, 1], when the motor drives the load
 };
 

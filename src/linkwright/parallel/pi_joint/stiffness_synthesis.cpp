@@ -76,7 +76,7 @@ std::optional<double> diagonal_for_mean(const PiJoint& joint, const PiBars& bars
   };
   double most = least;
   while (excess(most) <= 0) {
-    // Closer to the other bars than rounding can tell.
+    // Closer to the other bars than rounding can distinguish.
     if (most > least + 100) return {};
     most += 1;
   }

@@ -43,7 +43,8 @@ struct PiBarsSought {
 };
 
 struct PiStiffnessFit {
-  /// done, or singular where the samples cannot tell the bars sought apart: then they are one choice of many.
+  /// done, or singular where the samples cannot distinguish the bars sought: then they are one choice of
+  /// many.
   Status status = Status::done;
   PiBars bars;           ///< infinite: yields too little to be seen
   double error = 0;      ///< root of the mean square of the relative error of the compliance

@@ -11,8 +11,8 @@
 /// turning omega.
 namespace linkwright::parallel {
 
-/// Constraint index below which a pose counts as singular, always: what a thousandth of play or load would do
-/// is multiplied by a thousand there.
+/// Constraint index below which a pose counts as singular, always: what a thousandth of clearance or load
+/// would do is multiplied by a thousand there.
 inline constexpr double constraint_floor = 1e-3;
 
 /// Of a pose of a DELTA.

@@ -55,7 +55,7 @@ struct ArmAngle {
 ArmAngle arm_angle(const Drive& drive, double arm, double value);
 
 using DrivesAt = std::array<DriveAt, most_legs>;
-/// Drives of all legs; `status` and `leg` tell the first that is not done.
+/// Drives of all legs; `status` and `leg` give the first that is not done.
 struct DrivesState {
   Status status = Status::done;
   int leg = -1;

@@ -7,7 +7,7 @@
 
 #include "linkwright/parallel/robot/position.h"
 
-/// Families of robots with equal legs, told by a few dimensions, and what each dimension changes: exact
+/// Families of robots with equal legs, given by a few dimensions, and what each dimension changes: exact
 /// derivatives for a search of dimensions.
 namespace linkwright::parallel {
 

@@ -30,7 +30,7 @@ Matrix6 jacobian(const Robot& robot, const Jacobians& at);
 /// x of matrix x = right for the leading legs() x legs() block; not finite when it is singular.
 Vector6 solve(const Robot& robot, const Matrix6& matrix, const Vector6& right);
 Matrix6 transposed(const Robot& robot, const Matrix6& matrix);
-/// det Jx: its sign tells the assembly, 0 the singularity of type 2.
+/// det Jx: its sign gives the assembly, 0 the singularity of type 2.
 double determinant(const Robot& robot, const Jacobians& at);
 /// det of the leading legs() x legs() block.
 double determinant(const Robot& robot, const Matrix6& matrix);

@@ -16,7 +16,7 @@ constexpr double shortest_step = 1e-9;
 constexpr double close = 0.2;  // of a step's displacement, for what Newton's method adds to it
 constexpr int most_steps = 100000;
 
-/// How far two poses are apart (m), turning as way at a length.
+/// How far two poses are apart (m), rotation as displacement at a length.
 double distance(const Pose& a, const Pose& b, double length) {
   const double turn = norm(math::turn_of(a.rotation * transposed(b.rotation)));
   return std::hypot(norm(a.position - b.position), length * turn);

@@ -71,19 +71,19 @@ PoseCheckTask prepared(const PoseConditions& c) {
 template <class Load>
 void run_blocks(PoseCheckTask task, std::size_t count, bool turns, const PoseFindings& out,
                 const Load& load) {
-  LINKWRIGHT_REQUIRE(out.hurdle.empty() || out.hurdle.size() == count, "room for {} hurdles of {} poses",
-                     out.hurdle.size(), count);
+  LINKWRIGHT_REQUIRE(out.criterion.empty() || out.criterion.size() == count,
+                     "room for {} criteria of {} poses", out.criterion.size(), count);
   for (std::size_t k = 0; k < pose_index_count; ++k) {
     LINKWRIGHT_REQUIRE(out.index[k].empty() || out.index[k].size() == count,
                        "room for {} numbers of {} poses", out.index[k].size(), count);
     task.wanted[k] = !out.index[k].empty();
   }
-  double input[12][block], hurdle[block], index[pose_index_count][block];
+  double input[12][block], criterion[block], index[pose_index_count][block];
   const int rows = turns ? 12 : 3;
   for (int r = 0; r < 3; ++r) task.position[r] = input[r];
   if (turns)
     for (int r = 0; r < 9; ++r) task.rotations[r] = input[3 + r];
-  task.hurdle = hurdle;
+  task.criterion = criterion;
   for (std::size_t k = 0; k < pose_index_count; ++k) task.index[k] = index[k];
   for (std::size_t first = 0; first < count; first += block) {
     const std::size_t here = std::min(block, count - first);
@@ -93,9 +93,9 @@ void run_blocks(PoseCheckTask task, std::size_t count, bool turns, const PoseFin
       std::fill(input[r] + here, input[r] + task.count, input[r][here - 1]);
     }
     widest_pose_check().run(task);
-    if (!out.hurdle.empty())
+    if (!out.criterion.empty())
       for (std::size_t i = 0; i < here; ++i)
-        out.hurdle[first + i] = static_cast<Hurdle>(static_cast<int>(hurdle[i]));
+        out.criterion[first + i] = static_cast<Criterion>(static_cast<int>(criterion[i]));
     for (std::size_t k = 0; k < pose_index_count; ++k)
       if (task.wanted[k])
         std::copy_n(index[k], here, out.index[k].begin() + static_cast<std::ptrdiff_t>(first));
@@ -163,9 +163,9 @@ void check_poses(const PoseConditions& conditions, std::span<const Pose> poses, 
   });
 }
 
-Hurdle check_pose(const PoseConditions& conditions, const Pose& pose) {
-  Hurdle out{};
-  check_poses(conditions, {&pose, 1}, {.hurdle = {&out, 1}});
+Criterion check_pose(const PoseConditions& conditions, const Pose& pose) {
+  Criterion out{};
+  check_poses(conditions, {&pose, 1}, {.criterion = {&out, 1}});
   return out;
 }
 

@@ -46,7 +46,7 @@ Marks marks_at(const Robot& robot, const Pose& pose, const WorkingMode& mode = a
 
 /// The first condition that a pose does not meet, in this order: what passes all up to one is a part of what
 /// passes all up to the one before.
-enum class Hurdle : std::uint8_t {
+enum class Criterion : std::uint8_t {
   none,
   leg,
   assembly,
@@ -59,20 +59,20 @@ enum class Hurdle : std::uint8_t {
   conditioning,
   open,
 };
-inline constexpr std::size_t hurdle_count = 11;
-constexpr std::array<EnumName<Hurdle>, hurdle_count> names(Hurdle) {
-  return {{{Hurdle::none, "none", "meets all conditions"},
-           {Hurdle::leg, "leg", "a leg cannot reach"},
-           {Hurdle::assembly, "assembly", "det Jx has the sign of the other assembly"},
-           {Hurdle::constraint, "constraint",
+inline constexpr std::size_t criterion_count = 11;
+constexpr std::array<EnumName<Criterion>, criterion_count> names(Criterion) {
+  return {{{Criterion::none, "none", "meets all conditions"},
+           {Criterion::leg, "leg", "a leg cannot reach"},
+           {Criterion::assembly, "assembly", "det Jx has the sign of the other assembly"},
+           {Criterion::constraint, "constraint",
             "the parallelograms do not keep the platform from turning, or hold it in the other assembly"},
-           {Hurdle::travel, "travel", "a drive is beyond its travel"},
-           {Hurdle::elbow, "elbow", "the angle between arm and rod is beyond its limits"},
-           {Hurdle::swing, "swing", "a rod leans too far out of the plane of its arm"},
-           {Hurdle::drive_transmission, "drive_transmission", "a Pi-joint transmits too badly"},
-           {Hurdle::transmission, "transmission", "transmission index of the legs below its limit"},
-           {Hurdle::conditioning, "conditioning", "1 / condition below its limit"},
-           {Hurdle::open, "open", "not looked at: the computation was stopped"}}};
+           {Criterion::travel, "travel", "a drive is beyond its travel"},
+           {Criterion::elbow, "elbow", "the angle between arm and rod is beyond its limits"},
+           {Criterion::swing, "swing", "a rod leans too far out of the plane of its arm"},
+           {Criterion::drive_transmission, "drive_transmission", "a Pi-joint transmits too badly"},
+           {Criterion::transmission, "transmission", "transmission index of the legs below its limit"},
+           {Criterion::conditioning, "conditioning", "1 / condition below its limit"},
+           {Criterion::open, "open", "not looked at: the computation was stopped"}}};
 }
 
 /// Indices of a pose, NaN where the legs do not reach; see `quality`, `resolution`, `speed_factor`.
@@ -114,7 +114,7 @@ inline constexpr WantedIndices all_indices{true, true, true, true, true, true, t
 
 /// Where what is found goes: spans as long as the number of poses, or empty.
 struct PoseFindings {
-  std::span<Hurdle> hurdle;
+  std::span<Criterion> criterion;
   std::array<std::span<double>, pose_index_count> index{};
 };
 
@@ -126,7 +126,7 @@ void check_poses(const PoseConditions& conditions, std::span<const Vec3> positio
 /// The same for poses that turn.
 void check_poses(const PoseConditions& conditions, std::span<const Pose> poses, const PoseFindings& out);
 /// One pose.
-Hurdle check_pose(const PoseConditions& conditions, const Pose& pose);
+Criterion check_pose(const PoseConditions& conditions, const Pose& pose);
 
 /// Name of the instruction set that is used: "avx512", "avx2" or "baseline".
 const char* pose_check_kernel_name();
@@ -159,7 +159,7 @@ struct PoseCheckTask {
   std::array<const double*, 3> position{};
   Mat3 rotation{};
   std::array<const double*, 9> rotations{};  ///< by rows; null: all have `rotation`
-  double* hurdle = nullptr;
+  double* criterion = nullptr;
   std::array<double*, pose_index_count> index{};  ///< of those wanted
 };
 

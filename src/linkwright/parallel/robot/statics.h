@@ -52,7 +52,7 @@ struct Stiffness {
   /// Eigenvalues, ascending (N/m), 0 where nothing holds (type 2, or a screw without lever); a HEXA's turning
   /// is measured by the way it makes at the characteristic length.
   Vector6 eigenvalue{};
-  /// Unit displacement of the least eigenvalue, turning likewise as a way (m).
+  /// Unit displacement of the least eigenvalue, rotation likewise as a displacement (m).
   Vector6 softest{};
 };
 /// K = sum over the legs of Jx_i^T Jx_i / c_i, which is J^-T diag(j^2 k) J^-1 when the drives alone give way,

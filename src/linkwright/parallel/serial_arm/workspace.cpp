@@ -21,15 +21,15 @@ std::size_t nodes_along(double low, double high, double step) {
   return static_cast<std::size_t>(steps) + 1;
 }
 
-SerialHurdle hurdle_of(const SerialConditions& c, const SerialDrives& drives, const Vector2& angles,
-                       const SerialPlace& place) {
-  if (drives.status != Status::done) return SerialHurdle::travel;
+SerialCriterion criterion_of(const SerialConditions& c, const SerialDrives& drives, const Vector2& angles,
+                             const SerialPlace& place) {
+  if (drives.status != Status::done) return SerialCriterion::travel;
   const double elbow = elbow_angle(angles);
-  if (elbow < c.least_elbow || elbow > c.most_elbow) return SerialHurdle::elbow;
+  if (elbow < c.least_elbow || elbow > c.most_elbow) return SerialCriterion::elbow;
   if (place[SerialIndex::drive_transmission] < c.least_drive_transmission)
-    return SerialHurdle::drive_transmission;
-  if (place[SerialIndex::conditioning] < c.least_conditioning) return SerialHurdle::conditioning;
-  return SerialHurdle::none;
+    return SerialCriterion::drive_transmission;
+  if (place[SerialIndex::conditioning] < c.least_conditioning) return SerialCriterion::conditioning;
+  return SerialCriterion::none;
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ SerialHurdle hurdle_of(const SerialConditions& c, const SerialDrives& drives, co
 double elbow_angle(const Vector2& angles) { return pi - std::abs(math::wrap_angle(angles[1] - angles[0])); }
 
 SerialPlace look_at(const SerialConditions& c, const Vector2& point) {
-  SerialPlace out{.hurdle = SerialHurdle::reach};
+  SerialPlace out{.criterion = SerialCriterion::reach};
   out.index.fill(nan);
   const SerialAngles found = inverse(c.arm, point, c.mode);
   if (found.status != Status::done) return out;
@@ -46,7 +46,7 @@ SerialPlace look_at(const SerialConditions& c, const Vector2& point) {
   out.index = {1 / q.condition, std::abs(q.sine), q.manipulability,
                std::min(q.transmission[0], q.transmission[1])};
   if (drives.status == Status::no_assembly) out.index[3] = nan;
-  out.hurdle = hurdle_of(c, drives, found.angle, out);
+  out.criterion = criterion_of(c, drives, found.angle, out);
   return out;
 }
 
@@ -55,9 +55,9 @@ Vector2 SerialMap::position(std::size_t node) const {
           grid.low[1] + grid.step * static_cast<double>(node / nodes[0])};
 }
 
-std::size_t SerialMap::count(SerialHurdle hurdle) const {
+std::size_t SerialMap::count(SerialCriterion criterion) const {
   return static_cast<std::size_t>(std::count_if(
-      place.begin(), place.end(), [hurdle](const SerialPlace& p) { return p.hurdle == hurdle; }));
+      place.begin(), place.end(), [criterion](const SerialPlace& p) { return p.criterion == criterion; }));
 }
 
 SerialMap workspace(const SerialConditions& conditions, const SerialGrid& grid, const RunContext& context) {

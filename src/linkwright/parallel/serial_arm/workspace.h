@@ -25,7 +25,7 @@ struct SerialConditions {
 };
 
 /// The first condition that a place does not meet, in this order.
-enum class SerialHurdle : std::uint8_t {
+enum class SerialCriterion : std::uint8_t {
   none,
   reach,
   travel,
@@ -34,9 +34,9 @@ enum class SerialHurdle : std::uint8_t {
   conditioning,
   open,
 };
-inline constexpr std::size_t serial_hurdle_count = 7;
-constexpr std::array<EnumName<SerialHurdle>, serial_hurdle_count> names(SerialHurdle) {
-  using enum SerialHurdle;
+inline constexpr std::size_t serial_criterion_count = 7;
+constexpr std::array<EnumName<SerialCriterion>, serial_criterion_count> names(SerialCriterion) {
+  using enum SerialCriterion;
   return {{{none, "none", "meets all conditions"},
            {reach, "reach", "the arms do not reach, or leave the angle of the first one open"},
            {travel, "travel", "a drive is beyond its travel"},
@@ -64,7 +64,7 @@ constexpr std::array<EnumName<SerialIndex>, serial_index_count> names(SerialInde
 
 /// A place looked at.
 struct SerialPlace {
-  SerialHurdle hurdle = SerialHurdle::open;
+  SerialCriterion criterion = SerialCriterion::open;
   std::array<double, serial_index_count> index{};  ///< by SerialIndex; NaN out of reach
 
   double operator[](SerialIndex i) const { return index[static_cast<std::size_t>(i)]; }
@@ -88,7 +88,7 @@ struct SerialMap {
 
   Vector2 position(std::size_t node) const;              ///< m
   double cell() const { return grid.step * grid.step; }  ///< m2
-  std::size_t count(SerialHurdle hurdle) const;          ///< nodes that stop at it; none: those that pass
+  std::size_t count(SerialCriterion criterion) const;    ///< nodes that stop at it; none: those that pass
 };
 /// Looks at every node. Throws ContractError for a grid without sense or of more than 1e8 nodes.
 SerialMap workspace(const SerialConditions& conditions, const SerialGrid& grid, const RunContext& context);

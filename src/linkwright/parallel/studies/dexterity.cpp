@@ -95,7 +95,7 @@ Answer restored(const Value& value, const DexterityStudy& s, std::string_view wh
   out.between_nodes = unpack_numbers(kept_member(value, "between_nodes", what), what);
   const std::vector<double> worst = unpack_numbers(kept_member(value, "worst_between_nodes", what), what);
   if (worst.size() != 1 || out.between_nodes.size() > out.best.limits.size())
-    throw CheckpointError(fmt::format("{}: what lies between the nodes is not told", what));
+    throw CheckpointError(fmt::format("{}: what lies between the nodes is missing", what));
   out.worst_between_nodes = worst[0];
   out.starts = static_cast<int>(kept_integer(value, "starts", 0, 1000000, what));
   out.reached_best = static_cast<int>(kept_integer(value, "reached_best", 0, out.starts, what));
@@ -260,8 +260,9 @@ study::Scene scene_of(const DexterityStudy& s, const DexterityDesign& best) {
     samples.push_back({angles.status, pose, angles.angle});
     length.push_back(sum);
   }
-  return robot_scene(best.robot, best.drives, {"region", "around the region", "way_m", "way along the rim"},
-                     length, samples);
+  return robot_scene(best.robot, best.drives,
+                     {"region", "around the region", "distance_m", "distance along the rim"}, length,
+                     samples);
 }
 
 std::string objective_text(DexterityGoal goal, double value) {
@@ -370,8 +371,10 @@ study::Kind kind_of(RobotFamily family) {
                       .maximum = 1e6,
                       .required = true},
                 Range{});
-    document.property(Field{.key = "mechanism", .summary = "dimensions, fixed or designed", .required = true},
-                      std::move(mechanism).finish());
+    document.property(
+        Field{
+            .key = "mechanism", .summary = "dimensions, fixed numbers or design variables", .required = true},
+        std::move(mechanism).finish());
     document.property(
         Field{.key = "target", .summary = "the region and what is wanted there", .required = true},
         study::schema_fields<RegionForm>());

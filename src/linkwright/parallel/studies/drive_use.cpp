@@ -78,7 +78,7 @@ void add_drive_demands(std::vector<Demand>& out, int i, const PiDrive& motor, do
   };
   add(Asked::speed, std::abs(speed), fastest);
   const PowerFlow flow = effort * speed < 0 ? PowerFlow::load_drives : PowerFlow::motor_drives;
-  // Beyond its speed a motor has no force: the speed is told, then.
+  // Beyond its speed a motor has no force: the speed is reported, then.
   const double most =
       !geared || std::abs(speed) > fastest ? motor.force_limit : available_force(motor, speed, flow);
   add(Asked::effort, std::abs(effort), most);
@@ -167,7 +167,7 @@ std::string PathJudge::text(const Peak& peak) const {
   const Demand& d = peak.demand;
   const auto degrees = [](double angle) { return fmt::format("{:.2f} deg", math::degrees(angle)); };
   const auto index = [&](std::string_view what) {
-    return fmt::format("{} is {:.3f}, at least {:.3f} is asked for", what, d.value, d.limit);
+    return fmt::format("{} is {:.3f}, at least {:.3f} is required", what, d.value, d.limit);
   };
   std::string what;
   switch (d.asked) {
@@ -182,7 +182,7 @@ std::string PathJudge::text(const Peak& peak) const {
                          degrees(d.limit));
       break;
     case Asked::elbow:
-      what = fmt::format("the angle at an elbow is {}, {} {} is asked for", degrees(d.value),
+      what = fmt::format("the angle at an elbow is {}, {} {} is required", degrees(d.value),
                          d.value < d.limit ? "at least" : "at most", degrees(d.limit));
       break;
     case Asked::speed:
@@ -191,7 +191,7 @@ std::string PathJudge::text(const Peak& peak) const {
       const char* unit = d.asked == Asked::speed ? (pi ? "m/s" : "rad/s") : (pi ? "N" : "N m");
       what = fmt::format("{} is {:.4g} {}, the limit is {:.4g} {}", name_of_use(d, drives_), d.value, unit,
                          d.limit, unit);
-      if (std::isfinite(d.excess)) what += fmt::format(", {:.0f} % of it is asked for", 100 * (1 + d.excess));
+      if (std::isfinite(d.excess)) what += fmt::format(", {:.0f} % of it is required", 100 * (1 + d.excess));
       break;
     }
     case Asked::transmission:
@@ -355,7 +355,7 @@ void add_verdict(study::Result& result, const PathJudge& judge, const ToolMotion
                                         [](const auto& a, const auto& b) { return a.time < b.time; });
     if (first->time < failures.front().time)
       result.headline +=
-          fmt::format(" The first of {} troubles begins in {}.", failures.size(), motion.where(first->time));
+          fmt::format(" The first of {} failures begins in {}.", failures.size(), motion.where(first->time));
   }
 }
 

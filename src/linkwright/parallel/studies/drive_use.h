@@ -12,7 +12,7 @@
 #include "linkwright/parallel/tool/motion.h"
 #include "linkwright/study/result.h"
 
-// What studies of a tool path tell of it whatever the robot: what its drives do, how much of their limits
+// What studies of a tool path report of it whatever the robot: what its drives do, how much of their limits
 // that takes, and whether the path can be done.
 namespace linkwright::parallel {
 

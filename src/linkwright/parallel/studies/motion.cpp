@@ -226,7 +226,7 @@ WayVerdict judge_way(PathJudge& judge, const RobotDescription& d, const QualityL
     const auto poor = first_trouble(*task, way, breaks);
     if (poor && poor->kind == Trouble::constraint)
       judge.fail(Severity::poor, poor->begin, Status::limit_reached,
-                 fmt::format("{}: the constraint index falls below {:.3f}, which is asked for: {}",
+                 fmt::format("{}: the constraint index falls below {:.3f}, which is required: {}",
                              motion.where_exactly(poor->begin), limits.constraint, cause(*task, way, *poor)));
   }
   return out;

@@ -118,7 +118,7 @@ void add_plots(study::Result& result) {
   plot("holding-force", "Force of the diagonal at rest", {"holding_force_N"});
 }
 
-/// Which bars the samples can tell.
+/// Which bars the samples can distinguish.
 void add_calibration(study::Result& result, const PiAnalysis& s) {
   std::vector<PiStiffnessSample> samples;
   const CalibrationForm& c = *s.calibration;
@@ -359,7 +359,7 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
   limits.add("value", "value (SI units)", value);
   limits.add("at_least", "at least", least);
   limits.add("at_most", "at most", most);
-  limits.add("price", "size saved by loosening it, share by share", price);
+  limits.add("price", "relative size saved per relative relaxation", price);
   result.tables.push_back(std::move(limits));
 
   fact(result, "arm, base",

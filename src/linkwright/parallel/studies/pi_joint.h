@@ -29,7 +29,7 @@ void fields(Visitor&& visit, ScrewForm& s) {
                  .exclusive_minimum = true,
                  .required = required};
   };
-  visit(positive("lead", "way of the screw for one turn", Dimension::length, true), s.lead);
+  visit(positive("lead", "travel of the screw for one turn", Dimension::length, true), s.lead);
   visit(Field{.key = "efficiency",
               .summary = "when the motor drives the load",
               .minimum = 0,

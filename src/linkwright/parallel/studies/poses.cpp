@@ -279,7 +279,7 @@ void place_arms(const RobotDescription& d, const Pose& home, SolvedPose& out) {
   const LedPose led = lead_arms(d.robot, home, at_home.angle, out.angles.angle, platform_size(d.robot));
   out.pose = led.pose;
   if (led.status == Status::done) return;
-  const std::string where = fmt::format("{:.4g} % of the way of the arms from home", 100 * led.share);
+  const std::string where = fmt::format("{:.4g} % of the motion of the arms from home", 100 * led.share);
   if (led.status == Status::singular)
     fail(led.status,
          fmt::format("at {} the rods do not hold the platform: beyond, its assembly is not known", where));
@@ -296,8 +296,8 @@ void find_way(const RobotDescription& d, const AskedPose& asked, const Pose& hom
   if (marks.assembly != task->home.assembly || marks.constraint != task->home.constraint) {
     out.joined = -1;
     out.way = marks.assembly != task->home.assembly
-                  ? "of another assembly than home: no way leads there without a singularity of type 2"
-                  : "of another assembly of the platform than home: on every way there the parallelograms "
+                  ? "of another assembly than home: no path leads there without a singularity of type 2"
+                  : "of another assembly of the platform than home: on every path there the parallelograms "
                     "let it turn";
     return;
   }
@@ -307,17 +307,17 @@ void find_way(const RobotDescription& d, const AskedPose& asked, const Pose& hom
     return;
   }
   if (asked.arm_angles && working_mode(d.robot, out.pose, out.angles.angle) != d.mode) {
-    out.way = "of another working mode than home: no way is shown";
+    out.way = "of another working mode than home: no path is shown";
     return;
   }
   const auto trouble = first_trouble(*task, home, out.pose);
   out.joined = !trouble;
-  out.way = trouble
-                ? fmt::format(
-                      "same signs as home, but the straight way is blocked at {:.4g} % of it ({}): not shown "
-                      "to be joined",
-                      100 * trouble->begin, name_of(trouble->kind))
-                : std::string("joined to home: the straight way is free");
+  out.way =
+      trouble ? fmt::format(
+                    "same signs as home, but the straight path is blocked at {:.4g} % of it ({}): not shown "
+                    "to be joined",
+                    100 * trouble->begin, name_of(trouble->kind))
+              : std::string("joined to home: the straight path is free");
 }
 
 }  // namespace
@@ -377,14 +377,14 @@ void add_poses(study::Result& result, const RobotDescription& d, const PosesForm
     }
     // Of robots that do not turn a way that is shown needs no word.
     if (!s.way.empty() && (d.tool_turns() || s.joined != 1))
-      result.facts.push_back({asked.name + ": way from home", s.way});
+      result.facts.push_back({asked.name + ": path from home", s.way});
     const bool drawn = s.angles.leg < 0;
     samples.push_back({drawn ? Status::done : s.status, s.pose, s.angles.angle});
     numbers.push_back(static_cast<double>(numbers.size() + 1));
   }
   result.tables.push_back(poses_table(d, form, solved));
   if (result.headline.empty())
-    result.headline = fmt::format("{} of {} poses are of use.", good, form.poses.size());
+    result.headline = fmt::format("{} of {} poses are usable.", good, form.poses.size());
   result.facts.push_back(
       {"poses reached", fmt::format("{} of {}", good, form.poses.size()),
        good == static_cast<int>(form.poses.size()) ? study::Fact::Verdict::good : study::Fact::Verdict::bad});

@@ -191,7 +191,7 @@ void fields(Visitor&& visit, DriveForm& d) {
   visit(Field{.key = "mirrored", .summary = "Pi-joint: theta turns against the arm angle"}, d.mirrored);
   visit(robot_fields::angle("travel", "lowest and highest angle: theta of a Pi-joint, or the arm's"),
         d.travel);
-  visit(positive("lead", "Pi-joint: way of the screw for one turn", Dimension::length), d.lead);
+  visit(positive("lead", "Pi-joint: travel of the screw for one turn", Dimension::length), d.lead);
   visit(positive("gear_ratio", "motor at the pivot: turns of the motor for one of the arm", Dimension::none),
         d.gear_ratio);
   visit(Field{.key = "efficiency",
@@ -255,7 +255,7 @@ struct RobotDescription {
   bool tool_turns() const { return robot.freedom == Freedom::space; }
 };
 
-/// The mechanism types of this room whose robots have arms and rods.
+/// The mechanism types of this module whose robots have arms and rods.
 inline constexpr std::array robot_types{"parallel.delta", "parallel.hexa", "parallel.five_bar",
                                         "parallel.constant_orientation"};
 

@@ -230,7 +230,7 @@ study::Kind kind_of(const char* type) {
     describe_robot(document, type);
     document.property(Field{.key = "home", .summary = "where motions begin, and which assembly is meant"},
                       study::schema_fields<PoseForm>());
-    document.property(Field{.key = "limits", .summary = "what a pose must have to be of use"},
+    document.property(Field{.key = "limits", .summary = "requirements for a usable pose"},
                       study::schema_fields<QualityLimits>());
     describe_poses(document);
     describe_masses(document);

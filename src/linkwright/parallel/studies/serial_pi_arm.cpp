@@ -114,8 +114,8 @@ Table totals_table(const SerialMap& map) {
   Table table{.name = "workspace_totals"};
   std::vector<double> nodes, left, area;
   std::size_t passing = map.place.size();
-  for (const auto& entry : names(SerialHurdle{})) {
-    if (entry.value == SerialHurdle::open || entry.value == SerialHurdle::none) continue;
+  for (const auto& entry : names(SerialCriterion{})) {
+    if (entry.value == SerialCriterion::open || entry.value == SerialCriterion::none) continue;
     const std::size_t stopped = map.count(entry.value);
     passing -= stopped;
     table.names.emplace_back(entry.summary);
@@ -134,17 +134,18 @@ Table node_table(const SerialMap& map, const std::vector<SerialIndex>& indices) 
   std::vector<double> x, y;
   for (std::size_t i = 0; i < map.place.size(); ++i) {
     const Vector2 at = map.position(i);
-    const SerialHurdle hurdle = map.place[i].hurdle;
+    const SerialCriterion criterion = map.place[i].criterion;
     x.push_back(at[0]);
     y.push_back(at[1]);
-    table.status.emplace_back(hurdle == SerialHurdle::none ? "done" : name_of(hurdle));
+    table.status.emplace_back(criterion == SerialCriterion::none ? "done" : name_of(criterion));
   }
   table.add("x_m", "x (m)", std::move(x));
   table.add("y_m", "y (m)", std::move(y));
   for (const SerialIndex index : indices) {
     std::vector<double> values;
     // What does not pass is not coloured.
-    for (const SerialPlace& p : map.place) values.push_back(p.hurdle == SerialHurdle::none ? p[index] : nan);
+    for (const SerialPlace& p : map.place)
+      values.push_back(p.criterion == SerialCriterion::none ? p[index] : nan);
     table.add(key_of(index), words_of(index) + (index == SerialIndex::manipulability ? " (m2)" : ""),
               std::move(values));
   }
@@ -154,12 +155,12 @@ Table node_table(const SerialMap& map, const std::vector<SerialIndex>& indices) 
 void add_workspace(study::Result& result, const SerialAnalysis& s, RunContext& context) {
   const SerialMap map = workspace(conditions_of(s.description, s.limits), s.grid, context);
   if (map.status != Status::done) result.status = map.status;
-  const std::size_t passing = map.count(SerialHurdle::none);
+  const std::size_t passing = map.count(SerialCriterion::none);
   const double area = static_cast<double>(passing) * map.cell();
   const double reach = reachable_area(s.description.arm);
   double sum = 0, least = infinity;
   for (const SerialPlace& p : map.place) {
-    if (p.hurdle != SerialHurdle::none) continue;
+    if (p.criterion != SerialCriterion::none) continue;
     sum += p[SerialIndex::conditioning];
     least = std::min(least, p[SerialIndex::conditioning]);
   }
@@ -401,7 +402,7 @@ study::Kind serial_pi_arm_kind() {
                       std::move(mechanism).finish());
     document.property(Field{.key = "home", .summary = "where motions begin"},
                       study::schema_fields<PoseForm>());
-    document.property(Field{.key = "limits", .summary = "what a pose must have to be of use"},
+    document.property(Field{.key = "limits", .summary = "requirements for a usable pose"},
                       study::schema_fields<SerialLimits>());
     document.property(Field{.key = "pose", .summary = "poses to be looked at"},
                       study::schema_array(study::schema_fields<AskedPose>()));

@@ -75,7 +75,7 @@ void fields(Visitor&& visit, SerialModesForm& m) {
   visit(Field{.key = "working", .summary = "both pairs of arm angles that put the tool there"}, m.working);
 }
 
-/// `[limits]`: what a pose must have to be of use, along a path and in the workspace.
+/// `[limits]`: requirements for a usable pose, along a path and in the workspace.
 struct SerialLimits {
   double conditioning = 0, drive_transmission = 0;
   std::optional<double> least_elbow, largest_elbow;

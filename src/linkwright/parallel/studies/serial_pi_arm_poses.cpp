@@ -157,7 +157,7 @@ void add_serial_poses(study::Result& result, const SerialAnalysis& s) {
   }
   result.tables.push_back(std::move(table));
   if (result.headline.empty())
-    result.headline = fmt::format("{} of {} poses are of use.", good, s.poses.size());
+    result.headline = fmt::format("{} of {} poses are usable.", good, s.poses.size());
   result.facts.push_back({"poses reached", fmt::format("{} of {}", good, s.poses.size()),
                           good == s.poses.size() ? study::Fact::Verdict::good : study::Fact::Verdict::bad});
   if (s.modes && s.modes->working) result.tables.push_back(working_table(s.description, s.poses, solved));

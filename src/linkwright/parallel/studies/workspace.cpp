@@ -10,7 +10,7 @@
 #include "linkwright/core/units.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/robot/constraint.h"
-#include "linkwright/parallel/workspace/parts.h"
+#include "linkwright/parallel/workspace/aspects.h"
 #include "linkwright/parallel/workspace/rays.h"
 #include "linkwright/study/bind_write.h"
 
@@ -45,7 +45,7 @@ Table node_table(const WorkspaceMap& map, const WorkspaceStudy& s, bool planar,
     x.push_back(at.x);
     y.push_back(at.y);
     z.push_back(at.z);
-    table.status.emplace_back(map.hurdle[node] == Hurdle::none ? "done" : name_of(map.hurdle[node]));
+    table.status.emplace_back(map.criterion[node] == Criterion::none ? "done" : name_of(map.criterion[node]));
   }
   table.add("x_m", "x (m)", std::move(x));
   table.add("y_m", "y (m)", std::move(y));
@@ -55,7 +55,7 @@ Table node_table(const WorkspaceMap& map, const WorkspaceStudy& s, bool planar,
     std::vector<double> column;
     // What does not pass is not coloured.
     for (const std::size_t node : nodes)
-      column.push_back(map.hurdle[node] == Hurdle::none ? values[node] : std::nan(""));
+      column.push_back(map.criterion[node] == Criterion::none ? values[node] : std::nan(""));
     table.add(key_of(index), label_of(index), std::move(column));
   }
   return table;
@@ -66,9 +66,9 @@ std::vector<std::size_t> levels_of(const WorkspaceMap& map, int wanted) {
   std::vector<std::size_t> used, out;
   const std::size_t layer = map.nodes[0] * map.nodes[1];
   for (std::size_t k = 0; k < map.nodes[2]; ++k)
-    if (std::any_of(map.hurdle.begin() + static_cast<std::ptrdiff_t>(k * layer),
-                    map.hurdle.begin() + static_cast<std::ptrdiff_t>((k + 1) * layer),
-                    [](Hurdle h) { return h == Hurdle::none; }))
+    if (std::any_of(map.criterion.begin() + static_cast<std::ptrdiff_t>(k * layer),
+                    map.criterion.begin() + static_cast<std::ptrdiff_t>((k + 1) * layer),
+                    [](Criterion h) { return h == Criterion::none; }))
       used.push_back(k);
   const std::size_t count = std::min(used.size(), static_cast<std::size_t>(wanted));
   for (std::size_t i = 0; i < count; ++i) out.push_back(used[(2 * i + 1) * used.size() / (2 * count)]);
@@ -79,8 +79,8 @@ Table totals_table(const WorkspaceMap& map, const WorkspaceTotals& totals, int a
   Table table{.name = "workspace_totals"};
   std::vector<double> nodes, left, measure;
   std::size_t passing = map.count();
-  for (const auto& entry : names(Hurdle{})) {
-    if (entry.value == Hurdle::open || entry.value == Hurdle::none) continue;
+  for (const auto& entry : names(Criterion{})) {
+    if (entry.value == Criterion::open || entry.value == Criterion::none) continue;
     const std::size_t stopped = totals.count[static_cast<std::size_t>(entry.value)];
     passing -= stopped;
     table.names.emplace_back(entry.summary);
@@ -114,7 +114,8 @@ Table boundary_table(const WorkspaceTask& task, const WorkspaceMap& map,
         angle.push_back(2 * pi * static_cast<double>(i) / f.boundary);
         from.push_back(stretch.from);
         to.push_back(stretch.to);
-        table.names.emplace_back(stretch.after == Hurdle::none ? "end of the ray" : name_of(stretch.after));
+        table.names.emplace_back(stretch.after == Criterion::none ? "end of the ray"
+                                                                  : name_of(stretch.after));
       }
   }
   if (!planar) table.add("z_m", "z (m)", z);
@@ -249,15 +250,15 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
     fact("global conditioning index", fmt::format("{:.4f} (least {:.4f})", lci.mean, lci.least));
 
   if (planar) fact("area within reach of the legs", fmt::format("{:.6g} m2", reachable_area(d.robot)));
-  if (f.parts && sums.passing > 0) {
-    const WorkspaceParts parts = workspace_parts(
+  if (f.aspects && sums.passing > 0) {
+    const WorkspaceAspects aspects = workspace_aspects(
         map, passing(map), {.conditions = task.conditions, .rotation = task.rotation, .home = home.position},
         context);
-    if (parts.status == Status::done)
+    if (aspects.status == Status::done)
       fact("joined to home without a singularity",
-           parts.home < 0 ? std::string("none: home does not pass")
-                          : fmt::format("{} of {} nodes, {} part{}", parts.reachable(), parts.all(),
-                                        parts.size.size(), parts.size.size() == 1 ? "" : "s"));
+           aspects.home < 0 ? std::string("none: home does not pass")
+                            : fmt::format("{} of {} nodes, {} aspect{}", aspects.reachable(), aspects.all(),
+                                          aspects.size.size(), aspects.size.size() == 1 ? "" : "s"));
   }
   if (f.inscribed) {
     InscribedTask inner{
@@ -284,7 +285,7 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
   }
   std::vector<std::size_t> reached;
   for (std::size_t i = 0; i < map.count(); ++i)
-    if (map.hurdle[i] != Hurdle::leg && map.hurdle[i] != Hurdle::open) reached.push_back(i);
+    if (map.criterion[i] != Criterion::leg && map.criterion[i] != Criterion::open) reached.push_back(i);
   if (f.nodes && reached.size() <= most_rows)
     result.tables.push_back(node_table(map, s, planar, reached, "workspace"));
   if (f.nodes && reached.size() > most_rows)

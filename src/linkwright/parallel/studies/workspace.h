@@ -10,7 +10,7 @@
 // The workspace in studies of parallel robots: a grid of places, how much of it is of use and how good it is.
 namespace linkwright::parallel {
 
-/// `[limits]` of a robot: what a pose must have to be of use, along a path and in the workspace.
+/// `[limits]` of a robot: requirements for a usable pose, along a path and in the workspace.
 struct QualityLimits {
   double transmission = 0, conditioning = 0, drive_transmission = 0, constraint = 0;
   std::optional<double> rod_swing, least_elbow, largest_elbow;
@@ -69,7 +69,7 @@ struct WorkspaceForm {
   Coordinates lower{}, upper{}, rotation{};
   double step = 0;
   std::vector<PoseIndex> indices{PoseIndex::conditioning, PoseIndex::transmission};
-  bool nodes = true, parts = true;
+  bool nodes = true, aspects = true;
   int slices = 4, boundary = 0;
   std::optional<InscribedForm> inscribed;
 };
@@ -83,8 +83,8 @@ void fields(Visitor&& visit, WorkspaceForm& w) {
   visit(robot_fields::angle("rotation", "of the platform, a rotation vector (HEXA)"), w.rotation);
   visit(Field{.key = "indices", .summary = "that are computed at each node and drawn"}, w.indices);
   visit(Field{.key = "nodes", .summary = "table of all nodes that the legs reach"}, w.nodes);
-  visit(Field{.key = "parts", .summary = "tell how much of it hangs together without a singularity"},
-        w.parts);
+  visit(Field{.key = "aspects", .summary = "count its aspects, the components without a singularity inside"},
+        w.aspects);
   visit(Field{.key = "slices", .summary = "levels of z that are drawn", .minimum = 1, .maximum = 50},
         w.slices);
   visit(Field{.key = "boundary",

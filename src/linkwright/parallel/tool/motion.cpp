@@ -260,7 +260,7 @@ std::optional<double> ToolMotion::share_at(double t) const {
 
 std::string ToolMotion::where_exactly(double t) const {
   const auto share = share_at(t);
-  return where(t) + (share ? fmt::format(", {:.4g} % of its way", 100 * *share) : "");
+  return where(t) + (share ? fmt::format(", {:.4g} % of its path", 100 * *share) : "");
 }
 
 std::vector<double> ToolMotion::breaks() const {

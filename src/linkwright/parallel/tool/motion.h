@@ -26,7 +26,7 @@ std::optional<ToolProblem> problem(const ToolPath& path, const ToolLimits& limit
 
 /// The motion along a path: from rest to rest, step by step, as fast as the limits and the law allow.
 ///
-/// Steps are cut into runs, between which the tool rests; tool_timing.h tells how a run is timed. A turn is
+/// Steps are cut into runs, between which the tool rests; tool_timing.h says how a run is timed. A turn is
 /// about a fixed axis by the least angle, in proportion to the length run through; the slower of both
 /// decides.
 class ToolMotion {
@@ -48,7 +48,7 @@ class ToolMotion {
 
   /// Share of the way of its step that has been gone, in [0, 1]; nothing for a rest and for a table.
   std::optional<double> share_at(double t) const;
-  /// "step 3 (arc) at 0.412 s, 63.51 % of its way"
+  /// "step 3 (arc) at 0.412 s, 63.51 % of its path"
   std::string where_exactly(double t) const;
 
   /// Times between which the path and its law are smooth, from 0 to the duration, increasing.

@@ -102,7 +102,7 @@ struct ToolProblem {
   int step = -1;         ///< from 0; -1 = not of a step
   std::string_view key;  ///< of the field that is wrong, without unit; empty = of none
   std::string message;   ///< with the step by number and kind: "step 3 (arc): ..."
-  std::string hint;      ///< how to mend it; may be empty
+  std::string hint;      ///< how to fix it; may be empty
 };
 
 /// "step 3 (arc)" for the step of index 2.
@@ -124,7 +124,7 @@ constexpr Word choice_word(const ToolTable&) { return {"table", "smooth curve th
 
 namespace tool_fields {
 
-// Beyond it the digits of a double no longer tell neighbouring positions apart.
+// Beyond it the digits of a double no longer separate neighbouring positions.
 inline constexpr double most = 1e9;
 
 constexpr Field place(std::string_view key, std::string_view summary, bool required = true) {

@@ -22,7 +22,7 @@ constexpr Wanted columns[] = {{"time", Dimension::time},        {"x", Dimension:
                               {"pitch", Dimension::angle},      {"yaw", Dimension::angle}};
 enum Place { time, x, y, z, rotation_x, rotation_y, rotation_z, roll, pitch, yaw, places };
 
-// Beyond it the digits of a double no longer tell neighbouring positions apart.
+// Beyond it the digits of a double no longer separate neighbouring positions.
 constexpr double most = 1e9;
 
 }  // namespace

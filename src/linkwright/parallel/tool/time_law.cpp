@@ -27,7 +27,7 @@ double ramp_length(double a, double b, const RateLimits& limits) {
 
 // The largest speed from `low` on, up to that of the limits, whose excess of length is not positive; it grows
 // with the speed and is not positive at `low`. Small changes of speed are few digits, and their lengths
-// fewer: what is left is run at even speed.
+// fewer: what is left is run at constant speed.
 template <class F>
 double largest(F&& excess, double low, const RateLimits& limits) {
   if (excess(limits.speed) <= 0) return limits.speed;

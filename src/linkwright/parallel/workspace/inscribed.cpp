@@ -333,7 +333,7 @@ class Search {
     if (!within_grid(c.centre, h)) return false;  // nothing is known there
     constexpr std::size_t block = 256;
     std::array<Vec3, block> place;
-    std::array<Hurdle, block> hurdle;
+    std::array<Criterion, block> criterion;
     // Where the last body did not fit the next one most likely does not.
     const std::size_t blocks = (unit_.size() + block - 1) / block;
     for (std::size_t b = 0; b < blocks; ++b) {
@@ -343,9 +343,9 @@ class Search {
         place[i] = c.centre + Vec3{h.x * u.x, h.y * u.y, h.z * u.z};
       }
       check_poses(task_.conditions, std::span(place).first(here), task_.rotation,
-                  {.hurdle = std::span(hurdle).first(here)});
+                  {.criterion = std::span(criterion).first(here)});
       for (std::size_t i = 0; i < here; ++i)
-        if (hurdle[i] != Hurdle::none) {
+        if (criterion[i] != Criterion::none) {
           first_ = first / block;
           return false;
         }

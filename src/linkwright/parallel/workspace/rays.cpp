@@ -29,48 +29,48 @@ void follow(const Route& route, const RaySearch& search, Ray& ray) {
     return i >= steps ? search.longest : search.step * static_cast<double>(i);
   };
   std::vector<Pose> poses(steps + 1);
-  std::vector<Hurdle> hurdle(steps + 1);
+  std::vector<Criterion> criterion(steps + 1);
   for (std::size_t i = 0; i <= steps; ++i) poses[i] = route.at(ray.direction, distance(i));
-  check_poses(route.conditions, poses, {.hurdle = hurdle});
+  check_poses(route.conditions, poses, {.criterion = criterion});
 
   struct End {
     double inside, outside;
-    Hurdle hurdle;
+    Criterion criterion;
   };
   std::vector<End> ends;
   for (std::size_t i = 0; i < steps; ++i) {
-    const bool here = hurdle[i] == Hurdle::none, next = hurdle[i + 1] == Hurdle::none;
-    if (here && !next) ends.push_back({distance(i), distance(i + 1), hurdle[i + 1]});
-    if (!here && next) ends.push_back({distance(i + 1), distance(i), hurdle[i]});
+    const bool here = criterion[i] == Criterion::none, next = criterion[i + 1] == Criterion::none;
+    if (here && !next) ends.push_back({distance(i), distance(i + 1), criterion[i + 1]});
+    if (!here && next) ends.push_back({distance(i + 1), distance(i), criterion[i]});
   }
   const auto unsettled = [&](const End& e) {
     const double middle = 0.5 * (e.inside + e.outside);
     return std::abs(e.outside - e.inside) > search.tolerance && middle != e.inside && middle != e.outside;
   };
   poses.resize(ends.size());
-  hurdle.resize(ends.size());
+  criterion.resize(ends.size());
   while (std::any_of(ends.begin(), ends.end(), unsettled)) {
     for (std::size_t i = 0; i < ends.size(); ++i)
       poses[i] = route.at(ray.direction, 0.5 * (ends[i].inside + ends[i].outside));
-    check_poses(route.conditions, poses, {.hurdle = hurdle});
+    check_poses(route.conditions, poses, {.criterion = criterion});
     for (std::size_t i = 0; i < ends.size(); ++i) {
       End& e = ends[i];
       const double middle = 0.5 * (e.inside + e.outside);
-      if (hurdle[i] == Hurdle::none) {
+      if (criterion[i] == Criterion::none) {
         e.inside = middle;
       } else {
         e.outside = middle;
-        e.hurdle = hurdle[i];
+        e.criterion = criterion[i];
       }
     }
   }
-  bool open = check_pose(route.conditions, route.at(ray.direction, 0)) == Hurdle::none;
+  bool open = check_pose(route.conditions, route.at(ray.direction, 0)) == Criterion::none;
   if (open) ray.stretch.push_back({.from = 0, .to = search.longest});
   for (const End& e : ends) {
     if (open)
-      ray.stretch.back().to = e.inside, ray.stretch.back().after = e.hurdle;
+      ray.stretch.back().to = e.inside, ray.stretch.back().after = e.criterion;
     else
-      ray.stretch.push_back({.from = e.inside, .to = search.longest, .before = e.hurdle});
+      ray.stretch.push_back({.from = e.inside, .to = search.longest, .before = e.criterion});
     open = !open;
   }
 }
@@ -159,19 +159,21 @@ RotationRange rotation_range(const PoseConditions& conditions, const Pose& pose,
   RotationRange out{.status = found.status};
   if (found.status != Status::done) return out;
   // What stands in the way; where the pose itself does not pass, that.
-  const Hurdle here = check_pose(conditions, pose);
-  const auto hurdle = [&](const Ray& ray) { return here != Hurdle::none ? here : ray.stretch[0].after; };
+  const Criterion here = check_pose(conditions, pose);
+  const auto criterion = [&](const Ray& ray) {
+    return here != Criterion::none ? here : ray.stretch[0].after;
+  };
   const auto n = static_cast<std::size_t>(axes);
   out.least_yaw = -found.ray[n].reach();
-  out.least_yaw_hurdle = hurdle(found.ray[n]);
+  out.least_yaw_criterion = criterion(found.ray[n]);
   out.most_yaw = found.ray[n + 1].reach();
-  out.most_yaw_hurdle = hurdle(found.ray[n + 1]);
+  out.most_yaw_criterion = criterion(found.ray[n + 1]);
   found.ray.resize(n);
   const auto first = std::min_element(found.ray.begin(), found.ray.end(),
                                       [](const Ray& a, const Ray& b) { return a.reach() < b.reach(); });
   out.tilt = first->reach();
   out.tilt_azimuth = std::atan2(first->direction.y, first->direction.x);
-  out.tilt_hurdle = hurdle(*first);
+  out.tilt_criterion = criterion(*first);
   out.tilts = std::move(found.ray);
   return out;
 }

@@ -19,9 +19,9 @@ struct RaySearch {
 
 /// A stretch of a ray on which everything passes.
 struct RayStretch {
-  double from = 0, to = 0;       ///< m or rad
-  Hurdle before = Hurdle::none;  ///< what ends it towards the origin; none: it begins there
-  Hurdle after = Hurdle::none;   ///< what ends it outwards; none: the ray's end
+  double from = 0, to = 0;             ///< m or rad
+  Criterion before = Criterion::none;  ///< what ends it towards the origin; none: it begins there
+  Criterion after = Criterion::none;   ///< what ends it outwards; none: the ray's end
 };
 
 /// What passes of a ray, from the origin outwards.
@@ -29,8 +29,8 @@ struct Ray {
   Vec3 direction;  ///< unit
   std::vector<RayStretch> stretch{};
 
-  /// How far one gets from the origin before the first hurdle; 0 where the origin does not pass.
-  double reach() const { return stretch.empty() || stretch[0].before != Hurdle::none ? 0 : stretch[0].to; }
+  /// How far one gets from the origin before the first criterion; 0 where the origin does not pass.
+  double reach() const { return stretch.empty() || stretch[0].before != Criterion::none ? 0 : stretch[0].to; }
 };
 
 struct Rays {
@@ -62,9 +62,9 @@ struct RotationRange {
   Status status = Status::done;
   double tilt = 0;          ///< about every horizontal axis of those tried, at least so far (rad)
   double tilt_azimuth = 0;  ///< of the axis that gives out first (rad from x)
-  Hurdle tilt_hurdle = Hurdle::none;
+  Criterion tilt_criterion = Criterion::none;
   double least_yaw = 0, most_yaw = 0;  ///< about z, from the rotation of the pose (rad): <= 0, >= 0
-  Hurdle least_yaw_hurdle = Hurdle::none, most_yaw_hurdle = Hurdle::none;
+  Criterion least_yaw_criterion = Criterion::none, most_yaw_criterion = Criterion::none;
   std::vector<Ray> tilts;  ///< all around, from the axis x on
 };
 RotationRange rotation_range(const PoseConditions& conditions, const Pose& pose, int axes,

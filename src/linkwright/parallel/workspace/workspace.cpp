@@ -55,7 +55,7 @@ WorkspaceMap workspace(const WorkspaceTask& task, const RunContext& context) {
       task.conditions.robot.freedom != Freedom::plane_translation || (out.nodes[2] == 1 && grid.low.z == 0),
       "a planar robot lies in the plane z = 0, got nodes from {} to {} m", grid.low.z, grid.high.z);
   const auto count = static_cast<std::size_t>(all);
-  out.hurdle.assign(count, Hurdle::open);
+  out.criterion.assign(count, Criterion::open);
   for (std::size_t k = 0; k < pose_index_count; ++k)
     if (task.wanted[k]) out.index[k].assign(count, nan);
 
@@ -66,7 +66,7 @@ WorkspaceMap workspace(const WorkspaceTask& task, const RunContext& context) {
     std::array<Vec3, block> positions;
     const std::size_t first = b * block, here = std::min(block, count - first);
     for (std::size_t n = 0; n < here; ++n) positions[n] = out.position(first + n);
-    PoseFindings findings{.hurdle = std::span(out.hurdle).subspan(first, here)};
+    PoseFindings findings{.criterion = std::span(out.criterion).subspan(first, here)};
     for (std::size_t k = 0; k < pose_index_count; ++k)
       if (task.wanted[k]) findings.index[k] = std::span(out.index[k]).subspan(first, here);
     check_poses(task.conditions, std::span(positions).first(here), task.rotation, findings);
@@ -79,10 +79,11 @@ WorkspaceMap workspace(const WorkspaceTask& task, const RunContext& context) {
   return out;
 }
 
-NodeSet nodes_before(const WorkspaceMap& map, Hurdle first) {
+NodeSet nodes_before(const WorkspaceMap& map, Criterion first) {
   NodeSet out(map.count());
   for (std::size_t n = 0; n < out.size(); ++n)
-    out[n] = map.hurdle[n] == Hurdle::none || (map.hurdle[n] >= first && map.hurdle[n] != Hurdle::open);
+    out[n] = map.criterion[n] == Criterion::none ||
+             (map.criterion[n] >= first && map.criterion[n] != Criterion::open);
   return out;
 }
 
@@ -107,7 +108,7 @@ IndexSummary summary(const WorkspaceMap& map, PoseIndex index, const NodeSet& se
 
 WorkspaceTotals totals(const WorkspaceMap& map) {
   WorkspaceTotals out;
-  for (const Hurdle h : map.hurdle) ++out.count[static_cast<std::size_t>(h)];
+  for (const Criterion h : map.criterion) ++out.count[static_cast<std::size_t>(h)];
   out.passing = out.count[0];
   out.measure = static_cast<double>(out.passing) * map.cell;
   const NodeSet set = passing(map);

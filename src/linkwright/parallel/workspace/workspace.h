@@ -19,7 +19,7 @@ struct WorkspaceGrid {
   double step = 0;  ///< > 0 (m)
 };
 
-/// What a map holds beside the hurdles.
+/// What a map holds beside the criteria.
 struct WorkspaceTask {
   PoseConditions conditions;
   WorkspaceGrid grid;
@@ -28,15 +28,15 @@ struct WorkspaceTask {
 };
 
 struct WorkspaceMap {
-  Status status = Status::done;  ///< cancelled or deadline: some nodes are Hurdle::open
+  Status status = Status::done;  ///< cancelled or deadline: some nodes are Criterion::open
   WorkspaceGrid grid;
   std::array<std::size_t, 3> nodes{};  ///< along x, y, z
   int axes = 0;                        ///< with more than one node
   double cell = 0;  ///< share of a node in the measure of a set: step^axes (m3, m2 for two axes, m for one)
-  std::vector<Hurdle> hurdle;                               ///< x changes fastest, then y
+  std::vector<Criterion> criterion;                         ///< x changes fastest, then y
   std::array<std::vector<double>, pose_index_count> index;  ///< empty where not wanted
 
-  std::size_t count() const { return hurdle.size(); }
+  std::size_t count() const { return criterion.size(); }
   std::size_t number(std::size_t i, std::size_t j, std::size_t k) const {
     return i + nodes[0] * (j + nodes[1] * k);
   }
@@ -50,9 +50,9 @@ WorkspaceMap workspace(const WorkspaceTask& task, const RunContext& context);
 /// A set of nodes, one number a node of a map: 1 = in it.
 using NodeSet = std::vector<std::uint8_t>;
 
-/// Nodes that pass all hurdles before `first`; Hurdle::open: those that pass all.
-NodeSet nodes_before(const WorkspaceMap& map, Hurdle first);
-inline NodeSet passing(const WorkspaceMap& map) { return nodes_before(map, Hurdle::open); }
+/// Nodes that pass all criteria before `first`; Criterion::open: those that pass all.
+NodeSet nodes_before(const WorkspaceMap& map, Criterion first);
+inline NodeSet passing(const WorkspaceMap& map) { return nodes_before(map, Criterion::open); }
 
 /// An index over a set of nodes; NaN for an empty set. Nodes where the index is not known do not count.
 struct IndexSummary {
@@ -64,7 +64,7 @@ struct IndexSummary {
 IndexSummary summary(const WorkspaceMap& map, PoseIndex index, const NodeSet& set);
 
 struct WorkspaceTotals {
-  std::array<std::size_t, hurdle_count> count{};  ///< nodes that stop at each hurdle
+  std::array<std::size_t, criterion_count> count{};  ///< nodes that stop at each criterion
   std::size_t passing = 0;
   double measure = 0;                                  ///< of the passing nodes: volume (m3), or area (m2)
   std::array<IndexSummary, pose_index_count> index{};  ///< over the passing nodes, of the indices in the map

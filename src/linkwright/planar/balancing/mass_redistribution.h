@@ -45,7 +45,7 @@ struct OpenLink {
 /// A point mass added to a link. With an angle it lies on that ray from the own joint; radius lower = upper:
 /// at that distance, else within. Without an angle the programme lets it spread out over the disc (or circle)
 /// of the radius, or over the rectangle that is given instead of radius and angle; whether the answer is a
-/// point is told.
+/// point is reported.
 struct Counterweight {
   std::string name;
   std::size_t link = 0;              ///< of LinearForces::links

@@ -133,7 +133,7 @@ std::vector<std::string> limit_texts(const BalancingProblem& p,
     if (a.kind == optimise::LimitKind::objective)
       text += fmt::format(" (share {:.2f})", a.price);
     else if (std::abs(a.price_per_cent) > least_price)
-      text += fmt::format(" (1 % more room: {:.3g} less)", a.price_per_cent);
+      text += fmt::format(" (relaxed by 1 %: {:.3g} less)", a.price_per_cent);
     out.push_back(std::move(text));
   }
   return out;
@@ -255,7 +255,7 @@ class Answers {
       q.goal = optimise::SmoothGoal::largest;
       for (std::size_t j = 0; j < m; ++j) {
         const double target = p_.task.objectives[j].target;
-        // What comes later hardly counts: it only tells equals apart.
+        // What comes later hardly counts: it only separates equals.
         q.weights[j] = (k == m || j == k ? 1 : least_share * least_share) / target;
         if (j < k) q.caps[j] = std::min(q.caps[j], target);
       }

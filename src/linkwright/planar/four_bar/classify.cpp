@@ -1,5 +1,7 @@
 #include "linkwright/planar/four_bar/classify.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,6 +47,13 @@ double crank_angle_at(const FourBar& l, double distance) {
 }
 
 }  // namespace
+
+std::string in_words(FourBarType type) {
+  for (const auto& entry : names(FourBarType{}))
+    if (entry.value == type && !entry.summary.empty())
+      return fmt::format("{} ({})", entry.summary, entry.name);
+  return std::string(name_of(type));
+}
 
 FourBarClass classify(const FourBar& l, double tolerance) {
   require_lengths(l);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -9,7 +10,7 @@
 namespace linkwright::planar {
 
 /// Type of a four-bar by the signs of T1 = L1-L2+L3-L4, T2 = L1-L2-L3+L4, T3 = L3+L4-L1-L2. The last four do
-/// not meet Grashof's condition; "0" and "pi" tell through which collinear position input (first) and output
+/// not meet Grashof's condition; "0" and "pi" say through which collinear position input (first) and output
 /// pass.
 enum class FourBarType {
   crank_rocker,
@@ -27,12 +28,14 @@ constexpr std::array<EnumName<FourBarType>, 9> names(FourBarType) {
            {FourBarType::rocker_crank, "rocker-crank"},
            {FourBarType::double_crank, "double-crank"},
            {FourBarType::grashof_double_rocker, "grashof-double-rocker"},
-           {FourBarType::triple_rocker_00, "00"},
-           {FourBarType::triple_rocker_0pi, "0pi"},
-           {FourBarType::triple_rocker_pi0, "pi0"},
-           {FourBarType::triple_rocker_pipi, "pipi"},
+           {FourBarType::triple_rocker_00, "00", "non-Grashof, input through 0, output through 0"},
+           {FourBarType::triple_rocker_0pi, "0pi", "non-Grashof, input through 0, output through pi"},
+           {FourBarType::triple_rocker_pi0, "pi0", "non-Grashof, input through pi, output through 0"},
+           {FourBarType::triple_rocker_pipi, "pipi", "non-Grashof, input through pi, output through pi"},
            {FourBarType::change_point, "change-point"}}};
 }
+/// In words, a code after them: "crank-rocker", "non-Grashof, input through 0, output through pi (0pi)".
+std::string in_words(FourBarType type);
 
 /// Interval of crank angles [from, to], from < to, relative to the ground link, in which the linkage
 /// assembles.

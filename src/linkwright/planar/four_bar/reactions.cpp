@@ -22,7 +22,7 @@ Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y}; }
 Vector operator*(double s, Vector a) { return {s * a.x, s * a.y}; }
 double cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
 double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
-Vector left(Vector a) { return {-a.y, a.x}; }
+Vector perpendicular(Vector a) { return {-a.y, a.x}; }
 Vector vector(std::complex<double> z) { return {z.real(), z.imag()}; }
 
 // A link as Newton and Euler see it.
@@ -44,11 +44,11 @@ Body body(double length, std::complex<double> direction, const LinkMass& mass, d
   const Vector centre = mass.centre_angle == 0 ? Vector{mass.centre_distance, 0}
                                                : mass.centre_distance * Vector{std::cos(mass.centre_angle),
                                                                                std::sin(mass.centre_angle)};
-  const Vector arm = centre.x * e + centre.y * left(e);
+  const Vector arm = centre.x * e + centre.y * perpendicular(e);
   return {length * e,
           arm,
-          velocity + speed * left(arm),
-          acceleration + angular_acceleration * left(arm) - (speed * speed) * arm,
+          velocity + speed * perpendicular(arm),
+          acceleration + angular_acceleration * perpendicular(arm) - (speed * speed) * arm,
           speed,
           angular_acceleration};
 }
@@ -56,9 +56,9 @@ Body body(double length, std::complex<double> direction, const LinkMass& mass, d
 Bodies bodies(const FourBar& l, const FourBarMasses& m, const FourBarRates& r) {
   Bodies b;
   b.crank = body(l.crank, r.crank_direction, m.crank, r.crank_speed, r.crank_acceleration, {}, {});
-  const Vector pin_velocity = r.crank_speed * left(b.crank.line);
+  const Vector pin_velocity = r.crank_speed * perpendicular(b.crank.line);
   const Vector pin_acceleration =
-      r.crank_acceleration * left(b.crank.line) - (r.crank_speed * r.crank_speed) * b.crank.line;
+      r.crank_acceleration * perpendicular(b.crank.line) - (r.crank_speed * r.crank_speed) * b.crank.line;
   b.coupler = body(l.coupler, r.coupler_direction, m.coupler, r.coupler_speed, r.coupler_acceleration,
                    pin_velocity, pin_acceleration);
   b.rocker = body(l.rocker, r.rocker_direction, m.rocker, r.rocker_speed, r.rocker_acceleration, {}, {});

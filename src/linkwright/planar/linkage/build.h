@@ -22,7 +22,7 @@ int add_body(Linkage& linkage, std::string name, std::vector<LinkagePoint> point
 int add_bar(Linkage& linkage, std::string name, std::string from, std::string to, double length);
 
 /// Adds a body whose points are drawn where they are at the start, in the global frame: its own frame lies on
-/// the global one there. Tells the assembly modes of its pairs. Returns its index.
+/// the global one there. Gives the assembly modes of its pairs. Returns its index.
 int add_drawn(Linkage& linkage, std::string name, std::vector<LinkagePoint> points);
 
 /// Says where a body is at the start: its origin, and the angle of its x axis (rad).

@@ -15,7 +15,7 @@ std::string group_key(std::string name) {
 
 const std::vector<Word>& linkage_quantity_words() {
   static const std::vector<Word> words = {
-      {"position", "angles and origins of the bodies, ways of the slides, traced points"},
+      {"position", "angles and origins of the bodies, displacements of the slides, traced points"},
       {"rates", "their speeds and accelerations"},
       {"reactions", "forces and moments in the joints"},
       {"drive", "torques and forces of the drives"},
@@ -71,7 +71,7 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
            body.name + "." + point.name);
     }
   };
-  // A slide's way and its rates, second point from first along the slide.
+  // A slide's displacement and its rates, second point from first along the slide.
   const auto slides = [&](auto&& each) {
     for (std::size_t j = 0; j < l.joints.size(); ++j)
       if (l.joints[j].type == JointType::prismatic) each(j, identifier(l.joints[j].name), l.joints[j].name);
@@ -82,7 +82,7 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
       return point_motion(plan, *i.motion, p.body, l.bodies[at(p.body)].points[at(p.point)].at);
     };
     const PartState<double> first = body_state(plan, *i.motion, joint.first.body);
-    const Vec<double> along = turn(first.direction, unit(joint.slide_first));
+    const Vec<double> along = rotate(first.direction, unit(joint.slide_first));
     const PointMotion a = place(joint.first), b = place(joint.second);
     if (order == 0) return dot(along, b.position - a.position);
     const Vec<double> slip = b.velocity - velocity_at(first, b.position);

@@ -31,7 +31,7 @@ double alike(const CurveNode& a, std::span<const PartState<double>> b, const Cur
 // The sign of a group's assembly mode that places show; 0 where both meet.
 double shown_mode(const Group& g, std::span<const PartState<double>> parts) {
   const auto there = [&](const PartPoint& p) { return point_on(parts[at(p.part)], p.at); };
-  const auto direction = [&](const PartPoint& p) { return turn(parts[at(p.part)].direction, p.direction); };
+  const auto direction = [&](const PartPoint& p) { return rotate(parts[at(p.part)].direction, p.direction); };
   const Vec<double> a = there(g.joints.front().before), b = there(g.joints.back().after);
   switch (g.type) {
     case GroupType::rrr:
@@ -84,8 +84,8 @@ struct ModeCurve::Memory {
       const PartState<double>&x = a.parts[at(p)], &y = b.parts[at(p)];
       PartState<double>& part = out.parts[at(p)];
       part.origin = a0 * x.origin + b0 * y.origin + a1 * x.velocity + b1 * y.velocity;
-      const double turned = angle_of(unturn(x.direction, y.direction));
-      part.direction = planar::turn(x.direction, unit(b0 * turned + a1 * x.speed + b1 * y.speed));
+      const double turned = angle_of(rotate_inverse(x.direction, y.direction));
+      part.direction = planar::rotate(x.direction, unit(b0 * turned + a1 * x.speed + b1 * y.speed));
       part.velocity = r * x.velocity + s * y.velocity;
       part.speed = r * x.speed + s * y.speed;
     }
@@ -217,7 +217,7 @@ struct ModeCurve::Memory {
       const PartState<double>&x = a.parts[at(p)], &y = b.parts[at(p)];
       worst = std::max(
           {worst, norm(y.origin - x.origin - (0.5 * h) * (x.velocity + y.velocity)) / equations.plan().size,
-           std::abs(angle_of(unturn(x.direction, y.direction)) - 0.5 * h * (x.speed + y.speed))});
+           std::abs(angle_of(rotate_inverse(x.direction, y.direction)) - 0.5 * h * (x.speed + y.speed))});
     }
     return worst <= 0.05 * h;
   }
@@ -318,7 +318,7 @@ struct ModeCurve::Memory {
   void name_ends() {
     for (RangeEnd* end : {&low, &high}) {
       if (end->kind == EndKind::bound) continue;
-      // Beside the end, where the groups still tell.
+      // Beside the end, where the groups still say it.
       const double inside = end == &low ? 1 : -1;
       LinkageMotion motion(equations.plan());
       const double width = nodes.back().value - nodes.front().value;

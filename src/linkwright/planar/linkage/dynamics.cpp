@@ -29,7 +29,8 @@ Springy state_of(const Linkage& l, const LinkagePlan& plan, const LinkageMotion&
 }
 Springy state_of(const LinkagePlan& plan, const LinkageMotion& motion, const TorsionSpring& s) {
   const PartState<double> a = body_state(plan, motion, s.first), b = body_state(plan, motion, s.second);
-  return {math::wrap_angle(angle_of(unturn(a.direction, b.direction)) - s.free_angle), b.speed - a.speed};
+  return {math::wrap_angle(angle_of(rotate_inverse(a.direction, b.direction)) - s.free_angle),
+          b.speed - a.speed};
 }
 
 double power_of(const LinkagePlan& plan, const LinkageMotion& motion, const AppliedLoad& load) {
@@ -44,7 +45,7 @@ double kinetic_energy(const LinkagePlan& plan, const LinkageMotion& motion) {
   for (std::size_t p = 1; p < plan.parts.size(); ++p) {
     const PartMass& m = plan.masses[p];
     const PartState<double>& s = motion.parts[p];
-    const Vec<double> arm = turn(s.direction, m.moment);
+    const Vec<double> arm = rotate(s.direction, m.moment);
     sum += m.mass * dot(s.velocity, s.velocity) / 2 + s.speed * cross(arm, s.velocity) +
            m.inertia * s.speed * s.speed / 2;
   }
@@ -56,7 +57,7 @@ double potential_energy(const Linkage& l, const LinkagePlan& plan, const Linkage
   double sum = 0;
   for (std::size_t p = 1; p < plan.parts.size(); ++p) {
     const PartState<double>& s = motion.parts[p];
-    sum -= dot(gravity, plan.masses[p].mass * s.origin + turn(s.direction, plan.masses[p].moment));
+    sum -= dot(gravity, plan.masses[p].mass * s.origin + rotate(s.direction, plan.masses[p].moment));
   }
   for (const LinearSpring& s : l.springs) {
     const double stretch = state_of(l, plan, motion, s).stretch;
@@ -224,7 +225,7 @@ bool LinkageDynamics::solve_masses(std::span<InputMotion> inputs) {
     double sum = 0;
     for (std::size_t p = 1; p < parts; ++p) {
       const PartMass& m = plan_.masses[p];
-      const Vec<double> arm = turn(motion.parts[p].direction, m.moment);
+      const Vec<double> arm = rotate(motion.parts[p].direction, m.moment);
       sum += m.mass * dot(a[p].velocity, b[p].velocity) + a[p].speed * cross(arm, b[p].velocity) +
              b[p].speed * cross(arm, a[p].velocity) + m.inertia * a[p].speed * b[p].speed;
     }

@@ -16,7 +16,7 @@ constexpr double no_pivot = 1e-13;
 
 // The direction of a slide, and where the joint acts.
 Vec<double> along_of(const PlanJoint& j, const LinkageMotion& motion) {
-  return turn(motion.parts[at(j.before.part)].direction, j.before.direction);
+  return rotate(motion.parts[at(j.before.part)].direction, j.before.direction);
 }
 Vec<double> point_of(const PlanJoint& j, const LinkageMotion& motion) {
   return point_on(motion.parts[at(j.after.part)], j.after.at);
@@ -122,7 +122,7 @@ bool LinkageElimination::solve(const LinkageMotion& motion, std::span<const Wren
   for (std::size_t p = 1; p < parts_.size(); ++p) {
     Part& part = parts_[p];
     const PartState<double>& s = motion.parts[p];
-    const Vec<double> arm = turn(s.direction, part.local);
+    const Vec<double> arm = rotate(s.direction, part.local);
     part.centre = s.origin + arm;
     // Rows over the mass of the part (or the reference), turns times its length.
     const double scale = part.mass > 0 ? part.mass * reference_ : reference_;
@@ -155,9 +155,9 @@ bool LinkageElimination::solve(const LinkageMotion& motion, std::span<const Wren
           entry(c + k, row) -= values[k] / mass;
         }
       };
-      // Turns as ways at the size of the linkage.
+      // Rotations as displacements at the size of the linkage.
       if (slide) {
-        put(0, left(along), 0);
+        put(0, perpendicular(along), 0);
         put(1, {0, 0}, plan_.size);
         if (rows == 3) put(2, along, 0);
       } else {
@@ -181,7 +181,7 @@ double LinkageElimination::acceleration(std::size_t input) const {
   const auto moving = [&](int p) {
     if (p == 0) return Vec<double>{0, 0};
     const Part& part = parts_[at(p)];
-    return Vec<double>{x_[part.place], x_[part.place + 1]} + turning(p) * left(point - part.centre);
+    return Vec<double>{x_[part.place], x_[part.place + 1]} + turning(p) * perpendicular(point - part.centre);
   };
   return sense * dot(along_of(j, *motion_), moving(j.after.part) - moving(j.before.part));
 }

@@ -42,7 +42,7 @@ class LinkageElimination {
     std::size_t place = 0;  // of its first unknown
     double mass = 0;        // a share of the reference
     double turning = 1;     // inertia about the mass centre / (mass length^2)
-    double length = 1;      // that makes turns comparable to ways
+    double length = 1;      // that makes rotations comparable to displacements
     Vec<double> local{0, 0};
     Vec<double> centre{0, 0};  // mass centre, global
   };

@@ -71,7 +71,7 @@ struct TorqueForm {
 };
 struct LinkageForm {
   /// The points of all bodies are given where they are in one drawn position, in the global frame: body
-  /// frames coincide with it there, and the drawing tells the assembly modes.
+  /// frames coincide with it there, and the drawing gives the assembly modes.
   bool drawn = false;
   std::vector<BodyForm> bodies;
   std::vector<JointForm> joints;
@@ -193,7 +193,7 @@ void fields(Visitor&& visit, AssemblyForm& a) {
                   "block of a slot",
               .required = true},
         a.bodies);
-  visit(Field{.key = "mode", .summary = "which of the two ways", .required = true}, a.mode);
+  visit(Field{.key = "mode", .summary = "which of the two assembly modes", .required = true}, a.mode);
 }
 template <class Visitor>
 void fields(Visitor&& visit, SpringForm& s) {

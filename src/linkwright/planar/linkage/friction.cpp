@@ -39,7 +39,7 @@ std::vector<Sliding> sliding_joints(const Linkage& l, const LinkagePlan& plan, c
     const PartState<double>&first = part_of(j.first.body), &second = part_of(j.second.body);
     Sliding s{k, sign_of(second.speed - first.speed), {0, 0}};
     if (j.type != JointType::revolute) {
-      s.along = turn(body_state(plan, motion, j.first.body).direction, unit(j.slide_first));
+      s.along = rotate(body_state(plan, motion, j.first.body).direction, unit(j.slide_first));
       s.sense =
           sign_of(dot(s.along, velocity_at(second, joints[k].point) - velocity_at(first, joints[k].point)));
     }

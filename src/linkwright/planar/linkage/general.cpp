@@ -144,7 +144,7 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
       PartState<double>& part = motion.parts[at(p)];
       const int c = m.column[at(p)];
       part.origin = part.origin - share * Vec<double>{m.solution[c], m.solution[c + 1]};
-      part.direction = tidy_unit(turn(part.direction, unit(-share * m.solution[c + 2] / plan.size)));
+      part.direction = renormalised(rotate(part.direction, unit(-share * m.solution[c + 2] / plan.size)));
     }
   }
   const double residual = std::isfinite(largest) ? largest : infinity;
@@ -209,7 +209,7 @@ void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<con
     }
     if (j.slide) {
       const Vec<double> relative = velocity_at(after, r.point) - velocity_at(before, r.point);
-      slip = slip + (2 * before.speed * dot(r.along, relative)) * left(r.along);
+      slip = slip + (2 * before.speed * dot(r.along, relative)) * perpendicular(r.along);
     }
     for (int i = 0; i < r.count; ++i) {
       const JointEquation& e = r.rows[at(i)];

@@ -25,7 +25,7 @@ struct PartState {
   T angular_acceleration;
 };
 
-/// What a group tells of its closure.
+/// What a group knows of its closure.
 template <class T>
 struct GroupState {
   /// Of a dyad with two modes: what stands under its root, in m2 (RRP, RPR) or m4 (RRR): negative = it cannot
@@ -40,7 +40,7 @@ struct GroupState {
   T rate_x, rate_y, rate_zero;  ///< rates of the joints
 };
 
-/// What a dyad's type tells of its joints: which are slides, and which one, counted from 0, is the pin at R
+/// What a dyad's type says of its joints: which are slides, and which one, counted from 0, is the pin at R
 /// (`zero`) and which are the other two.
 struct DyadLayout {
   bool slide1, slide2, slide3;
@@ -83,29 +83,29 @@ LINKWRIGHT_KERNEL void for_dyad(GroupType type, F&& f) {
 
 template <class T>
 LINKWRIGHT_KERNEL Vec<T> point_on(const PartState<T>& part, const Vec<double>& at) {
-  return part.origin + turn(part.direction, spread<T>(at));
+  return part.origin + rotate(part.direction, broadcast<T>(at));
 }
 template <class T>
 LINKWRIGHT_KERNEL Vec<T> velocity_at(const PartState<T>& part, const Vec<T>& point) {
-  return part.velocity + part.speed * left(point - part.origin);
+  return part.velocity + part.speed * perpendicular(point - part.origin);
 }
 template <class T>
 LINKWRIGHT_KERNEL Vec<T> acceleration_at(const PartState<T>& part, const Vec<T>& point) {
   const Vec<T> arm = point - part.origin;
-  return part.acceleration + part.angular_acceleration * left(arm) - (part.speed * part.speed) * arm;
+  return part.acceleration + part.angular_acceleration * perpendicular(arm) - (part.speed * part.speed) * arm;
 }
 
 // The same for a part by number: the ground, part 0, stands still in the global frame, and nothing is
 // computed for it.
 template <class T>
 LINKWRIGHT_KERNEL Vec<T> point_on(const PartState<T>* parts, const PartPoint& p) {
-  if (p.part == 0) return spread<T>(p.at);
+  if (p.part == 0) return broadcast<T>(p.at);
   return point_on(parts[p.part], p.at);
 }
 template <class T>
 LINKWRIGHT_KERNEL Vec<T> direction_on(const PartState<T>* parts, const PartPoint& p) {
-  if (p.part == 0) return spread<T>(p.direction);
-  return turn(parts[p.part].direction, spread<T>(p.direction));
+  if (p.part == 0) return broadcast<T>(p.direction);
+  return rotate(parts[p.part].direction, broadcast<T>(p.direction));
 }
 template <class T>
 LINKWRIGHT_KERNEL Vec<T> velocity_at(const PartState<T>* parts, int part, const Vec<T>& point) {
@@ -129,18 +129,18 @@ LINKWRIGHT_KERNEL void place_driver(const Group& g, const T& value, PartState<T>
   const T way = j.reversed ? -value : value;
   if (j.slide) {
     const Vec<T> along = direction_on(parts, j.before);
-    moved.direction = turn(along, spread<T>({j.after.direction.x, -j.after.direction.y}));
-    moved.origin = pivot + way * along - turn(moved.direction, spread<T>(j.after.at));
+    moved.direction = rotate(along, broadcast<T>({j.after.direction.x, -j.after.direction.y}));
+    moved.origin = pivot + way * along - rotate(moved.direction, broadcast<T>(j.after.at));
   } else {
     Vec<T> rotation;
     math::sincos(way, rotation.y, rotation.x);
-    const Vec<T> turned = turn(direction_on(parts, j.before), rotation);
-    moved.direction = tidy_unit(turn(turned, spread<T>({j.after.direction.x, -j.after.direction.y})));
-    moved.origin = pivot - turn(moved.direction, spread<T>(j.after.at));
+    const Vec<T> turned = rotate(direction_on(parts, j.before), rotation);
+    moved.direction = renormalised(rotate(turned, broadcast<T>({j.after.direction.x, -j.after.direction.y})));
+    moved.origin = pivot - rotate(moved.direction, broadcast<T>(j.after.at));
   }
 }
 
-// Each places both parts and tells R and the columns of the 2 x 2 equations; `per_length` is one
+// Each places both parts and gives R and the columns of the 2 x 2 equations; `per_length` is one
 // over the product of the columns' lengths.
 template <class T>
 LINKWRIGHT_KERNEL void place_rrr(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state,
@@ -157,15 +157,15 @@ LINKWRIGHT_KERNEL void place_rrr(const Group& g, const T& mode, PartState<T>* pa
   const T root = mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
   const T scale = T(0.5) / d2;
   const T along = T(reach * fold) + d2;
-  const Vec<T> arm1 = scale * turn(Vec<T>{along, root}, d);              // a -> c
-  const Vec<T> arm2 = scale * turn(Vec<T>{along - T(2) * d2, root}, d);  // b -> c
-  first.direction = tidy_unit(turn(arm1, spread<T>(g.first_inverse)));
-  second.direction = tidy_unit(turn(arm2, spread<T>(g.second_inverse)));
-  first.origin = a - turn(first.direction, spread<T>(j1.after.at));
-  second.origin = b - turn(second.direction, spread<T>(j3.before.at));
+  const Vec<T> arm1 = scale * rotate(Vec<T>{along, root}, d);              // a -> c
+  const Vec<T> arm2 = scale * rotate(Vec<T>{along - T(2) * d2, root}, d);  // b -> c
+  first.direction = renormalised(rotate(arm1, broadcast<T>(g.first_inverse)));
+  second.direction = renormalised(rotate(arm2, broadcast<T>(g.second_inverse)));
+  first.origin = a - rotate(first.direction, broadcast<T>(j1.after.at));
+  second.origin = b - rotate(second.direction, broadcast<T>(j3.before.at));
   state.reference = a + arm1;
-  state.column_x = left(arm1);
-  state.column_y = left(arm2);
+  state.column_x = perpendicular(arm1);
+  state.column_y = perpendicular(arm2);
   per_length = T(g.per_length);
 }
 
@@ -177,19 +177,19 @@ LINKWRIGHT_KERNEL void place_rrp(const Group& g, const T& mode, PartState<T>* pa
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
   const Vec<T> a = point_on(parts, j1.before);
   const Vec<T> e = direction_on(parts, j3.after);
-  second.direction = turn(e, spread<T>({j3.before.direction.x, -j3.before.direction.y}));
+  second.direction = rotate(e, broadcast<T>({j3.before.direction.x, -j3.before.direction.y}));
   // The inner pin runs along e through `start`.
-  const Vec<T> start = point_on(parts, j3.after) + turn(second.direction, spread<T>(g.second_link));
+  const Vec<T> start = point_on(parts, j3.after) + rotate(second.direction, broadcast<T>(g.second_link));
   const Vec<T> m = a - start;
   const T across = cross(e, m);
   state.radicand = T(g.first_square) - across * across;
   const T t = dot(m, e) + mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
   const Vec<T> arm = t * e - m;
-  first.direction = tidy_unit(turn(arm, spread<T>(g.first_inverse)));
-  first.origin = a - turn(first.direction, spread<T>(j1.after.at));
-  second.origin = start + t * e - turn(second.direction, spread<T>(j2.after.at));
+  first.direction = renormalised(rotate(arm, broadcast<T>(g.first_inverse)));
+  first.origin = a - rotate(first.direction, broadcast<T>(j1.after.at));
+  second.origin = start + t * e - rotate(second.direction, broadcast<T>(j2.after.at));
   state.reference = a + arm;
-  state.column_x = left(arm);
+  state.column_x = perpendicular(arm);
   state.column_y = e;
   per_length = T(g.per_length);
 }
@@ -208,14 +208,14 @@ LINKWRIGHT_KERNEL void place_rpr(const Group& g, const T& mode, PartState<T>* pa
   state.radicand = d2 - T(offset * offset);
   const T way = mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
   const T scale = T(1) / d2;
-  const Vec<T> e = tidy_unit(scale * turn(Vec<T>{way, T(-offset)}, d));
-  first.direction = turn(e, spread<T>({j2.before.direction.x, -j2.before.direction.y}));
-  second.direction = turn(e, spread<T>({j2.after.direction.x, -j2.after.direction.y}));
-  first.origin = a - turn(first.direction, spread<T>(j1.after.at));
-  second.origin = b - turn(second.direction, spread<T>(j3.before.at));
+  const Vec<T> e = renormalised(scale * rotate(Vec<T>{way, T(-offset)}, d));
+  first.direction = rotate(e, broadcast<T>({j2.before.direction.x, -j2.before.direction.y}));
+  second.direction = rotate(e, broadcast<T>({j2.after.direction.x, -j2.after.direction.y}));
+  first.origin = a - rotate(first.direction, broadcast<T>(j1.after.at));
+  second.origin = b - rotate(second.direction, broadcast<T>(j3.before.at));
   state.reference = a;
   state.column_x = e;
-  state.column_y = -left(d);
+  state.column_y = -perpendicular(d);
   per_length = scale * sqrt(d2);
 }
 
@@ -225,13 +225,13 @@ LINKWRIGHT_KERNEL void place_prp(const Group& g, PartState<T>* parts, GroupState
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
   const Vec<T> e1 = direction_on(parts, j1.before);
   const Vec<T> e3 = direction_on(parts, j3.after);
-  first.direction = turn(e1, spread<T>({j1.after.direction.x, -j1.after.direction.y}));
-  second.direction = turn(e3, spread<T>({j3.before.direction.x, -j3.before.direction.y}));
-  const Vec<T> start1 = point_on(parts, j1.before) + turn(first.direction, spread<T>(g.first_link));
-  const Vec<T> start3 = point_on(parts, j3.after) + turn(second.direction, spread<T>(g.second_link));
+  first.direction = rotate(e1, broadcast<T>({j1.after.direction.x, -j1.after.direction.y}));
+  second.direction = rotate(e3, broadcast<T>({j3.before.direction.x, -j3.before.direction.y}));
+  const Vec<T> start1 = point_on(parts, j1.before) + rotate(first.direction, broadcast<T>(g.first_link));
+  const Vec<T> start3 = point_on(parts, j3.after) + rotate(second.direction, broadcast<T>(g.second_link));
   const Vec<T> pin = start1 + (cross(start3 - start1, e3) / cross(e1, e3)) * e1;
-  first.origin = pin - turn(first.direction, spread<T>(j2.before.at));
-  second.origin = pin - turn(second.direction, spread<T>(j2.after.at));
+  first.origin = pin - rotate(first.direction, broadcast<T>(j2.before.at));
+  second.origin = pin - rotate(second.direction, broadcast<T>(j2.after.at));
   state.reference = pin;
   state.column_x = e1;
   state.column_y = e3;
@@ -242,16 +242,16 @@ LINKWRIGHT_KERNEL void place_rpp(const Group& g, PartState<T>* parts, GroupState
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
   const Vec<T> e3 = direction_on(parts, j3.after);
-  second.direction = turn(e3, spread<T>({j3.before.direction.x, -j3.before.direction.y}));
-  const Vec<T> e2 = turn(second.direction, spread<T>(j2.after.direction));
-  first.direction = turn(e2, spread<T>({j2.before.direction.x, -j2.before.direction.y}));
+  second.direction = rotate(e3, broadcast<T>({j3.before.direction.x, -j3.before.direction.y}));
+  const Vec<T> e2 = rotate(second.direction, broadcast<T>(j2.after.direction));
+  first.direction = rotate(e2, broadcast<T>({j2.before.direction.x, -j2.before.direction.y}));
   const Vec<T> a = point_on(parts, j1.before);
-  first.origin = a - turn(first.direction, spread<T>(j1.after.at));
+  first.origin = a - rotate(first.direction, broadcast<T>(j1.after.at));
   const Vec<T> start2 = point_on(first, j2.before.at);
   // The second part's inner point runs along e2 through start2 and along e3 through start3.
-  const Vec<T> start3 = point_on(parts, j3.after) + turn(second.direction, spread<T>(g.second_link));
+  const Vec<T> start3 = point_on(parts, j3.after) + rotate(second.direction, broadcast<T>(g.second_link));
   const Vec<T> meet = start2 + (cross(start3 - start2, e3) / cross(e2, e3)) * e2;
-  second.origin = meet - turn(second.direction, spread<T>(j2.after.at));
+  second.origin = meet - rotate(second.direction, broadcast<T>(j2.after.at));
   state.reference = a;
   state.column_x = e2;
   state.column_y = e3;
@@ -292,7 +292,8 @@ LINKWRIGHT_KERNEL void drive_velocity(const Group& g, const T& rate, PartState<T
   } else {
     const Vec<T> pivot = point_on(parts, j.before);
     moved.speed = base.speed + way;
-    moved.velocity = velocity_at(parts, j.before.part, pivot) - moved.speed * left(pivot - moved.origin);
+    moved.velocity =
+        velocity_at(parts, j.before.part, pivot) - moved.speed * perpendicular(pivot - moved.origin);
   }
 }
 template <class T>
@@ -307,13 +308,13 @@ LINKWRIGHT_KERNEL void drive_acceleration(const Group& g, const T& rate, const T
     const T sliding = j.reversed ? -rate : rate;
     moved.angular_acceleration = base.angular_acceleration;
     moved.acceleration = acceleration_at(parts, j.before.part, moved.origin) + way * along +
-                         (T(2) * base.speed * sliding) * left(along);
+                         (T(2) * base.speed * sliding) * perpendicular(along);
   } else {
     const Vec<T> pivot = point_on(parts, j.before);
     const Vec<T> arm = pivot - moved.origin;
     moved.angular_acceleration = base.angular_acceleration + way;
     moved.acceleration = acceleration_at(parts, j.before.part, pivot) -
-                         moved.angular_acceleration * left(arm) + (moved.speed * moved.speed) * arm;
+                         moved.angular_acceleration * perpendicular(arm) + (moved.speed * moved.speed) * arm;
   }
 }
 
@@ -338,8 +339,8 @@ LINKWRIGHT_KERNEL void dyad_velocity(DyadType<type>, const Group& g, PartState<T
   const Vec<T> at_first = velocity_at(parts, j1.before.part, s.reference) +
                           (at.zero == 0 ? Vec<T>{T(0), T(0)} : s.rate_x * s.column_x);
   const Vec<T> at_second = velocity_at(parts, j3.after.part, s.reference) - s.rate_y * s.column_y;
-  first.velocity = at_first - first.speed * left(s.reference - first.origin);
-  second.velocity = at_second - second.speed * left(s.reference - second.origin);
+  first.velocity = at_first - first.speed * perpendicular(s.reference - first.origin);
+  second.velocity = at_second - second.speed * perpendicular(s.reference - second.origin);
 }
 
 /// What a joint adds to the acceleration at R beyond the acceleration of its own rate: centripetal of a pin,
@@ -347,9 +348,9 @@ LINKWRIGHT_KERNEL void dyad_velocity(DyadType<type>, const Group& g, PartState<T
 template <class T>
 LINKWRIGHT_KERNEL Vec<T> joint_bias(bool slide, const Vec<T>& column, const T& rate, const T& speed_before,
                                     const T& speed_after) {
-  if (slide) return (T(2) * speed_before * rate) * left(column);
-  // column = left(R - P), so R - P = -left(column)
-  return (speed_after * speed_after - speed_before * speed_before) * left(column);
+  if (slide) return (T(2) * speed_before * rate) * perpendicular(column);
+  // column = perpendicular(R - P), so R - P = -perpendicular(column)
+  return (speed_after * speed_after - speed_before * speed_before) * perpendicular(column);
 }
 
 template <GroupType type, class T>
@@ -380,7 +381,8 @@ LINKWRIGHT_KERNEL void dyad_acceleration(DyadType<type>, const Group& g, PartSta
   const Vec<T> at_second = from_after - change_y * s.column_y - bias_y;
   const auto to_origin = [&](PartState<T> & part, const Vec<T>& there) __attribute__((always_inline)) {
     const Vec<T> arm = s.reference - part.origin;
-    part.acceleration = there - part.angular_acceleration * left(arm) + (part.speed * part.speed) * arm;
+    part.acceleration =
+        there - part.angular_acceleration * perpendicular(arm) + (part.speed * part.speed) * arm;
   };
   to_origin(first, at_first);
   to_origin(second, at_second);
@@ -413,10 +415,11 @@ LINKWRIGHT_KERNEL Wrench<T> shifted(const Wrench<T>& w, const Vec<T>& way) {
 template <class T>
 LINKWRIGHT_KERNEL Wrench<T> needed_wrench(const PartMass& m, const PartState<T>& part,
                                           const Vec<T>& gravity) {
-  const Vec<T> arm = turn(part.direction, spread<T>(m.moment));
+  const Vec<T> arm = rotate(part.direction, broadcast<T>(m.moment));
   const Vec<T> lifted = part.acceleration - gravity;
-  return {T(m.mass) * lifted + part.angular_acceleration * left(arm) - (part.speed * part.speed) * arm,
-          T(m.inertia) * part.angular_acceleration + cross(arm, lifted)};
+  return {
+      T(m.mass) * lifted + part.angular_acceleration * perpendicular(arm) - (part.speed * part.speed) * arm,
+      T(m.inertia) * part.angular_acceleration + cross(arm, lifted)};
 }
 
 /// Joint wrenches of a dyad about its R, of the part before on the part after each joint; `needed` holds, per

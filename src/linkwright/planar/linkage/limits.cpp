@@ -151,7 +151,7 @@ std::string assembly_range_text(const InputLimits& limits, std::span<const doubl
   for (const InputRange& r : limits.ranges) {
     if (!std::equal(modes.begin(), modes.end(), r.modes.begin(), r.modes.end())) continue;
     if (r.full_turn) return "assembles over the full turn";
-    // A range across the end of the turn is told about the start when more of it lies there: -96 to 96 deg.
+    // A range across the end of the turn is counted from the start when more of it lies there: -96 to 96 deg.
     const bool beyond = limits.closed && (r.from.value + r.to.value) / 2 >= limits.to - same_place;
     const double from = r.from.value - (beyond ? full_turn : 0), to = r.to.value - (beyond ? full_turn : 0);
     // Ranges that meet at a change point are one to the reader.

@@ -40,7 +40,7 @@ struct LinkageBody {
   std::vector<LinkagePoint> points;
   std::optional<BodyMass> mass;
   std::vector<AttachedMass> attached;
-  /// About where the body stands at the start: tells the assembly mode of its group, and is where a search
+  /// About where the body stands at the start: gives the assembly mode of its group, and is where a search
   /// starts. Not needed for groups whose mode is given.
   std::optional<math::Pose> start;
 };
@@ -61,9 +61,9 @@ struct BodyPoint {
 };
 
 /// A joint between two bodies. Its coordinate is what a drive prescribes: of a revolute joint the angle of
-/// the frame of the second body from that of the first (rad, counter-clockwise), of a prismatic joint the way
-/// of the second point from the first along the slide (m). Its reaction is the force (and moment) of the
-/// first body on the second.
+/// the frame of the second body from that of the first (rad, counter-clockwise), of a prismatic joint the
+/// displacement of the second point from the first along the slide (m). Its reaction is the force (and
+/// moment) of the first body on the second.
 struct LinkageJoint {
   std::string name;
   JointType type = JointType::revolute;

@@ -10,7 +10,7 @@
 
 namespace linkwright::planar {
 
-/// One way to assemble a linkage at given inputs.
+/// One assembly mode of a linkage at given inputs.
 struct AssembledMode {
   std::vector<double> modes;  ///< signs, one a group; of a general group the sign of its determinant
   std::vector<PartState<double>> parts;  ///< positions; put them into a LinkageMotion to go on from here
@@ -27,11 +27,11 @@ struct AssemblyModes {
   std::vector<AssembledMode> found;  ///< closed forms: all, plus first; general groups: what the starts met
   int starts = 0;                    ///< Newton starts in all; 0 = closed form, the list is complete
   bool complete = true;              ///< false: `most` was reached
-  std::string text;  ///< "4 modes", or "6 modes from 200 starts": a search cannot tell that it found all
+  std::string text;  ///< "4 modes", or "6 modes from 200 starts": a search cannot say that it found all
 };
 
-/// All ways to assemble the linkage at these inputs: every combination of the dyads' modes that closes, and
-/// what Newton's method finds of general groups from seeded random places of their parts. Two ways are the
+/// All assembly modes of the linkage at these inputs: every combination of the dyads' modes that closes, and
+/// what Newton's method finds of general groups from seeded random places of their parts. Two are the
 /// same when no part's origin differs by more than 1e-6 of the linkage's size and no direction by more than
 /// 1e-6. At a dead point the two modes of a dyad are one; linkages with groups behind it have no place there.
 AssemblyModes assembly_modes(const LinkagePlan& plan, std::span<const double> inputs,

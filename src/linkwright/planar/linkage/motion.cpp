@@ -33,7 +33,7 @@ double closure_of(const Group& g, const LinkageMotion& m) {
   const PlanJoint& inner = g.joints[1];
   const PartState<double>&before = m.parts[at(inner.before.part)], &after = m.parts[at(inner.after.part)];
   const Vec<double> apart = point_on(after, inner.after.at) - point_on(before, inner.before.at);
-  return inner.slide ? std::abs(cross(turn(before.direction, inner.before.direction), apart)) : norm(apart);
+  return inner.slide ? std::abs(cross(rotate(before.direction, inner.before.direction), apart)) : norm(apart);
 }
 
 void forget(PartState<double>& part) { part = {{nan, nan}, {nan, nan}, {nan, nan}, nan, {nan, nan}, nan}; }
@@ -44,7 +44,7 @@ void place_gear(const Group& g, std::span<const InputMotion> inputs, LinkageMoti
   for (std::size_t i = 0; i < inputs.size(); ++i) angle += g.gains[i] * inputs[i].value;
   PartState<double>& part = motion.parts[at(j.after.part)];
   part.direction = unit(angle);
-  part.origin = point_on(motion.parts[at(j.before.part)], j.before.at) - turn(part.direction, j.after.at);
+  part.origin = point_on(motion.parts[at(j.before.part)], j.before.at) - rotate(part.direction, j.after.at);
 }
 void gear_velocity(const Group& g, std::span<const InputMotion> inputs, LinkageMotion& motion) {
   const PlanJoint& j = g.joints[0];
@@ -53,7 +53,7 @@ void gear_velocity(const Group& g, std::span<const InputMotion> inputs, LinkageM
   part.speed = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i) part.speed += g.gains[i] * inputs[i].rate;
   const Vec<double> pin = point_on(base, j.before.at);
-  part.velocity = velocity_at(base, pin) - part.speed * left(pin - part.origin);
+  part.velocity = velocity_at(base, pin) - part.speed * perpendicular(pin - part.origin);
 }
 void gear_acceleration(const Group& g, std::span<const InputMotion> inputs, LinkageMotion& motion) {
   const PlanJoint& j = g.joints[0];
@@ -63,8 +63,8 @@ void gear_acceleration(const Group& g, std::span<const InputMotion> inputs, Link
   for (std::size_t i = 0; i < inputs.size(); ++i)
     part.angular_acceleration += g.gains[i] * inputs[i].acceleration;
   const Vec<double> pin = point_on(base, j.before.at), arm = pin - part.origin;
-  part.acceleration =
-      acceleration_at(base, pin) - part.angular_acceleration * left(arm) + (part.speed * part.speed) * arm;
+  part.acceleration = acceleration_at(base, pin) - part.angular_acceleration * perpendicular(arm) +
+                      (part.speed * part.speed) * arm;
 }
 
 void require_inputs(const LinkagePlan& plan, std::span<const InputMotion> inputs) {
@@ -119,7 +119,7 @@ PartState<double> body_state(const LinkagePlan& plan, const LinkageMotion& motio
   const Vec<double> origin = point_on(s, on.origin);
   s.velocity = velocity_at(s, origin);
   s.acceleration = acceleration_at(s, origin);
-  s.direction = turn(s.direction, on.turn);
+  s.direction = rotate(s.direction, on.turn);
   s.origin = origin;
   return s;
 }

@@ -101,16 +101,16 @@ class Planner {
       }
       // Frame of b in the frame of a, then in that of a's root; all of b's part moves over.
       const Vec<double> turn_ba = unit(j.slide_first - j.slide_second);
-      const Vec<double> origin_ba = point(j.first) - turn(turn_ba, point(j.second));
+      const Vec<double> origin_ba = point(j.first) - rotate(turn_ba, point(j.second));
       const OnRoot &ra = pose[at(a)], rb = pose[at(b)];
-      const OnRoot b_in_root{ra.origin + turn(ra.turn, origin_ba), tidy_unit(turn(ra.turn, turn_ba))};
-      const Vec<double> old_turn = turn(b_in_root.turn, conj(rb.turn));
-      const Vec<double> old_origin = b_in_root.origin - turn(old_turn, rb.origin);
+      const OnRoot b_in_root{ra.origin + rotate(ra.turn, origin_ba), renormalised(rotate(ra.turn, turn_ba))};
+      const Vec<double> old_turn = rotate(b_in_root.turn, conj(rb.turn));
+      const Vec<double> old_origin = b_in_root.origin - rotate(old_turn, rb.origin);
       const int from = root[at(b)], to = root[at(a)];
       for (int i = 0; i < n; ++i)
         if (root[at(i)] == from) {
-          pose[at(i)] = {old_origin + turn(old_turn, pose[at(i)].origin),
-                         tidy_unit(turn(old_turn, pose[at(i)].turn))};
+          pose[at(i)] = {old_origin + rotate(old_turn, pose[at(i)].origin),
+                         renormalised(rotate(old_turn, pose[at(i)].turn))};
           root[at(i)] = to;
         }
     }
@@ -130,8 +130,8 @@ class Planner {
       const OnRoot& base = pose[at(lowest[at(part)])];
       BodyOnPart& b = plan().bodies[at(i)];
       b.part = part;
-      b.turn = turn(conj(base.turn), pose[at(i)].turn);
-      b.origin = unturn(base.turn, pose[at(i)].origin - base.origin);
+      b.turn = rotate(conj(base.turn), pose[at(i)].turn);
+      b.origin = rotate_inverse(base.turn, pose[at(i)].origin - base.origin);
       b.same_frame = lowest[at(part)] == i;
       if (b.same_frame) b.origin = {0, 0}, b.turn = {1, 0};
     }
@@ -141,15 +141,15 @@ class Planner {
       const BodyOnPart& b = plan().bodies[at(i)];
       if (b.part == 0 || start_[at(b.part)] || !l_.bodies[at(i)].start) continue;
       const math::Pose& s = *l_.bodies[at(i)].start;
-      const Vec<double> direction = turn(unit(s.angle), conj(b.turn));
-      const Vec<double> origin = Vec<double>{s.x, s.y} - turn(direction, b.origin);
+      const Vec<double> direction = rotate(unit(s.angle), conj(b.turn));
+      const Vec<double> origin = Vec<double>{s.x, s.y} - rotate(direction, b.origin);
       start_[at(b.part)] = math::Pose{origin.x, origin.y, angle_of(direction)};
     }
   }
 
   PartPoint on_part(const BodyPoint& p, double slide) const {
     const BodyOnPart& b = result_.plan.bodies[at(p.body)];
-    return {b.part, b.origin + turn(b.turn, point(p)), turn(b.turn, unit(slide))};
+    return {b.part, b.origin + rotate(b.turn, point(p)), rotate(b.turn, unit(slide))};
   }
 
   void links() {
@@ -321,8 +321,8 @@ class Planner {
       if (inner.slide) {
         g.type = outer3->slide ? GroupType::rpp : GroupType::rpr;
         if (g.type == GroupType::rpr) {
-          g.first_link = unturn(j2.before.direction, g.first_link);
-          g.second_link = unturn(j2.after.direction, g.second_link);
+          g.first_link = rotate_inverse(j2.before.direction, g.first_link);
+          g.second_link = rotate_inverse(j2.after.direction, g.second_link);
         }
       } else {
         g.type = outer1->slide ? GroupType::prp : outer3->slide ? GroupType::rrp : GroupType::rrr;
@@ -624,11 +624,11 @@ class Planner {
       if (link.input < 0) continue;
       const auto &first = start_[at(link.first.part)], &second = start_[at(link.second.part)];
       if (!first || !second) return;
-      const Vec<double> along = turn(unit(first->angle), link.first.direction),
-                        other = turn(unit(second->angle), link.second.direction),
+      const Vec<double> along = rotate(unit(first->angle), link.first.direction),
+                        other = rotate(unit(second->angle), link.second.direction),
                         way = vec(math::transform(*second, number(link.second.at))) -
                               vec(math::transform(*first, number(link.first.at)));
-      values[at(link.input)] = link.slide ? dot(along, way) : angle_of(unturn(along, other));
+      values[at(link.input)] = link.slide ? dot(along, way) : angle_of(rotate_inverse(along, other));
     }
     plan().drawn_inputs = std::move(values);
   }
@@ -645,7 +645,9 @@ class Planner {
     const auto there = [&](const PartPoint& p) {
       return vec(math::transform(*start_[at(p.part)], number(p.at)));
     };
-    const auto along = [&](const PartPoint& p) { return turn(unit(start_[at(p.part)]->angle), p.direction); };
+    const auto along = [&](const PartPoint& p) {
+      return rotate(unit(start_[at(p.part)]->angle), p.direction);
+    };
     const Vec<double> a = there(g.joints[0].before), b = there(g.joints.back().after);
     double side = 0;
     if (g.type == GroupType::triangle)
@@ -683,7 +685,7 @@ std::vector<PartMass> part_masses(const Linkage& linkage, std::span<const BodyOn
     const BodyOnPart& on = bodies[i];
     PartMass& m = masses[static_cast<Index>(on.part)];
     const auto add = [&](double mass, double inertia, const Vec<double>& centre) {
-      const Vec<double> c = on.origin + turn(on.turn, centre);
+      const Vec<double> c = on.origin + rotate(on.turn, centre);
       m.mass += mass;
       m.moment = m.moment + mass * c;
       m.inertia += inertia + mass * dot(c, c);

@@ -131,12 +131,12 @@ std::vector<TransmissionRange> transmission_ranges(const LinkagePlan& plan, std:
 PartState<double> relative_motion(const PartState<double>& r, const PartState<double>& b) {
   const Vec<double> slip = b.velocity - velocity_at(r, b.origin);
   const Vec<double> change =
-      b.acceleration - acceleration_at(r, b.origin) - (2 * r.speed) * left(slip);  // less Coriolis
-  return {unturn(r.direction, b.origin - r.origin),
-          unturn(r.direction, b.direction),
-          unturn(r.direction, slip),
+      b.acceleration - acceleration_at(r, b.origin) - (2 * r.speed) * perpendicular(slip);  // less Coriolis
+  return {rotate_inverse(r.direction, b.origin - r.origin),
+          rotate_inverse(r.direction, b.direction),
+          rotate_inverse(r.direction, slip),
           b.speed - r.speed,
-          unturn(r.direction, change),
+          rotate_inverse(r.direction, change),
           b.angular_acceleration - r.angular_acceleration};
 }
 
@@ -186,10 +186,10 @@ InstantCentre instant_centre(const LinkagePlan& plan, const LinkageMotion& motio
   const double rounding = 1e3 * tolerance::epsilon;
   if (std::abs(turning) * plan.size > rounding * moves) {
     out.kind = InstantCentre::Kind::point;
-    out.position = b.origin + (1 / turning) * left(slip);
+    out.position = b.origin + (1 / turning) * perpendicular(slip);
   } else if (norm(slip) > rounding * moves) {
     out.kind = InstantCentre::Kind::at_infinity;
-    out.direction = (1 / norm(slip)) * left(slip);
+    out.direction = (1 / norm(slip)) * perpendicular(slip);
   }
   return out;
 }
@@ -213,9 +213,10 @@ PoleGeometry pole_geometry(const LinkagePlan& plan, const LinkageMotion& motion,
   }
   const PartState<double> base = body_state(plan, motion, reference);
   const PartState<double> s = relative_motion(base, body_state(plan, motion, body));
-  const Vec<double> pole = unturn(base.direction, centre.position - base.origin);
-  // A point at r from the pole has the velocity w left(r) and the acceleration a + e left(r) - w^2 r, a of
-  // the pole: parallel where a . r = w^2 r^2, a circle over the diameter a / w^2.
+  const Vec<double> pole = rotate_inverse(base.direction, centre.position - base.origin);
+  // A point at r from the pole has the velocity w perpendicular(r) and the acceleration a + e
+  // perpendicular(r) - w^2 r, a of the pole: parallel where a . r = w^2 r^2, a circle over the diameter a /
+  // w^2.
   const Vec<double> a = acceleration_at(s, pole);
   const double square = s.speed * s.speed;
   const Vec<double> diameter = (1 / square) * a;
@@ -226,7 +227,7 @@ PoleGeometry pole_geometry(const LinkagePlan& plan, const LinkageMotion& motion,
   out.circle_radius = 0.5 * norm(diameter);
   // a + (i e - w^2) r = 0
   const Vec<double> divisor{square, -s.angular_acceleration};
-  out.acceleration_pole = global(pole + (1 / dot(divisor, divisor)) * unturn(divisor, a));
+  out.acceleration_pole = global(pole + (1 / dot(divisor, divisor)) * rotate_inverse(divisor, a));
   return out;
 }
 
@@ -253,8 +254,8 @@ Table centrodes(const LinkagePlan& plan, std::span<const double> inputs, int inp
       const InstantCentre c = instant_centre(plan, motion, reference, body);
       if (c.kind == InstantCentre::Kind::point) {
         const PartState<double> r = body_state(plan, motion, reference), b = body_state(plan, motion, body);
-        fixed = unturn(r.direction, c.position - r.origin);
-        moving = unturn(b.direction, c.position - b.origin);
+        fixed = rotate_inverse(r.direction, c.position - r.origin);
+        moving = rotate_inverse(b.direction, c.position - b.origin);
       } else {
         status = c.kind == InstantCentre::Kind::at_infinity ? "at_infinity" : "undetermined";
       }

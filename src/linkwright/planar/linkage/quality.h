@@ -31,15 +31,15 @@ struct TransmissionRange {
   std::size_t missing = 0;  ///< samples at which the group does not assemble
 };
 /// ... of every dyad of the plan while one input runs from `from` to `to` and the others stay as given:
-/// `samples` >= 2 positions, the extremes between them refined until the input is known to 1e-8 of its way.
+/// `samples` >= 2 positions, the extremes between them refined until the input is known to 1e-8 of its range.
 /// The modes are those of `motion`.
 std::vector<TransmissionRange> transmission_ranges(const LinkagePlan& plan, std::span<const double> inputs,
                                                    int input, double from, double to, std::size_t samples,
                                                    LinkageMotion& motion);
 
 /// Coordinate of a joint and how it changes: revolute, the angle of the second frame from the first in (-pi,
-/// pi]; prismatic and pin in slot, the way of the second point along the slide; gear, the angle of the second
-/// frame from the carrier; fixed, zero. rad or m, per second.
+/// pi]; prismatic and pin in slot, the displacement of the second point along the slide; gear, the angle of
+/// the second frame from the carrier; fixed, zero. rad or m, per second.
 struct JointMotion {
   double value = 0, rate = 0, acceleration = 0;
 };

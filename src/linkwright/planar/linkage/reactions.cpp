@@ -63,7 +63,7 @@ void report(const PlanJoint& j, const LinkageMotion& motion, const Wrench<double
 double along_drive(const PlanJoint& j, const LinkageMotion& motion, const Wrench<double>& w) {
   const double side = j.reversed ? -1 : 1;
   if (!j.slide) return side * w.moment;
-  return side * dot(turn(motion.parts[at(j.before.part)].direction, j.before.direction), w.force);
+  return side * dot(rotate(motion.parts[at(j.before.part)].direction, j.before.direction), w.force);
 }
 
 // One pass over the groups, last first, with the loads as they are.
@@ -196,7 +196,7 @@ void powers(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& moti
     const PartState<double>& s = motion.parts[p];
     const Wrench<double> w = needed_wrench(plan.masses[p], s, Vec<double>{0, 0});
     f.kinetic_power += dot(w.force, s.velocity) + w.moment * s.speed;
-    const Vec<double> arm = turn(s.direction, plan.masses[p].moment);
+    const Vec<double> arm = rotate(s.direction, plan.masses[p].moment);
     f.weight_power += plan.masses[p].mass * dot(gravity, s.velocity) + cross(arm, gravity) * s.speed;
   }
   for (const AppliedLoad& load : f.loads) {
@@ -209,7 +209,7 @@ void powers(const Linkage& l, const LinkagePlan& plan, const LinkageMotion& moti
           &second = part_of(plan, motion, j.second.body);
     double rate = second.speed - first.speed;
     if (j.type == JointType::prismatic) {
-      const Vec<double> along = turn(body_state(plan, motion, j.first.body).direction, unit(j.slide_first));
+      const Vec<double> along = rotate(body_state(plan, motion, j.first.body).direction, unit(j.slide_first));
       const Vec<double> point = point_of(l, plan, motion, j.second).position;
       rate = dot(along, velocity_at(second, point) - velocity_at(first, point));
     }
@@ -242,7 +242,7 @@ void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotio
   }
   for (const TorsionSpring& s : l.torsion_springs) {
     const PartState<double> a = body_state(plan, motion, s.first), b = body_state(plan, motion, s.second);
-    const double angle = math::wrap_angle(angle_of(unturn(a.direction, b.direction)) - s.free_angle);
+    const double angle = math::wrap_angle(angle_of(rotate_inverse(a.direction, b.direction)) - s.free_angle);
     const double torque = -s.stiffness * angle - s.damping * (b.speed - a.speed);
     loads.push_back({s.second, b.origin, {0, 0}, torque});
     loads.push_back({s.first, a.origin, {0, 0}, -torque});
@@ -250,7 +250,7 @@ void applied_loads(const Linkage& l, const LinkagePlan& plan, const LinkageMotio
   for (const PointForce& p : l.forces) {
     const Vec<double> there = point_of(l, plan, motion, p.point).position;
     Vec<double> force = strength(p.factor, time, input, there, 0) * vec(p.force);
-    if (p.turns_with_body) force = turn(body_state(plan, motion, p.point.body).direction, force);
+    if (p.turns_with_body) force = rotate(body_state(plan, motion, p.point.body).direction, force);
     loads.push_back({p.point.body, there, force, 0});
   }
   for (const BodyTorque& t : l.torques) {

@@ -67,11 +67,11 @@ GroupScan::Closure GroupScan::closure(std::size_t k, double value) {
               std::min(std::abs(reach - length), std::abs(length - std::abs(fold))) / reach};
     }
     case GroupType::rrp: {
-      const Vec<double> e = turn(after.direction, j3.after.direction);
+      const Vec<double> e = rotate(after.direction, j3.after.direction);
       // The line of the inner pin runs beside the slide's, by as much wherever the guide stands.
-      const double beside = unturn(j3.before.direction, g.second_link).y;
+      const double beside = rotate_inverse(j3.before.direction, g.second_link).y;
       const double across = cross(e, d) + beside, l = std::sqrt(g.first_square);
-      const double slope = cross(e, slip) + after.speed * cross(left(e), d);
+      const double slope = cross(e, slip) + after.speed * cross(perpendicular(e), d);
       return {(l - across) * (l + across), -2 * across * slope, std::abs(std::abs(across) - l) / l};
     }
     case GroupType::rpr: {
@@ -80,8 +80,8 @@ GroupScan::Closure GroupScan::closure(std::size_t k, double value) {
               std::abs(length - std::abs(offset)) / plan.size};
     }
     default: {  // PRP: the sine between the slides, with sign
-      const Vec<double> e1 = turn(before.direction, j1.before.direction),
-                        e3 = turn(after.direction, j3.after.direction);
+      const Vec<double> e1 = rotate(before.direction, j1.before.direction),
+                        e3 = rotate(after.direction, j3.after.direction);
       return {cross(e1, e3), (after.speed - before.speed) * dot(e1, e3), std::abs(cross(e1, e3))};
     }
   }

@@ -20,14 +20,14 @@ DrivenSide driven_side(const Group& g, double value) {
   DrivenSide out;
   const Vec<double> base = drive.before.at - foot.after.at;
   if (drive.slide) {
-    out.turn = tidy_unit(turn(drive.before.direction, back));
-    out.way = base + way * drive.before.direction + turn(out.turn, arm);
+    out.turn = renormalised(rotate(drive.before.direction, back));
+    out.way = base + way * drive.before.direction + rotate(out.turn, arm);
     out.rate = sense * drive.before.direction;
   } else {
-    out.turn = tidy_unit(turn(turn(drive.before.direction, unit(way)), back));
-    const Vec<double> turned = turn(out.turn, arm);
+    out.turn = renormalised(rotate(rotate(drive.before.direction, unit(way)), back));
+    const Vec<double> turned = rotate(out.turn, arm);
     out.way = base + turned;
-    out.rate = sense * left(turned);
+    out.rate = sense * perpendicular(turned);
   }
   return out;
 }
@@ -47,20 +47,20 @@ void place_triangle(const Group& g, double value, double mode, std::span<PartSta
   state.radicand = (reach * reach - d2) * (d2 - fold * fold);
   const double root = mode * std::sqrt(std::max(state.radicand, 0.0));
   const double scale = 0.5 / d2, along = reach * fold + d2;
-  const Vec<double> arm1 = scale * turn(Vec<double>{along, root}, d),
-                    arm2 = scale * turn(Vec<double>{along - 2 * d2, root}, d);
-  first.direction = tidy_unit(turn(arm1, (1 / square) * conj(side.way)));
-  arm.direction = tidy_unit(turn(arm2, g.second_inverse));
-  second.direction = tidy_unit(turn(first.direction, side.turn));
-  first.origin = a - turn(first.direction, foot.after.at);
-  arm.origin = b - turn(arm.direction, base.before.at);
+  const Vec<double> arm1 = scale * rotate(Vec<double>{along, root}, d),
+                    arm2 = scale * rotate(Vec<double>{along - 2 * d2, root}, d);
+  first.direction = renormalised(rotate(arm1, (1 / square) * conj(side.way)));
+  arm.direction = renormalised(rotate(arm2, g.second_inverse));
+  second.direction = renormalised(rotate(first.direction, side.turn));
+  first.origin = a - rotate(first.direction, foot.after.at);
+  arm.origin = b - rotate(arm.direction, base.before.at);
   const Vec<double> inner =
       drive.before.at +
       (drive.slide ? ((drive.reversed ? -value : value) * drive.before.direction) : Vec<double>{0, 0});
-  second.origin = point_on(first, inner) - turn(second.direction, drive.after.at);
+  second.origin = point_on(first, inner) - rotate(second.direction, drive.after.at);
   state.reference = a + arm1;
-  state.column_x = left(arm1);
-  state.column_y = left(arm2);
+  state.column_x = perpendicular(arm1);
+  state.column_y = perpendicular(arm2);
   state.sine = cross(arm1, arm2) / (length * g.second_length);
 }
 

@@ -51,7 +51,7 @@ std::vector<Defect> defects(const PathProblem& problem, const PathDesign& design
   const bool turns =
       type.crank_margin >= -tolerance::feasibility * (l.ground + l.crank + l.coupler + l.rocker);
   const std::size_t steps = problem.closed ? n : n - 1;
-  // Prescribed angles tell themselves which way the crank turns.
+  // Prescribed angles themselves say which way the crank turns.
   const double direction = problem.timing == Timing::free
                                ? design.sense
                                : std::copysign(1.0, design.angles.back() - design.angles.front());

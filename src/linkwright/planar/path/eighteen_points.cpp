@@ -47,7 +47,7 @@ std::vector<PublishedPathDesign> eighteen_point_designs() {
        design(4.453772, 0.297057, 3.913095, 0.849372, 1.6610626, 2.7387359, 2.806964, 4.853543, -1.309243),
        4.853543, 0.0196, "not reproduced",
        "the column lost a value: 4.853543 stands twice and the entries below are shifted"},
-      {"Cabrera et al. 2007, columns put right",
+      {"Cabrera et al. 2007, columns corrected",
        design(4.453772, 0.297057, 3.913095, 0.849372, -2.06632, 1.6610626, -1.309243, 2.806964, 2.7387359),
        4.853543, 0.0196, "corrected",
        "entries moved back; the lost coupler_u is fitted, so it is an inference"},

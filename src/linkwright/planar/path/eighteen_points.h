@@ -22,7 +22,7 @@ struct PublishedPathDesign {
 PathProblem eighteen_points();
 
 /// The six designs of Boskovic 2018, Table 4.1, branch open, sense +1, and a seventh entry: the design of
-/// Cabrera 2007 with its shifted columns put right. Verdicts from re-evaluation.
+/// Cabrera 2007 with its shifted columns corrected. Verdicts from re-evaluation.
 std::vector<PublishedPathDesign> eighteen_point_designs();
 
 }  // namespace linkwright::planar

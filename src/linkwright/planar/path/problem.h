@@ -24,7 +24,7 @@ constexpr std::array<EnumName<Timing>, 3> names(Timing) {
            {Timing::given, "given", "the crank angle of each point is given"}}};
 }
 
-/// The designed quantities, in the order of the variables of the ten-unknown problem.
+/// The design variables, in the order of the variables of the ten-unknown problem.
 enum class FourBarParameter : std::size_t {
   ground,
   crank,
@@ -51,8 +51,8 @@ struct PathProblem {
       y;  ///< target points (m), at least 3; a closed path does not repeat its first point at the end
   bool closed = true;
   Timing timing = Timing::free;
-  /// Targets that are gates: half of the way from one gate post to the other (m), so that target k is met
-  /// anywhere on the segment from (x - gate_x, y - gate_y) to (x + gate_x, y + gate_y). Empty = points.
+  /// Targets that are gates: half of the distance from one gate post to the other (m), so that target k is
+  /// met anywhere on the segment from (x - gate_x, y - gate_y) to (x + gate_x, y + gate_y). Empty = points.
   std::vector<double> gate_x, gate_y;
   std::vector<double> tolerance;  ///< a target is met as near as this (m, >= 0), at no cost; empty = exactly
   double least_step = 1e-4;       ///< crank rotation that free timing keeps between two points (rad, > 0)

@@ -96,7 +96,7 @@ bool PathProjection::project(std::span<const double> q) {
     vx_[k] = v.x;
     vy_[k] = v.y;
   }
-  // By construction the crank turns fully; only rounding at a change point can say otherwise.
+  // By construction the crank rotates fully; only rounding at a change point can say otherwise.
   if (!assembles) return false;
 
   // Columns: [1, i,] a u [, i u], v, i v; real parts first, then imaginary parts. Modified Gram-Schmidt.
@@ -215,7 +215,7 @@ PathDesign PathProjection::design(const PathProblem& problem, std::span<const do
   const double smallest = 1e-9 * size_;
   if (!(std::abs(scale) >= smallest)) scale = smallest;
   // A fixed frame may ask for a negative scale, which is no linkage: taken positive, it fits worse than the
-  // residuals say, and the measured error tells.
+  // residuals say, and the measured error confirms it.
   const std::complex<double> direction = frame_fixed_ ? frame_ : (a == 0.0 ? 1.0 : a / std::abs(a));
   const std::complex<double> point = b / direction;
   FourBar l;

@@ -59,7 +59,7 @@ std::vector<Defect> defects(const SliderPathProblem& problem, const SliderPathDe
   const SliderCrankForm& f = design.mechanism.parameters;
   const bool turns = rotation_margin(f) >= -tolerance::feasibility * (f.rod + f.crank + std::abs(f.offset));
   const std::size_t steps = problem.closed ? n : n - 1;
-  // Prescribed angles tell themselves which way the crank turns.
+  // Prescribed angles themselves say which way the crank turns.
   const double direction =
       problem.free_timing ? design.sense : std::copysign(1.0, design.angles.back() - design.angles.front());
   double turned = 0;

@@ -9,7 +9,7 @@
 namespace linkwright::planar {
 
 /// Crank angles (rad) around `crank_angle` that the mechanism reaches without being taken apart, unwrapped so
-/// that it lies between them; a full turn from there when the crank turns fully. Empty when it does not
+/// that it lies between them; a full turn from there when the crank rotates fully. Empty when it does not
 /// assemble there.
 struct CrankInterval {
   double from = 0, to = 0;

@@ -75,7 +75,7 @@ void require_valid(const SliderPathProblem& p) {
   LINKWRIGHT_REQUIRE(p.stroke.lower >= 0 && p.stroke.lower <= p.stroke.upper && p.stroke.upper > 0,
                      "the stroke is limited to {} to {}", p.stroke.lower, p.stroke.upper);
   LINKWRIGHT_REQUIRE(p.crank_rotates_fully || (p.stroke.lower == 0 && p.stroke.upper == infinity),
-                     "the stroke is limited, but the crank need not turn fully");
+                     "the stroke is limited, but the crank need not rotate fully");
   LINKWRIGHT_REQUIRE(path_size(p) > 0, "all {} points coincide", p.x.size());
 }
 
@@ -116,7 +116,7 @@ SliderCrankPose slider_crank_pose(const SliderCrankMechanism& m, double crank_an
     out.status = Status::no_assembly;
     out.gap = gap;
     out.slider = out.point = Complex(nan, nan);
-    out.rod_angle = out.way = out.pressure_angle = nan;
+    out.rod_angle = out.displacement = out.pressure_angle = nan;
     return out;
   }
   const Vec<double> v = rod_direction(closure, sign(m.branch));
@@ -124,7 +124,7 @@ SliderCrankPose slider_crank_pose(const SliderCrankMechanism& m, double crank_an
   out.slider = out.crank_pin + f.rod * rod;
   out.point = out.crank_pin + Complex(f.rod_u, f.rod_v) * rod;
   out.rod_angle = std::arg(rod);
-  out.way = ax + f.rod * v.x;
+  out.displacement = ax + f.rod * v.x;
   out.pressure_angle = std::atan2(std::abs(v.y), std::abs(v.x));
   if (pi / 2 - out.pressure_angle < tolerance::toggle_angle) out.status = Status::singular;
   return out;

@@ -16,7 +16,7 @@
 // Path synthesis of the slider-crank with an inclined, offset guide: Boskovic 2018, section 4.3.
 namespace linkwright::planar {
 
-/// The designed quantities, in the order of Boskovic 2018, Eqs. (4.12) and (4.31): L2, L3, L4, beta, delta,
+/// The design variables, in the order of Boskovic 2018, Eqs. (4.12) and (4.31): L2, L3, L4, beta, delta,
 /// H (here counted the other way), x_A, y_A, theta2 of the first point.
 enum class SliderParameter : std::size_t {
   crank,
@@ -57,7 +57,7 @@ struct SliderPathProblem {
   bool search_positive = true, search_negative = false;  ///< senses of crank rotation along the points
 
   bool crank_rotates_fully = true;
-  /// rad, greatest angle between rod and guide; pi/2 = no limit. Over the full turn where the crank turns
+  /// rad, greatest angle between rod and guide; pi/2 = no limit. Over the full turn where the crank rotates
   /// fully, else over the arc from the first to the last crank angle.
   double max_pressure_angle = pi / 2;
   /// m, of the slider over a full turn; needs a crank that turns fully.
@@ -83,19 +83,19 @@ struct SliderCrankPose {
   double gap = 0;                                 ///< m, by how much the rod is too short to reach the guide
   std::complex<double> crank_pin, slider, point;  ///< A, B, C; B and C are NaN without assembly
   double rod_angle = 0;                           ///< rad, of A->B from the x axis
-  double way = 0;             ///< m, of the slider along the guide from the foot of the crank pivot, signed
+  double displacement = 0;    ///< m, of the slider along the guide from the foot of the crank pivot, signed
   double pressure_angle = 0;  ///< rad, between rod and guide, [0, pi/2]
 };
 SliderCrankPose slider_crank_pose(const SliderCrankMechanism& mechanism, double crank_angle);
 
-/// m, over a full turn; NaN when the crank does not turn fully. Not the "stroke" that Boskovic 2018 prints in
-/// Tables 4.2 and 4.3, which is the abscissa of the tracing point at the first crank angle.
+/// m, over a full turn; NaN when the crank does not rotate fully. Not the "stroke" that Boskovic 2018 prints
+/// in Tables 4.2 and 4.3, which is the abscissa of the tracing point at the first crank angle.
 double stroke(const SliderCrankForm& form);
 
-/// Rod less crank less |offset| (m): the crank turns fully if it is not negative.
+/// Rod less crank less |offset| (m): the crank rotates fully if it is not negative.
 double rotation_margin(const SliderCrankForm& form);
 
-/// Greatest pressure angle over a full turn (rad); NaN when the crank does not turn fully.
+/// Greatest pressure angle over a full turn (rad); NaN when the crank does not rotate fully.
 double greatest_pressure_angle(const SliderCrankForm& form);
 
 /// A design with what it achieves.
@@ -122,7 +122,7 @@ double total_violation(const SliderPathDesign& design);
 SliderCrankMechanism forward_form(SliderCrankMechanism mechanism);
 
 /// Whether two mechanisms are the same within tolerance::same_design of their size, whichever way their
-/// guides are told.
+/// guides are given.
 bool same_mechanism(const SliderCrankMechanism& a, const SliderCrankMechanism& b);
 
 /// Best first, by the feasibility rules.

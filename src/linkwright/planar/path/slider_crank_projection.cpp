@@ -106,7 +106,7 @@ void SliderPathProjection::limit_stroke(const Range& stroke) {
   LINKWRIGHT_REQUIRE(stroke.lower >= 0 && stroke.lower <= stroke.upper && stroke.upper > 0,
                      "the stroke is limited to {} to {}", stroke.lower, stroke.upper);
   LINKWRIGHT_REQUIRE(turns_ || (stroke.lower == 0 && stroke.upper == infinity),
-                     "the stroke is limited, but the crank need not turn fully");
+                     "the stroke is limited, but the crank need not rotate fully");
   stroke_ = stroke;
 }
 

@@ -70,7 +70,7 @@ class Search {
       if (!(sense > 0 ? problem_.search_positive : problem_.search_negative)) continue;
       for (Branch branch : {Branch::open, Branch::crossed}) {
         if (!(branch == Branch::open ? problem_.search_open : problem_.search_crossed)) continue;
-        // With prescribed timing the cognate on the other branch has the same error, so one branch tells all,
+        // With prescribed timing the cognate on the other branch has the same error, so one branch is enough,
         // unless a better candidate failed on bounds or other limits that its cognate need not fail on.
         if (branch == Branch::crossed && problem_.search_open && lowest_feasible() <= lowest_failed_)
           continue;

@@ -33,7 +33,7 @@ void add_locks(const PathDesign& design, const FourBarClass& type, std::vector<D
     double before = *low + shift - interval.from, beyond = interval.to - (*high + shift);
     if (design.angles.front() > design.angles.back()) std::swap(before, beyond);
     out.push_back({DrawbackKind::locks,
-                   fmt::format("its crank cannot turn fully and locks {:.1f}° before the first point and "
+                   fmt::format("its crank cannot rotate fully and locks {:.1f}° before the first point and "
                                "{:.1f}° beyond the last",
                                math::degrees(std::max(0.0, before)), math::degrees(std::max(0.0, beyond)))});
     return;

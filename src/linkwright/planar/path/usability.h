@@ -9,7 +9,7 @@ namespace linkwright::planar {
 
 /// Least transmission angle (rad, 0 to pi/2) of a design: over what the path uses of the crank's motion - all
 /// of it for a closed path, from the first point to the last for an open one - and over all of the motion, up
-/// to the dead points of a crank that does not turn fully.
+/// to the dead points of a crank that does not rotate fully.
 struct PathTransmission {
   double used = 0, whole = 0;
 };
@@ -20,7 +20,7 @@ enum class DrawbackKind {
   transmission,  ///< the transmission angle falls below least_usable_transmission on the path
   crowded,       ///< two neighbouring points lie within least_usable_step of crank rotation (free timing)
   bound,         ///< a link is at a bound that follows from the size of the path, not from the study
-  locks,         ///< the crank does not turn fully: at both ends of its motion the linkage locks
+  locks,         ///< the crank does not rotate fully: at both ends of its motion the linkage locks
 };
 struct Drawback {
   DrawbackKind kind;

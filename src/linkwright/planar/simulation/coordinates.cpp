@@ -35,11 +35,11 @@ struct Equation {
 
 class Coordinates {
  public:
-  Coordinates(const Linkage& l, const LinkagePlan& plan, std::span<const InputCourse> courses,
+  Coordinates(const Linkage& l, const LinkagePlan& plan, std::span<const InputDrive> drives,
               const SimulationOptions& options, const SimulationOutput& output)
       : l_(l),
         plan_(plan),
-        courses_(courses),
+        drives_(drives),
         options_(options),
         output_(output),
         motion_(plan),
@@ -59,12 +59,12 @@ class Coordinates {
         parts_.push_back(b.part);
       }
     bool any_free = false;
-    for (std::size_t k = 0; k < courses.size(); ++k) {
-      laws_.push_back(courses[k].law ? std::optional<math::MotionCurve>(*courses[k].law) : std::nullopt);
-      inputs_[k] = {courses[k].value, courses[k].rate, 0};
-      any_free = any_free || !courses[k].law;
+    for (std::size_t k = 0; k < drives.size(); ++k) {
+      laws_.push_back(drives[k].law ? std::optional<math::MotionCurve>(*drives[k].law) : std::nullopt);
+      inputs_[k] = {drives[k].value, drives[k].rate, 0};
+      any_free = any_free || !drives[k].law;
     }
-    LINKWRIGHT_REQUIRE(any_free, "{} inputs, and none of them is free", courses.size());
+    LINKWRIGHT_REQUIRE(any_free, "{} inputs, and none of them is free", drives.size());
   }
 
   SimulationReport run(std::span<const double> times, const RunContext* context) {
@@ -90,7 +90,7 @@ class Coordinates {
     hooks.project = [&](double t, std::span<double> now) { return project(t, now); };
     const math::OdeReport ode = integrate_by_pieces(
         [&](double t, std::span<const double> now, std::span<double> rate) { return slope(t, now, rate); }, y,
-        times.front(), times.back(), breaks_of(l_, courses_, times.front(), times.back()),
+        times.front(), times.back(), breaks_of(l_, drives_, times.front(), times.back()),
         {.method = options_.method,
          .relative_tolerance = options_.relative_tolerance,
          .absolute_tolerances = tolerances,
@@ -136,7 +136,7 @@ class Coordinates {
   Side side(const BodyPoint& p, double angle) const {
     const BodyOnPart& on = plan_.bodies[at(p.body)];
     const Vec<double> local = vec(l_.bodies[at(p.body)].points[at(p.point)].at);
-    return {on.part, on.origin + turn(on.turn, local), turn(on.turn, unit(angle))};
+    return {on.part, on.origin + rotate(on.turn, local), rotate(on.turn, unit(angle))};
   }
   // All equations of the joints; turns are measured from where they are at the start.
   void equations(std::span<const double> y) {
@@ -201,10 +201,10 @@ class Coordinates {
     Geometry g;
     g.point = point_on(part(e.second.part), e.second.at);
     g.apart = g.point - point_on(part(e.first.part), e.first.at);
-    g.along = turn(part(e.first.part).direction, e.first.direction);
+    g.along = rotate(part(e.first.part).direction, e.first.direction);
     if (e.type == RowType::x) g.force = {1, 0};
     if (e.type == RowType::y) g.force = {0, 1};
-    if (e.type == RowType::across) g.force = left(g.along);
+    if (e.type == RowType::across) g.force = perpendicular(g.along);
     if (e.type == RowType::along) g.force = g.along;
     if (e.type == RowType::turn) g.moment = 1;
     return g;
@@ -246,7 +246,7 @@ class Coordinates {
     matrix_.setZero();
     for (const int p : parts_) {
       const PartMass& m = plan_.masses[at(p)];
-      const Vec<double> s = turn(part(p).direction, m.moment);
+      const Vec<double> s = rotate(part(p).direction, m.moment);
       const Index c = column_[at(p)];
       matrix_(c, c) = matrix_(c + 1, c + 1) = m.mass;
       matrix_(c, c + 2) = matrix_(c + 2, c) = -s.y;
@@ -379,7 +379,7 @@ class Coordinates {
     now.status = rows_.status == Status::done ? Status::done : Status::singular;
     return !output_ || output_(now);
   }
-  // What the groups tell of their closure, in the modes that the places show; places and motion of the parts
+  // What the groups know of their closure, in the modes that the places show; places and motion of the parts
   // are those of the state.
   void place_groups() {
     if (!plan_.closed_form()) rows_.parts = motion_.parts;
@@ -404,7 +404,7 @@ class Coordinates {
 
   const Linkage& l_;
   const LinkagePlan& plan_;
-  std::span<const InputCourse> courses_;
+  std::span<const InputDrive> drives_;
   const SimulationOptions& options_;
   const SimulationOutput& output_;
   LinkageMotion motion_, rows_;  // of the state; of the rows, with groups
@@ -424,14 +424,14 @@ class Coordinates {
 }  // namespace
 
 SimulationReport simulate_all_coordinates(const Linkage& linkage, const LinkagePlan& plan,
-                                          std::span<const InputCourse> courses, std::span<const double> times,
+                                          std::span<const InputDrive> drives, std::span<const double> times,
                                           const SimulationOptions& options, const SimulationOutput& output,
                                           const RunContext* context) {
-  LINKWRIGHT_REQUIRE(courses.size() == plan.inputs(), "the linkage has {} inputs, got {}", plan.inputs(),
-                     courses.size());
+  LINKWRIGHT_REQUIRE(drives.size() == plan.inputs(), "the linkage has {} inputs, got {}", plan.inputs(),
+                     drives.size());
   LINKWRIGHT_REQUIRE(times.size() >= 2 && times.front() < times.back(), "no interval of time: {} times",
                      times.size());
-  return Coordinates(linkage, plan, courses, options, output).run(times, context);
+  return Coordinates(linkage, plan, drives, options, output).run(times, context);
 }
 
 }  // namespace linkwright::planar

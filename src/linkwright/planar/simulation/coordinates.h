@@ -15,7 +15,7 @@ namespace linkwright::planar {
 ///
 /// Throws ContractError also for the method adams, which takes no projection, and for joints with friction.
 SimulationReport simulate_all_coordinates(const Linkage& linkage, const LinkagePlan& plan,
-                                          std::span<const InputCourse> courses, std::span<const double> times,
+                                          std::span<const InputDrive> drives, std::span<const double> times,
                                           const SimulationOptions& options, const SimulationOutput& output,
                                           const RunContext* context = nullptr);
 

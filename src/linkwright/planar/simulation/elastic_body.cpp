@@ -69,7 +69,7 @@ class Builder {
     ElasticBody beam = given_[e];
     if (beam.body < 0 || at(beam.body) >= rigid_.bodies.size())
       return error(beam, fmt::format("body number {} does not exist", beam.body), {});
-    if (beam.body == 0) return error(beam, "the ground does not bend", "name a moving body");
+    if (beam.body == 0) return error(beam, "the ground cannot be flexible", "name a moving body");
     for (std::size_t k = 0; k < e; ++k)
       if (given_[k].body == beam.body) return error(beam, "is given twice", "once a body is enough");
     const std::size_t before = out_.problems.size();
@@ -145,7 +145,7 @@ class Builder {
 
   // ---- the pieces ---------------------------------------------------------------------------------------
 
-  // Every body gets a start, so that assembly modes need not be told in terms of the pieces.
+  // Every body gets a start, so that assembly modes need not be given in terms of the pieces.
   void start(const LinkagePlan& plan, const LinkageMotion& motion) {
     for (std::size_t b = 1; b < rigid_.bodies.size(); ++b) {
       const PartState<double> s = body_state(plan, motion, static_cast<int>(b));
@@ -279,7 +279,7 @@ class Builder {
       const PartState<double> a = body_state(plan, motion, old.first.body),
                               b = body_state(plan, motion, old.second.body);
       out_.linkage.driven.push_back(outer);
-      out_.free.push_back({{}, angle_of(unturn(a.direction, b.direction)), b.speed - a.speed});
+      out_.free.push_back({{}, angle_of(rotate_inverse(a.direction, b.direction)), b.speed - a.speed});
     }
     for (std::size_t i = first; i < last; ++i) {
       out_.linkage.driven.push_back(p.joints[i]);
@@ -326,14 +326,14 @@ BentBody bent_body(const ElasticLinkage& elastic, const ElasticPieces& pieces, c
     const PartState<double> a = body_state(elastic.plan, motion, s.first),
                             b = body_state(elastic.plan, motion, s.second);
     const double moment =
-        s.stiffness * angle_of(unturn(a.direction, b.direction)) + s.damping * (b.speed - a.speed);
+        s.stiffness * angle_of(rotate_inverse(a.direction, b.direction)) + s.damping * (b.speed - a.speed);
     out.moments.push_back(moment);
     const double bending = std::abs(moment) * beam.fibre_distance / beam.second_moment;
     out.bending_stress = std::max(out.bending_stress, bending);
     // Without a fibre distance and forces the section with the largest moment is the worst, too.
     double measure = beam.fibre_distance > 0 || forces ? bending : std::abs(moment), stress = bending;
     if (forces) {
-      const Vec<double> mean = turn(a.direction + b.direction, along);
+      const Vec<double> mean = rotate(a.direction + b.direction, along);
       const double pull = -dot(forces->joints[at(pieces.joints[i])].force, mean) / norm(mean);
       out.normal_forces.push_back(pull);
       stress += std::abs(pull) / beam.area;

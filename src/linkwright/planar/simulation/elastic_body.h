@@ -7,7 +7,7 @@
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/planar/simulation/simulation.h"
 
-// Bodies of a linkage that bend: couplers, rods, rockers. A slender uniform beam between two points of a body
+// Flexible bodies of a linkage: couplers, rods, rockers. A slender uniform beam between two points of a body
 // is replaced by rigid pieces that are pinned to each other, with a torsion spring at each pin (the rigid
 // finite elements of Boskovic 2018, chapter 3, without the transverse slides of their joints).
 //
@@ -19,7 +19,7 @@
 // Statics: a spring turns by the mean bending moment of its cell as the midpoint rule has it, so deflections
 // have an error of order 1 / n^2: that of the tip of a cantilever under a force at its tip is 1 - 1 / (4 n^2)
 // of P L^3 / (3 E I), that of the middle of a beam on two pins under a force there (n even) 1 - 1 / n^2 of
-// P L^3 / (48 E I). The slides of the source would mend that and double the unknowns.
+// P L^3 / (48 E I). The slides of the source would fix that and double the unknowns.
 //
 // Masses: pieces are uniform bars with their own moment of inertia. The beam that does not bend then has the
 // mass, mass centre and moment of inertia of the rigid bar exactly, and the frequencies of a beam on two pins
@@ -30,7 +30,7 @@
 // with an error of order 1 / n^2 only: for n = 4 the first is 2.8 % too high, with bars 0.03 % too low.
 namespace linkwright::planar {
 
-/// A body of a linkage that bends, as a uniform Euler-Bernoulli beam. Its mass is density area L along the
+/// A flexible body of a linkage, as a uniform Euler-Bernoulli beam. Its mass is density area L along the
 /// line between its ends: it takes the place of `BodyMass`, while attached masses stay.
 struct ElasticBody {
   int body = 0;                ///< of the linkage
@@ -56,7 +56,7 @@ struct ElasticPieces {
   std::vector<std::complex<double>> nodes;  ///< ends of the cells, segments + 1: one a piece, in its frame, m
 };
 
-/// A linkage with bodies that bend.
+/// A linkage with flexible bodies.
 struct ElasticLinkage {
   /// done; infeasible with `problems`; else that of the rigid linkage, which has no place at the inputs.
   Status status = Status::done;
@@ -65,11 +65,11 @@ struct ElasticLinkage {
   LinkagePlan plan;                   ///< drives of the rigid linkage first, then the joints of `free`
   std::vector<ElasticPieces> pieces;  ///< one an elastic body
   /// Values and rates of the inputs that were added, at the inputs given, with no body bent: where they start
-  /// from. They are free: courses without a law.
-  std::vector<InputCourse> free;
+  /// from. They are free: drives without a law.
+  std::vector<InputDrive> free;
 };
 
-/// Replaces bodies of a linkage by beams that bend, starting unbent where the rigid linkage is with the given
+/// Replaces bodies of a linkage by flexible beams, starting unbent where the rigid linkage is with the given
 /// inputs (values and rates), which also choose the assembly modes. Frames of the pieces lie on that of the
 /// body when it is unbent; its points, forces, springs and attached masses go to the piece nearest to them.
 /// Torques and torsion springs act on the piece at the joint that joins the two bodies they are between.

@@ -36,25 +36,25 @@ std::string place(const Linkage& l, const LinkagePlan& plan, std::size_t input, 
 
 class Simulation {
  public:
-  Simulation(const Linkage& l, const LinkagePlan& plan, std::span<const InputCourse> courses,
+  Simulation(const Linkage& l, const LinkagePlan& plan, std::span<const InputDrive> drives,
              const SimulationOptions& options, const SimulationOutput& output, const SimulationWatch& watch)
       : l_(l),
         plan_(plan),
-        courses_(courses),
+        drives_(drives),
         options_(options),
         output_(output),
         watch_(watch),
-        dynamics_(l, plan, free_of(courses), cheaper_route(l, plan, count_free(courses))),
+        dynamics_(l, plan, free_of(drives), cheaper_route(l, plan, count_free(drives))),
         inputs_(plan.inputs()),
         last_sines_(plan.groups.size(), 0.0) {
-    for (std::size_t k = 0; k < courses.size(); ++k) {
-      if (courses[k].law)
-        laws_.push_back({k, math::MotionCurve(*courses[k].law)});
+    for (std::size_t k = 0; k < drives.size(); ++k) {
+      if (drives[k].law)
+        laws_.push_back({k, math::MotionCurve(*drives[k].law)});
       else
-        inputs_[k] = {courses[k].value, courses[k].rate, 0};
+        inputs_[k] = {drives[k].value, drives[k].rate, 0};
     }
     const auto free = dynamics_.free();
-    LINKWRIGHT_REQUIRE(!free.empty(), "{} inputs, and none of them is free", courses.size());
+    LINKWRIGHT_REQUIRE(!free.empty(), "{} inputs, and none of them is free", drives.size());
     for (const std::size_t k : free)
       LINKWRIGHT_REQUIRE(std::isfinite(inputs_[k].value + inputs_[k].rate), "start {} with rate {}",
                          inputs_[k].value, inputs_[k].rate);
@@ -63,7 +63,7 @@ class Simulation {
   }
 
   SimulationReport run(std::span<const double> times, const RunContext* context) {
-    breaks_ = breaks_of(l_, courses_, times.front(), times.back());
+    breaks_ = breaks_of(l_, drives_, times.front(), times.back());
     if (!start(times.front())) return std::move(report_);
     std::vector<double> y = state();
     std::vector<double> tolerances;
@@ -129,14 +129,14 @@ class Simulation {
   }
 
  private:
-  static std::vector<bool> free_of(std::span<const InputCourse> courses) {
+  static std::vector<bool> free_of(std::span<const InputDrive> drives) {
     std::vector<bool> free;
-    for (const InputCourse& c : courses) free.push_back(!c.law);
+    for (const InputDrive& c : drives) free.push_back(!c.law);
     return free;
   }
-  static std::size_t count_free(std::span<const InputCourse> courses) {
+  static std::size_t count_free(std::span<const InputDrive> drives) {
     return static_cast<std::size_t>(
-        std::count_if(courses.begin(), courses.end(), [](const InputCourse& c) { return !c.law; }));
+        std::count_if(drives.begin(), drives.end(), [](const InputDrive& c) { return !c.law; }));
   }
   // Of an only input; many have no use for it.
   double first_inertia() const { return dynamics_.inertia().empty() ? 0 : dynamics_.inertia()[0]; }
@@ -298,7 +298,7 @@ class Simulation {
     if (dynamics_.motion.failed_group >= 0)
       return "the start does not work: " + assembly_gap_text(plan_, dynamics_.motion, 0, inputs_[0].value);
     if (status == Status::singular)
-      return "a free joint moves no mass, so that forces do not tell how it goes";
+      return "a free joint moves no mass, so its motion does not follow from the forces";
     if (status == Status::self_locking)
       return fmt::format("friction locks the linkage at the start, with {}: {}", stands(), jams);
     if (status == Status::not_converged) return "the joint forces of the start do not settle";
@@ -547,7 +547,7 @@ class Simulation {
       double sum = 0;
       for (std::size_t p = 1; p < a.size(); ++p) {
         const PartMass& m = plan_.masses[p];
-        const Vec<double> arm = turn(before[p].direction, m.moment);
+        const Vec<double> arm = rotate(before[p].direction, m.moment);
         sum += m.mass * dot(a[p].velocity, b[p].velocity) + a[p].speed * cross(arm, b[p].velocity) +
                b[p].speed * cross(arm, a[p].velocity) + m.inertia * a[p].speed * b[p].speed;
       }
@@ -736,7 +736,7 @@ class Simulation {
 
   const Linkage& l_;
   const LinkagePlan& plan_;
-  std::span<const InputCourse> courses_;
+  std::span<const InputDrive> drives_;
   const SimulationOptions& options_;
   const SimulationOutput& output_;
   const SimulationWatch& watch_;
@@ -776,7 +776,7 @@ class Simulation {
 
 }  // namespace
 
-std::vector<double> breaks_of(const Linkage& linkage, std::span<const InputCourse> courses, double from,
+std::vector<double> breaks_of(const Linkage& linkage, std::span<const InputDrive> drives, double from,
                               double to) {
   std::vector<double> out;
   const auto corners = [&](const LoadFactor& f) {
@@ -784,7 +784,7 @@ std::vector<double> breaks_of(const Linkage& linkage, std::span<const InputCours
     for (const double t : f.argument)
       if (t > from && t < to) out.push_back(t);
   };
-  for (const InputCourse& c : courses)
+  for (const InputDrive& c : drives)
     if (c.law) {
       const std::vector<double> own = math::breaks(*c.law, from, to);
       out.insert(out.end(), own.begin(), own.end());
@@ -828,21 +828,20 @@ math::OdeReport integrate_by_pieces(math::OdeFunction f, std::span<double> y, do
 }
 
 SimulationReport simulate_watched(const Linkage& linkage, const LinkagePlan& plan,
-                                  std::span<const InputCourse> courses, std::span<const double> times,
+                                  std::span<const InputDrive> drives, std::span<const double> times,
                                   const SimulationOptions& options, const SimulationOutput& output,
                                   const SimulationWatch& watch, const RunContext* context) {
-  LINKWRIGHT_REQUIRE(courses.size() == plan.inputs(), "the linkage has {} inputs, got {}", plan.inputs(),
-                     courses.size());
+  LINKWRIGHT_REQUIRE(drives.size() == plan.inputs(), "the linkage has {} inputs, got {}", plan.inputs(),
+                     drives.size());
   LINKWRIGHT_REQUIRE(times.size() >= 2 && times.front() < times.back(), "no interval of time: {} times",
                      times.size());
-  return Simulation(linkage, plan, courses, options, output, watch).run(times, context);
+  return Simulation(linkage, plan, drives, options, output, watch).run(times, context);
 }
 
-SimulationReport simulate(const Linkage& linkage, const LinkagePlan& plan,
-                          std::span<const InputCourse> courses, std::span<const double> times,
-                          const SimulationOptions& options, const SimulationOutput& output,
-                          const RunContext* context) {
-  return simulate_watched(linkage, plan, courses, times, options, output, {}, context);
+SimulationReport simulate(const Linkage& linkage, const LinkagePlan& plan, std::span<const InputDrive> drives,
+                          std::span<const double> times, const SimulationOptions& options,
+                          const SimulationOutput& output, const RunContext* context) {
+  return simulate_watched(linkage, plan, drives, times, options, output, {}, context);
 }
 
 }  // namespace linkwright::planar

@@ -14,7 +14,7 @@
 namespace linkwright::planar {
 
 /// How an input moves: as its law says, or, without a law, freely from a value and rate at the first time.
-struct InputCourse {
+struct InputDrive {
   std::optional<math::MotionLaw> law;
   double value = 0, rate = 0;  ///< rad or m, per second; of a free input
 };
@@ -22,7 +22,8 @@ struct InputCourse {
 struct SimulationOptions {
   math::OdeMethod method = math::OdeMethod::explicit_runge_kutta_8;
   double relative_tolerance = 1e-9;
-  double absolute_tolerance = 1e-10;  ///< rad and rad/s; of ways (m, m/s) times the size of the linkage
+  double absolute_tolerance =
+      1e-10;  ///< rad and rad/s; of displacements (m, m/s) times the size of the linkage
   /// Absolute tolerances of the free inputs (rad, m), in their order, where they are more than the one above:
   /// what their rounding leaves. And of their rates. Empty: none.
   std::span<const double> value_resolution = {}, rate_resolution = {};
@@ -92,16 +93,15 @@ struct SimulationReport {
 /// forms lose digits, the acceleration is interpolated between positions on both sides, to about 1e-11. With
 /// more inputs, and in general groups, change points count as limits.
 ///
-/// Throws ContractError when there is no free input, courses or times do not fit, a law is no motion, or a
+/// Throws ContractError when there is no free input, drives or times do not fit, a law is no motion, or a
 /// body has no mass.
-SimulationReport simulate(const Linkage& linkage, const LinkagePlan& plan,
-                          std::span<const InputCourse> courses, std::span<const double> times,
-                          const SimulationOptions& options, const SimulationOutput& output,
-                          const RunContext* context = nullptr);
+SimulationReport simulate(const Linkage& linkage, const LinkagePlan& plan, std::span<const InputDrive> drives,
+                          std::span<const double> times, const SimulationOptions& options,
+                          const SimulationOutput& output, const RunContext* context = nullptr);
 
 /// Times strictly between `from` and `to`, rising, at which accelerations may step or kink: where laws do
 /// (math::breaks), and corners of load tables over time.
-std::vector<double> breaks_of(const Linkage& linkage, std::span<const InputCourse> courses, double from,
+std::vector<double> breaks_of(const Linkage& linkage, std::span<const InputDrive> drives, double from,
                               double to);
 /// math::integrate from break to break, so that no step lies across one: on either side `f` is asked with
 /// times of that side.
@@ -111,7 +111,7 @@ math::OdeReport integrate_by_pieces(math::OdeFunction f, std::span<double> y, do
 
 /// The same, watched.
 SimulationReport simulate_watched(const Linkage& linkage, const LinkagePlan& plan,
-                                  std::span<const InputCourse> courses, std::span<const double> times,
+                                  std::span<const InputDrive> drives, std::span<const double> times,
                                   const SimulationOptions& options, const SimulationOutput& output,
                                   const SimulationWatch& watch, const RunContext* context = nullptr);
 

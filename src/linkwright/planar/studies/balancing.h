@@ -11,7 +11,7 @@
 #include "linkwright/planar/balancing/balancing.h"
 #include "linkwright/planar/balancing/measures.h"
 #include "linkwright/planar/balancing/search.h"
-#include "linkwright/study/designed.h"
+#include "linkwright/study/design_variables.h"
 #include "linkwright/study/kind.h"
 
 // Balancing of any mechanism that has an analysis: the tables of the analysis with open numbers in them, what
@@ -84,7 +84,7 @@ std::vector<study::Kind> balancing_kinds();
 /// among the balanced ones.
 BalancingStudy read_balancing_study(study::ObjectReader& document, const study::Common& common);
 
-/// The table of one design: `x` in the units of the keys of the designed numbers. Empty when they are no
+/// The table of one design: `x` in the units of the keys of the design variables. Empty when they are no
 /// mechanism.
 Table design_table(const BalancingStudy& study, std::span<const double> x,
                    std::span<const std::string> columns);

@@ -91,7 +91,7 @@ study::Common plain(const study::Common& common) {
   return out;
 }
 
-// The `type` of a mechanism is read by the study room in a whole document.
+// The `type` of a mechanism is read by the study module in a whole document.
 void know_type(study::ObjectReader& root) {
   std::string type;
   if (auto mechanism = root.table("mechanism")) (*mechanism)(Field{.key = "type", .summary = {}}, type);
@@ -157,9 +157,9 @@ bool read_design(study::ObjectReader& document, const study::Common& common, con
 void check_initial(study::ObjectReader& document, const study::Common& common, BalancingStudy& s) {
   if (!read_design(document, common, s, s.designed.tables, "")) return;
   bool good = true;
-  for (const study::DesignedNumber& n : s.designed.numbers)
-    for (const auto& [value, remark] : {std::pair{n.lower, " (at the min of a designed number)"},
-                                        {n.upper, " (at the max of a designed number)"}}) {
+  for (const study::DesignVariable& n : s.designed.numbers)
+    for (const auto& [value, remark] : {std::pair{n.lower, " (at the min of a design variable)"},
+                                        {n.upper, " (at the max of a design variable)"}}) {
       Value tables = s.designed.tables;
       study::put(tables, {&n, 1}, {&value, 1});
       good = read_design(document, common, s, tables, remark) && good;
@@ -223,12 +223,12 @@ BalancingStudy read_balancing_study(study::ObjectReader& document, const study::
   }
   constexpr std::size_t most_numbers = 200;
   if (s.designed.numbers.size() > most_numbers)
-    document.error("mechanism", fmt::format("{} numbers are designed, at most {} can be",
+    document.error("mechanism", fmt::format("{} design variables, at most {} are possible",
                                             s.designed.numbers.size(), most_numbers));
   else
     check_initial(document, common, s);
   if (s.designed.numbers.empty() && !document.document().has_errors())
-    document.error("mechanism", "nothing is designed: every number is fixed",
+    document.error("mechanism", "there is no design variable: every number is fixed",
                    "write { min = ..., max = ..., initial = ... } in the place of a number");
   return s;
 }

@@ -29,7 +29,7 @@ double best_cost(const BalancingRun& run) {
 
 BalancingTask task_of(const BalancingStudy& s, const std::shared_ptr<const MassStudy>& masses) {
   BalancingTask task;
-  for (const study::DesignedNumber& n : s.designed.numbers) {
+  for (const study::DesignVariable& n : s.designed.numbers) {
     task.variables.push_back({n.key, n.lower, n.upper});
     task.initial.push_back(n.initial);
   }
@@ -388,7 +388,7 @@ class Report {
     double mass = 0, old_mass = 0;
     bool any = false;
     for (std::size_t j = 0; j < d.x.size(); ++j) {
-      const study::DesignedNumber& n = s_.designed.numbers[j];
+      const study::DesignVariable& n = s_.designed.numbers[j];
       if (!n.unit.unit || n.unit.dimension != Dimension::mass) continue;
       any = true;
       mass += n.unit.unit->to_si(d.x[j]);

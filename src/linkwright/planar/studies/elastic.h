@@ -7,7 +7,7 @@
 #include "linkwright/planar/studies/elastic_scene.h"
 #include "linkwright/planar/studies/simulation.h"
 
-// Simulations of linkages with bodies that bend: what their tables `[[elastic]]` hold, how they are read, run
+// Simulations of linkages with flexible bodies: what their tables `[[elastic]]` hold, how they are read, run
 // and reported beside the rigid linkage.
 namespace linkwright::planar {
 
@@ -30,7 +30,7 @@ void fields(Visitor&& visit, ElasticBodyForm& f) {
                 .required = true},
           value);
   };
-  visit(Field{.key = "body", .summary = "body that bends", .required = true}, f.body);
+  visit(Field{.key = "body", .summary = "flexible body", .required = true}, f.body);
   visit(Field{.key = "from", .summary = "its point where the beam begins; default: at a joint"}, f.from);
   visit(Field{.key = "to", .summary = "its point where the beam ends; default: at another joint"}, f.to);
   visit(Field{.key = "segments",
@@ -77,11 +77,11 @@ std::vector<ElasticPieces> place_elastic(study::ObjectReader& document, Linkage&
 void describe_elastic(study::SchemaWriter& document);
 
 /// Values and rates of the inputs at a time: of laws there, of free ones where they start.
-std::vector<InputMotion> inputs_at(const std::vector<InputCourse>& courses, double time);
+std::vector<InputMotion> inputs_at(const std::vector<InputDrive>& drives, double time);
 
 /// What a body that turns on the ground, a slide on it or a traced point does beside the rigid linkage.
 struct OutputError {
-  enum class Of { angle, way, path };
+  enum class Of { angle, displacement, path };
   std::string key, label;
   Of of = Of::angle;
   int index = 0;               ///< of the body, joint or trace
@@ -107,7 +107,7 @@ struct ElasticRecording {
 study::Result report_elastic_simulation(const LinkageSimulationStudy& study,
                                         const ElasticRecording& recording);
 
-/// Integrates with bodies that bend and the rigid linkage beside it, and reports.
+/// Integrates with flexible bodies and the rigid linkage beside it, and reports.
 study::Result run_elastic_simulation(const LinkageSimulationStudy& study, RunContext& context);
 
 }  // namespace linkwright::planar

@@ -91,13 +91,13 @@ std::vector<ElasticPieces> place_elastic(study::ObjectReader& document, Linkage&
 }
 
 void describe_elastic(study::SchemaWriter& document) {
-  document.property(Field{.key = "elastic", .summary = "bodies that bend, as beams"},
+  document.property(Field{.key = "elastic", .summary = "flexible bodies, as beams"},
                     study::schema_array(study::schema_fields<ElasticBodyForm>()));
 }
 
-std::vector<InputMotion> inputs_at(const std::vector<InputCourse>& courses, double time) {
+std::vector<InputMotion> inputs_at(const std::vector<InputDrive>& drives, double time) {
   std::vector<InputMotion> out;
-  for (const InputCourse& c : courses) {
+  for (const InputDrive& c : drives) {
     if (!c.law) {
       out.push_back({c.value, c.rate, 0});
       continue;

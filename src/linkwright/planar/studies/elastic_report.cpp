@@ -53,7 +53,7 @@ class ElasticReporter {
     return s_.linkage.bodies[at(p.beam.body)].name;
   }
   std::string beam_key(std::size_t e) const { return identifier(name_of_beam(r_.elastic.pieces[e])); }
-  bool is_free(std::size_t k) const { return !s_.courses[k].law; }
+  bool is_free(std::size_t k) const { return !s_.drives[k].law; }
 
   void add_spectrum() {
     const double step = (s_.to - s_.from) / (s_.samples - 1);
@@ -106,7 +106,8 @@ class ElasticReporter {
     }
     for (const auto& [of, name, title] :
          {std::tuple{OutputError::Of::angle, "angle-error", "Angle against the rigid linkage"},
-          std::tuple{OutputError::Of::way, "displacement-error", "Displacement against the rigid linkage"},
+          std::tuple{OutputError::Of::displacement, "displacement-error",
+                     "Displacement against the rigid linkage"},
           std::tuple{OutputError::Of::path, "path-error", "Distance from the rigid path"}}) {
       std::vector<std::string> keys;
       for (const OutputError& e : r_.errors)
@@ -127,7 +128,7 @@ class ElasticReporter {
       if (j.type != JointType::gear && sizes.size() < 6) sizes.push_back(identifier(j.name) + "_N");
     plot("reactions", "Joint forces, pale: rigid linkage", sizes, true);
     plot("energies", "Energies", {"kinetic_energy_J", "potential_energy_J", "work_J"});
-    plot("energy-audit", "Energy audit: what does not balance", {"energy_drift_J"});
+    plot("energy-audit", "Energy audit: imbalance", {"energy_drift_J"});
   }
 
   // Row with the largest size of a column; none without a finite value.

@@ -17,7 +17,7 @@ class ElasticRecorder {
     for (int i = 0; i < s.samples; ++i)
       times_.push_back(i + 1 == s.samples ? s.to : s.from + (s.to - s.from) * i / (s.samples - 1));
     std::vector<InputMotion> start;
-    for (const InputMotion& i : inputs_at(s.courses, s.from - s.settle)) start.push_back(i);
+    for (const InputMotion& i : inputs_at(s.drives, s.from - s.settle)) start.push_back(i);
     out_.elastic = with_elastic_bodies(s.linkage, s.elastic, start);
   }
 
@@ -40,15 +40,15 @@ class ElasticRecorder {
   // ---- the rigid linkage --------------------------------------------------------------------------------
 
   void rigid_rows() {
-    rigid_columns_ = driven_columns(s_.linkage, s_.plan, s_.quantities, s_.traces, s_.courses);
+    rigid_columns_ = driven_columns(s_.linkage, s_.plan, s_.quantities, s_.traces, s_.drives);
     rigid_values_.resize(rigid_columns_.size());
-    if (std::any_of(s_.courses.begin(), s_.courses.end(), [](const InputCourse& c) { return !c.law; })) {
+    if (std::any_of(s_.drives.begin(), s_.drives.end(), [](const InputDrive& c) { return !c.law; })) {
       // The same route, but steps that suit a motion without vibrations.
       SimulationOptions options = s_.options;
       options.method = math::OdeMethod::explicit_runge_kutta_8;
       const auto route = s_.route == SimulationRoute::free_joints ? simulate : simulate_all_coordinates;
       const SimulationReport r = route(
-          s_.linkage, s_.plan, s_.courses, times_, options,
+          s_.linkage, s_.plan, s_.drives, times_, options,
           [&](const SimulationInstant& now) {
             return add_rigid(now.time, now.inputs, *now.motion, now.status), true;
           },
@@ -59,7 +59,7 @@ class ElasticRecorder {
     LinkageMotion motion(s_.plan);
     std::vector<double> from, to;
     for (const double t : times_) {
-      const std::vector<InputMotion> inputs = inputs_at(s_.courses, t);
+      const std::vector<InputMotion> inputs = inputs_at(s_.drives, t);
       to.clear();
       for (const InputMotion& i : inputs) to.push_back(i.value);
       if (!from.empty()) follow(s_.plan, from, to, motion);
@@ -87,7 +87,7 @@ class ElasticRecorder {
   // ---- columns ------------------------------------------------------------------------------------------
 
   // Those of the rigid linkage, each as the elastic one has it: traced points on the piece that they are on,
-  // bodies that bend as their lines.
+  // flexible bodies as their lines.
   void choose_columns() {
     std::vector<BodyPoint> moved;
     std::vector<std::pair<std::string, std::string>> renamed;
@@ -168,8 +168,8 @@ class ElasticRecorder {
                                {}});
       else if (joint.type == JointType::prismatic)
         out_.errors.push_back({identifier(joint.name) + "_displacement_error_m",
-                               joint.name + " way error (m)",
-                               OutputError::Of::way,
+                               joint.name + " displacement error (m)",
+                               OutputError::Of::displacement,
                                j,
                                {}});
     }
@@ -187,15 +187,15 @@ class ElasticRecorder {
                const LinkageRecord& rigid) const {
     if (rigid.bodies.empty() || bent.record.bodies.empty()) return nan;
     if (e.of == OutputError::Of::angle)
-      return math::wrap_angle(
-          angle_of(unturn(rigid.bodies[at(e.index)].direction, bent.record.bodies[at(e.index)].direction)));
-    if (e.of == OutputError::Of::way) {
+      return math::wrap_angle(angle_of(
+          rotate_inverse(rigid.bodies[at(e.index)].direction, bent.record.bodies[at(e.index)].direction)));
+    if (e.of == OutputError::Of::displacement) {
       const LinkageJoint& j = s_.linkage.joints[at(e.index)];
       const bool first = s_.plan.bodies[at(j.first.body)].part == 0;
       const int body = first ? j.second.body : j.first.body;
       const BodyPoint& there = first ? j.second : j.first;
       const Vec<double> p = vec(s_.linkage.bodies[at(body)].points[at(there.point)].at);
-      const Vec<double> along = turn(rigid.bodies[at(j.first.body)].direction, unit(j.slide_first));
+      const Vec<double> along = rotate(rigid.bodies[at(j.first.body)].direction, unit(j.slide_first));
       const double way =
           dot(along, point_on(bent.record.bodies[at(body)], p) - point_on(rigid.bodies[at(body)], p));
       return first ? way : -way;
@@ -211,13 +211,13 @@ class ElasticRecorder {
   void integrate() {
     inputs_.resize(3 * s_.plan.inputs());
     out_.beams.resize(out_.elastic.pieces.size());
-    std::vector<InputCourse> courses = s_.courses;
-    courses.insert(courses.end(), out_.elastic.free.begin(), out_.elastic.free.end());
+    std::vector<InputDrive> drives = s_.drives;
+    drives.insert(drives.end(), out_.elastic.free.begin(), out_.elastic.free.end());
     const auto route = s_.route == SimulationRoute::free_joints ? simulate : simulate_all_coordinates;
     std::vector<double> times = times_;
     if (s_.settle > 0) times.insert(times.begin(), s_.from - s_.settle);
     out_.report = route(
-        out_.elastic.linkage, out_.elastic.plan, courses, times, s_.options,
+        out_.elastic.linkage, out_.elastic.plan, drives, times, s_.options,
         [&](const SimulationInstant& now) {
           if (now.time >= s_.from) add(now);
           return true;
@@ -270,7 +270,8 @@ class ElasticRecorder {
     put(to.place, bent.place);
   }
 
-  // ---- what is told -------------------------------------------------------------------------------------
+  // ---- what is reported
+  // -------------------------------------------------------------------------------------
 
   std::string beam_key(std::size_t e) const { return identifier(name_of_beam(out_.elastic.pieces[e])); }
 

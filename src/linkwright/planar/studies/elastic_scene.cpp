@@ -15,7 +15,7 @@ namespace {
 constexpr double drawn_share = 0.05;
 
 Vec<double> across(const Vec<double>& away, const Vec<double>& line) {
-  return dot(away, left(line)) * left(line);
+  return dot(away, perpendicular(line)) * perpendicular(line);
 }
 
 class ElasticArtist {
@@ -37,7 +37,7 @@ class ElasticArtist {
  private:
   Vec<double> line(std::size_t e, const PartState<double>& frame) const {
     const std::complex<double> way = pieces_[e].nodes.back() - pieces_[e].nodes.front();
-    return turn(frame.direction, vec(way / std::abs(way)));
+    return rotate(frame.direction, vec(way / std::abs(way)));
   }
   double largest() const {
     double out = 0;
@@ -45,7 +45,8 @@ class ElasticArtist {
       for (std::size_t e = 0; e < r.away.size(); ++e)
         for (std::size_t i = 0; i < pieces_[e].nodes.size(); ++i)
           out = std::max(
-              out, std::abs(dot(r.away[e][i], left(line(e, r.record.bodies[at(pieces_[e].beam.body)])))));
+              out,
+              std::abs(dot(r.away[e][i], perpendicular(line(e, r.record.bodies[at(pieces_[e].beam.body)])))));
     return out;
   }
   // Where a node or point is drawn in every record.
@@ -120,14 +121,14 @@ PartState<double> chord_state(const ElasticLinkage& elastic, const ElasticPieces
   const double square = dot(way, way), length = std::sqrt(square);
   const Vec<double> unbent = vec(p.nodes.back() - p.nodes.front());
   PartState<double> s;
-  s.direction = (1 / (length * norm(unbent))) * unturn(unbent, way);
+  s.direction = (1 / (length * norm(unbent))) * rotate_inverse(unbent, way);
   s.speed = cross(way, rate) / square;
   // The line gets shorter as the body bends: 2 (rate of its length) speed is not of the turn.
   s.angular_acceleration = cross(way, change) / square - 2 * dot(way, rate) / square * s.speed;
-  const Vec<double> arm = turn(s.direction, vec(p.nodes.front()));
+  const Vec<double> arm = rotate(s.direction, vec(p.nodes.front()));
   s.origin = a.position - arm;
-  s.velocity = a.velocity - s.speed * left(arm);
-  s.acceleration = a.acceleration - s.angular_acceleration * left(arm) + s.speed * s.speed * arm;
+  s.velocity = a.velocity - s.speed * perpendicular(arm);
+  s.acceleration = a.acceleration - s.angular_acceleration * perpendicular(arm) + s.speed * s.speed * arm;
   return s;
 }
 

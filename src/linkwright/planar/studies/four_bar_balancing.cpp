@@ -83,7 +83,7 @@ std::optional<optimise::SmoothProblem> four_bar_problem(const BalancingStudy& s,
   std::vector<Designed> designed;
   const FourBarNumbers fixed = four_bar_numbers({l, *initial.mechanism.masses});
   for (std::size_t j = 0; j < fixed.size(); ++j) b.bounds[j] = {fixed[j], fixed[j]};
-  for (const study::DesignedNumber& n : s.designed.numbers) {
+  for (const study::DesignVariable& n : s.designed.numbers) {
     const auto number = number_at(study::steps_to(s.designed.tables, n.place));
     if (!number || !n.unit.unit) return std::nullopt;
     designed.push_back({index(*number), n.unit.unit});

@@ -37,11 +37,12 @@ struct InputGrid {
 
 /// `[quality]`: what is asked beyond the table, of linkages with one input.
 struct LinkageQuality {
-  std::string output_joint;  ///< joint whose rate and force ratio to the input, and dead centres, are told
+  std::string
+      output_joint;  ///< joint whose rate and force ratio to the input, and dead centres, are reported
   std::vector<std::string>
       centrodes;                 ///< bodies whose fixed and moving centrode against the ground are tabled
   bool instant_centres = false;  ///< table of all instant centres at every row
-  bool assembly_modes = false;   ///< table of all ways to assemble the linkage at the first row
+  bool assembly_modes = false;   ///< table of all assembly modes at the first row
 };
 
 /// A study of a linkage as read.
@@ -101,7 +102,7 @@ struct LinkageDescription {
 /// Reads and plans; nothing when there are problems, which go to the reader.
 std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
                                                bool needs_masses);
-/// Whether every body has its mass; tells which do not.
+/// Whether every body has its mass; says which do not.
 bool require_masses(study::ObjectReader& document, LinkageType type, const LinkagePlan& plan);
 /// The tables of `read_linkage` as a canonical study holds them.
 void write_linkage(const LinkageDescription& description, Value& canonical);
@@ -113,8 +114,8 @@ void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bo
 /// A key of a driven joint: an angle or a length, or its derivative of that order by time.
 Field drive_field(bool rotary, int order, std::string_view key, std::string_view summary,
                   bool required = false);
-/// The input that a table with `joint` means: the only one when it names none. Nothing, and the problem told,
-/// when there is no such input.
+/// The input that a table with `joint` means: the only one when it names none. Nothing, and the problem
+/// reported, when there is no such input.
 std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& linkage);
 /// `law` of a `[[drive]]` with its keys, written into the canonical table as well; nothing when it is absent
 /// or cannot be read. Problems go to the reader.

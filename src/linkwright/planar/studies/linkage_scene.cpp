@@ -160,7 +160,7 @@ class Artist {
       const PartState<double>& s = r.bodies[at(base.body)];
       const Vec<double> there =
           point_on(r.bodies[at(runner.body)], vec(l_.bodies[at(runner.body)].points[at(runner.point)].at));
-      const double way = dot(along, unturn(s.direction, there - s.origin) - vec(start));
+      const double way = dot(along, rotate_inverse(s.direction, there - s.origin) - vec(start));
       low = any ? std::min(low, way) : way;
       high = any ? std::max(high, way) : way;
       any = true;

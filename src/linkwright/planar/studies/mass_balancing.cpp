@@ -86,7 +86,7 @@ class MassStudy {
  public:
   LinearForces forces;
   std::vector<MassHolder> holders;
-  std::vector<study::DesignedNumber> numbers;
+  std::vector<study::DesignVariable> numbers;
 
   std::vector<BaseParameters> bases(std::span<const double> x) const {
     std::vector<BaseParameters> out(forces.links.size());
@@ -101,11 +101,11 @@ class MassStudy {
     return out;
   }
   double si(std::size_t number, double value) const {
-    const study::DesignedNumber& n = numbers[number];
+    const study::DesignVariable& n = numbers[number];
     return n.unit.unit ? n.unit.unit->to_si(value) : value;
   }
   double from_si(std::size_t number, double value) const {
-    const study::DesignedNumber& n = numbers[number];
+    const study::DesignVariable& n = numbers[number];
     return n.unit.unit ? n.unit.unit->from_si(value) : value;
   }
 };
@@ -311,7 +311,7 @@ std::optional<MassBalancing> programme(const MassStudy& s, const BalancingProble
   const auto range = [&](const MassHolder& h, MassPart part) {
     const auto k = static_cast<std::size_t>(part);
     if (!h.designed[k]) return Range{h.numbers[k], h.numbers[k]};
-    const study::DesignedNumber& n = s.numbers[*h.designed[k]];
+    const study::DesignVariable& n = s.numbers[*h.designed[k]];
     return Range{s.si(*h.designed[k], n.lower), s.si(*h.designed[k], n.upper)};
   };
   const auto whole_turn = [](const Range& r) { return r.upper - r.lower >= 2 * pi * (1 - 1e-9); };
@@ -423,7 +423,7 @@ ExactBalancing exact_balancing(std::shared_ptr<const MassStudy> masses, const Ba
     const auto put = [&](const MassHolder& h, MassPart part, double value) {
       const auto& j = h.designed[static_cast<std::size_t>(part)];
       if (!j) return;
-      const study::DesignedNumber& n = masses->numbers[*j];
+      const study::DesignVariable& n = masses->numbers[*j];
       double x = masses->from_si(*j, value);
       if (part == MassPart::angle) {  // into the bounds
         const double turn = masses->from_si(*j, 2 * pi);

@@ -75,7 +75,7 @@ template <class Visitor>
 void fields(Visitor&& visit, PathMechanism& m) {
   visit(Field{.key = "branch", .summary = "assembly branch to search"}, m.branch);
   visit(Field{.key = "sense", .summary = "sense of crank rotation to search"}, m.sense);
-  visit(Field{.key = "parameters", .summary = "fixed numbers, or { min, max } for designed ones"},
+  visit(Field{.key = "parameters", .summary = "fixed numbers, or { min, max } for design variables"},
         m.parameters);
 }
 
@@ -136,7 +136,7 @@ void fields(Visitor&& visit, PathTarget& t) {
   visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
   visit(Field{.key = "closed",
               .summary =
-                  "the last point is followed by the first; without this key so when the last repeats it"},
+                  "the last point is followed by the first; default: whether the last repeats the first"},
         t.closed);
   visit(Field{.key = "gates",
               .summary = "instead of points: pairs of points that the path passes between, in their order",
@@ -176,7 +176,7 @@ struct CrankRotatesFully {};
 template <class Visitor>
 void fields(Visitor&&, CrankRotatesFully&) {}
 constexpr Word choice_word(const CrankRotatesFully&) {
-  return {"crank_rotates_fully", "the crank can turn all the way round"};
+  return {"crank_rotates_fully", "the crank rotates fully"};
 }
 
 struct TransmissionLimit {

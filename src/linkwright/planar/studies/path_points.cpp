@@ -59,7 +59,7 @@ class LengthColumns {
 
 constexpr std::array<const char*, 4> posts = {"from_x", "from_y", "to_x", "to_y"};
 
-// False where something is missing, and has been told.
+// False where something is missing, and has been reported.
 bool read_points_file(study::ObjectReader& reader, const study::Common& common, const std::string& file,
                       bool with_bands, PathPoints& targets) {
   const std::optional<std::string> text = study::read_beside(reader, "points_file", common.folder, file);
@@ -145,7 +145,7 @@ void read_targets(study::ObjectReader& target, const study::Common& common, cons
       check_path_targets(target, "points_file", targets);
     return;
   }
-  if (!form.points) return;  // told already
+  if (!form.points) return;  // reported already
   for (const auto& point : *form.points) {
     targets.x.push_back(point[0]);
     targets.y.push_back(point[1]);

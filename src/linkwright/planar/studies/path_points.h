@@ -26,7 +26,7 @@ void fields(Visitor&& visit, PathPointsForm& t) {
         t.points_file);
 }
 
-/// Targets in their order (m): points, or the middles of gates with half of the way from one post to the
+/// Targets in their order (m): points, or the middles of gates with half of the distance from one post to the
 /// other; `gate_x`, `gate_y` and `tolerance` are empty where there are none.
 struct PathPoints {
   std::vector<double> x, y, gate_x, gate_y, tolerance;
@@ -34,7 +34,7 @@ struct PathPoints {
 };
 
 /// The points of a target that has been read into `form` (m), three at least and none twice in a row.
-/// Problems are told at the keys of the target.
+/// Problems are reported at the keys of the target.
 void read_path_points(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
                       std::vector<double>& x, std::vector<double>& y);
 
@@ -43,7 +43,7 @@ void read_path_points(study::ObjectReader& target, const study::Common& common, 
 void read_path_targets(study::ObjectReader& target, const study::Common& common, const PathPointsForm& form,
                        PathPoints& targets);
 
-/// The same checks for targets from elsewhere; problems are told at `key`.
+/// The same checks for targets from elsewhere; problems are reported at `key`.
 void check_path_targets(study::ObjectReader& target, const char* key, const PathPoints& targets);
 
 /// A path that ends where it begins is a closed one, unless the study says that it is not: its last target is

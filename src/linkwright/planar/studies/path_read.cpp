@@ -198,7 +198,7 @@ void set_constraints(study::ObjectReader& document, PathStudy& s) {
       p.packaging = PackagingBox{limit->x.lower, limit->x.upper, limit->y.lower, limit->y.upper};
     }
   }
-  // A closed path is traced by a crank that goes round.
+  // A closed path is traced by a crank that rotates fully.
   if (p.closed) p.crank_rotates_fully = true;
 }
 

@@ -42,7 +42,7 @@ PathSeedRun run_seed(const Recommended& method, const PathStudy& s, std::uint64_
                      RunContext& context) {
   PathSynthesisOptions options = method.options;
   options.seed = seed;
-  options.progress = only_seed;  // several at once are told by the loop over them
+  options.progress = only_seed;  // several at once are reported by the loop over them
   PathSynthesis answer = synthesise_path(s.problem, options, context);
   return {answer.status, std::move(answer.designs), std::move(answer.history), answer.evaluations};
 }
@@ -54,7 +54,7 @@ PathSeedRun run_seed(const optimise::PopulationMethod<Options, optimise::Constra
   std::uint32_t part = 0;
   for (double sense : {1.0, -1.0}) {
     if (!(sense > 0 ? s.problem.search_positive : s.problem.search_negative)) continue;
-    // One branch tells all: the cognate on the other one has the same crank angles and the same error.
+    // One branch is enough: the cognate on the other one has the same crank angles and the same error.
     const Branch branch = s.problem.search_open ? Branch::open : Branch::crossed;
     const optimise::Problem problem = path_population_problem(s.problem, branch, sense);
     optimise::MinimiseOptions minimise = method.minimise;
@@ -156,7 +156,7 @@ study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t
   const PathProblem& p = s.problem;
   const FourBarClass type = classify(d.linkage);
   study::Solution out;
-  out.label = fmt::format("{}, {}", name_of(type.type), name_of(d.linkage.branch));
+  out.label = fmt::format("{}, {}", in_words(type.type), name_of(d.linkage.branch));
   const bool with_start = p.timing == Timing::equal_steps;
   const auto values = values_of(d, with_start);
   for (std::size_t j = 0; j < four_bar_parameter_count; ++j) {
@@ -335,8 +335,7 @@ std::string called(const PathDesign& d) {
   const FourBarClass type = classify(d.linkage);
   const std::string_view branch = name_of(d.linkage.branch);
   if (!type.grashof)
-    return fmt::format("linkage in which no link turns fully (type {}, {} branch)", name_of(type.type),
-                       branch);
+    return fmt::format("linkage in which no link rotates fully ({}; {} branch)", in_words(type.type), branch);
   return fmt::format("{} ({} branch)", name_of(type.type), branch);
 }
 

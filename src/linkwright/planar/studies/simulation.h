@@ -25,14 +25,14 @@ constexpr std::array<EnumName<SimulationRoute>, 2> names(SimulationRoute) {
 struct LinkageSimulationStudy {
   Linkage linkage;
   LinkagePlan plan;
-  std::vector<InputCourse> courses;  ///< one an input
-  double from = 0, to = 1;           ///< s
+  std::vector<InputDrive> drives;  ///< one an input
+  double from = 0, to = 1;         ///< s
   int samples = 401;
   SimulationRoute route = SimulationRoute::free_joints;
   SimulationOptions options;
   std::vector<BodyPoint> traces;
   LinkageQuantities quantities;
-  std::vector<ElasticBody> elastic;        ///< bodies that bend; empty = none
+  std::vector<ElasticBody> elastic;        ///< flexible bodies; empty = none
   std::string method_reason;               ///< why the method was taken; empty: the file names it
   double settle = 0;                       ///< s: elastic bodies move so long before `from`, without rows
   std::optional<double> deflection_scale;  ///< of drawings; absent: chosen
@@ -49,18 +49,18 @@ study::Result run_linkage_simulation(const LinkageSimulationStudy& study, RunCon
 // ---- shared with other simulations of linkages
 // ------------------------------------------------------------------
 
-/// `[[drive]]` of a simulation, one course an input: a law, or free with what it starts from. Inputs of
+/// `[[drive]]` of a simulation, one drive an input: a law, or free with what it starts from. Inputs of
 /// samples and shorthands that the file does not name are free. The tables are written into `canonical`;
 /// problems go to the reader.
-std::vector<InputCourse> read_courses(study::ObjectReader& document, const LinkageDescription& description,
-                                      Value::Array& canonical);
-void describe_courses(study::SchemaWriter& document);
+std::vector<InputDrive> read_input_drives(study::ObjectReader& document,
+                                          const LinkageDescription& description, Value::Array& canonical);
+void describe_input_drives(study::SchemaWriter& document);
 
 /// Columns of a linkage without those of drives where a joint is free: there is no drive to be of interest.
 std::vector<LinkageColumn> driven_columns(const Linkage& linkage, const LinkagePlan& plan,
                                           const LinkageQuantities& quantities,
                                           const std::vector<BodyPoint>& traces,
-                                          std::span<const InputCourse> courses);
+                                          std::span<const InputDrive> drives);
 /// Adds coordinate, speed and acceleration of every input: values[3 k], [3 k + 1], [3 k + 2] of input k.
 void add_input_columns(Table& table, const Linkage& linkage, const LinkagePlan& plan,
                        const std::vector<std::vector<double>>& values);

@@ -28,8 +28,7 @@ void fields(Visitor&& visit, LinkageSimulationStudy& s) {
           .key = "samples", .summary = "rows of the table, both ends included", .minimum = 2, .maximum = 1e6},
       s.samples);
   visit(Field{.key = "route", .summary = "coordinates of the equations of motion"}, s.route);
-  visit(Field{.key = "method",
-              .summary = "how they are integrated; with elastic bodies chosen by their damping"},
+  visit(Field{.key = "method", .summary = "integration method; with elastic bodies chosen by their damping"},
         s.options.method);
   visit(Field{.key = "rtol",
               .summary = "relative tolerance of a step; default with elastic bodies: 1e-7",
@@ -37,35 +36,37 @@ void fields(Visitor&& visit, LinkageSimulationStudy& s) {
               .maximum = 1e-2},
         s.options.relative_tolerance);
   visit(Field{.key = "atol",
-              .summary = "absolute tolerance of a step: rad, rad/s; of ways times the size of the linkage; "
-                         "default with elastic bodies: 1e-7",
+              .summary =
+                  "absolute tolerance of a step: rad, rad/s; of displacements times the size of the linkage; "
+                  "default with elastic bodies: 1e-7",
               .minimum = 1e-16,
               .maximum = 1e-2},
         s.options.absolute_tolerance);
-  visit(
-      Field{.key = "max_steps", .summary = "steps after which it is given up", .minimum = 1, .maximum = 1e9},
-      s.options.max_steps);
+  visit(Field{.key = "max_steps", .summary = "largest number of steps", .minimum = 1, .maximum = 1e9},
+        s.options.max_steps);
   visit(
       Field{.key = "at_change_point", .summary = "where assembly modes meet, as of a parallelogram in line"},
       s.options.at_change_point);
   visit(Field{.key = "settle",
-              .summary = "elastic bodies start so long before `from`, unbent, and their rows until then are "
-                         "left out: what the start excites dies out if they are damped",
+              .summary = "time before `from` at which elastic bodies start, undeformed; its rows are left "
+                         "out, so that vibrations that the start excites die out if they are damped",
               .dimension = Dimension::time,
               .minimum = 0,
               .maximum = 1e9},
         s.settle);
-  visit(Field{.key = "deflection_scale",
-              .summary = "how many times too large deflections of elastic bodies are drawn; default: chosen "
-                         "from 1, 2, 5, 10, ...",
-              .minimum = 1,
-              .maximum = 1e12},
-        s.deflection_scale);
+  visit(
+      Field{
+          .key = "deflection_scale",
+          .summary =
+              "scale at which deflections of elastic bodies are drawn; default: chosen from 1, 2, 5, 10, ...",
+          .minimum = 1,
+          .maximum = 1e12},
+      s.deflection_scale);
 }
 
 namespace {
 
-// Of steps with bodies that bend, rtol and atol: pieces turn against each other by differences of large
+// Of steps with flexible bodies, rtol and atol: pieces turn against each other by differences of large
 // angles, whose rounding their stiffness makes accelerations of; below 1e-8 steps get shorter without being
 // better.
 constexpr double elastic_tolerance = 1e-7;
@@ -73,22 +74,22 @@ constexpr Field free_field{.key = "free", .summary = "no drive: forces move the 
 
 }  // namespace
 
-std::vector<InputCourse> read_courses(study::ObjectReader& document, const LinkageDescription& d,
-                                      Value::Array& canonical) {
+std::vector<InputDrive> read_input_drives(study::ObjectReader& document, const LinkageDescription& d,
+                                          Value::Array& canonical) {
   const Linkage& l = d.linkage;
-  std::vector<InputCourse> courses(l.driven.size());
+  std::vector<InputDrive> drives(l.driven.size());
   canonical.assign(l.driven.size(), Value::object());
   std::vector<bool> told(l.driven.size(), false);
   const auto write_start = [&](std::size_t i) {
     const bool rotary = d.plan.rotary[i];
     study::ObjectWriter writer(canonical[i]);
     writer(free_field, true);
-    writer(drive_field(rotary, 0, "start", {}), courses[i].value);
-    writer(drive_field(rotary, 1, "start_speed", {}), courses[i].rate);
+    writer(drive_field(rotary, 0, "start", {}), drives[i].value);
+    writer(drive_field(rotary, 1, "start_speed", {}), drives[i].rate);
   };
   for (std::size_t i = 0; i < l.driven.size(); ++i) {
     canonical[i]["joint"] = input_joint(l, i).name;
-    if (i < d.sample_from.size()) courses[i].value = d.sample_from[i];
+    if (i < d.sample_from.size()) drives[i].value = d.sample_from[i];
   }
   for (study::ObjectReader& drive : document.tables("drive")) {
     std::string joint = l.driven.size() == 1 ? input_joint(l, 0).name : std::string();
@@ -101,8 +102,8 @@ std::vector<InputCourse> read_courses(study::ObjectReader& document, const Linka
     bool free = false;
     if (!drive(free_field, free) && drive.has("free")) continue;
     if (free) {
-      drive(drive_field(rotary, 0, "start", "position at the start"), courses[i].value);
-      drive(drive_field(rotary, 1, "start_speed", "rate at the start"), courses[i].rate);
+      drive(drive_field(rotary, 0, "start", "position at the start"), drives[i].value);
+      drive(drive_field(rotary, 1, "start_speed", "rate at the start"), drives[i].rate);
       if (drive.has("law"))
         drive.error("law", fmt::format("joint '{}' is free and has a motion law", joint),
                     "remove one of them");
@@ -114,14 +115,14 @@ std::vector<InputCourse> read_courses(study::ObjectReader& document, const Linka
                   "free = true lets forces move it; law = \"constant_speed\" drives it");
       continue;
     }
-    courses[i].law = read_law(drive, rotary, false, canonical[i]);
+    drives[i].law = read_law(drive, rotary, false, canonical[i]);
   }
   for (std::size_t i = 0; i < told.size(); ++i)
     if (!told[i]) write_start(i);  // of samples and shorthands: free
-  return courses;
+  return drives;
 }
 
-void describe_courses(study::SchemaWriter& document) {
+void describe_input_drives(study::SchemaWriter& document) {
   study::SchemaWriter drive;
   drive(Field{.key = "joint", .summary = "joint whose coordinate it is"}, std::string());
   drive(free_field, false);
@@ -136,11 +137,11 @@ void describe_courses(study::SchemaWriter& document) {
 
 namespace {
 
-// The bodies that bend, with their masses, and how the motion is to be integrated.
+// The flexible bodies, with their masses, and how the motion is to be integrated.
 bool add_elastic(study::ObjectReader& document, LinkageType type, LinkageDescription& d,
                  LinkageSimulationStudy& s) {
   const std::vector<ElasticPieces> pieces =
-      place_elastic(document, d.linkage, s.elastic, inputs_at(s.courses, s.from - s.settle));
+      place_elastic(document, d.linkage, s.elastic, inputs_at(s.drives, s.from - s.settle));
   if (pieces.empty()) return false;
   d.plan = plan(d.linkage).plan;
   if (!require_masses(document, type, d.plan)) return false;
@@ -167,9 +168,10 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
     if (!(s.to > s.from) && !document.document().has_errors())
       table->error("to", fmt::format("the simulation ends at {} s, but starts at {} s", s.to, s.from), {});
     if (s.deflection_scale && !elastic)
-      table->error("deflection_scale", "no body bends", "add an [[elastic]] table, or leave the key out");
+      table->error("deflection_scale", "no body is flexible",
+                   "add an [[elastic]] table, or leave the key out");
     if (s.settle > 0 && !elastic)
-      table->error("settle", "no body bends", "add an [[elastic]] table, or start earlier by from");
+      table->error("settle", "no body is flexible", "add an [[elastic]] table, or start earlier by from");
   }
   if (s.route == SimulationRoute::all_coordinates && s.options.method == math::OdeMethod::adams)
     document.error("simulation", "all_coordinates are projected after every step, which adams does not allow",
@@ -186,13 +188,13 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
                        fmt::format("joint '{}' has friction, which all_coordinates do not take", j.name),
                        "route = \"free_joints\" does");
   Value::Array drives, beams;
-  s.courses = read_courses(document, *description, drives);
+  s.drives = read_input_drives(document, *description, drives);
   s.elastic = read_elastic(document, description->linkage, beams);
   const bool any_free =
-      std::any_of(s.courses.begin(), s.courses.end(), [](const InputCourse& c) { return !c.law; });
+      std::any_of(s.drives.begin(), s.drives.end(), [](const InputDrive& c) { return !c.law; });
   if (!any_free && !elastic && !document.document().has_errors())
     document.error("drive", "every drive has a motion law: nothing is left for forces to move",
-                   "write free = true in a [[drive]], let a body bend by [[elastic]], or take kind = "
+                   "write free = true in a [[drive]], make a body flexible by [[elastic]], or take kind = "
                    "\"analysis\" with a sweep over time");
   if (s.settle > 0 && any_free)
     document.error("simulation.settle", "a joint is free: it would not be where its drive says at `from`",
@@ -200,8 +202,8 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   if (elastic && !document.document().has_errors() && !add_elastic(document, type, *description, s))
     return prepared;
   if (auto table = document.table("simulation"); table && !document.document().has_errors()) {
-    // Of a linkage that bends there are the rows of the rigid one, too, some of each beam, and the places of
-    // its nodes, which are drawn.
+    // Of a linkage with flexible bodies there are the rows of the rigid one, too, some of each beam, and the
+    // places of its nodes, which are drawn.
     constexpr double of_motion = 10, of_beam = 10;
     const auto columns = static_cast<double>(
         linkage_columns(description->linkage, description->plan, s.quantities, description->traces).size());
@@ -233,7 +235,7 @@ study::Kind kind_of(LinkageType type) {
   kind.quantities = linkage_quantity_words();
   kind.schema = [type](study::SchemaWriter& document) {
     describe_linkage(document, type);
-    describe_courses(document);
+    describe_input_drives(document);
     describe_elastic(document);
     document.property(Field{.key = "simulation", .summary = "time and tolerances", .required = true},
                       study::schema_fields<LinkageSimulationStudy>());

@@ -19,7 +19,7 @@ constexpr double poor_balance = 1e-5;
 class SimulationRunner {
  public:
   SimulationRunner(const LinkageSimulationStudy& s, RunContext& context) : s_(s), context_(context) {
-    columns_ = driven_columns(s.linkage, s.plan, s.quantities, s.traces, s.courses);
+    columns_ = driven_columns(s.linkage, s.plan, s.quantities, s.traces, s.drives);
   }
 
   study::Result run() {
@@ -33,7 +33,7 @@ class SimulationRunner {
   }
 
  private:
-  bool is_free(std::size_t k) const { return !s_.courses[k].law; }
+  bool is_free(std::size_t k) const { return !s_.drives[k].law; }
 
   void integrate() {
     std::vector<double> times;
@@ -43,7 +43,7 @@ class SimulationRunner {
     values_.resize(columns_.size());
     const SimulationOutput row = [&](const SimulationInstant& now) { return add(now); };
     const auto route = s_.route == SimulationRoute::free_joints ? simulate : simulate_all_coordinates;
-    report_ = route(s_.linkage, s_.plan, s_.courses, times, s_.options, row, &context_);
+    report_ = route(s_.linkage, s_.plan, s_.drives, times, s_.options, row, &context_);
     result_.status = report_.status;
   }
 
@@ -108,12 +108,12 @@ class SimulationRunner {
           rates.push_back(identifier(input_joint(l, k).name) +
                           (rotary ? "_joint_speed_rad_per_s" : "_joint_speed_m_per_s"));
         }
-      plot(rotary ? "joint-angles" : "joint-ways", rotary ? "Joint angles" : "Joint ways", values);
-      plot(rotary ? "joint-speeds" : "joint-way-speeds", rotary ? "Joint speeds" : "Speeds of the ways",
-           rates);
+      plot(rotary ? "joint-angles" : "joint-displacements", rotary ? "Joint angles" : "Joint displacements",
+           values);
+      plot(rotary ? "joint-speeds" : "slide-speeds", rotary ? "Joint speeds" : "Slide speeds", rates);
     }
     plot("energies", "Energies", {"kinetic_energy_J", "potential_energy_J", "work_J"});
-    plot("energy-audit", "Energy audit: what does not balance", {"energy_drift_J"});
+    plot("energy-audit", "Energy audit: imbalance", {"energy_drift_J"});
     std::vector<std::string> drives, forces, sizes, paths, angles;
     for (std::size_t k = 0; k < s_.plan.inputs() && drives.size() < 6; ++k)
       if (s_.plan.rotary[k]) drives.push_back(identifier(input_joint(l, k).name) + "_drive_torque_N_m");
@@ -157,9 +157,9 @@ class SimulationRunner {
           {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
     };
     std::size_t free = 0;
-    for (std::size_t k = 0; k < s_.courses.size(); ++k) free += is_free(k);
+    for (std::size_t k = 0; k < s_.drives.size(); ++k) free += is_free(k);
     fact("degrees of freedom",
-         fmt::format("{}, {} free and {} driven", mobility(s_.linkage), free, s_.courses.size() - free));
+         fmt::format("{}, {} free and {} driven", mobility(s_.linkage), free, s_.drives.size() - free));
     if (!times_.empty()) {
       const bool poor = report_.largest_drift > poor_balance * report_.peak_energy;
       fact("energy balance", balance(), poor ? Verdict::bad : Verdict::good);
@@ -233,11 +233,11 @@ class SimulationRunner {
 std::vector<LinkageColumn> driven_columns(const Linkage& l, const LinkagePlan& plan,
                                           const LinkageQuantities& quantities,
                                           const std::vector<BodyPoint>& traces,
-                                          std::span<const InputCourse> courses) {
+                                          std::span<const InputDrive> drives) {
   std::vector<LinkageColumn> columns = linkage_columns(l, plan, quantities, traces);
   std::erase_if(columns, [&](const LinkageColumn& c) {
-    for (std::size_t k = 0; k < courses.size(); ++k)
-      if (!courses[k].law && c.key.starts_with(identifier(input_joint(l, k).name) + "_drive_")) return true;
+    for (std::size_t k = 0; k < drives.size(); ++k)
+      if (!drives[k].law && c.key.starts_with(identifier(input_joint(l, k).name) + "_drive_")) return true;
     return false;
   });
   return columns;

@@ -58,7 +58,7 @@ template <class Visitor>
 void fields(Visitor&& visit, SliderPathMechanism& m) {
   visit(Field{.key = "branch", .summary = "where the slider is searched"}, m.branch);
   visit(Field{.key = "sense", .summary = "sense of crank rotation to search"}, m.sense);
-  visit(Field{.key = "parameters", .summary = "fixed numbers, or { min, max } for designed ones"},
+  visit(Field{.key = "parameters", .summary = "fixed numbers, or { min, max } for design variables"},
         m.parameters);
 }
 
@@ -109,7 +109,7 @@ void fields(Visitor&& visit, SliderPathTarget& t) {
   visit(Field{.key = "point", .summary = "point that traces the path"}, t.point);
   visit(Field{.key = "closed",
               .summary =
-                  "the last point is followed by the first; without this key so when the last repeats it"},
+                  "the last point is followed by the first; default: whether the last repeats the first"},
         t.closed);
   visit(Field{.key = "timing", .summary = "how crank angles are tied to the points"}, t.timing);
   fields(visit, static_cast<PathPointsForm&>(t));
@@ -118,11 +118,11 @@ void fields(Visitor&& visit, SliderPathTarget& t) {
 /// What is minimised; both together give a front.
 enum class SliderObjectiveType { sum_squared_distance, stroke };
 constexpr std::array<EnumName<SliderObjectiveType>, 2> names(SliderObjectiveType) {
-  return {
-      {{SliderObjectiveType::sum_squared_distance, "path.sum_squared_distance",
-        "sum over the points of the squared distance (Boskovic 2018, Eqs. (4.14), (4.18))"},
-       {SliderObjectiveType::stroke, "slider.stroke",
-        "way of the slider over a full turn, beside the path: a front (Boskovic 2018, Eqs. (4.17)-(4.19))"}}};
+  return {{{SliderObjectiveType::sum_squared_distance, "path.sum_squared_distance",
+            "sum over the points of the squared distance (Boskovic 2018, Eqs. (4.14), (4.18))"},
+           {SliderObjectiveType::stroke, "slider.stroke",
+            "stroke of the slider over a full turn, beside the path: a front (Boskovic 2018, Eqs. "
+            "(4.17)-(4.19))"}}};
 }
 struct SliderObjectiveEntry {
   SliderObjectiveType type = SliderObjectiveType::sum_squared_distance;
@@ -170,7 +170,9 @@ void fields(Visitor&& visit, StrokeLimit& l) {
         l.max);
 }
 constexpr Word choice_word(const StrokeLimit&) {
-  return {"stroke", "way of the slider over a full turn; with both objectives the range of the front"};
+  return {"stroke",
+          "difference of the slider's extreme positions over a full turn; with both objectives the range of "
+          "the front"};
 }
 
 struct SliderPathConstraint {

@@ -156,7 +156,7 @@ void set_constraints(study::ObjectReader& document, const study::DisplayUnits& u
                                units.text(p.stroke.lower, Dimension::length, 6),
                                units.text(p.stroke.upper, Dimension::length, 6)),
                    "give min less than max");
-  // A closed path is traced by a crank that goes round.
+  // A closed path is traced by a crank that rotates fully.
   if (p.closed) p.crank_rotates_fully = true;
   if ((limited || s.front) && !p.crank_rotates_fully)
     document.error(limited ? "constraint" : "objective", "the stroke is that of a full turn of the crank",
@@ -170,7 +170,7 @@ void set_objectives(study::ObjectReader& document, SliderPathStudy& s) {
   if (paths > 1 || strokes > 1)
     document.error("objective", "an objective stands twice", "keep each of them once");
   else if (strokes == 1 && paths == 0)
-    document.error("objective", "the stroke alone tells nothing of the path",
+    document.error("objective", "the stroke alone says nothing about the path",
                    "add [[objective]] type = \"path.sum_squared_distance\", or limit the stroke by a "
                    "constraint instead");
   s.front = strokes == 1;

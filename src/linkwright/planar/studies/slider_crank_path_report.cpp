@@ -195,7 +195,7 @@ class Report {
              .scene = scene});
       };
       plot("errors", "Distance from the target points", "points", "distance_m");
-      plot("way", "Way of the slider", "motion", "slider_m");
+      plot("displacement", "Displacement of the slider", "motion", "slider_m");
       plot("pressure", "Pressure angle between rod and guide", "motion", "pressure_angle_rad");
     }
     if (s_.front && feasible_) front_table();

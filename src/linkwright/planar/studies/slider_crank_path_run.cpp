@@ -67,7 +67,7 @@ SliderPathSynthesis run_seed(const Recommended& method, const SliderPathStudy& s
                              bool only_seed, RunContext& context) {
   PathSynthesisOptions options = method.options;
   options.seed = seed;
-  options.progress = only_seed;  // several at once are told by the loop over them
+  options.progress = only_seed;  // several at once are reported by the loop over them
   SliderPathSynthesis best = synthesise_slider_path(s.problem, options, context);
   if (!s.front || best.status != Status::done) return best;
   const double longest = best.designs[0].stroke;

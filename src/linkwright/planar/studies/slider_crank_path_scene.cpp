@@ -59,7 +59,7 @@ Table slider_motion_table(const SliderPathDesign& design, std::string name, int 
   for (const double angle : angles) {
     const SliderCrankPose pose = slider_crank_pose(design.mechanism, angle);
     rod.push_back(pose.rod_angle);
-    way.push_back(pose.way);
+    way.push_back(pose.displacement);
     pressure.push_back(pose.pressure_angle);
     x.push_back(pose.point.real());
     y.push_back(pose.point.imag());
@@ -68,7 +68,7 @@ Table slider_motion_table(const SliderPathDesign& design, std::string name, int 
   math::unwrap_angles(rod);
   table.add("crank_angle_rad", "crank angle (rad)", angles);
   table.add("rod_angle_rad", "rod angle (rad)", std::move(rod));
-  table.add("slider_m", "way of the slider along the guide (m)", std::move(way));
+  table.add("slider_m", "displacement of the slider along the guide (m)", std::move(way));
   table.add("pressure_angle_rad", "pressure angle between rod and guide (rad)", std::move(pressure));
   table.add("point_x_m", "tracing point x (m)", std::move(x));
   table.add("point_y_m", "tracing point y (m)", std::move(y));

@@ -17,7 +17,8 @@ std::vector<double> shown_angles(const SliderPathDesign& design, int samples);
 study::Scene slider_path_scene(const SliderPathProblem& problem, const SliderPathDesign& design,
                                std::string name, std::string title, int samples);
 
-/// Motion over the shown angles: crank and rod angle, way of the slider, pressure angle, tracing point.
+/// Motion over the shown angles: crank and rod angle, displacement of the slider, pressure angle, tracing
+/// point.
 Table slider_motion_table(const SliderPathDesign& design, std::string name, int samples);
 
 /// Target points, where the design comes, and how far off.

@@ -47,7 +47,8 @@ class Canvas {
   double width() const { return width_; }
   double height() const { return height_; }
   double scale() const { return scale_; }
-  /// Times the usual width: bars are thinner where they are short, so that chains of many can be told apart.
+  /// Times the usual width: bars are thinner where they are short, so that chains of many can be
+  /// distinguished.
   double thickness() const { return thickness_; }
   void fit_bars(double length, double most = 1) {
     thickness_ = most * std::clamp(length * scale_ / 40, 0.22, 1.0);

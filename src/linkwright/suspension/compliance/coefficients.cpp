@@ -61,7 +61,7 @@ ComplianceCoefficients compliance_coefficients(const Compliance& compliance) {
   out.longitudinal_at_contact = -outboard_brake.contact_shift.x;
   out.brake_outboard_steer = outboard_brake.toe;
   out.brake_outboard_camber = outboard_brake.camber;
-  out.brake_wind_up = angle_rates(compliance.side, compliance.angles, outboard_brake.turn).spin;
+  out.brake_wind_up = angle_rates(compliance.side, compliance.angles, outboard_brake.turn).carrier_pitch;
   const ElasticResponse inboard_brake = by(LoadCase::brake_inboard);
   out.brake_inboard_steer = inboard_brake.toe;
   out.brake_inboard_camber = inboard_brake.camber;

@@ -77,8 +77,8 @@ struct AxleCompliance {
   Matrix12 at_centres{};
   std::array<double, 12> rack{};  ///< shift of the rack (m, to the left) by loads as in the matrix
 };
-/// Both compliances have to be done, and one of a left and one of a right wheel. A guide without a link on
-/// the rack does not feel it.
+/// Both compliances have to be done, and one of a left and one of a right wheel. A suspension without a link
+/// on the rack does not feel it.
 AxleCompliance axle_compliance(const Compliance& left, const Compliance& right, double rack_stiffness);
 
 struct AxleResponse {
@@ -94,8 +94,10 @@ AxleResponse respond(const AxleCompliance& axle, const WheelLoad& left, const Wh
 /// forces and torques. Loads along x and z are parallel when both wheels have the sign of the case.
 enum class Pairing { parallel, opposing };
 constexpr std::array<EnumName<Pairing>, 2> names(Pairing) {
-  return {{{Pairing::parallel, "parallel", "both the same way of the vehicle, the left as its case says"},
-           {Pairing::opposing, "opposing", "opposite ways of the vehicle, the left as its case says"}}};
+  return {
+      {{Pairing::parallel, "parallel",
+        "both in the same direction of the vehicle, the left as its case says"},
+       {Pairing::opposing, "opposing", "in opposite directions of the vehicle, the left as its case says"}}};
 }
 AxleResponse respond(const AxleCompliance& axle, LoadCase load, Pairing pairing);
 

@@ -175,7 +175,7 @@ class Saddle {
         most = free.segment<6>(6 * i).norm();
       }
     if (free.head(n).norm() < 1e-6)
-      return "rigid joints hold the carrier more than once, so that their forces are not determined: give "
+      return "rigid joints constrain the carrier more than once, so their forces are not determined: give "
              "some of them a stiffness";
     if (free.head<6>().norm() > 1e-6) body = 0;
     return fmt::format("{} can move without resistance: give its joints a stiffness, or hold it by a support",
@@ -246,7 +246,7 @@ std::array<Vec3, 2> joint_force(const ElasticAssembly& of, const ElasticJoint& j
       force = -(i < 3 ? joint.stiffness.translation[i] : joint.stiffness.rotation[i - 3]) * relative[i];
     out[i / 3] += force * joint.axes.row[i % 3];
   }
-  if (joint.first == ground)  // a K joint that holds the link's spin
+  if (joint.first == ground)  // a U joint that holds the link's spin
     for (const HeldTurn& turn : of.held_turns)
       if (turn.link == joint.link && turn.body == joint.second) out[1] += -x(turn.multiplier) * turn.about;
   return out;
@@ -289,7 +289,7 @@ void add_geometric(const ElasticAssembly& of, const Solution& x, const PointLoad
     to.add(b, a, other);
     to.add(a, b, turn_block(-0.5 * skew(turning)));
   }
-  // A K joint keeps its axes across each other: standing . exp(turn) turning = 0, to second order.
+  // A U joint keeps its axes across each other: standing . exp(turn) turning = 0, to second order.
   for (const HeldTurn& turn : of.held_turns) {
     if (turn.link < 0) continue;
     const Eigen::Vector3d a = eigen(turn.standing), b = eigen(turn.turning);
@@ -337,7 +337,7 @@ Compliance solve_compliance(const WheelGuide& guide, const GuidePlace& place, do
     LINKWRIGHT_REQUIRE(problems.empty(), "{} problems, the first: {}", problems.size(),
                        to_string(problems.front()));
   const bool by_spring = support == Support::spring || support == Support::spring_held;
-  LINKWRIGHT_REQUIRE(guide.spring || !by_spring, "the support is '{}', and the guide has no spring",
+  LINKWRIGHT_REQUIRE(guide.spring || !by_spring, "the support is '{}', and the suspension has no spring",
                      name_of(support));
   LINKWRIGHT_REQUIRE(guide.spring || !preload, "the preload needs a spring that carries it");
 

@@ -11,8 +11,8 @@
 #include "linkwright/suspension/guide/wheel.h"
 
 /// Elasto-kinematics: how a wheel moves under load because the joints of its links give way. Linear, about a
-/// position of the rigid guide: small motions of the carrier and of every link as rigid bodies, joints with
-/// six stiffnesses each, rigid ones exact (Lagrange multipliers).
+/// position of the rigid suspension: small motions of the carrier and of every link as rigid bodies, joints
+/// with six stiffnesses each, rigid ones exact (Lagrange multipliers).
 namespace linkwright::suspension {
 
 /// What carries the wheel's load. Figures differ grossly with it, so it belongs to every result: with the
@@ -58,7 +58,7 @@ struct JointTransfer {
   std::array<std::array<double, 7>, 6> by{};
 };
 
-/// A guide with elastic joints at a position. Rows and columns of matrices: x, y, z, about x, y, z.
+/// A suspension with elastic joints at a position. Rows and columns of matrices: x, y, z, about x, y, z.
 struct Compliance {
   /// singular: see the reason.
   Status status = Status::done;
@@ -72,7 +72,7 @@ struct Compliance {
   /// active and all directions elastic, else semidefinite.
   Matrix6 at_centre{}, at_contact{};
   std::array<double, 6> by_rack{};    ///< motion without load by a metre of rack (m/m, rad/m)
-  double rack_stiffness = 0;          ///< N/m, of the guide against its rack without load on the wheel
+  double rack_stiffness = 0;          ///< N/m, of the suspension against its rack without load on the wheel
   std::vector<JointTransfer> joints;  ///< links in their order, joints at the body first
   /// Tension of each coupler (N), compression of the spring (N, force with which it pushes its ends apart)
   /// and upward force of a held height on the carrier (N), by unit loads as in `JointTransfer`. NaN = none.
@@ -80,8 +80,8 @@ struct Compliance {
   std::array<double, 7> spring{}, height{};
 };
 
-/// Assembles and solves the guide at a position of its carrier, as the kinematic solver or the reference
-/// gives it. Any number of links: a guide whose rigid links would lock is what elastic joints are for.
+/// Assembles and solves the suspension at a position of its carrier, as the kinematic solver or the reference
+/// gives it. Any number of links: a suspension whose rigid links would lock is what elastic joints are for.
 ///
 /// With a `preload` (such as the static load at the contact) the turning of loaded links and of the load's
 /// own arm is taken in (geometric stiffness), to first order in the forces of all joints, of which the spring

@@ -91,19 +91,19 @@ class Builder {
         for (int k : {0, 1}) put(points[k], given[k]);
       } else {
         const Vec3 point = points.size() == 2 ? 0.5 * (points[0] + points[1]) : points[0];
-        put(point, given.empty() ? ideal_joint(letter == 'K' ? 'S' : letter) : given[0]);
+        put(point, given.empty() ? ideal_joint(letter == 'U' ? 'S' : letter) : given[0]);
       }
     };
     add(elasticity.body, at_body, false, name.front());
     if (direct) return;
     add(elasticity.carrier, at_carrier, true, name.back());
-    if (link.type != LinkType::KS && link.type != LinkType::SS && link.type != LinkType::SP) return;
+    if (link.type != LinkType::US && link.type != LinkType::SS && link.type != LinkType::SP) return;
     bool held = false;
     for (std::size_t i = first_joint; i < of_.joints.size(); ++i)
       held = held || resists_turning(of_.joints[i], line);
     if (held) return;
     HeldTurn turn{.body = body, .about = line};
-    if (link.type == LinkType::KS) {
+    if (link.type == LinkType::US) {
       const auto [standing, turning] = cross_axes(*of_.guide, index, place_.carrier, rack_);
       turn = {.body = body,
               .about = cross(turning, standing),

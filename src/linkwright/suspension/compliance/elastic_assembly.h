@@ -9,7 +9,7 @@
 #include "linkwright/suspension/compliance/elasticity.h"
 #include "linkwright/suspension/guide/constraints.h"
 
-/// The bodies and elastic elements of a guide at a position, as `solve_compliance` puts them together.
+/// The bodies and elastic elements of a suspension at a position, as `solve_compliance` puts them together.
 namespace linkwright::suspension {
 
 /// In the place of a body's number: the vehicle body, which stands still.
@@ -36,13 +36,13 @@ struct ElasticBar {
 };
 
 /// A turn of a body that no joint of it resists: of an SS link and a strut about their line, which no force
-/// feels; of a KS link about the direction across both axes of its K joint, which holds it rigidly. The joint
+/// feels; of a US link about the direction across both axes of its U joint, which holds it rigidly. The joint
 /// keeps its axes across each other.
 struct HeldTurn {
   int body = 0;
   Vec3 about;              ///< unit
-  int link = -1;           ///< KS
-  Vec3 standing, turning;  ///< KS: axes of the K joint, unit; `about` = turning x standing
+  int link = -1;           ///< US
+  Vec3 standing, turning;  ///< US: axes of the U joint, unit; `about` = turning x standing
   int multiplier = -1;  ///< moment of the body joint on the link about `about`, with the opposite sign (N m)
 };
 
@@ -61,8 +61,8 @@ struct ElasticAssembly {
 };
 
 /// Bodies: the carrier with its origin at the wheel centre, then each link but R and S, its origin at the
-/// first body point as it stands. The stiffnesses have to be free of what `check` finds. The guide has to
-/// outlive the assembly.
+/// first body point as it stands. The stiffnesses have to be free of what `check` finds. The suspension has
+/// to outlive the assembly.
 ElasticAssembly assemble(const WheelGuide& guide, const GuidePlace& place, double rack,
                          const GuideElasticity& elasticity);
 

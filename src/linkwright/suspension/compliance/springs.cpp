@@ -9,7 +9,7 @@ namespace linkwright::suspension {
 
 WheelRate wheel_rate(const WheelGuide& guide, const GuidePlan& plan, const GuidePosition& position,
                      const SpringLaw& law) {
-  LINKWRIGHT_REQUIRE(plan.spring, "the guide has no spring");
+  LINKWRIGHT_REQUIRE(plan.spring, "the suspension has no spring");
   LINKWRIGHT_REQUIRE(law.stiffness >= 0 && std::isfinite(law.stiffness), "stiffness {} N/m", law.stiffness);
   const double rack = position.input.rack;
   WheelRate out;
@@ -18,7 +18,7 @@ WheelRate wheel_rate(const WheelGuide& guide, const GuidePlan& plan, const Guide
   out.status = rates.status;
   if (out.status != Status::done) return out;
   out.motion_ratio = -driver_rate(plan, position.place, rack, Driver::spring, rates.bump, 0);
-  // A guide with rigid joints, a spring of some N/m and 1 N of force in it: what its wheel yields beside
+  // A suspension with rigid joints, a spring of some N/m and 1 N of force in it: what its wheel yields beside
   // k i^2 is the change of the motion ratio. The spring is stiff enough to outweigh that change.
   constexpr double stiffness = 100, force = 1;
   const PointLoad load{position.place.carrier.centre, {0, 0, force * out.motion_ratio}};

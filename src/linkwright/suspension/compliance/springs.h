@@ -24,7 +24,8 @@ struct WheelRate {
   double rate = 0;             ///< N/m, the sum: slope of the wheel force
 };
 
-/// Exact, with the second derivatives of all constraints. `plan` is that of the guide, which needs a spring.
+/// Exact, with the second derivatives of all constraints. `plan` is that of the suspension, which needs a
+/// spring.
 WheelRate wheel_rate(const WheelGuide& guide, const GuidePlan& plan, const GuidePosition& position,
                      const SpringLaw& law);
 

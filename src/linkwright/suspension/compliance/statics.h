@@ -4,7 +4,7 @@
 
 namespace linkwright::suspension {
 
-/// Forces in the joints of a guide with rigid links for a load on its carrier.
+/// Forces in the joints of a suspension with rigid links for a load on its carrier.
 struct GuideForces {
   Status status = Status::done;    ///< singular: at a fold
   std::vector<JointForce> joints;  ///< links in their order, joint at the body first; R and S have only that
@@ -18,7 +18,7 @@ struct GuideForces {
 GuideForces solve_forces(const WheelGuide& guide, const GuidePlan& plan, const GuidePosition& position,
                          const WheelLoad& load, Support support);
 
-/// Force along a rod: positive pushes the carrier away from the body. Of the joint of a KS or SS link at the
+/// Force along a rod: positive pushes the carrier away from the body. Of the joint of a US or SS link at the
 /// carrier or at the body.
 double rod_force(const WheelGuide& guide, const GuidePosition& position, const JointForce& joint);
 

@@ -9,11 +9,11 @@
 #include "linkwright/suspension/wheel/derivatives.h"
 #include "linkwright/suspension/wheel/quantities.h"
 
-/// What a wheel guide is to show, and how near it comes.
+/// What a wheel suspension is to show, and how near it comes.
 namespace linkwright::suspension {
 
 /// Tolerance of a target value: `least` up to a size of `from`, `slope` more per unit above (Poznanovic 2016,
-/// equation 75 with the sign of negative targets put right: |value| - from).
+/// equation 75 with the sign of negative targets corrected: |value| - from).
 struct ToleranceRule {
   double least = 1;
   double slope = 0;
@@ -57,7 +57,7 @@ struct TargetObjective {
 };
 
 /// Numbers that a design is free in, and their range.
-struct DesignedNumber {
+struct DesignVariable {
   DesignNumber number;
   double lower = 0, upper = 0;  ///< m (rad, 1), lower < upper
 };

@@ -56,7 +56,7 @@ DirectTask published_direct_task() {
                                      0.273};
   for (std::size_t i = 0; i < 5; ++i)
     task.guide.links.push_back({.name = "link " + std::to_string(i + 1),
-                                .type = LinkType::KS,
+                                .type = LinkType::US,
                                 .body = {body[i]},
                                 .carrier = {carrier[i]},
                                 .length = length[i],

@@ -183,7 +183,7 @@ struct Form {
 };
 
 /// Minimises the largest of the objectives `these` while those of `within` keep to 1 and limits are met:
-/// quadratic programmes in a region that grows while they tell the truth and shrinks where they do not, or
+/// quadratic programmes in a region that grows while they hold and shrinks where they do not, or
 /// where a design does not assemble. Their curvature is that of the Lagrange function, learnt from its
 /// gradients (BFGS with Powell's damping, 1978); limits may be missed at a price that is higher than any
 /// deviation's.
@@ -361,7 +361,7 @@ DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, con
 
 DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, std::span<const double> u) {
   const DirectModel model(task, options);
-  LINKWRIGHT_REQUIRE(u.size() == model.size(), "{} shares of {} designed numbers", u.size(), model.size());
+  LINKWRIGHT_REQUIRE(u.size() == model.size(), "{} shares of {} design variables", u.size(), model.size());
   DirectSynthesis out = assessed(model, u);
   complete(model, options, u, out);
   out.status = out.answer.assembled && missed(options, out) == 0 ? Status::done : Status::infeasible;

@@ -12,13 +12,13 @@
 #include "linkwright/suspension/direct/guide_targets.h"
 #include "linkwright/suspension/guide/limits.h"
 
-/// Wheel guides from what their wheels are to do (Poznanovic 2016, section 5.4).
+/// Wheel suspensions from what their wheels are to do (Poznanovic 2016, section 5.4).
 namespace linkwright::suspension {
 
-/// A wheel guide to be found: objectives, most important first, and limits.
+/// A wheel suspension to be found: objectives, most important first, and limits.
 struct DirectTask {
-  WheelGuide guide;  ///< what is given; of designed numbers where a search may begin
-  std::vector<DesignedNumber> designed;
+  WheelGuide guide;  ///< what is given; of design variables where a search may begin
+  std::vector<DesignVariable> designed;
   Driver driver = Driver::wheel_centre_z;
   std::vector<TargetObjective> objectives;
   GuideLimits limits;  ///< at the positions of the targets
@@ -64,7 +64,7 @@ struct DirectSynthesis {
   Status status = Status::infeasible;
   std::string reason;  ///< empty, or why it is infeasible
   WheelGuide guide;
-  std::vector<double> x;  ///< of the designed numbers
+  std::vector<double> x;  ///< of the design variables
   /// The same in shares of their ranges: what the design is made from, to the bit.
   std::vector<double> shares;
   TargetPositions positions;
@@ -75,7 +75,7 @@ struct DirectSynthesis {
   optimise::PriorityKey key;              ///< objectives met, and how the next stands
   std::vector<ActiveTarget> active;       ///< within 1e-4 of the largest of what was minimised
   std::vector<LimitAnswer> limits;
-  /// Of the deviations by the designed numbers, each in units of its range, descending; with the direction
+  /// Of the deviations by the design variables, each in units of its range, descending; with the direction
   /// (unit, in those units) of each. A small one is a direction that the targets hardly determine.
   std::vector<double> singular_values;
   std::vector<std::vector<double>> directions;
@@ -94,7 +94,7 @@ DirectSynthesis synthesise(const DirectTask& task, const DirectOptions& options,
 
 /// The goal at a given design: everything of the report but starts.
 DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, const WheelGuide& guide);
-/// Of a design that is known by its shares, one a designed number.
+/// Of a design that is known by its shares, one a design variable.
 DirectSynthesis assess(const DirectTask& task, const DirectOptions& options, std::span<const double> shares);
 
 /// Differential evolution for comparison, with the settings of the source (NP 50, F 0.6, CR 0.9, at most 5000

@@ -82,7 +82,7 @@ void DirectModel::evaluate(std::span<const double> u, bool derivatives, DirectPo
   if (!out.assembled) return;
   const std::size_t n = size();
   for (std::size_t i = 0; i < out.by.size(); ++i) {
-    const DesignedNumber& of = task_.designed[i % n];
+    const DesignVariable& of = task_.designed[i % n];
     out.by[i] *= of.upper - of.lower;
   }
   if (limits_ == 0) return;

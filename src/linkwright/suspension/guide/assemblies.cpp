@@ -46,8 +46,8 @@ bool newton(const GuidePlan& plan, Driver driver, const GuideInput& input, Guide
   return false;
 }
 
-/// The equations do not tell a hinge from one put together the wrong way round, nor a strut from one that has
-/// passed its ball joint.
+/// The equations do not distinguish a hinge from one put together the wrong way round, nor a strut from one
+/// that has passed its ball joint.
 bool right_way_round(const GuidePlan& plan, const GuidePlace& place, double rack) {
   const Mat3& turned = place.carrier.rotation;
   return std::all_of(plan.links.begin(), plan.links.end(), [&](const LinkConstants& link) {
@@ -82,7 +82,7 @@ double reach(const GuidePlan& plan) {
 std::vector<Assembly> assemblies(const GuidePlan& plan, Driver driver, const GuideInput& input,
                                  std::uint64_t seed, int starts) {
   LINKWRIGHT_REQUIRE(starts > 0, "{} starts", starts);
-  LINKWRIGHT_REQUIRE(driver != Driver::spring || plan.spring, "the guide has no spring");
+  LINKWRIGHT_REQUIRE(driver != Driver::spring || plan.spring, "the suspension has no spring");
   const double far = 2 * reach(plan);
   std::vector<Assembly> found;
   for (int i = 0; i < starts; ++i) {

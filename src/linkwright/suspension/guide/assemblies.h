@@ -7,14 +7,14 @@
 
 namespace linkwright::suspension {
 
-/// One way to put a guide together at an input.
+/// One assembly mode of a suspension at an input.
 struct Assembly {
   GuidePlace place;
   double residual = 0;  ///< m
   int hits = 0;         ///< of the starts that ended here
 };
 
-/// The ways to put a guide together at an input, nearest to the reference first: Newton's method from
+/// The assembly modes of a suspension at an input, nearest to the reference first: Newton's method from
 /// `starts` random places of the carrier, within twice the reach of its links and turned anyhow, the
 /// reference being the first of them. Rigid links have several, most of them inverted and of no use; the one
 /// that belongs to the reference is what solve_position follows. Hinges put together the wrong way round and

@@ -21,7 +21,7 @@ constexpr Wanted columns[] = {
     {"centre_x", Dimension::length, true}, {"centre_y", Dimension::length, true},
     {"centre_z", Dimension::length, true}, {"toe", Dimension::angle, true},
     {"camber", Dimension::angle, true},    {"carrier_pitch", Dimension::angle, false}};
-enum Place { travel, rack, x, y, z, toe, camber, spin, places };
+enum Place { travel, rack, x, y, z, toe, camber, carrier_pitch, places };
 
 // Travel is written beside the centre for people; a file in which they disagree by more than what rounding to
 // a micrometre makes was put together wrongly.
@@ -30,13 +30,13 @@ constexpr double travel_tolerance = 1e-6;
 }  // namespace
 
 Mat3 target_rotation(const CarrierTargets& targets, const CarrierTarget& pose) {
-  LINKWRIGHT_REQUIRE(std::isfinite(pose.angles.spin), "a position does not give the carrier pitch");
+  LINKWRIGHT_REQUIRE(std::isfinite(pose.angles.carrier_pitch), "a position does not give the carrier pitch");
   return carrier_rotation(Side::left, targets.wheel, pose.angles);
 }
 
-bool spin_is_given(const CarrierTargets& targets) {
+bool carrier_pitch_is_given(const CarrierTargets& targets) {
   for (const CarrierTarget& pose : targets.poses)
-    if (std::isnan(pose.angles.spin)) return false;
+    if (std::isnan(pose.angles.carrier_pitch)) return false;
   return true;
 }
 
@@ -94,10 +94,10 @@ std::optional<CarrierTargets> carrier_targets(CarrierTargets targets, const Tabl
 
   targets.poses.clear();
   for (std::size_t i = 0; i < table.rows(); ++i)
-    targets.poses.push_back(
-        {.rack = values[rack].empty() ? 0 : values[rack][i],
-         .centre = {values[x][i], values[y][i], values[z][i]},
-         .angles = {values[toe][i], values[camber][i], values[spin].empty() ? nan : values[spin][i]}});
+    targets.poses.push_back({.rack = values[rack].empty() ? 0 : values[rack][i],
+                             .centre = {values[x][i], values[y][i], values[z][i]},
+                             .angles = {values[toe][i], values[camber][i],
+                                        values[carrier_pitch].empty() ? nan : values[carrier_pitch][i]}});
   return targets;
 }
 

@@ -15,7 +15,7 @@ namespace linkwright::suspension {
 struct CarrierTarget {
   double rack = 0;     ///< displacement of the rack along its direction, m
   Vec3 centre;         ///< of the wheel, m
-  WheelAngles angles;  ///< spin NaN = not prescribed
+  WheelAngles angles;  ///< carrier pitch NaN = not prescribed
 };
 
 /// Positions that the carrier of a left wheel is to take, in the frame of the vehicle: x forward, y to the
@@ -27,15 +27,16 @@ struct CarrierTargets {
   std::vector<CarrierTarget> poses;
 };
 
-/// Rotation of the carrier from its reference pose. Throws ContractError for a position without spin.
+/// Rotation of the carrier from its reference pose. Throws ContractError for a position without carrier
+/// pitch.
 Mat3 target_rotation(const CarrierTargets& targets, const CarrierTarget& pose);
 
-/// Whether every position prescribes the spin of the carrier.
-bool spin_is_given(const CarrierTargets& targets);
+/// Whether every position prescribes the carrier pitch.
+bool carrier_pitch_is_given(const CarrierTargets& targets);
 
 /// Reads positions from a table with the columns `rack`, `centre_x`, `centre_y`, `centre_z`, `toe`, `camber`
-/// and, if the carrier's spin is prescribed, `spin`, each with the suffix of its unit (`toe_deg`); a column
-/// `travel` must agree with centre_z less that of the reference within 1e-6 m; without `rack` it is 0.
+/// and, if the carrier pitch is prescribed, `carrier_pitch`, each with the suffix of its unit (`toe_deg`); a
+/// column `travel` must agree with centre_z less that of the reference within 1e-6 m; without `rack` it is 0.
 /// Reference and rack direction are taken from `targets`, whose poses are replaced. Problems are appended
 /// under the name `file`; nothing is returned if there is one.
 std::optional<CarrierTargets> carrier_targets(CarrierTargets targets, const Table& table,

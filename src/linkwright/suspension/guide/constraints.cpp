@@ -11,7 +11,7 @@ namespace {
 
 void require_spring(const GuidePlan& plan, Driver driver) {
   LINKWRIGHT_REQUIRE(driver != Driver::spring || plan.spring,
-                     "the driver is the spring, and the guide has none");
+                     "the driver is the spring, and the suspension has none");
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ Misfit worst_misfit(const GuidePlan& plan, const GuidePlace& place, double rack)
     const auto point = [&](int k) { return placed.point(placed.offset(link.offset[k])); };
     const Vec3 d = point(0) - placed.body(link, 0);
     switch (link.type) {
-      case LinkType::KS:
+      case LinkType::US:
       case LinkType::SS:
         keep(i, norm(d) - link.length[0]);
         break;

@@ -7,7 +7,7 @@
 #include "linkwright/suspension/guide/constructions.h"
 #include "linkwright/suspension/guide/suspension.h"
 
-/// The equations of a wheel guide: residuals of its joints and of a driver, with exact derivatives.
+/// The equations of a wheel suspension: residuals of its joints and of a driver, with exact derivatives.
 namespace linkwright::suspension {
 
 /// Which coordinate is prescribed beside the rack, as a change from the reference (m).
@@ -18,8 +18,8 @@ constexpr std::array<EnumName<Driver>, 3> names(Driver) {
            {Driver::spring, "spring", "length of the spring, longer positive"}}};
 }
 
-/// Where a guide stands: the carrier, and the angle (rad, from the reference, right-handed from the first to
-/// the second body point) of its RR arm if it has one.
+/// Where a suspension stands: the carrier, and the angle (rad, from the reference, right-handed from the
+/// first to the second body point) of its RR arm if it has one.
 template <class T>
 struct BasicGuidePlace {
   BasicCarrierPose<T> carrier;
@@ -27,8 +27,8 @@ struct BasicGuidePlace {
 };
 using GuidePlace = BasicGuidePlace<double>;
 
-/// Rates of a guide: velocity of the wheel centre (m/s), angular velocity of the carrier (rad/s), rate of the
-/// arm.
+/// Rates of a suspension: velocity of the wheel centre (m/s), angular velocity of the carrier (rad/s), rate
+/// of the arm.
 template <class T>
 struct BasicTwist {
   Vector3<T> velocity;
@@ -40,13 +40,13 @@ using Twist = BasicTwist<double>;
 /// Constants of a link in the equations. Offsets are those of carrier points from the wheel centre.
 template <class T>
 struct BasicLinkConstants {
-  LinkType type = LinkType::KS;
+  LinkType type = LinkType::US;
   bool moved_by_rack = false;
   std::array<Vector3<T>, 2> body, offset;
   std::array<T, 2> length{};         ///< of the distances that it keeps
   Vector3<T> axis;                   ///< unit: strut line, hinge axis in the body (R, RR)
   Vector3<T> carrier_axis;           ///< unit: hinge axis in the carrier (R, RR)
-  Vector3<T> standing_axis;          ///< unit: axis of the K joint in the body (KS)
+  Vector3<T> standing_axis;          ///< unit: axis of the U joint in the body (US)
   std::array<Vector3<T>, 2> across;  ///< unit, normal to the strut line or to the carrier's axis
 };
 using LinkConstants = BasicLinkConstants<double>;
@@ -59,7 +59,7 @@ struct BasicAffinePoint {
 };
 using AffinePoint = BasicAffinePoint<double>;
 
-/// A point fixed to a rod: its share of the rod's line, and where a K joint holds the rod's spin its offsets
+/// A point fixed to a rod: its share of the rod's line, and where a U joint holds the rod's spin its offsets
 /// from the line (m), along the axis of the joint that turns with the rod and across both.
 template <class T>
 struct BasicRodPoint {
@@ -88,7 +88,7 @@ struct BasicSpringConstants {
 };
 using SpringConstants = BasicSpringConstants<double>;
 
-/// A guide made ready for solving. Make it with `prepare`.
+/// A suspension made ready for solving. Make it with `prepare`.
 template <class T>
 struct BasicGuidePlan {
   Side side = Side::left;
@@ -105,7 +105,8 @@ struct BasicGuidePlan {
 };
 using GuidePlan = BasicGuidePlan<double>;
 
-/// Throws ContractError for a guide that `check` finds errors in, or whose constraints do not add up to five.
+/// Throws ContractError for a suspension that `check` finds errors in, or whose constraints do not add up to
+/// five.
 GuidePlan prepare(const WheelGuide& guide);
 
 inline constexpr int most_unknowns = 7;
@@ -132,7 +133,7 @@ double driver_value(const GuidePlan& plan, const GuidePlace& place, double rack,
 double driver_rate(const GuidePlan& plan, const GuidePlace& place, double rack, Driver driver,
                    const Twist& twist, double rack_rate);
 
-/// How much a KS link, or a distance of another link, is too long (+) or too short (-) at a place: the
+/// How much a US link, or a distance of another link, is too long (+) or too short (-) at a place: the
 /// largest, and the link that has it. Hinges and struts are measured as they miss each other.
 struct Misfit {
   int link = -1;   ///< links first, then couplers

@@ -5,9 +5,9 @@
 
 #include "linkwright/suspension/guide/suspension.h"
 
-/// What drawing-board constructions of a wheel guide stand on: the ball joints of the carrier, through which
-/// the geometric steering axis passes, and the planes of its arms, in which the instant axis of the wheel's
-/// travel is looked for. Both are known from the types of the links, and from rods that share an end.
+/// What drawing-board constructions of a wheel suspension stand on: the ball joints of the carrier, through
+/// which the geometric steering axis passes, and the planes of its arms, in which the instant axis of the
+/// wheel's travel is looked for. Both are known from the types of the links, and from rods that share an end.
 namespace linkwright::suspension {
 
 /// Points nearer than this (m) are one joint.
@@ -47,11 +47,11 @@ struct GuideConstruction {
   }
 };
 
-/// Of a guide whose links have as many points as their types need.
+/// Of a suspension whose links have as many points as their types need.
 GuideConstruction construction_of(const WheelGuide& guide);
 
-/// Empty, or why the guide has no geometric steering axis, and no roll centre and instant centres by planes
-/// of arms ("one ball joint holds the carrier (lower wishbone), ...").
+/// Empty, or why the suspension has no geometric steering axis, and no roll centre and instant centres by
+/// planes of arms ("one ball joint holds the carrier (lower wishbone), ...").
 std::string why_no_axis(const WheelGuide& guide);
 std::string why_no_planes(const WheelGuide& guide);
 
@@ -62,7 +62,7 @@ GuideConstruction construction_of(const std::vector<BasicGuideLink<T>>& links) {
   GuideConstruction out;
   const int count = static_cast<int>(links.size());
   const auto rod = [&](int i) {
-    return (links[i].type == LinkType::KS || links[i].type == LinkType::SS) && !links[i].moved_by_rack;
+    return (links[i].type == LinkType::US || links[i].type == LinkType::SS) && !links[i].moved_by_rack;
   };
   const auto same = [](const Vector3<T>& a, const Vector3<T>& b) {
     return dot(a - b, a - b) < same_joint * same_joint;
@@ -107,7 +107,7 @@ GuideConstruction construction_of(const std::vector<BasicGuideLink<T>>& links) {
         break;
       case LinkType::RR:
         break;
-      case LinkType::KS:
+      case LinkType::US:
       case LinkType::SS: {
         if (!rod(i)) break;
         // Three rods with one end hold a point, but lie in no plane.

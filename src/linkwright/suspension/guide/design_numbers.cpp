@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array axes{"x", "y", "z"};
 
-/// T is double, const double or a dual number, Guide the guide that has such numbers.
+/// T is double, const double or a dual number, Suspension the suspension that has such numbers.
 template <class T, class Point>
 T* coordinate(Point& point, int axis) {
   return axis == 0 ? &point.x : axis == 1 ? &point.y : axis == 2 ? &point.z : nullptr;
@@ -64,8 +64,8 @@ T* find(Guide& guide, const DesignNumber& number) {
 template <class T, class Guide>
 T& found(Guide& guide, const DesignNumber& number) {
   T* place = find<T>(guide, number);
-  LINKWRIGHT_REQUIRE(place, "the guide has no number {}, index {}, point {}, axis {}", name_of(number.kind),
-                     number.index, number.point, number.axis);
+  LINKWRIGHT_REQUIRE(place, "the suspension has no number {}, index {}, point {}, axis {}",
+                     name_of(number.kind), number.index, number.point, number.axis);
   return *place;
 }
 

@@ -7,7 +7,7 @@
 
 namespace linkwright::suspension {
 
-/// Kinds of numbers that a wheel guide is designed by.
+/// Kinds of numbers that a wheel suspension is designed by.
 enum class DesignKind {
   body,
   carrier,
@@ -24,7 +24,7 @@ enum class DesignKind {
 constexpr std::array<EnumName<DesignKind>, 11> names(DesignKind) {
   return {{{DesignKind::body, "body", "coordinate of a body point of a link"},
            {DesignKind::carrier, "carrier", "coordinate of a carrier point of a link"},
-           {DesignKind::length, "length", "prescribed length of a KS or SS link"},
+           {DesignKind::length, "length", "prescribed length of a US or SS link"},
            {DesignKind::coupler_point, "coupler_point", "coordinate of a coupler's point"},
            {DesignKind::coupler_fraction, "coupler_fraction", "where a coupler holds its first link"},
            {DesignKind::coupler_begin, "coupler_begin", "coordinate of a coupler's beginning off the line"},
@@ -35,7 +35,7 @@ constexpr std::array<EnumName<DesignKind>, 11> names(DesignKind) {
            {DesignKind::wheel_camber, "wheel_camber", "camber at the reference"}}};
 }
 
-/// One number of a wheel guide (m; rad for angles; a share for the fraction of a coupler).
+/// One number of a wheel suspension (m; rad for angles; a share for the fraction of a coupler).
 struct DesignNumber {
   DesignKind kind = DesignKind::body;
   int index = 0;  ///< of the link or coupler
@@ -45,18 +45,18 @@ struct DesignNumber {
   friend bool operator==(const DesignNumber&, const DesignNumber&) = default;
 };
 
-/// The place of a number in a guide. Throws ContractError for one that the guide does not have; a length has
-/// to be prescribed.
+/// The place of a number in a suspension. Throws ContractError for one that the suspension does not have; a
+/// length has to be prescribed.
 template <class T>
 T& at(BasicWheelGuide<T>& guide, const DesignNumber& number);
 double at(const WheelGuide& guide, const DesignNumber& number);
 
-/// What files and reports call it: "link 3 (KS).body_y", "spring.moving_x"; the number of the point is named
+/// What files and reports call it: "link 3 (US).body_y", "spring.moving_x"; the number of the point is named
 /// where there are two: "lower arm.body_2_z".
 std::string label(const WheelGuide& guide, const DesignNumber& number);
 
 /// All coordinates of the points of links, prescribed lengths, couplers and the spring, in the order of the
-/// guide.
+/// suspension.
 std::vector<DesignNumber> hard_points(const WheelGuide& guide);
 
 }  // namespace linkwright::suspension

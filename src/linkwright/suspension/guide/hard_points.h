@@ -10,7 +10,7 @@
 #include "linkwright/core/table.h"
 #include "linkwright/suspension/guide/suspension.h"
 
-/// Hard points: the named points of a wheel guide as lists of other programs and drawings give them, and
+/// Hard points: the named points of a wheel suspension as lists of other programs and drawings give them, and
 /// their conversion into the vehicle's frame (x forward, y to the left, z up, y = 0 in the middle; m).
 namespace linkwright::suspension {
 
@@ -67,7 +67,7 @@ std::optional<std::vector<HardPoint>> read_hard_points(std::string_view text, co
 /// The points as a table with names and columns x_m, y_m, z_m, which read_hard_points reads back.
 Table hard_point_table(const std::vector<HardPoint>& points);
 
-/// The points of a guide's links, couplers and spring, by the names of the links: tie_rod_body,
+/// The points of a suspension's links, couplers and spring, by the names of the links: tie_rod_body,
 /// lower_wishbone_body_2.
 std::vector<HardPoint> points_of(const WheelGuide& guide);
 

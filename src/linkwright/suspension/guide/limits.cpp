@@ -153,7 +153,7 @@ class Limits {
         return {{0, 0}, {0, 1}};
       case LinkType::RR:
         return {{0, 0}, {1, 1}};
-      case LinkType::KS:
+      case LinkType::US:
       case LinkType::SS:
       case LinkType::SP:
         return {{0, 0}};
@@ -177,7 +177,7 @@ class Limits {
 
   void require_link(int link) const {
     LINKWRIGHT_REQUIRE(link >= 0 && link < static_cast<int>(guide_.links.size()),
-                       "a limit for link {}, the guide has {}", link, guide_.links.size());
+                       "a limit for link {}, the suspension has {}", link, guide_.links.size());
   }
   std::string label(int link) const { return link_label(guide_, link); }
   int positions() const { return static_cast<int>(positions_.size()); }

@@ -9,8 +9,8 @@
 #include "linkwright/suspension/guide/point_box.h"
 #include "linkwright/suspension/guide/position.h"
 
-/// Room that the links of a guide keep: to each other, to the tyre, to the body. Links are straight lines
-/// between their points, one for each pair of a body and a carrier point that they join.
+/// Room that the links of a suspension keep: to each other, to the tyre, to the body. Links are straight
+/// lines between their points, one for each pair of a body and a carrier point that they join.
 namespace linkwright::suspension {
 
 /// A point of a link stays out of a box: a body point where it is, a carrier point at all positions.
@@ -71,7 +71,7 @@ struct LimitAnswer {
 /// `positions` are those that clearances are looked at in, solved; `shifts` [position][number] how the
 /// carrier moves with the numbers, as WheelDerivatives has it; both of `numbers` and `shifts` may be empty.
 /// Distances from boxes and tyres are those from their nearest face, less than the true ones off an edge.
-/// Throws ContractError for links and points that the guide does not have.
+/// Throws ContractError for links and points that the suspension does not have.
 std::vector<LimitAnswer> limit_answers(const WheelGuide& guide, const GuideLimits& limits,
                                        std::span<const GuidePosition> positions,
                                        std::span<const DesignNumber> numbers,

@@ -15,7 +15,7 @@ namespace {
 /// half as long as the farthest joint is away from the wheel centre; a slip of a unit is a factor of 10 (cm,
 /// mm), 25.4 (in, mm) or 1000 (mm, m).
 constexpr double unlikely = 8, absurd = 50;
-/// m: the farthest joint of a guide lies within these from the wheel centre, from a model car to a dump
+/// m: the farthest joint of a suspension lies within these from the wheel centre, from a model car to a dump
 /// truck.
 constexpr double smallest = 0.02, largest = 10;
 /// A wheel centre nearer to the middle plane than this share of the distance of its joints has no track.
@@ -124,7 +124,7 @@ Diagnostics implausible(const WheelGuide& guide) {
     if (away[i] > unlikely * typical && away[i] > 1) {
       strays = true;
       found.add(away[i] > absurd * typical, p.key,
-                fmt::format("{} lies {} from the wheel centre, the points of the guide {} in the middle",
+                fmt::format("{} lies {} from the wheel centre, the points of the suspension {} in the middle",
                             p.what, length(away[i]), length(typical)),
                 units);
       continue;
@@ -144,10 +144,11 @@ Diagnostics implausible(const WheelGuide& guide) {
 
   const double farthest = *std::max_element(away.begin(), away.end()), radius = guide.wheel.tyre_diameter / 2;
   if (!strays && (farthest < smallest || farthest > largest))
-    found.add(farthest < smallest / 10 || farthest > largest * 10, "hard_points",
-              fmt::format("the farthest point of the guide lies {} from the wheel centre", length(farthest)),
-              farthest < smallest ? "are these metres in keys of millimetres? " + std::string(units)
-                                  : "are these millimetres in keys of metres? " + std::string(units));
+    found.add(
+        farthest < smallest / 10 || farthest > largest * 10, "hard_points",
+        fmt::format("the farthest point of the suspension lies {} from the wheel centre", length(farthest)),
+        farthest < smallest ? "are these metres in keys of millimetres? " + std::string(units)
+                            : "are these millimetres in keys of metres? " + std::string(units));
   const double ratio = radius / typical;
   if (!strays && (ratio > unlikely || ratio < 1 / (3 * unlikely)))
     found.add(ratio > absurd || ratio < 1 / (3 * absurd), "wheel",

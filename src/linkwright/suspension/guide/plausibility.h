@@ -4,14 +4,15 @@
 #include "linkwright/suspension/guide/carrier_poses.h"
 #include "linkwright/suspension/guide/suspension.h"
 
-/// Slips that a description of a wheel guide may hold though each of its numbers is one: units mixed up, axes
-/// swapped. Told before they become a guide that cannot be put together.
+/// Slips that a description of a wheel suspension may hold though each of its numbers is one: units mixed up,
+/// axes swapped. Reported before they become a suspension that cannot be put together.
 namespace linkwright::suspension {
 
-/// What looks like a slip. All measures are relative to the guide itself - distances from the wheel centre,
-/// the tyre's radius - but the size of the whole, which is that of a vehicle within factors of ten. Errors
-/// where no wheel guide could be meant (a factor of fifty and more), warnings where it is unlikely. Keys are
-/// those of `check`: "wheel", "link.<name>", "spring", "coupler.<name>", and "hard_points" for the whole.
+/// What looks like a slip. All measures are relative to the suspension itself - distances from the wheel
+/// centre, the tyre's radius - but the size of the whole, which is that of a vehicle within factors of ten.
+/// Errors where no wheel suspension could be meant (a factor of fifty and more), warnings where it is
+/// unlikely. Keys are those of `check`: "wheel", "link.<name>", "spring", "coupler.<name>", and "hard_points"
+/// for the whole.
 Diagnostics implausible(const WheelGuide& guide);
 
 /// The same for positions of a carrier: how far the wheel centre goes from its reference, which way, and the

@@ -123,7 +123,8 @@ std::string limit_reason(const GuidePlan& plan, const GuidePosition& at, const G
   const double weakest = weakest_motion(plan, at.place, at.input.rack, at.driver).singular_value;
   if (at.status == Status::singular)
     return fmt::format(
-        "at {} {:.3f} mm and rack {:.3f} mm the way on is not determined: the links lose rank (smallest "
+        "at {} {:.3f} mm and rack {:.3f} mm the motion beyond is not determined: the links lose rank "
+        "(smallest "
         "singular value {:.1g})",
         in_words(at.driver), at.input.value * 1e3, at.input.rack * 1e3, weakest);
   const std::string end =
@@ -136,7 +137,7 @@ std::string limit_reason(const GuidePlan& plan, const GuidePosition& at, const G
     return fmt::format("the rack cannot pass {:.3f} mm at {} {:.3f} mm, {:.3f} mm short of {:.3f} mm: {}",
                        at.input.rack * 1e3, in_words(at.driver), at.input.value * 1e3,
                        std::abs(asked.rack - at.input.rack) * 1e3, asked.rack * 1e3, end);
-  return fmt::format("the way to {} {:.3f} mm and rack {:.3f} mm ends at {:.3f} mm and {:.3f} mm: {}",
+  return fmt::format("the motion to {} {:.3f} mm and rack {:.3f} mm ends at {:.3f} mm and {:.3f} mm: {}",
                      in_words(at.driver), asked.value * 1e3, asked.rack * 1e3, at.input.value * 1e3,
                      at.input.rack * 1e3, end);
 }

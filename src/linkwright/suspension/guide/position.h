@@ -15,7 +15,7 @@ struct GuideInput {
   double rack = 0;
 };
 
-/// Where a guide stands, or how far it got.
+/// Where a suspension stands, or how far it got.
 struct GuidePosition {
   /// done; no_assembly: the input lies beyond what the links reach, or the links do not meet at all;
   /// singular: at the start the links lose rank, so that no way on is determined.
@@ -28,8 +28,8 @@ struct GuidePosition {
   std::string reason;   ///< empty, or why it ends there, with figures
 };
 
-/// How the way from one position to another is gone: along the straight line between both inputs in value and
-/// rack, in steps that grow while they succeed.
+/// How the way from one position to another is followed: along the straight line between both inputs in value
+/// and rack, in steps that grow while they succeed.
 struct GuideStepping {
   double first = 0.01;      ///< m of the larger of both inputs
   double smallest = 1e-11;  ///< m: below, the position is at a limit

@@ -8,9 +8,9 @@
 
 namespace linkwright::suspension {
 
-/// A canned wheel guide.
+/// A canned wheel suspension.
 struct GuideSample {
-  std::string name;     ///< "2RS-KS": a basic mechanism; or that of a published example
+  std::string name;     ///< "2RS-US": a basic mechanism; or that of a published example
   std::string summary;  ///< what it is
   WheelGuide guide;
 };

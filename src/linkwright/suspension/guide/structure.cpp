@@ -10,7 +10,7 @@ namespace linkwright::suspension {
 namespace {
 
 constexpr std::array order{LinkType::R,  LinkType::RR, LinkType::S, LinkType::RS,
-                           LinkType::SR, LinkType::SP, LinkType::KS};
+                           LinkType::SR, LinkType::SP, LinkType::US};
 
 /// Below this (metres a radian) a singular value is rounding.
 constexpr double no_rank = 1e-9;
@@ -38,7 +38,7 @@ std::string count_of(const Structure& structure, int couplers) {
   std::string out;
   for (LinkType type : order) {
     const auto count = std::count_if(structure.begin(), structure.end(), [&](LinkType of) {
-      return of == type || (type == LinkType::KS && of == LinkType::SS);
+      return of == type || (type == LinkType::US && of == LinkType::SS);
     });
     if (count > 0)
       out += fmt::format("{}{} {} takes {}", out.empty() ? "" : ", ", count, name_of(type),
@@ -83,7 +83,7 @@ ParsedStructure parse_structure(std::string_view name) {
     const std::string_view word = part.substr(counted ? 1 : 0);
     const int count = counted ? part[0] - '0' : 1;
     if (part.empty())
-      return fail(fmt::format("'{}' has nothing between its '-': write link types such as SR-3KS", name));
+      return fail(fmt::format("'{}' has nothing between its '-': write link types such as SR-3US", name));
     const auto known = names(LinkType{});
     const auto entry =
         std::find_if(known.begin(), known.end(), [&](const auto& of) { return of.name == word; });
@@ -101,7 +101,7 @@ std::string structure_name(const Structure& structure) {
   std::string out;
   for (LinkType type : order) {
     const auto count = std::count_if(structure.begin(), structure.end(), [&](LinkType of) {
-      return of == type || (type == LinkType::KS && of == LinkType::SS);
+      return of == type || (type == LinkType::US && of == LinkType::SS);
     });
     if (count == 0) continue;
     if (!out.empty()) out += '-';
@@ -129,7 +129,7 @@ int constraints(LinkType type) {
     case LinkType::SR:
     case LinkType::SP:
       return 2;
-    case LinkType::KS:
+    case LinkType::US:
     case LinkType::SS:
       return 1;
   }
@@ -149,7 +149,7 @@ int design_parameters(LinkType type) {
       return 7;
     case LinkType::SP:
       return 5;
-    case LinkType::KS:
+    case LinkType::US:
     case LinkType::SS:
       return 6;
   }
@@ -207,7 +207,7 @@ Diagnostics check_structure(const WheelGuide& guide) {
     out.key = "links";
     out.message = fmt::format("the links take {} of the carrier's 6 freedoms ({}), 5 are to be taken", held,
                               structure.empty() ? "there are none" : count_of(structure, couplers));
-    out.hint = held < 5 ? fmt::format("the wheel could move in {} ways: add links", freedoms)
+    out.hint = held < 5 ? fmt::format("the wheel would have {} degrees of freedom: add links", freedoms)
                         : "redundant links need elastic joints: rigid ones would lock, or fit by luck";
     return found;
   }

@@ -66,17 +66,18 @@ void check_link(const WheelGuide& guide, int index, GuideFindings& found) {
       found.add(key, "both hinges have the same axis: the arm moves nothing");
   }
   if (link.cross_axis) {
-    if (link.type != LinkType::KS)
-      found.add(key, fmt::format("the axis of a K joint can be given to KS links only, this is {}", type));
+    if (link.type != LinkType::US)
+      found.add(key,
+                fmt::format("the axis of a universal joint can be given to US links only, this is {}", type));
     else if (!finite(*link.cross_axis) || !(norm(*link.cross_axis) > 1e-9))
-      found.add(key, "the axis of its K joint has no direction");
+      found.add(key, "the axis of its U joint has no direction");
     else if (norm(cross(unit(*link.cross_axis), unit(link.carrier[0] - link.body[0]))) < 1e-3)
-      found.add(key, "the axis of its K joint lies along the rod, which then could not swing",
+      found.add(key, "the axis of its U joint lies along the rod, which then could not swing",
                 "give one across the rod");
   }
   if (link.length) {
-    if (link.type != LinkType::KS && link.type != LinkType::SS)
-      found.add(key, fmt::format("a length can be given to KS and SS links only, this is {}", type));
+    if (link.type != LinkType::US && link.type != LinkType::SS)
+      found.add(key, fmt::format("a length can be given to US and SS links only, this is {}", type));
     else if (!(*link.length >= no_length) || !std::isfinite(*link.length))
       found.add(key, fmt::format("length {} m, needs a positive number", *link.length));
   }
@@ -168,13 +169,14 @@ Diagnostics check(const WheelGuide& guide) {
       found.add(key,
                 fmt::format("{} lies {:.3g} mm off the line of {}, which may turn about it", what, off * 1e3,
                             link_label(guide, link)),
-                "a KS link holds the carrier pitch by its K joint");
+                "a US link cannot turn about its line: its universal joint holds it");
     else if (!rod.cross_axis && is_upright(rod.carrier[0] - rod.body[0]))
       found.add(
           key,
-          fmt::format("{} lies {:.3g} mm off the line of {}, which stands upright, so that no axis of its K "
-                      "joint can be taken for granted",
-                      what, off * 1e3, link_label(guide, link)),
+          fmt::format(
+              "{} lies {:.3g} mm off the line of {}, which stands upright, so that no axis of its universal "
+              "joint can be taken for granted",
+              what, off * 1e3, link_label(guide, link)),
           "give the link cross_axis = [x, y, z]");
   };
   const auto is = [&](int link, std::initializer_list<LinkType> types) {
@@ -185,15 +187,15 @@ Diagnostics check(const WheelGuide& guide) {
   for (std::size_t i = 0; i < guide.couplers.size(); ++i) {
     const Coupler& coupler = guide.couplers[i];
     const std::string key = "coupler." + (coupler.name.empty() ? std::to_string(i + 1) : coupler.name);
-    if (!is(coupler.first, {LinkType::KS, LinkType::SS}))
-      found.add(key, "its first link has to be a KS link");
+    if (!is(coupler.first, {LinkType::US, LinkType::SS}))
+      found.add(key, "its first link has to be a US link");
     else if (guide.links[coupler.first].length)
-      found.add(key, "its KS link has a length of its own: the coupler's length would not be known");
+      found.add(key, "its US link has a length of its own: the coupler's length would not be known");
     if (!is(coupler.second, {LinkType::SR})) found.add(key, "its second link has to be an SR link");
     if (!finite(coupler.point) || !std::isfinite(coupler.fraction) ||
         (coupler.begin && !finite(*coupler.begin)))
       found.add(key, "a number is not finite");
-    else if (coupler.begin && is(coupler.first, {LinkType::KS, LinkType::SS}))
+    else if (coupler.begin && is(coupler.first, {LinkType::US, LinkType::SS}))
       check_hold(key, "its beginning", coupler.first, *coupler.begin);
   }
   if (guide.spring) {
@@ -203,13 +205,13 @@ Diagnostics check(const WheelGuide& guide) {
     else if (norm(spring.moving - spring.body) < no_length)
       found.add("spring", "both ends are the same point");
     else if (spring.link != -1) {
-      if (!is(spring.link, {LinkType::KS, LinkType::SS, LinkType::RS, LinkType::SR, LinkType::RR}))
+      if (!is(spring.link, {LinkType::US, LinkType::SS, LinkType::RS, LinkType::SR, LinkType::RR}))
         found.add("spring",
                   spring.link < -1 || spring.link >= links
                       ? fmt::format("there is no link {}", spring.link)
                       : fmt::format("{} cannot hold it", link_label(guide, spring.link)),
-                  "fix it to the carrier, or to a KS, RS, SR or RR link");
-      else if (is(spring.link, {LinkType::KS, LinkType::SS}))
+                  "fix it to the carrier, or to a US, RS, SR or RR link");
+      else if (is(spring.link, {LinkType::US, LinkType::SS}))
         check_hold("spring", "its moving end", spring.link, spring.moving);
     }
   }

@@ -9,9 +9,9 @@
 #include "linkwright/core/field.h"
 #include "linkwright/math/vector3.h"
 
-/// Wheel guides: the mechanisms between a vehicle body and a wheel carrier (Poznanovic 2016). The body is
-/// fixed. Frame of the vehicle: x forward, y to the left, z up, y = 0 in the middle; m, rad. All points are
-/// given in it, at the reference position. Templates take the scalar: plain numbers, or dual numbers that
+/// Wheel suspensions: the mechanisms between a vehicle body and a wheel carrier (Poznanovic 2016). The body
+/// is fixed. Frame of the vehicle: x forward, y to the left, z up, y = 0 in the middle; m, rad. All points
+/// are given in it, at the reference position. Templates take the scalar: plain numbers, or dual numbers that
 /// carry derivatives along.
 namespace linkwright::suspension {
 
@@ -21,9 +21,9 @@ using math::Vec3;
 using math::Vector3;
 
 /// How a link is joined: the first letter to the body, the second to the carrier; one letter is a joint
-/// between body and carrier without a link. R revolute, S spherical, K universal, P prismatic (slides and
+/// between body and carrier without a link. R revolute, S spherical, U universal, P prismatic (slides and
 /// turns).
-enum class LinkType { R, RR, S, RS, SR, SP, KS, SS };
+enum class LinkType { R, RR, S, RS, SR, SP, US, SS };
 constexpr std::array<EnumName<LinkType>, 8> names(LinkType) {
   return {{{LinkType::R, "R", "carrier hinged to the body: two body points on the axis"},
            {LinkType::RR, "RR", "arm hinged to the body (two points) and to the carrier (two points)"},
@@ -31,39 +31,39 @@ constexpr std::array<EnumName<LinkType>, 8> names(LinkType) {
            {LinkType::RS, "RS", "wishbone: hinged to the body (two points), ball joint at the carrier"},
            {LinkType::SR, "SR", "ball joint at the body, hinged to the carrier (two points)"},
            {LinkType::SP, "SP", "strut: ball joint at the body, slides along its line in the carrier"},
-           {LinkType::KS, "KS", "rod: one point at the body, one at the carrier"},
-           {LinkType::SS, "SS", "the same as KS, free to turn about its line"}}};
+           {LinkType::US, "US", "rod: one point at the body, one at the carrier"},
+           {LinkType::SS, "SS", "the same as US, free to turn about its line"}}};
 }
 
 /// A link. Number of points, body and carrier: R 2 and 0, RR 2 and 2, S 1 and 0, RS 2 and 1, SR 1 and 2, SP,
-/// KS and SS 1 and 1. Two points stand for the axis of a revolute joint.
+/// US and SS 1 and 1. Two points stand for the axis of a revolute joint.
 template <class T>
 struct BasicGuideLink {
   std::string name;
-  LinkType type = LinkType::KS;
+  LinkType type = LinkType::US;
   std::vector<Vector3<T>> body;
   std::vector<Vector3<T>> carrier;
-  /// Length of a KS or SS link (m) in the place of the distance of its points: they then are no position, and
+  /// Length of a US or SS link (m) in the place of the distance of its points: they then are no position, and
   /// what is reported at zero travel has to be solved for, too.
   std::optional<T> length;
   bool moved_by_rack = false;  ///< its body points move with the rack
-  /// KS: direction of the axis of its K joint that stands in the body; the other axis of the joint lies
+  /// US: direction of the axis of its U joint that stands in the body; the other axis of the joint lies
   /// across it and across the rod. It says how the rod turns about its own line, which only what is fixed to
   /// the rod off that line feels. Not given: level, and across the rod at the reference.
   std::optional<Vec3> cross_axis{};
 };
 using GuideLink = BasicGuideLink<double>;
 
-/// A rod between two links (interconnected mechanisms): from a point of a KS link to a point fixed to an SR
+/// A rod between two links (interconnected mechanisms): from a point of a US link to a point fixed to an SR
 /// link. Its length is the distance at the reference position.
 template <class T>
 struct BasicCoupler {
   std::string name;
-  int first = 0;     ///< KS link
-  T fraction{0.5};   ///< of the KS link's length, from its body point
+  int first = 0;     ///< US link
+  T fraction{0.5};   ///< of the US link's length, from its body point
   int second = 0;    ///< SR link
   Vector3<T> point;  ///< on the SR link
-  /// Where it begins on the KS link, off its line too, in the place of `fraction`.
+  /// Where it begins on the US link, off its line too, in the place of `fraction`.
   std::optional<Vector3<T>> begin{};
 };
 using Coupler = BasicCoupler<double>;
@@ -74,7 +74,7 @@ struct BasicGuideSpring {
   Vector3<T> body;
   Vector3<T> moving;  ///< its other end
   int link =
-      -1;  ///< KS, SS, RS, SR or RR link that it is fixed to; -1 = the carrier. On an SS link: on its line
+      -1;  ///< US, SS, RS, SR or RR link that it is fixed to; -1 = the carrier. On an SS link: on its line
 };
 using GuideSpring = BasicGuideSpring<double>;
 
@@ -92,7 +92,7 @@ struct BasicGuideWheel {
 };
 using GuideWheel = BasicGuideWheel<double>;
 
-/// A wheel guide: plain data.
+/// A wheel suspension: plain data.
 template <class T>
 struct BasicWheelGuide {
   Side side = Side::left;
@@ -138,7 +138,7 @@ bool is_upright(const Vector3<T>& along) {
 int body_points(LinkType type);
 int carrier_points(LinkType type);
 
-/// The axis of a rod's K joint that stands in the body, unit: `given`, or level and across the rod. Of an
+/// The axis of a rod's U joint that stands in the body, unit: `given`, or level and across the rod. Of an
 /// upright rod no level axis is more across than another: then x.
 template <class T>
 Vector3<T> standing_axis(const std::optional<Vec3>& given, const Vector3<T>& along) {
@@ -150,7 +150,7 @@ Vector3<T> standing_axis(const std::optional<Vec3>& given, const Vector3<T>& alo
   return unit(Vector3<T>{-along.y, along.x, T(0)});
 }
 
-/// What messages call the link: its name, or "link 3 (KS)".
+/// What messages call the link: its name, or "link 3 (US)".
 std::string link_label(const WheelGuide& guide, int link);
 
 /// What is wrong with the description by itself: numbers of points, numbers that are not finite, links and

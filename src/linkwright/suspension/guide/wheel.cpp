@@ -6,7 +6,7 @@ namespace linkwright::suspension {
 
 Mat3 carrier_rotation(Side side, const GuideWheel& reference, const WheelAngles& angles) {
   return kernel::on_left(side, math::turn_z(-angles.toe) * math::turn_x(-angles.camber) *
-                                   math::turn_y(angles.spin) * math::turn_x(reference.camber) *
+                                   math::turn_y(angles.carrier_pitch) * math::turn_x(reference.camber) *
                                    math::turn_z(reference.toe));
 }
 

@@ -6,15 +6,15 @@
 /// mirror image of left ones, so that angles of both have the same signs.
 namespace linkwright::suspension {
 
-/// rad; as rates rad/s (or per m). Spin is the turn of the carrier about the wheel's axis, zero at the
-/// reference and positive about +y (for both wheels: forward at the top).
+/// rad; as rates rad/s (or per m). Carrier pitch is the turn of the carrier about the wheel's axis, zero at
+/// the reference and positive about +y (for both wheels: forward at the top).
 template <class T>
 struct BasicWheelAngles {
-  T toe{0}, camber{0}, spin{0};
+  T toe{0}, camber{0}, carrier_pitch{0};
 };
 using WheelAngles = BasicWheelAngles<double>;
 
-/// Rotation of the carrier from the reference (equation 50, and 51 with its signs put right).
+/// Rotation of the carrier from the reference (equation 50, and 51 with its signs corrected).
 Mat3 carrier_rotation(Side side, const GuideWheel& reference, const WheelAngles& angles);
 
 /// The angles of a rotation (equations 23, 24 and 50 turned round); camber in (-pi/2, pi/2).
@@ -28,9 +28,9 @@ WheelAngles angle_rates(Side side, const WheelAngles& at, const Vec3& turning);
 /// From the wheel centre to the lowest point of the tyre, a thin disc (equation 25).
 Vec3 contact_offset(Side side, double tyre_diameter, const WheelAngles& angles);
 
-/// Two velocities at the contact: of the point of the carrier there (equation 28 with its sign put right; the
+/// Two velocities at the contact: of the point of the carrier there (equation 28 with its sign corrected; the
 /// wheel is held by the carrier, as by an outboard brake), and of the contact point itself (the wheel turns
-/// freely). They differ along the tyre by the spin.
+/// freely). They differ along the tyre by the carrier pitch.
 template <class T>
 struct BasicContactVelocity {
   Vector3<T> on_carrier;

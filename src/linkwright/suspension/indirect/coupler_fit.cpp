@@ -177,7 +177,7 @@ CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink>
                        name_of(type));
     return found;
   };
-  const GuideLink& first = link(task.first, LinkType::KS, LinkType::SS);
+  const GuideLink& first = link(task.first, LinkType::US, LinkType::SS);
   const GuideLink& second = link(task.second, LinkType::SR, LinkType::SR);
   const double rod = norm(first.carrier[0] - first.body[0]), length = std::min(rod, task.most_offset);
   LINKWRIGHT_REQUIRE(task.least_offset >= 0 && task.least_offset < length,

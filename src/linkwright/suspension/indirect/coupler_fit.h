@@ -22,7 +22,7 @@ struct CouplerFit {
 /// unknown is searched (Poznanovic 2016, section 5.3.4, decoupled). Where the centre then lies outside its
 /// box, or the length changes by more than the tolerance, offset and point are searched together within their
 /// limits, from the best point in the box for each of a row of offsets; the best end is taken. Throws
-/// ContractError for links of other types and for a position without spin.
+/// ContractError for links of other types and for a position without carrier pitch.
 CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink> links,
                        const CouplerTask& task, double tolerance = 1e-8);
 

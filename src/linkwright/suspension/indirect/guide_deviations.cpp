@@ -72,7 +72,7 @@ PoseDeviations pose_deviations(const WheelGuide& guide, const CarrierTargets& ta
   const GuidePlan plan = prepare(guide);
   const GuidePosition start = reference_position(plan);
   PoseDeviations out;
-  Sums x, y, toe, camber, spin;
+  Sums x, y, toe, camber, carrier_pitch;
   for (const CarrierTarget& target : targets.poses) {
     const double travel = target.centre.z - guide.wheel.centre.z;
     const GuidePosition at = start.status == Status::done
@@ -88,10 +88,11 @@ PoseDeviations pose_deviations(const WheelGuide& guide, const CarrierTargets& ta
     y.add(at.place.carrier.centre.y - target.centre.y);
     toe.add(math::wrap_angle(angles.toe - target.angles.toe));
     camber.add(angles.camber - target.angles.camber);
-    if (!std::isnan(target.angles.spin)) spin.add(math::wrap_angle(angles.spin - target.angles.spin));
+    if (!std::isnan(target.angles.carrier_pitch))
+      carrier_pitch.add(math::wrap_angle(angles.carrier_pitch - target.angles.carrier_pitch));
   }
   out.x = x.deviation(), out.y = y.deviation();
-  out.toe = toe.deviation(), out.camber = camber.deviation(), out.spin = spin.deviation();
+  out.toe = toe.deviation(), out.camber = camber.deviation(), out.carrier_pitch = carrier_pitch.deviation();
   return out;
 }
 

@@ -6,19 +6,20 @@
 #include "linkwright/suspension/guide/carrier_poses.h"
 #include "linkwright/suspension/guide/suspension.h"
 
-/// How well a wheel guide moves its carrier as prescribed: two measures that do not depend on how it was
+/// How well a wheel suspension moves its carrier as prescribed: two measures that do not depend on how it was
 /// found.
 namespace linkwright::suspension {
 
-/// The largest misfit of a guide's joints when its carrier is put to prescribed positions.
+/// The largest misfit of a suspension's joints when its carrier is put to prescribed positions.
 struct ConstraintError {
   double gap = 0;     ///< m, absolute
   int link = -1;      ///< links first, then couplers; -1 without positions
   int position = -1;  ///< of the targets
 };
 
-/// The constraint equations of the guide, as its analysis solves them, at the prescribed positions of the
-/// carrier. Throws ContractError for a guide that cannot be analysed and for a position without spin.
+/// The constraint equations of the suspension, as its analysis solves them, at the prescribed positions of
+/// the carrier. Throws ContractError for a suspension that cannot be analysed and for a position without
+/// carrier pitch.
 ConstraintError constraint_error(const WheelGuide& guide, const CarrierTargets& targets);
 
 /// Largest and mean absolute deviation over positions.
@@ -30,13 +31,13 @@ struct Deviation {
 struct PoseDeviations {
   /// done; else why a position could not be reached; deviations are those of the others.
   Status status = Status::done;
-  int missed = 0;               ///< positions that could not be reached
-  Deviation x, y;               ///< of the wheel centre, m
-  Deviation toe, camber, spin;  ///< rad; spin only over positions that prescribe it
+  int missed = 0;                        ///< positions that could not be reached
+  Deviation x, y;                        ///< of the wheel centre, m
+  Deviation toe, camber, carrier_pitch;  ///< rad; carrier pitch only over positions that prescribe it
 };
 
-/// Analyses the guide at the height and rack of every prescribed position, as tables 6-2, 6-6, 6-10 and 6-14
-/// of Poznanovic 2016 have it. Throws ContractError for a guide that cannot be analysed.
+/// Analyses the suspension at the height and rack of every prescribed position, as tables 6-2, 6-6, 6-10 and
+/// 6-14 of Poznanovic 2016 have it. Throws ContractError for a suspension that cannot be analysed.
 PoseDeviations pose_deviations(const WheelGuide& guide, const CarrierTargets& targets);
 
 }  // namespace linkwright::suspension

@@ -70,7 +70,7 @@ double longest(const LinkTask& task) {
   return std::sqrt(square);
 }
 
-bool is_rod(LinkType type) { return type == LinkType::KS || type == LinkType::SS; }
+bool is_rod(LinkType type) { return type == LinkType::US || type == LinkType::SS; }
 
 }  // namespace
 
@@ -89,10 +89,11 @@ void ErrorTotals::add(const ErrorTotals& other) {
 }
 
 GuideErrors::GuideErrors(const CarrierTargets& targets, std::span<const LinkTask> links,
-                         std::span<const CouplerTask> couplers, SpinTechnique technique, double largest_spin)
+                         std::span<const CouplerTask> couplers, CarrierPitchTechnique technique,
+                         double largest_carrier_pitch)
     : targets_(targets), technique_(technique) {
   LINKWRIGHT_REQUIRE(!links.empty(), "no link is to be found");
-  LINKWRIGHT_REQUIRE(largest_spin > 0, "spin of at most {} rad", largest_spin);
+  LINKWRIGHT_REQUIRE(largest_carrier_pitch > 0, "carrier pitch of at most {} rad", largest_carrier_pitch);
   const Vec3& origin = targets.wheel.centre;
   double farthest = 0;
   bool any_open = false;
@@ -102,24 +103,24 @@ GuideErrors::GuideErrors(const CarrierTargets& targets, std::span<const LinkTask
               .before = math::turn_z(-target.angles.toe) * math::turn_x(-target.angles.camber),
               .after = math::turn_x(targets.wheel.camber) * math::turn_z(targets.wheel.toe),
               .rate = {},
-              .open = std::isnan(target.angles.spin),
+              .open = std::isnan(target.angles.carrier_pitch),
               .travel = target.centre.z - origin.z};
-    spins_.push_back(pose.open ? 0 : target.angles.spin);
+    carrier_pitches_.push_back(pose.open ? 0 : target.angles.carrier_pitch);
     const bool reference = target.rack == 0 && norm(target.centre - origin) < 1e-12 &&
                            std::abs(target.angles.toe - targets.wheel.toe) < 1e-12 &&
                            std::abs(target.angles.camber - targets.wheel.camber) < 1e-12 &&
-                           std::abs(spins_.back()) < 1e-12;
-    if (reference) continue;  // its spin is 0 by definition
+                           std::abs(carrier_pitches_.back()) < 1e-12;
+    if (reference) continue;  // its carrier pitch is 0 by definition
     for (const bool moved : {false, true}) {
       LinkMotion& motion = motions_[moved ? 1 : 0];
-      motion.rotation.push_back(pose.before * math::turn_y(spins_.back()) * pose.after);
+      motion.rotation.push_back(pose.before * math::turn_y(carrier_pitches_.back()) * pose.after);
       motion.shift.push_back(moved ? target.centre - origin - target.rack * targets.rack_direction
                                    : target.centre - origin);
     }
     if (pose.open) {
       any_open = true;
       farthest = std::max(farthest, std::abs(pose.travel));
-      LINKWRIGHT_REQUIRE(technique != SpinTechnique::quadratic || target.rack == 0,
+      LINKWRIGHT_REQUIRE(technique != CarrierPitchTechnique::quadratic || target.rack == 0,
                          "position {} has the rack at {} m: a quadratic of the travel does not know the rack",
                          i + 1, target.rack);
     }
@@ -163,7 +164,7 @@ GuideErrors::GuideErrors(const CarrierTargets& targets, std::span<const LinkTask
                          task.name, link, links.size());
     LINKWRIGHT_REQUIRE(is_rod(links[static_cast<std::size_t>(task.first)].type) &&
                            links[static_cast<std::size_t>(task.second)].type == LinkType::SR,
-                       "coupler '{}': from a link of type {} to one of type {}, needs KS and SR", task.name,
+                       "coupler '{}': from a link of type {} to one of type {}, needs US and SR", task.name,
                        name_of(links[static_cast<std::size_t>(task.first)].type),
                        name_of(links[static_cast<std::size_t>(task.second)].type));
     CouplerPart part;
@@ -188,51 +189,51 @@ GuideErrors::GuideErrors(const CarrierTargets& targets, std::span<const LinkTask
     couplers_.push_back(part);
   }
 
-  first_spin_ = unknowns();
-  spin_columns_.resize(n);
-  if (any_open && technique == SpinTechnique::each) {
+  first_carrier_pitch_ = unknowns();
+  carrier_pitch_columns_.resize(n);
+  if (any_open && technique == CarrierPitchTechnique::each) {
     for (std::size_t i = 0; i < n; ++i)
       if (poses_[i].open)
-        spin_columns_[i] = {
-            {static_cast<std::size_t>(
-                 unknown(fmt::format("spin_{}_rad", poses_[i].target + 1), -largest_spin, largest_spin)),
+        carrier_pitch_columns_[i] = {
+            {static_cast<std::size_t>(unknown(fmt::format("carrier_pitch_{}_rad", poses_[i].target + 1),
+                                              -largest_carrier_pitch, largest_carrier_pitch)),
              1}};
-  } else if (any_open && technique == SpinTechnique::quadratic) {
+  } else if (any_open && technique == CarrierPitchTechnique::quadratic) {
     LINKWRIGHT_REQUIRE(farthest > 0, "the wheel does not travel");
-    const double slope = largest_spin / farthest, bend = slope / farthest;
-    const auto linear = static_cast<std::size_t>(unknown("spin_slope_rad_per_m", -slope, slope)),
-               above = static_cast<std::size_t>(unknown("spin_bend_above_rad_per_m2", -bend, bend)),
-               below = static_cast<std::size_t>(unknown("spin_bend_below_rad_per_m2", -bend, bend));
+    const double slope = largest_carrier_pitch / farthest, bend = slope / farthest;
+    const auto linear = static_cast<std::size_t>(unknown("carrier_pitch_slope_rad_per_m", -slope, slope)),
+               above = static_cast<std::size_t>(unknown("carrier_pitch_bend_above_rad_per_m2", -bend, bend)),
+               below = static_cast<std::size_t>(unknown("carrier_pitch_bend_below_rad_per_m2", -bend, bend));
     for (std::size_t i = 0; i < n; ++i)
       if (const double z = poses_[i].travel; poses_[i].open)
-        spin_columns_[i] = {{linear, z}, {z >= 0 ? above : below, z * z}};
+        carrier_pitch_columns_[i] = {{linear, z}, {z >= 0 ? above : below, z * z}};
   } else if (any_open) {
-    LINKWRIGHT_REQUIRE(dyad_ >= 0, "no KS link makes a dyad with the carrier");
-    settling_ = settling_order(targets, PoseParameter::spin);
+    LINKWRIGHT_REQUIRE(dyad_ >= 0, "no US link makes a dyad with the carrier");
+    settling_ = settling_order(targets, PoseParameter::carrier_pitch);
     const LinkPart& part = links_[static_cast<std::size_t>(dyad_)];
     for (std::size_t i = 0; i < n; ++i)
       if (poses_[i].open)
         for (std::size_t f = 0; f < part.coordinates.free().size(); ++f)
-          spin_columns_[i].push_back({part.first_unknown + f, 0});
+          carrier_pitch_columns_[i].push_back({part.first_unknown + f, 0});
   }
-  if (!any_open || technique != SpinTechnique::dyad) dyad_ = -1;
-  spin_unknowns_ = unknowns() - first_spin_;
+  if (!any_open || technique != CarrierPitchTechnique::dyad) dyad_ = -1;
+  carrier_pitch_unknowns_ = unknowns() - first_carrier_pitch_;
 }
 
-bool GuideErrors::set_dyad_spins() {
+bool GuideErrors::set_dyad_carrier_pitches() {
   const GuideLink rod = shifted(links_[static_cast<std::size_t>(dyad_)].link, targets_.wheel.centre);
   shortfall_ = 0;
   bool there = true;
-  const auto spin = [&](int position) {
-    return position < 0 ? 0 : spins_[static_cast<std::size_t>(position)];
+  const auto carrier_pitch = [&](int position) {
+    return position < 0 ? 0 : carrier_pitches_[static_cast<std::size_t>(position)];
   };
   for (const SettlingStep& step : settling_) {
-    const double expected = step.expected(spin(step.before), spin(step.before_that));
+    const double expected = step.expected(carrier_pitch(step.before), carrier_pitch(step.before_that));
     const RodSolution s =
-        solve_for(targets_, targets_.poses[step.position], rod, PoseParameter::spin, expected);
+        solve_for(targets_, targets_.poses[step.position], rod, PoseParameter::carrier_pitch, expected);
     shortfall_ += s.shortfall;
     there = there && s.status == Status::done;
-    spins_[step.position] = s.value;
+    carrier_pitches_[step.position] = s.value;
   }
   return there;
 }
@@ -253,40 +254,41 @@ bool GuideErrors::place(std::span<const double> x, bool rates) {
     part.point = point - targets_.wheel.centre;
   }
   bool there = true;
-  if (dyad_ >= 0) there = set_dyad_spins();
+  if (dyad_ >= 0) there = set_dyad_carrier_pitches();
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     Pose& pose = poses_[i];
     if (!pose.open) continue;
-    double& spin = spins_[pose.target];
+    double& carrier_pitch = carrier_pitches_[pose.target];
     if (dyad_ < 0) {
-      spin = 0;
-      for (const SpinColumn& c : spin_columns_[i]) spin += c.derivative * x[c.column];
+      carrier_pitch = 0;
+      for (const CarrierPitchColumn& c : carrier_pitch_columns_[i])
+        carrier_pitch += c.derivative * x[c.column];
     }
-    const Mat3 rotation = pose.before * math::turn_y(spin) * pose.after;
+    const Mat3 rotation = pose.before * math::turn_y(carrier_pitch) * pose.after;
     for (LinkMotion& motion : motions_) motion.rotation[i] = rotation;
-    if (rates) pose.rate = pose.before * turn_rate_y(spin) * pose.after;
+    if (rates) pose.rate = pose.before * turn_rate_y(carrier_pitch) * pose.after;
   }
   return there;
 }
 
-void GuideErrors::add_spin(std::size_t pose, std::size_t row, double derivative,
-                           std::span<double> jacobian) const {
-  for (const SpinColumn& c : spin_columns_[pose])
+void GuideErrors::add_carrier_pitch(std::size_t pose, std::size_t row, double derivative,
+                                    std::span<double> jacobian) const {
+  for (const CarrierPitchColumn& c : carrier_pitch_columns_[pose])
     jacobian[c.column * rows_ + row] += derivative * c.derivative;
 }
 
-/// d(error)/d(spin) of every row, through what the spin depends on.
-void GuideErrors::add_spin_derivatives(std::span<double> jacobian) {
+/// d(error)/d(carrier pitch) of every row, through what the carrier pitch depends on.
+void GuideErrors::add_carrier_pitch_derivatives(std::span<double> jacobian) {
   const std::size_t n = poses_.size();
-  if (dyad_ >= 0) {  // the spin keeps the rod's error at 0
+  if (dyad_ >= 0) {  // the carrier pitch keeps the rod's error at 0
     const LinkPart& part = links_[static_cast<std::size_t>(dyad_)];
     const LinkMotion& m = motion(part.link);
     for (std::size_t i = 0; i < n; ++i) {
       if (!poses_[i].open) continue;
       const Vec3 d = m.moved(i, part.link.carrier[0]) - part.link.body[0];
-      const double by_spin = dot(math::unit(d), poses_[i].rate * part.link.carrier[0]);
-      for (SpinColumn& c : spin_columns_[i])
-        c.derivative = -jacobian[c.column * rows_ + part.first_row + i] / by_spin;
+      const double by_carrier_pitch = dot(math::unit(d), poses_[i].rate * part.link.carrier[0]);
+      for (CarrierPitchColumn& c : carrier_pitch_columns_[i])
+        c.derivative = -jacobian[c.column * rows_ + part.first_row + i] / by_carrier_pitch;
     }
   }
   for (const LinkPart& part : links_) {
@@ -299,19 +301,20 @@ void GuideErrors::add_spin_derivatives(std::span<double> jacobian) {
         const Vec3 u = math::unit(link.carrier[0] - link.body[0]);
         const Vec3 w = transposed(rate) * (link.body[0] - m.shift[i]), across = w - dot(u, w) * u;
         for (int k = 0; k < 3; ++k)
-          add_spin(i, part.first_row + 3 * i + static_cast<std::size_t>(k), component(across, k), jacobian);
+          add_carrier_pitch(i, part.first_row + 3 * i + static_cast<std::size_t>(k), component(across, k),
+                            jacobian);
       } else if (link.type == LinkType::S || link.type == LinkType::R) {
         for (std::size_t b = 0; b < link.body.size(); ++b) {
           const Vec3 moved = rate * link.body[b];
           for (int k = 0; k < 3; ++k)
-            add_spin(i, part.first_row + 3 * (b * n + i) + static_cast<std::size_t>(k), component(moved, k),
-                     jacobian);
+            add_carrier_pitch(i, part.first_row + 3 * (b * n + i) + static_cast<std::size_t>(k),
+                              component(moved, k), jacobian);
         }
       } else {
         std::size_t row = part.first_row + i;
         for (const Vec3& body : link.body)
           for (const Vec3& carrier : link.carrier) {
-            add_spin(i, row, dot(math::unit(m.moved(i, carrier) - body), rate * carrier), jacobian);
+            add_carrier_pitch(i, row, dot(math::unit(m.moved(i, carrier) - body), rate * carrier), jacobian);
             row += n;
           }
       }
@@ -360,7 +363,7 @@ bool GuideErrors::evaluate_coupler(const CouplerPart& part, std::span<double> er
         });
     return finite;
   }
-  using Jet = ceres::Jet<double, 20>;  // six points, the offset, the spin
+  using Jet = ceres::Jet<double, 20>;  // six points, the offset, the carrier pitch
   const auto jets = [&](std::size_t point) {
     Eigen::Matrix<Jet, 3, 1> v;
     for (int k = 0; k < 3; ++k) v[k] = Jet(component(*points[point], k), static_cast<int>(3 * point) + k);
@@ -395,7 +398,7 @@ bool GuideErrors::evaluate_coupler(const CouplerPart& part, std::span<double> er
         for (std::size_t k = 0; k < columns.size(); ++k)
           if (columns[k] >= 0)
             jacobian[static_cast<std::size_t>(columns[k]) * rows_ + row] += e.v[static_cast<int>(k)];
-        if (poses_[i].open) add_spin(i, row, e.v[19], jacobian);
+        if (poses_[i].open) add_carrier_pitch(i, row, e.v[19], jacobian);
       });
   return finite;
 }
@@ -415,7 +418,7 @@ bool GuideErrors::evaluate(std::span<const double> x, std::span<double> errors, 
           scratch_.begin() + static_cast<std::ptrdiff_t>(f * part.rows), part.rows,
           jacobian.begin() + static_cast<std::ptrdiff_t>((part.first_unknown + f) * rows_ + part.first_row));
   }
-  if (!jacobian.empty()) add_spin_derivatives(jacobian);
+  if (!jacobian.empty()) add_carrier_pitch_derivatives(jacobian);
   return std::all_of(couplers_.begin(), couplers_.end(),
                      [&](const CouplerPart& part) { return evaluate_coupler(part, errors, jacobian); });
 }
@@ -441,7 +444,8 @@ std::vector<Coupler> GuideErrors::couplers() const {
 
 CarrierTargets GuideErrors::targets() const {
   CarrierTargets out = targets_;
-  for (std::size_t i = 0; i < spins_.size(); ++i) out.poses[i].angles.spin = spins_[i];
+  for (std::size_t i = 0; i < carrier_pitches_.size(); ++i)
+    out.poses[i].angles.carrier_pitch = carrier_pitches_[i];
   return out;
 }
 

@@ -14,14 +14,14 @@
 
 namespace linkwright::suspension {
 
-/// What stands for the spin of the carrier at positions that do not prescribe it (Poznanovic 2016, section
+/// What stands for the carrier pitch at positions that do not prescribe it (Poznanovic 2016, section
 /// 5.3.5).
-enum class SpinTechnique { each, quadratic, dyad };
-constexpr std::array<EnumName<SpinTechnique>, 3> names(SpinTechnique) {
-  return {{{SpinTechnique::each, "each", "an unknown of its own at each position"},
-           {SpinTechnique::quadratic, "quadratic",
+enum class CarrierPitchTechnique { each, quadratic, dyad };
+constexpr std::array<EnumName<CarrierPitchTechnique>, 3> names(CarrierPitchTechnique) {
+  return {{{CarrierPitchTechnique::each, "each", "an unknown of its own at each position"},
+           {CarrierPitchTechnique::quadratic, "quadratic",
             "a quadratic of the wheel travel with another coefficient above than below the reference"},
-           {SpinTechnique::dyad, "dyad", "what the first KS link makes it, in closed form"}}};
+           {CarrierPitchTechnique::dyad, "dyad", "what the first US link makes it, in closed form"}}};
 }
 
 /// Of the structural errors of a link, a coupler or all of them (m).
@@ -35,22 +35,23 @@ struct ErrorTotals {
 };
 
 /// Structural errors of several links and couplers together, over all their unknowns: coordinates, offsets of
-/// couplers, and what stands for missing spins. For searches that cannot take the links one by one, since
-/// they share the spins or a coupler. One object serves one thread.
+/// couplers, and what stands for missing carrier pitches. For searches that cannot take the links one by one,
+/// since they share the carrier pitches or a coupler. One object serves one thread.
 class GuideErrors {
  public:
   /// Throws ContractError for tasks that LinkCoordinates refuses, couplers on links that are not there or of
-  /// other types, a dyad without a KS link, a quadratic for positions with the rack moved.
+  /// other types, a dyad without a US link, a quadratic for positions with the rack moved.
   GuideErrors(const CarrierTargets& targets, std::span<const LinkTask> links,
-              std::span<const CouplerTask> couplers = {}, SpinTechnique technique = SpinTechnique::each,
-              double largest_spin = 0.5);
+              std::span<const CouplerTask> couplers = {},
+              CarrierPitchTechnique technique = CarrierPitchTechnique::each,
+              double largest_carrier_pitch = 0.5);
 
   std::size_t unknowns() const { return lower_.size(); }
   std::span<const double> lower() const { return lower_; }
   std::span<const double> upper() const { return upper_; }
   const std::vector<std::string>& unknown_names() const { return names_; }
   /// Those that are neither coordinates nor offsets come last.
-  std::size_t spin_unknowns() const { return spin_unknowns_; }
+  std::size_t carrier_pitch_unknowns() const { return carrier_pitch_unknowns_; }
   std::size_t rows() const { return rows_; }
 
   /// Errors, as structural_errors has them link by link, then those of the couplers, distance from 34 to 14
@@ -65,7 +66,8 @@ class GuideErrors {
   CarrierTargets targets() const;
   double shortfall() const { return shortfall_; }  ///< m: by what the dyad misses, over all positions
 
-  /// The unknowns of given links and couplers, spins of the targets left out; moved into the bounds.
+  /// The unknowns of given links and couplers, carrier pitches of the targets left out; moved into the
+  /// bounds.
   void start_from(std::span<const GuideLink> links, std::span<const Coupler> couplers,
                   std::span<double> x) const;
 
@@ -89,37 +91,38 @@ class GuideErrors {
   };
   struct Pose {
     std::size_t target = 0;
-    Mat3 before, after, rate;  ///< rotation = before * turn_y(spin) * after
+    Mat3 before, after, rate;  ///< rotation = before * turn_y(carrier pitch) * after
     bool open = false;
     double travel = 0;
   };
 
   bool place(std::span<const double> x, bool rates);
-  bool set_dyad_spins();
-  void add_spin_derivatives(std::span<double> jacobian);
+  bool set_dyad_carrier_pitches();
+  void add_carrier_pitch_derivatives(std::span<double> jacobian);
   bool evaluate_coupler(const CouplerPart& part, std::span<double> errors, std::span<double> jacobian);
-  void add_spin(std::size_t pose, std::size_t row, double derivative, std::span<double> jacobian) const;
+  void add_carrier_pitch(std::size_t pose, std::size_t row, double derivative,
+                         std::span<double> jacobian) const;
   const LinkMotion& motion(const GuideLink& link) const { return motions_[link.moved_by_rack ? 1 : 0]; }
 
   CarrierTargets targets_;
-  SpinTechnique technique_;
+  CarrierPitchTechnique technique_;
   std::vector<LinkPart> links_;
   std::vector<CouplerPart> couplers_;
   std::vector<Pose> poses_;
-  std::array<LinkMotion, 2> motions_;  ///< of links that the rack does not move, and moves
-  std::vector<double> spins_;          ///< of all targets
+  std::array<LinkMotion, 2> motions_;    ///< of links that the rack does not move, and moves
+  std::vector<double> carrier_pitches_;  ///< of all targets
   std::vector<double> lower_, upper_;
   std::vector<std::string> names_;
-  std::size_t rows_ = 0, spin_unknowns_ = 0, first_spin_ = 0;
+  std::size_t rows_ = 0, carrier_pitch_unknowns_ = 0, first_carrier_pitch_ = 0;
   int dyad_ = -1;
-  std::vector<SettlingStep> settling_;  ///< of the spins of the dyad
+  std::vector<SettlingStep> settling_;  ///< of the carrier pitches of the dyad
   double shortfall_ = 0;
   std::vector<double> scratch_;
-  struct SpinColumn {
+  struct CarrierPitchColumn {
     std::size_t column;
     double derivative;
   };
-  std::vector<std::vector<SpinColumn>> spin_columns_;  ///< of each pose
+  std::vector<std::vector<CarrierPitchColumn>> carrier_pitch_columns_;  ///< of each pose
 };
 
 }  // namespace linkwright::suspension

@@ -58,8 +58,8 @@ struct LinkFit {
 /// within the boxes; the first exact link inside the boxes that is none of `known` is taken (links in
 /// parallel are independent, Poznanovic 2016, section 5.3).
 ///
-/// Throws ContractError for a wrong number of points, empty boxes, a pose without spin, or options out of
-/// range.
+/// Throws ContractError for a wrong number of points, empty boxes, a pose without carrier pitch, or options
+/// out of range.
 LinkFit fit_link(const CarrierTargets& targets, const LinkTask& task, const LinkFitOptions& options,
                  std::span<const GuideLink> known, std::uint64_t seed, RunContext& context,
                  std::uint32_t run = 0);

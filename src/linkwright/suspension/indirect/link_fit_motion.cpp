@@ -9,7 +9,7 @@ namespace linkwright::suspension {
 
 int error_count(LinkType type) {
   switch (type) {
-    case LinkType::KS:
+    case LinkType::US:
     case LinkType::SS:
     case LinkType::SP:
     case LinkType::S:

@@ -7,7 +7,7 @@
 
 namespace linkwright::suspension {
 
-/// Structural errors that a position adds to a link: distances that do not change (KS, RS, SR, RR), the
+/// Structural errors that a position adds to a link: distances that do not change (US, RS, SR, RR), the
 /// distance of the body point from the line of a strut (SP), distances of points from where they were (S, R).
 int error_count(LinkType type);
 

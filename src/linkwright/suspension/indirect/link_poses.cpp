@@ -40,7 +40,7 @@ std::vector<LinkPose> link_poses(const WheelGuide& guide, const GuidePlace& at, 
     const auto carrier = [&](int k) { return carrier_point(guide, i, k, at.carrier); };
     LinkPose pose{link.body[0], body(0), {}};
     switch (link.type) {
-      case LinkType::KS: {
+      case LinkType::US: {
         const Vec3 then = unit(link.carrier[0] - link.body[0]), now = unit(carrier(0) - body(0));
         const Vec3 axis = standing_axis(link.cross_axis, link.carrier[0] - link.body[0]);
         const auto axes = [&](const Vec3& line) {
@@ -77,7 +77,7 @@ std::vector<LinkPose> link_poses(const WheelGuide& guide, const GuidePlace& at, 
 
 std::array<Vec3, 2> cross_axes(const WheelGuide& guide, int link, const CarrierPose& carrier, double rack) {
   const GuideLink& rod = guide.links.at(link);
-  LINKWRIGHT_REQUIRE(rod.type == LinkType::KS, "{} has no K joint", link_label(guide, link));
+  LINKWRIGHT_REQUIRE(rod.type == LinkType::US, "{} has no universal joint", link_label(guide, link));
   const Vec3 standing = standing_axis(rod.cross_axis, rod.carrier[0] - rod.body[0]);
   const Vec3 line = carrier_point(guide, link, 0, carrier) - body_point(guide, link, 0, rack);
   return {standing, unit(cross(standing, line))};
@@ -105,11 +105,11 @@ Vec3 coupler_begin(const WheelGuide& guide, const Coupler& coupler, const GuideP
 }
 
 Vec3 spring_end(const WheelGuide& guide, const GuidePlace& at, double rack) {
-  LINKWRIGHT_REQUIRE(guide.spring, "the guide has no spring");
+  LINKWRIGHT_REQUIRE(guide.spring, "the suspension has no spring");
   const GuideSpring& spring = *guide.spring;
   if (spring.link < 0) return place(at.carrier, spring.moving, guide.wheel.centre);
   const GuideLink& link = guide.links.at(spring.link);
-  if (link.type != LinkType::KS && link.type != LinkType::SS)
+  if (link.type != LinkType::US && link.type != LinkType::SS)
     return placed(link_poses(guide, at, rack)[spring.link], spring.moving);
   return rod_point(guide, spring.link, spring.moving, at, rack);
 }

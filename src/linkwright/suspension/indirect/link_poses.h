@@ -14,7 +14,7 @@ struct LinkPose {
   Mat3 rotation;
 };
 
-/// Place of a point of the link that is at `reference` when the guide stands at the reference.
+/// Place of a point of the link that is at `reference` when the suspension stands at the reference.
 constexpr Vec3 placed(const LinkPose& pose, const Vec3& reference) {
   return pose.at + pose.rotation * (reference - pose.from);
 }
@@ -23,20 +23,20 @@ constexpr Vec3 placed(const LinkPose& pose, const Vec3& reference) {
 Vec3 body_point(const WheelGuide& guide, int link, int point, double rack);
 Vec3 carrier_point(const WheelGuide& guide, int link, int point, const CarrierPose& carrier);
 
-/// All links at a position of the carrier, `from` and `at` at the first body point. KS links turn about their
-/// line as their K joint makes them, SS links do not, struts turn with the carrier, R and S are joints
-/// without a link and stand as the carrier does. Nothing is solved, so a guide with any number of links will
-/// do; the links are taken to fit.
+/// All links at a position of the carrier, `from` and `at` at the first body point. US links turn about their
+/// line as their U joint makes them, SS links do not, struts turn with the carrier, R and S are joints
+/// without a link and stand as the carrier does. Nothing is solved, so a suspension with any number of links
+/// will do; the links are taken to fit.
 std::vector<LinkPose> link_poses(const WheelGuide& guide, const GuidePlace& place, double rack);
 
-/// The axes of a KS link's K joint as it stands, unit: the one that stands in the body and the one that turns
+/// The axes of a US link's U joint as it stands, unit: the one that stands in the body and the one that turns
 /// with the rod.
 std::array<Vec3, 2> cross_axes(const WheelGuide& guide, int link, const CarrierPose& carrier, double rack);
 
 /// Where a coupler begins on its first link.
 Vec3 coupler_begin(const WheelGuide& guide, const Coupler& coupler, const GuidePlace& place, double rack);
 
-/// The end of the spring that moves, at a position of the carrier. The guide has to have a spring.
+/// The end of the spring that moves, at a position of the carrier. The suspension has to have a spring.
 Vec3 spring_end(const WheelGuide& guide, const GuidePlace& place, double rack);
 
 }  // namespace linkwright::suspension

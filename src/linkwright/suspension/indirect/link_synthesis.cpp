@@ -73,19 +73,19 @@ optimise::Problem problem_of(const GuideErrors& errors, ErrorTotal total) {
 }  // namespace
 
 optimise::Problem guide_problem(const CarrierTargets& targets, std::span<const LinkTask> links,
-                                std::span<const CouplerTask> couplers, SpinTechnique technique,
-                                double largest_spin, ErrorTotal total) {
-  return problem_of(GuideErrors(targets, links, couplers, technique, largest_spin), total);
+                                std::span<const CouplerTask> couplers, CarrierPitchTechnique technique,
+                                double largest_carrier_pitch, ErrorTotal total) {
+  return problem_of(GuideErrors(targets, links, couplers, technique, largest_carrier_pitch), total);
 }
 
 optimise::Problem link_problem(const CarrierTargets& targets, const LinkTask& task, ErrorTotal total) {
-  LINKWRIGHT_REQUIRE(spin_is_given(targets), "link '{}': a position does not give the carrier pitch",
+  LINKWRIGHT_REQUIRE(carrier_pitch_is_given(targets), "link '{}': a position does not give the carrier pitch",
                      task.name);
-  return guide_problem(targets, {&task, 1}, {}, SpinTechnique::each, 0.5, total);
+  return guide_problem(targets, {&task, 1}, {}, CarrierPitchTechnique::each, 0.5, total);
 }
 
 double link_objective(const CarrierTargets& targets, const GuideLink& link, ErrorTotal total) {
-  LINKWRIGHT_REQUIRE(spin_is_given(targets), "link '{}': a position does not give the carrier pitch",
+  LINKWRIGHT_REQUIRE(carrier_pitch_is_given(targets), "link '{}': a position does not give the carrier pitch",
                      link.name);
   const LinkTask task = given_link(link);
   GuideErrors errors(targets, {&task, 1});
@@ -97,7 +97,7 @@ double link_objective(const CarrierTargets& targets, const GuideLink& link, Erro
 Evolution evolve_links(const CarrierTargets& targets, std::span<const LinkTask> links,
                        std::span<const CouplerTask> couplers, const EvolutionOptions& options,
                        const optimise::Seed& seed, RunContext& context) {
-  GuideErrors errors(targets, links, couplers, options.technique, options.largest_spin);
+  GuideErrors errors(targets, links, couplers, options.technique, options.largest_carrier_pitch);
   optimise::MinimiseOptions minimise;
   minimise.stop.spread = options.spread > 0 ? options.spread : errors.unknowns() < 30 ? 1e-5 : 1e-4;
   minimise.log = false;

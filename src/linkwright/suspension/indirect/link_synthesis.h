@@ -32,22 +32,22 @@ double link_objective(const CarrierTargets& targets, const GuideLink& link,
                       ErrorTotal total = ErrorTotal::mean);
 
 /// The objective of several links and couplers over all their unknowns, see GuideErrors: the mean or the sum
-/// of all their errors. Where the dyad that settles the spin cannot be assembled the violation is what it
-/// misses by (m).
+/// of all their errors. Where the dyad that settles the carrier pitch cannot be assembled the violation is
+/// what it misses by (m).
 optimise::Problem guide_problem(const CarrierTargets& targets, std::span<const LinkTask> links,
                                 std::span<const CouplerTask> couplers = {},
-                                SpinTechnique technique = SpinTechnique::each, double largest_spin = 0.5,
-                                ErrorTotal total = ErrorTotal::mean);
+                                CarrierPitchTechnique technique = CarrierPitchTechnique::each,
+                                double largest_carrier_pitch = 0.5, ErrorTotal total = ErrorTotal::mean);
 
 /// Differential evolution with the settings of the source: five members an unknown, F = 0.6, CR = 0.9, until
 /// all members are within 1e-5 m of the best (1e-4 m for thirty unknowns or more).
 struct EvolutionOptions {
   optimise::DifferentialEvolutionOptions method;
   double spread = 0;  ///< m: the end; 0 = as the source has it
-  SpinTechnique technique = SpinTechnique::each;
-  double largest_spin = 0.5;  ///< rad: bound of the unknown spins
-  bool progress = false;      ///< report to the run context
-  std::string checkpoint;     ///< see optimise::MinimiseOptions
+  CarrierPitchTechnique technique = CarrierPitchTechnique::each;
+  double largest_carrier_pitch = 0.5;  ///< rad: bound of the unknown carrier pitches
+  bool progress = false;               ///< report to the run context
+  std::string checkpoint;              ///< see optimise::MinimiseOptions
 };
 
 /// What became of links and couplers that were searched together.
@@ -55,7 +55,7 @@ struct Evolution {
   Status status = Status::done;  ///< of the search: done, infeasible, deadline, cancelled
   std::vector<GuideLink> links;
   std::vector<Coupler> couplers;  ///< links counted as in the tasks
-  CarrierTargets targets;         ///< with the spins found
+  CarrierTargets targets;         ///< with the carrier pitches found
   std::vector<ErrorTotals> link_errors, coupler_errors;
   double objective = 0;  ///< m: mean of all errors
   int generations = 0;

@@ -14,16 +14,16 @@ namespace linkwright::suspension {
 /// that of the axis' largest component.
 struct LinkTask {
   std::string name;
-  LinkType type = LinkType::KS;
+  LinkType type = LinkType::US;
   std::vector<PointBox> body, carrier;
   bool moved_by_rack = false;  ///< the body's points move along the rack
 };
 
-/// A rod to be found between two links of the task: from a point on the line of a KS link to one fixed to an
+/// A rod to be found between two links of the task: from a point on the line of a US link to one fixed to an
 /// SR link.
 struct CouplerTask {
   std::string name;
-  int first = 0;   ///< KS link
+  int first = 0;   ///< US link
   int second = 0;  ///< SR link
   /// m: of its point on the first link from that link's body point; at most that link's length.
   double least_offset = 0, most_offset = infinity;

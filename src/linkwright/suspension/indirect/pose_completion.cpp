@@ -17,9 +17,9 @@ double& component(Vec3& a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 bool is_angle(PoseParameter p) { return p >= PoseParameter::toe; }
 
 void require_rod(const GuideLink& rod) {
-  LINKWRIGHT_REQUIRE((rod.type == LinkType::KS || rod.type == LinkType::SS) && rod.body.size() == 1 &&
+  LINKWRIGHT_REQUIRE((rod.type == LinkType::US || rod.type == LinkType::SS) && rod.body.size() == 1 &&
                          rod.carrier.size() == 1,
-                     "link '{}' of type {}: only a KS or SS link settles a parameter", rod.name,
+                     "link '{}' of type {}: only a US or SS link settles a parameter", rod.name,
                      name_of(rod.type));
 }
 
@@ -44,15 +44,15 @@ Circle circle(const CarrierTargets& targets, const CarrierTarget& pose, const Gu
   Mat3 before, after;
   int axis = 1;
   sign = 1;
-  if (parameter == PoseParameter::spin) {
+  if (parameter == PoseParameter::carrier_pitch) {
     before = math::turn_z(-pose.angles.toe) * math::turn_x(-pose.angles.camber);
     after = reference;
   } else if (parameter == PoseParameter::camber) {
     before = math::turn_z(-pose.angles.toe);
-    after = math::turn_y(pose.angles.spin) * reference;
+    after = math::turn_y(pose.angles.carrier_pitch) * reference;
     axis = 0, sign = -1;
   } else {
-    after = math::turn_x(-pose.angles.camber) * math::turn_y(pose.angles.spin) * reference;
+    after = math::turn_x(-pose.angles.camber) * math::turn_y(pose.angles.carrier_pitch) * reference;
     axis = 2, sign = -1;
   }
   const Vec3 w = after * (rod.carrier[0] - targets.wheel.centre);
@@ -94,8 +94,8 @@ double value_of(const CarrierTarget& pose, PoseParameter parameter) {
       return pose.angles.toe;
     case PoseParameter::camber:
       return pose.angles.camber;
-    case PoseParameter::spin:
-      return pose.angles.spin;
+    case PoseParameter::carrier_pitch:
+      return pose.angles.carrier_pitch;
   }
   return 0;
 }
@@ -117,8 +117,8 @@ void set_value(CarrierTarget& pose, PoseParameter parameter, double value) {
     case PoseParameter::camber:
       pose.angles.camber = value;
       return;
-    case PoseParameter::spin:
-      pose.angles.spin = value;
+    case PoseParameter::carrier_pitch:
+      pose.angles.carrier_pitch = value;
       return;
   }
 }

@@ -13,14 +13,14 @@
 /// Positions of the carrier that leave one of their six parameters open, and a rod that settles it.
 namespace linkwright::suspension {
 
-enum class PoseParameter { centre_x, centre_y, centre_z, toe, camber, spin };
+enum class PoseParameter { centre_x, centre_y, centre_z, toe, camber, carrier_pitch };
 constexpr std::array<EnumName<PoseParameter>, 6> names(PoseParameter) {
   return {{{PoseParameter::centre_x, "centre_x", "wheel centre along the vehicle"},
            {PoseParameter::centre_y, "centre_y", "wheel centre across the vehicle"},
            {PoseParameter::centre_z, "centre_z", "height of the wheel centre"},
            {PoseParameter::toe, "toe", "toe"},
            {PoseParameter::camber, "camber", "camber"},
-           {PoseParameter::spin, "carrier_pitch", "turn of the carrier about the wheel's axis"}}};
+           {PoseParameter::carrier_pitch, "carrier_pitch", "turn of the carrier about the wheel's axis"}}};
 }
 double value_of(const CarrierTarget& pose, PoseParameter parameter);
 void set_value(CarrierTarget& pose, PoseParameter parameter, double value);
@@ -35,7 +35,7 @@ struct RodSolution {
   double shortfall = 0;  ///< m: by what the rod misses, at least
 };
 
-/// Solves the constraint of a KS or SS link at one position for one parameter (Poznanovic 2016, eq (67) less
+/// Solves the constraint of a US or SS link at one position for one parameter (Poznanovic 2016, eq (67) less
 /// the length, which is missing there) in closed form: a quadratic for a coordinate of the centre, A cos + B
 /// sin = C for an angle. `expected` chooses between the solutions; NaN = the value of the reference pose.
 /// Throws ContractError for other links, and when another parameter is missing, too.
@@ -44,7 +44,7 @@ RodSolution solve_for(const CarrierTargets& targets, const CarrierTarget& pose, 
 
 /// In which order positions that miss a parameter are settled: each after the one that it is nearest to, the
 /// reference pose first. Where a rod passes a dead point both solutions meet, and only where the motion comes
-/// from tells them apart.
+/// from distinguishes them.
 struct SettlingStep {
   std::size_t position = 0;
   int before = -1;       ///< the position it is nearest to; -1 = the reference pose
@@ -74,14 +74,14 @@ struct RsDyad {
   Status status = Status::done;  ///< no_assembly: |g| is larger than the root of e^2 + f^2
   double e = 0, f = 0, g = 0;    ///< m2: e cos + f sin + g = 0
   /// rad: turn of the carrier about the wheel's axis after that axis was turned the shortest way, the smaller
-  /// one and the other one. This is not the spin of the carrier, whose zero is another
+  /// one and the other one. This is not the carrier pitch, whose zero is another
   /// (the source takes them for equal); `rotation` knows both.
   double relative = 0, other = 0;
   Mat3 rotation;  ///< of the carrier from the reference, by `relative` (74)
 };
 
-/// The dyad at one position, whose spin is not looked at. With atan2 in the place of the arccosine (70) and
-/// of the quotient (73), which are inexact or undefined where the axis hardly turns and where g = e.
+/// The dyad at one position, whose carrier pitch is not looked at. With atan2 in the place of the arccosine
+/// (70) and of the quotient (73), which are inexact or undefined where the axis hardly turns and where g = e.
 RsDyad rs_dyad(const CarrierTargets& targets, const CarrierTarget& pose, const GuideLink& rod);
 
 }  // namespace linkwright::suspension

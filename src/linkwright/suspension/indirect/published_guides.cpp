@@ -91,7 +91,7 @@ constexpr std::array<double, 2> none{not_printed, not_printed};
 constexpr PublishedGuide guides[] = {
     {1,
      "Tab. 6-1",
-     "front_5KS",
+     "front_5US",
      example_1,
      {100,
       1998,
@@ -100,7 +100,7 @@ constexpr PublishedGuide guides[] = {
      0.027},
     {2,
      "Tab. 6-5",
-     "strut_SP-3KS",
+     "strut_SP-3US",
      example_2,
      {100,
       1138,
@@ -118,7 +118,7 @@ constexpr PublishedGuide guides[] = {
      0.044},
     {4,
      "Tab. 6-13",
-     "rear_5KS",
+     "rear_5US",
      example_4,
      {40, 12502, 0.015, {{1.6e-7, 4.8e-8}, {9.0e-8, 2.8e-8}, {2.0e-4, 4.4e-5}, {7.7e-5, 2.0e-5}, none}},
      not_printed},
@@ -142,7 +142,7 @@ const PublishedEvolution& published_dyad() { return dyad; }
 std::span<const double> published_run() { return run_of_the_appendix; }
 
 WheelGuide strut_as_printed() {
-  WheelGuide guide = guide_sample("strut_SP-3KS").guide;
+  WheelGuide guide = guide_sample("strut_SP-3US").guide;
   guide.links[1].carrier[0].x = -0.0059;
   guide.links[3].carrier[0].x = -0.0366;
   guide.links[3].carrier[0].y = 0.6755;

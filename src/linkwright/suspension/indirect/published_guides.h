@@ -18,13 +18,13 @@ inline constexpr double not_printed = nan;
 /// A row of tables 6-1, 6-5, 6-9, 6-13: m and degrees, five decimals.
 struct PublishedPosition {
   double travel, rack;
-  double x, y;               ///< of the wheel centre
-  double toe, camber, spin;  ///< deg
+  double x, y;                        ///< of the wheel centre
+  double toe, camber, carrier_pitch;  ///< deg
 };
 
 /// Largest and mean deviation, mean over repeats; m and degrees.
 struct PublishedDeviations {
-  std::array<double, 2> x, y, toe, camber, spin;
+  std::array<double, 2> x, y, toe, camber, carrier_pitch;
 };
 
 /// What the source reports of differential evolution.
@@ -47,7 +47,7 @@ struct PublishedGuide {
 /// The four of them.
 std::span<const PublishedGuide> published_guides();
 
-/// Example 4 without the spin of the carrier: by the quadratic (68) and by the dyad (73).
+/// Example 4 without the carrier pitch: by the quadratic (68) and by the dyad (73).
 const PublishedEvolution& published_quadratic();
 const PublishedEvolution& published_dyad();
 
@@ -59,7 +59,7 @@ WheelGuide strut_as_printed();
 std::span<const double> published_run();
 inline constexpr double published_run_objective = 2.2477179192e-9;
 
-/// Positions to be taken, computed from the guide at the inputs of its table, with all digits.
+/// Positions to be taken, computed from the suspension at the inputs of its table, with all digits.
 CarrierTargets published_targets(const PublishedGuide& guide);
 
 /// The tasks of the source: boxes of 150 mm, placed at random so that they hold the true coordinate. Given

@@ -21,7 +21,7 @@ using Complex6 = Eigen::Matrix<Complex, 6, 1>;
 using ComplexSystem = Eigen::Matrix<Complex, 6, 6>;
 using System = Eigen::Matrix<double, 6, 6>;
 
-constexpr double length_scale = 0.4;  // m: coordinates of wheel guides become about one
+constexpr double length_scale = 0.4;  // m: coordinates of wheel suspensions become about one
 constexpr int newton_steps = 30;
 constexpr std::uint32_t attempts = 6;      // families make the eigenvalues of isolated solutions inexact
 constexpr double converged = 1e-11;        // relative to the largest term of an equation
@@ -171,7 +171,7 @@ bool on_family(const Equations& equations, const Point<Complex>& p) {
   return values.back() <= singular_system * values.front();
 }
 
-/// Goes to the nearest real solution, on a family too; tells how singular the system is there.
+/// Goes to the nearest real solution, on a family too; says how singular the system is there.
 bool polish_real(const Equations& equations, Point<double>& p, double& singularity) {
   Eigen::Matrix<double, 6, 1> f;
   System jacobian;

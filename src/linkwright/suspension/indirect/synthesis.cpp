@@ -32,11 +32,11 @@ class Assembly {
     result.guide.rack_direction = task.targets.rack_direction;
     result.links.resize(task.links.size());
     result.couplers.resize(task.couplers.size());
-    if (!spin_is_given(task.targets)) settle_spin();
+    if (!carrier_pitch_is_given(task.targets)) settle_carrier_pitch();
   }
 
   bool can_go_on() const { return rod_assembles_; }
-  bool spin_is_open() const { return !spin_is_given(result.targets); }
+  bool carrier_pitch_is_open() const { return !carrier_pitch_is_given(result.targets); }
 
   /// Takes links and couplers of a joint search to the places `at`.
   template <class Joint>
@@ -145,12 +145,12 @@ class Assembly {
     fit.status = fit.rms <= tolerance ? Status::done : interrupted(ended) ? ended : Status::not_converged;
   }
 
-  void settle_spin() {
+  void settle_carrier_pitch() {
     for (const LinkTask& link : task_.links) {
-      if (link.type != LinkType::KS && link.type != LinkType::SS) continue;
+      if (link.type != LinkType::US && link.type != LinkType::SS) continue;
       const LinkCoordinates coordinates(link);
       if (!coordinates.free().empty()) continue;
-      PoseCompletion made = complete(task_.targets, coordinates.middle(), PoseParameter::spin);
+      PoseCompletion made = complete(task_.targets, coordinates.middle(), PoseParameter::carrier_pitch);
       rod_assembles_ = made.status == Status::done;
       if (rod_assembles_)
         result.targets = std::move(made.targets);
@@ -167,7 +167,7 @@ class Assembly {
 
   void count_positions() {
     int all = 0, equations = static_cast<int>(task_.couplers.size());
-    const bool open = !spin_is_given(task_.targets);
+    const bool open = !carrier_pitch_is_given(task_.targets);
     for (const LinkTask& link : task_.links) {
       const int unknowns = static_cast<int>(LinkCoordinates(link).free().size());
       all += unknowns;
@@ -182,7 +182,7 @@ class Assembly {
     }
     CarrierTargets counted = task_.targets;
     for (CarrierTarget& pose : counted.poses)
-      if (std::isnan(pose.angles.spin)) pose.angles.spin = 0;
+      if (std::isnan(pose.angles.carrier_pitch)) pose.angles.carrier_pitch = 0;
     const auto given = static_cast<double>(link_motion(counted, false).size() + 1);
     if (given < result.fewest)
       result.findings.push_back(
@@ -230,7 +230,7 @@ LinkFit find_link(const LinkTask& task, std::uint32_t run, const LinkFitOptions&
                   std::span<const GuideLink> exact, ExactRods& rods, IndirectSynthesis& result,
                   std::uint64_t seed, RunContext& context) {
   LinkFit fit = fit_link(result.targets, task, options, exact, seed, context, run);
-  const bool rod = task.type == LinkType::KS || task.type == LinkType::SS;
+  const bool rod = task.type == LinkType::US || task.type == LinkType::SS;
   if (fit.status == Status::done || !rod || context.interrupted()) return fit;
   std::vector<GuideLink> starts(rods.of(task.moved_by_rack, result.arms).begin(),
                                 rods.of(task.moved_by_rack, result.arms).end());
@@ -306,14 +306,15 @@ void refine(const IndirectTask& task, const LinkFitOptions& options, Assembly& a
     }
     if (exact || !there) continue;
     const std::vector<LinkTask> tasks = assembly.links_of(group);
-    const SpinFitOptions spin{.tolerance = options.tolerance, .distinct_links = 0};
-    SpinFit best = fit_together(task.targets, tasks, couplers, links, found, spin);
+    const CarrierPitchFitOptions carrier_pitch{.tolerance = options.tolerance, .distinct_links = 0};
+    CarrierPitchFit best = fit_together(task.targets, tasks, couplers, links, found, carrier_pitch);
     for (std::uint32_t s = 1; s <= group_starts; ++s) {
       if (best.rms <= options.tolerance || context.interrupted()) break;
       const auto start = another_start(task.targets, tasks, couplers, options, seed, s * group_run_stride,
                                        assembly.result.evaluations, context);
       if (!start) continue;
-      SpinFit next = fit_together(task.targets, tasks, couplers, start->links, start->couplers, spin);
+      CarrierPitchFit next =
+          fit_together(task.targets, tasks, couplers, start->links, start->couplers, carrier_pitch);
       // `take` counts those of the one that is taken.
       if (next.rms < best.rms) std::swap(next, best);
       assembly.result.evaluations += next.evaluations;
@@ -329,13 +330,13 @@ IndirectSynthesis synthesise(const IndirectTask& task, const IndirectOptions& op
   Assembly assembly(task);
   IndirectSynthesis& result = assembly.result;
   if (!assembly.can_go_on()) return assembly.finish(context);
-  if (assembly.spin_is_open()) {
-    const SpinFit fit =
-        fit_with_unknown_spin(task.targets, task.links, options.spin, seed, context, task.couplers);
+  if (assembly.carrier_pitch_is_open()) {
+    const CarrierPitchFit fit = fit_with_unknown_carrier_pitch(
+        task.targets, task.links, options.carrier_pitch, seed, context, task.couplers);
     result.targets = fit.targets;
     if (!fit.links.empty())
       assembly.take(fit, all_places(task.links.size()), all_places(task.couplers.size()),
-                    fit.status == Status::done ? fit.largest : options.spin.tolerance);
+                    fit.status == Status::done ? fit.largest : options.carrier_pitch.tolerance);
     for (LinkFit& link : result.links) link.starts = fit.starts, link.duplicates = fit.refused;
     return assembly.finish(context);
   }
@@ -392,7 +393,7 @@ IndirectSynthesis evolve(const IndirectTask& task, const IndirectEvolutionOption
   Assembly assembly(task);
   IndirectSynthesis& result = assembly.result;
   if (!assembly.can_go_on()) return assembly.finish(context);
-  const auto groups = assembly.groups(options.together || assembly.spin_is_open());
+  const auto groups = assembly.groups(options.together || assembly.carrier_pitch_is_open());
   CarrierTargets found = result.targets;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     std::vector<std::size_t> places;

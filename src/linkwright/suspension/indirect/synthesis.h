@@ -10,12 +10,12 @@
 #include "linkwright/suspension/indirect/link_fit.h"
 #include "linkwright/suspension/indirect/link_synthesis.h"
 #include "linkwright/suspension/indirect/link_task.h"
-#include "linkwright/suspension/indirect/synthesis_spin.h"
+#include "linkwright/suspension/indirect/synthesis_carrier_pitch.h"
 
 namespace linkwright::suspension {
 
-/// A wheel guide to be found from positions of its carrier. The wheel needs its tyre diameter: at its radius
-/// turns count in the check of the rank.
+/// A wheel suspension to be found from positions of its carrier. The wheel needs its tyre diameter: at its
+/// radius turns count in the check of the rank.
 struct IndirectTask {
   CarrierTargets targets;
   std::vector<LinkTask> links;
@@ -23,14 +23,14 @@ struct IndirectTask {
 };
 
 struct IndirectSynthesis {
-  /// done: all links are exact and the guide moves as it should; not_converged, infeasible: of the links or
-  /// couplers, or of a rod that cannot settle the spins; singular: exact links that leave the carrier a
-  /// further freedom, see `findings`; deadline, cancelled: the best so far.
+  /// done: all links are exact and the suspension moves as it should; not_converged, infeasible: of the links
+  /// or couplers, or of a rod that cannot settle the carrier pitches; singular: exact links that leave the
+  /// carrier a further freedom, see `findings`; deadline, cancelled: the best so far.
   Status status = Status::infeasible;
   std::vector<LinkFit> links;  ///< each with its own status
   std::vector<CouplerFit> couplers;
   WheelGuide guide;             ///< as far as it was found
-  CarrierTargets targets;       ///< with the spins that were not prescribed
+  CarrierTargets targets;       ///< with the carrier pitches that were not prescribed
   double largest = 0;           ///< m: structural error of all links and couplers
   double fewest = 0;            ///< positions that determine all links, see fewest_positions
   std::vector<GuideLink> arms;  ///< hinged arms that exact rods come from, where these were asked for
@@ -41,7 +41,8 @@ struct IndirectSynthesis {
 
 struct IndirectOptions {
   LinkFitOptions link;
-  SpinFitOptions spin;  ///< where positions do not prescribe the spin and no KS link is given
+  CarrierPitchFitOptions
+      carrier_pitch;  ///< where positions do not prescribe the carrier pitch and no US link is given
 };
 
 /// Finds the links one after the other, each from its own starts and none twice, then the couplers. Where no
@@ -49,10 +50,10 @@ struct IndirectOptions {
 /// too. Links that share a coupler are at last fitted together if they are not exact, from where they are and
 /// then from starts of their own; the best is taken.
 ///
-/// Spins that are not prescribed follow from a KS link whose coordinates are all given, if there is one
-/// (section 5.3.5.1); else all links are found together with them.
+/// Carrier pitches that are not prescribed follow from a US link whose coordinates are all given, if there is
+/// one (section 5.3.5.1); else all links are found together with them.
 ///
-/// Throws ContractError as fit_link, fit_coupler and fit_with_unknown_spin do.
+/// Throws ContractError as fit_link, fit_coupler and fit_with_unknown_carrier_pitch do.
 IndirectSynthesis synthesise(const IndirectTask& task, const IndirectOptions& options, std::uint64_t seed,
                              RunContext& context);
 
@@ -67,7 +68,7 @@ struct IndirectEvolutionOptions {
 };
 
 /// The same by differential evolution, as the source has it: link by link, links that share a coupler
-/// together, and all together where spins are missing and no KS link is given.
+/// together, and all together where carrier pitches are missing and no US link is given.
 IndirectSynthesis evolve(const IndirectTask& task, const IndirectEvolutionOptions& options,
                          std::uint64_t seed, RunContext& context);
 

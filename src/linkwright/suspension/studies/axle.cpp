@@ -137,7 +137,7 @@ void remark_lost(study::Result& result, std::span<const AxleRow> rows, std::stri
            "axle",
            fmt::format("{} {:.6g}: {}: {}", what, r.value, to_string(r.position.status), r.position.reason),
            {}});
-      return;  // the first one tells why
+      return;  // the first one says why
     }
 }
 
@@ -206,7 +206,7 @@ void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& fo
               const std::optional<VehicleForm>& vehicle, const RunContext& context) {
   const AxlePlan plan = prepare_axle(guide);
   const AxlePosition reference = reference_position(plan);
-  if (reference.status != Status::done) return;  // the sweep tells why
+  if (reference.status != Status::done) return;  // the sweep says why
   const AxleParameters straight = axle_parameters(plan, reference);
   const auto fact = [&](std::string label, std::string text) {
     result.facts.push_back({std::move(label), std::move(text)});

@@ -8,7 +8,7 @@
 #include "linkwright/suspension/wheel/axle.h"
 #include "linkwright/suspension/wheel/axle_sweep.h"
 
-// What an analysis of a wheel guide may ask of the whole axle: `[vehicle]` and `[axle]`.
+// What an analysis of a wheel suspension may ask of the whole axle: `[vehicle]` and `[axle]`.
 namespace linkwright::suspension {
 
 /// `[vehicle]`.
@@ -36,7 +36,7 @@ void fields(Visitor&& visit, VehicleForm& v) {
   visit(share("axle_drive_share", "of the driving force at this axle"), v.layout.axle_drive_share);
 }
 
-/// `[axle]`: the symmetric axle of the guide.
+/// `[axle]`: the symmetric axle of the suspension.
 struct AxleForm {
   std::optional<AngleValues> roll;
   std::optional<LengthValues> rack;
@@ -56,7 +56,7 @@ void fields(Visitor&& visit, AxleForm& a) {
         a.rack_per_turn);
 }
 
-/// Checks what was read against the guide; problems go to the reader. Values are replaced by their list.
+/// Checks what was read against the suspension; problems go to the reader. Values are replaced by their list.
 void complete_axle(study::ObjectReader& document, AxleForm& axle, const WheelGuide& guide);
 /// Whether what complete_axle() has listed has room in memory; an error at the reader if not.
 bool fits_memory(study::ObjectReader& document, const AxleForm& axle);

@@ -18,7 +18,7 @@ int link_index(const WheelGuide& guide, const std::string& name) {
   return -1;
 }
 
-bool is_rod(LinkType type) { return type == LinkType::KS || type == LinkType::SS; }
+bool is_rod(LinkType type) { return type == LinkType::US || type == LinkType::SS; }
 
 JointStiffness stiffness_of(const JointForm& j) {
   if (j.stiffness)

@@ -10,7 +10,7 @@
 #include "linkwright/suspension/compliance/compliance.h"
 #include "linkwright/suspension/studies/guide.h"
 
-// What an analysis of a wheel guide may ask about loads and elastic joints: `[compliance]`.
+// What an analysis of a wheel suspension may ask about loads and elastic joints: `[compliance]`.
 namespace linkwright::suspension {
 
 enum class LinkEnd { body, carrier };
@@ -54,7 +54,7 @@ enum class LoadPlace { contact, wheel_centre };
 constexpr std::array<EnumName<LoadPlace>, 2> names(LoadPlace) {
   return {{{LoadPlace::contact, "contact"}, {LoadPlace::wheel_centre, "wheel_centre"}}};
 }
-/// `[[compliance.load]]`: beside the load cases that are always told.
+/// `[[compliance.load]]`: beside the load cases that are always reported.
 struct LoadForm {
   std::string name;
   LoadPlace at = LoadPlace::contact;
@@ -103,7 +103,7 @@ void fields(Visitor&& visit, ComplianceForm& c) {
   visit(Field{.key = "load", .summary = "loads beside the standard cases"}, c.loads);
 }
 
-/// Checks what was read against the guide; problems go to the reader.
+/// Checks what was read against the suspension; problems go to the reader.
 void check_compliance(study::ObjectReader& document, ComplianceForm& compliance,
                       const GuideDescription& description);
 

@@ -11,8 +11,8 @@
 #include "linkwright/suspension/studies/values.h"
 #include "linkwright/suspension/wheel/guide_columns.h"
 
-// The synthesis of a wheel guide from what its wheel is to do: what its file holds, how it is read, run and
-// reported.
+// The synthesis of a wheel suspension from what its wheel is to do: what its file holds, how it is read, run
+// and reported.
 namespace linkwright::suspension {
 
 /// One curve of `[[target.curve]]` as read; what its numbers measure depends on the quantity.
@@ -44,7 +44,7 @@ void fields(Visitor&& visit, DesignForm& d) {
               .maximum = 1e3},
         d.box);
   visit(Field{.key = "given", .summary = "coordinates that stay as they are"}, d.given);
-  visit(Field{.key = "link", .summary = "a KS link whose length is designed"}, d.link);
+  visit(Field{.key = "link", .summary = "a US link whose length is a design variable"}, d.link);
   visit(Field{.key = "length",
               .summary = "its range",
               .dimension = Dimension::length,
@@ -95,7 +95,7 @@ void fields(Visitor&& visit, LinkClearanceConstraint& c) {
         c.min);
 }
 constexpr Word choice_word(const LinkClearanceConstraint&) {
-  return {"link_clearance", "room between two links at all positions of the targets"};
+  return {"link_clearance", "distance between two links at all positions of the targets"};
 }
 
 struct TyreClearanceConstraint {
@@ -106,7 +106,7 @@ struct TyreClearanceConstraint {
 template <class Visitor>
 void fields(Visitor&& visit, TyreClearanceConstraint& c) {
   visit(Field{.key = "link", .summary = "name of the link", .required = true}, c.link);
-  visit(guide_fields::size("inner_diameter", "of the tyre, inside which there is room in the rim", true),
+  visit(guide_fields::size("inner_diameter", "of the tyre, inside which the rim leaves space", true),
         c.inner_diameter);
   visit(guide_fields::size("outer_diameter", "of the tyre; default: tyre_diameter of the wheel"),
         c.outer_diameter);
@@ -114,7 +114,7 @@ void fields(Visitor&& visit, TyreClearanceConstraint& c) {
   visit(guide_fields::size("min", "least distance of the link's line", true), c.min);
 }
 constexpr Word choice_word(const TyreClearanceConstraint&) {
-  return {"tyre_clearance", "room between a link and the tyre"};
+  return {"tyre_clearance", "distance between a link and the tyre"};
 }
 
 struct BoxClearanceConstraint {
@@ -129,7 +129,7 @@ void fields(Visitor&& visit, BoxClearanceConstraint& c) {
   visit(guide_fields::size("min", "least distance of the link's line"), c.min);
 }
 constexpr Word choice_word(const BoxClearanceConstraint&) {
-  return {"box_clearance", "room between a link and a box of the body"};
+  return {"box_clearance", "distance between a link and a box of the body"};
 }
 
 struct KeepOutConstraint {

@@ -8,7 +8,7 @@
 #include "linkwright/core/units.h"
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
-#include "linkwright/study/designed.h"
+#include "linkwright/study/design_variables.h"
 #include "linkwright/suspension/studies/direct.h"
 
 namespace linkwright::suspension {
@@ -136,7 +136,7 @@ class TargetReader {
     c.column = guide_column(bases[*which]);
     if (!s_.description.guide.links.empty())
       if (const std::string why = why_missing(s_.description.guide, *c.column); !why.empty())
-        table.error("quantity", fmt::format("this guide has no '{}': {}", bases[*which], why));
+        table.error("quantity", fmt::format("this suspension has no '{}': {}", bases[*which], why));
     if (c.objective.empty()) c.objective = bases[*which];
     const Dimension dimension = dimension_of(*c.column, c.measure);
     const auto number = [&](std::string_view key, double least) {
@@ -231,8 +231,8 @@ void read_designs(study::ObjectReader& document, DirectStudy& s, std::vector<Des
     const auto link = find_link(table, "link", guide, d.link);
     if (!link) continue;
     GuideLink& l = guide.links[static_cast<std::size_t>(*link)];
-    if (l.type != LinkType::KS && l.type != LinkType::SS) {
-      table.error("link", fmt::format("'{}' is of type {}: only KS links have a length to design", l.name,
+    if (l.type != LinkType::US && l.type != LinkType::SS) {
+      table.error("link", fmt::format("'{}' is of type {}: only US links have a length to design", l.name,
                                       name_of(l.type)));
     } else if (!d.length || d.length->fixed()) {
       table.error("length", "has no range", "write length_mm = { min = 200.0, max = 300.0 }");
@@ -416,7 +416,8 @@ study::Kind direct_kind() {
   kind.mechanism = "suspension.corner";
   kind.target = "wheel_parameters";
   kind.summary =
-      "wheel guide from what its wheel is to do: toe, camber, track, roll centre ... (direct synthesis)";
+      "wheel suspension from target curves of its wheel: toe, camber, track, roll centre ... (direct "
+      "synthesis)";
   kind.seeded = true;
   kind.example =
       R"(# linkwright study: less bump steer of a double wishbone, only the inner point of the tie rod being free
@@ -490,7 +491,7 @@ seeds  = { first = 1, count = 1 }
                       std::move(target).finish());
     document.property(Field{.key = "design", .summary = "what is free"},
                       study::schema_array(study::schema_fields<DesignForm>()));
-    document.property(Field{.key = "constraint", .summary = "room and lengths"},
+    document.property(Field{.key = "constraint", .summary = "clearances and lengths"},
                       study::schema_array(study::schema_fields<DirectConstraint>()));
     document.property(Field{.key = "optimiser", .summary = "how designs are searched"},
                       study::schema_fields<DirectOptimiser>());

@@ -6,7 +6,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
-#include "linkwright/study/designed.h"
+#include "linkwright/study/design_variables.h"
 #include "linkwright/study/run_seeds.h"
 #include "linkwright/suspension/guide/hard_points.h"
 #include "linkwright/suspension/guide/structure.h"
@@ -246,7 +246,7 @@ study::Solution solution_of(const DirectStudy& s, const DirectSynthesis& best) {
   study::Solution out;
   out.label = structure_name(structure_of(best.guide));
   for (std::size_t i = 0; i < s.task.designed.size(); ++i) {
-    const DesignedNumber& d = s.task.designed[i];
+    const DesignVariable& d = s.task.designed[i];
     const std::string name = label(s.task.guide, d.number);
     out.parameters.push_back({plain_name(name) + "_m", name, best.x.at(i), d.lower, d.upper});
   }
@@ -311,7 +311,7 @@ void add_statistics(study::Result& result, const DirectStudy& s, const Runs& run
 
 Table directions_table(const DirectStudy& s, const DirectSynthesis& best) {
   Table table{.name = "weak_directions"};
-  for (const DesignedNumber& d : s.task.designed) table.names.push_back(label(s.task.guide, d.number));
+  for (const DesignVariable& d : s.task.designed) table.names.push_back(label(s.task.guide, d.number));
   for (std::size_t k = best.singular_values.size(); k-- > 0;)
     table.add(fmt::format("direction_{}", k + 1),
               fmt::format("direction {} (share of its range), singular value {:.3g}", k + 1,
@@ -383,7 +383,7 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
                                              : std::string()),
          best.objectives[i] <= 1 ? Verdict::good : Verdict::bad});
   result.facts.push_back({"half sum of squared deviations", fmt::format("{:.6f}", best.half_sum_of_squares)});
-  result.facts.push_back({"active targets", fmt::format("{} for {} designed numbers", best.active.size(),
+  result.facts.push_back({"active targets", fmt::format("{} for {} design variables", best.active.size(),
                                                         s.task.designed.size())});
   result.facts.push_back({"method", std::string(result.statistics.find("method")->as_string())});
   result.facts.push_back(
@@ -403,7 +403,7 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
         "with",
         {});
   for (std::size_t i = 0; i < s.task.designed.size(); ++i) {
-    const DesignedNumber& d = s.task.designed[i];
+    const DesignVariable& d = s.task.designed[i];
     const double span = d.upper - d.lower;
     if (best.x[i] - d.lower < 1e-6 * span || d.upper - best.x[i] < 1e-6 * span)
       remark(fmt::format("{} lies at its limit, {}", label(s.task.guide, d.number),

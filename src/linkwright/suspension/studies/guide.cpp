@@ -214,7 +214,7 @@ class GuideReader {
     wheel();
     if (!mechanism_.has("link"))
       mechanism_.unreadable("link", "there are no links",
-                            "add [[mechanism.link]], or sample = \"2RS-KS\" for a canned wheel guide");
+                            "add [[mechanism.link]], or sample = \"2RS-US\" for a built-in wheel suspension");
     std::vector<study::ObjectReader> tables = mechanism_.tables("link");
     for (std::size_t i = 0; i < form_.links.size() && i < tables.size(); ++i) link(form_.links[i], tables[i]);
     tables = mechanism_.tables("coupler");
@@ -349,7 +349,7 @@ class GuideReader {
     if (!form) return {};
     if (open_ == OpenPoints::none &&
         std::any_of(form->points.begin(), form->points.end(), suspension::open)) {
-      table.error(key, "is open, but nothing is looked for in this kind of study", "give its coordinates");
+      table.error(key, "is a design variable, but this kind of study has none", "give its coordinates");
       return {};
     }
     return form->points;
@@ -423,7 +423,7 @@ class GuideReader {
     const PointForm& point = form.point->points[0];
     const GuideLink& rod = out_.guide.links[static_cast<std::size_t>(first)];
     if (rod.body.size() != 1 || rod.carrier.size() != 1)
-      return;  // told already, or by the check of the guide
+      return;  // reported already, or by the check of the suspension
     const double length = rod.length.value_or(norm(rod.carrier[0] - rod.body[0]));
     if (form.fraction.has_value() + form.offset.has_value() + form.first_point.has_value() != 1)
       return table.error("fraction", "needs fraction, offset or first_point, one of them");
@@ -437,7 +437,7 @@ class GuideReader {
     }
     const bool searched = suspension::open(point) || (form.offset && !form.offset->fixed());
     if (searched && open_ == OpenPoints::none)
-      return table.error("point", "is open, but nothing is looked for in this kind of study",
+      return table.error("point", "is a design variable, but this kind of study has none",
                          "give its coordinates");
     const double fraction = form.fraction ? *form.fraction
                             : form.offset ? (form.offset->lower + form.offset->upper) / 2 / length
@@ -616,7 +616,7 @@ Value write_guide(const GuideDescription& d) {
 }
 
 void describe_guide(study::SchemaWriter& document) {
-  document.property(Field{.key = "mechanism", .summary = "the wheel guide", .required = true},
+  document.property(Field{.key = "mechanism", .summary = "the wheel suspension", .required = true},
                     study::schema_fields<GuideForm>());
 }
 

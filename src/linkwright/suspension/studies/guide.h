@@ -12,8 +12,8 @@
 #include "linkwright/suspension/guide/hard_points.h"
 #include "linkwright/suspension/indirect/synthesis.h"
 
-// What all studies of wheel guides read alike: the mechanism, with its points as coordinates, as names out of
-// a list of hard points, or as boxes in which they are to be found.
+// What all studies of wheel suspensions read alike: the mechanism, with its points as coordinates, as names
+// out of a list of hard points, or as boxes in which they are to be found.
 namespace linkwright::suspension {
 
 /// A point in a file: where it is, or where it begins and the box that it may lie in.
@@ -90,7 +90,7 @@ void fields(Visitor&& visit, WheelForm& w) {
 
 struct GuideLinkForm {
   std::string name;
-  LinkType type = LinkType::KS;
+  LinkType type = LinkType::US;
   std::optional<PointsForm> body, carrier;
   std::vector<std::string> points;  ///< hard points, those of the body first
   std::optional<double> length;
@@ -108,20 +108,19 @@ void fields(Visitor&& visit, GuideLinkForm& l) {
               .summary = "names of hard points in the place of body and carrier, those of the body first"},
         l.points);
   visit(Field{.key = "length",
-              .summary = "of a KS or SS link, in the place of the distance of its points",
+              .summary = "of a US or SS link, in the place of the distance of its points",
               .dimension = Dimension::length,
               .minimum = 1e-6,
               .maximum = 1e3},
         l.length);
   visit(Field{.key = "moved_by", .summary = "what moves its body points"}, l.moved_by);
-  visit(
-      Field{.key = "cross_axis",
-            .summary =
-                "of a KS link: direction of the axis of its K joint that stands in the body; default: level "
-                "and across the link. What is fixed to the link off its line turns with it",
-            .minimum = -1e6,
-            .maximum = 1e6},
-      l.cross_axis);
+  visit(Field{.key = "cross_axis",
+              .summary = "of a US link: direction of the axis of its universal joint that is fixed in the "
+                         "body; default: level "
+                         "and across the link. What is fixed to the link off its line turns with it",
+              .minimum = -1e6,
+              .maximum = 1e6},
+        l.cross_axis);
 }
 
 struct GuideCouplerForm {
@@ -136,7 +135,7 @@ struct GuideCouplerForm {
 template <class Visitor>
 void fields(Visitor&& visit, GuideCouplerForm& c) {
   visit(Field{.key = "name", .summary = "of the coupler"}, c.name);
-  visit(Field{.key = "first", .summary = "name of the KS link that it begins on", .required = true}, c.first);
+  visit(Field{.key = "first", .summary = "name of the US link that it begins on", .required = true}, c.first);
   visit(Field{.key = "fraction",
               .summary = "its place on that link as a share of the length, from the body",
               .minimum = 0,
@@ -233,7 +232,8 @@ struct GuideForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, GuideForm& g) {
-  visit(Field{.key = "sample", .summary = "a canned wheel guide in the place of all else"}, g.sample);
+  visit(Field{.key = "sample", .summary = "a built-in wheel suspension instead of everything else"},
+        g.sample);
   visit(Field{.key = "side", .summary = "of the vehicle; a sample is mirrored for the right one"}, g.side);
   visit(Field{.key = "hard_points", .summary = "named points, and the frame they are given in"},
         g.hard_points);
@@ -247,16 +247,16 @@ void fields(Visitor&& visit, GuideForm& g) {
 /// What may be left open in the points of a study.
 enum class OpenPoints { none, boxes };
 
-/// `[mechanism]` of any study of a wheel guide, resolved.
+/// `[mechanism]` of any study of a wheel suspension, resolved.
 struct GuideDescription {
-  WheelGuide guide;                   ///< open coordinates at their start
-  std::vector<LinkTask> links;        ///< the guide's, with boxes; all coordinates given where none are open
+  WheelGuide guide;             ///< open coordinates at their start
+  std::vector<LinkTask> links;  ///< the suspension's, with boxes; all coordinates given where none are open
   std::vector<CouplerTask> couplers;  ///< likewise
   std::optional<SpringLaw> spring;    ///< of the spring, if its stiffness is known
 };
 
-/// Reads it; nothing when there are problems, which go to the reader. A guide without open points that cannot
-/// move as a wheel guide must is refused.
+/// Reads it; nothing when there are problems, which go to the reader. A suspension without open points that
+/// cannot move as a wheel suspension must is refused.
 std::optional<GuideDescription> read_guide(study::ObjectReader& document, const study::Common& common,
                                            OpenPoints open);
 /// The table as a canonical study holds it: coordinates in the vehicle's frame, no names of points, no files.

@@ -54,7 +54,7 @@ class Drawing {
     other_ = false;
     source_.clear();
     for (std::size_t i = 0; i < grid_.positions.size(); ++i) source_.push_back(i);
-    // At a rack displacement the wheels differ, and its place is told by both: it is drawn where they agree.
+    // At a rack displacement the wheels differ, and its place is that of both: it is drawn where they agree.
     const int at = at_sample("roll centre", [&](std::size_t i) {
       const WheelParameters& w = grid_.wheels[i];
       const bool centred = grid_.racks[i / grid_.travels.size()] == 0;
@@ -178,7 +178,7 @@ class Drawing {
     const int bottom = point(named("spring, moving end"), [&](const GuidePosition& p) {
       if (spring.link < 0) return place(p.place.carrier, spring.moving, centre);
       const GuideLink& link = guide_.links[static_cast<std::size_t>(spring.link)];
-      if (link.type == LinkType::KS || link.type == LinkType::SS)
+      if (link.type == LinkType::US || link.type == LinkType::SS)
         return spring_end(guide_, p.place, p.input.rack);
       return link_point(link, p, spring.moving);
     });

@@ -8,7 +8,7 @@
 
 namespace linkwright::suspension {
 
-/// What a scene of a wheel guide shows: positions of a grid, all travels for each rack.
+/// What a scene of a wheel suspension shows: positions of a grid, all travels for each rack.
 struct GuideGrid {
   Driver travel = Driver::wheel_centre_z;
   std::span<const double> travels, racks;    ///< m
@@ -17,8 +17,8 @@ struct GuideGrid {
   Driver lock = Driver::wheel_centre_z;      ///< of the steering axis that is drawn
 };
 
-/// A wheel guide over a grid of travel and rack: links, couplers, spring, wheel, steering axis, and in the
-/// middle plane of the vehicle the roll centre of both wheels travelling equally; on the other side the
+/// A wheel suspension over a grid of travel and rack: links, couplers, spring, wheel, steering axis, and in
+/// the middle plane of the vehicle the roll centre of both wheels travelling equally; on the other side the
 /// mirrored wheel where the racks hold the opposite displacement.
 study::Scene guide_scene(const WheelGuide& guide, std::string name, std::string title, const GuideGrid& grid);
 

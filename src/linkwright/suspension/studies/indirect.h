@@ -8,8 +8,8 @@
 #include "linkwright/suspension/indirect/synthesis.h"
 #include "linkwright/suspension/studies/guide.h"
 
-// The synthesis of a wheel guide from positions of its carrier: what its file holds, how it is read, run and
-// reported.
+// The synthesis of a wheel suspension from positions of its carrier: what its file holds, how it is read, run
+// and reported.
 namespace linkwright::suspension {
 
 /// `[[target.pose]]`: one position that the carrier is to take.
@@ -17,7 +17,7 @@ struct PoseEntry {
   double rack = 0;
   std::array<double, 3> centre{};
   double toe = 0, camber = 0;
-  std::optional<double> spin;
+  std::optional<double> carrier_pitch;
 };
 template <class Visitor>
 void fields(Visitor&& visit, PoseEntry& p) {
@@ -39,18 +39,18 @@ void fields(Visitor&& visit, PoseEntry& p) {
   visit(angle("toe", "> 0: front of the wheel towards the vehicle", true), p.toe);
   visit(angle("camber", "> 0: top of the wheel away from the vehicle", true), p.camber);
   visit(angle("carrier_pitch", "of the carrier about the wheel's axis; left out: not prescribed", false),
-        p.spin);
+        p.carrier_pitch);
 }
 
 /// `[target]`: positions listed, or in a CSV file with the columns rack, centre_x, centre_y, centre_z, toe,
-/// camber, spin.
+/// camber, carrier pitch.
 struct PosesTarget {
   std::optional<std::string> file;
   std::optional<std::vector<PoseEntry>> poses;
 };
 template <class Visitor>
 void fields(Visitor&& visit, PosesTarget& t) {
-  visit(Field{.key = "file", .summary = "CSV file with a position a line"}, t.file);
+  visit(Field{.key = "file", .summary = "CSV file with one position per line"}, t.file);
   visit(Field{.key = "pose", .summary = "positions of the carrier"}, t.poses);
 }
 
@@ -62,7 +62,7 @@ void fields(Visitor&& visit, RecommendedIndirect& r) {
   fields(visit, r.options.link);
   visit(Field{.key = "unknown_carrier_pitch",
               .summary = "for positions that do not prescribe the carrier pitch"},
-        r.options.spin);
+        r.options.carrier_pitch);
 }
 constexpr Word choice_word(const RecommendedIndirect&) {
   return {"recommended", "link by link: variable projection and least squares within the boxes"};
@@ -83,7 +83,7 @@ void fields(Visitor&& visit, PublishedIndirect& p) {
               .maximum = 1},
         p.options.tolerance);
   visit(Field{.key = "carrier_pitch_technique",
-              .summary = "what stands for carrier pitches that are not prescribed"},
+              .summary = "how carrier pitches that are not prescribed are represented"},
         p.options.method.technique);
 }
 constexpr Word choice_word(const PublishedIndirect&) {

@@ -80,7 +80,7 @@ void read_poses(study::ObjectReader& target, const study::Common& common, Indire
     for (const PoseEntry& p : *form.poses)
       task.targets.poses.push_back({p.rack,
                                     {p.centre[0], p.centre[1], p.centre[2]},
-                                    {p.toe, p.camber, p.spin.value_or(std::nan(""))}});
+                                    {p.toe, p.camber, p.carrier_pitch.value_or(std::nan(""))}});
   }
   const char* key = form.file ? "file" : "pose";
   if (task.targets.poses.size() > most_poses)
@@ -120,7 +120,7 @@ std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, 
     }
     auto mechanism = document.table("mechanism");
     if (!open)
-      mechanism->error("link", "nothing is to be found: all points are given",
+      mechanism->error("link", "there is no design variable: all points are given",
                        "write body_m = { near = [x, y, z], box_m = 0.15 } for a point to be found");
     for (const Coupler& c : guide.couplers)
       if (c.begin)
@@ -147,8 +147,8 @@ std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, 
                     .centre = {p.centre.x, p.centre.y, p.centre.z},
                     .toe = p.angles.toe,
                     .camber = p.angles.camber,
-                    .spin = {}};
-    if (std::isfinite(p.angles.spin)) entry.spin = p.angles.spin;
+                    .carrier_pitch = {}};
+    if (std::isfinite(p.angles.carrier_pitch)) entry.carrier_pitch = p.angles.carrier_pitch;
     resolved.poses->push_back(entry);
   }
   canonical["target"] = study::write_fields(resolved);
@@ -163,7 +163,7 @@ study::Kind indirect_kind() {
   kind.kind = "synthesis";
   kind.mechanism = "suspension.corner";
   kind.target = "carrier_poses";
-  kind.summary = "wheel guide whose carrier takes prescribed positions (indirect synthesis)";
+  kind.summary = "wheel suspension whose carrier takes prescribed positions (indirect synthesis)";
   kind.seeded = true;
   kind.example = R"(# linkwright study: three rods of a five-link suspension from positions of its carrier
 schema = 1

@@ -34,7 +34,7 @@ struct SeedRun {
 IndirectSynthesis search(const RecommendedIndirect& method, const IndirectTask& task, std::uint64_t seed,
                          bool only, RunContext& context) {
   IndirectOptions options = method.options;
-  options.link.progress = options.spin.progress = only;
+  options.link.progress = options.carrier_pitch.progress = only;
   return synthesise(task, options, seed, context);
 }
 IndirectSynthesis search(const PublishedIndirect& method, const IndirectTask& task, std::uint64_t seed,
@@ -44,7 +44,7 @@ IndirectSynthesis search(const PublishedIndirect& method, const IndirectTask& ta
   return evolve(task, options, seed, context);
 }
 
-/// What an answer is worth, turned to the side of the guide.
+/// What an answer is worth, turned to the side of the suspension.
 SeedRun measured(const IndirectStudy& s, IndirectSynthesis answer) {
   SeedRun out;
   out.answer = std::move(answer);
@@ -73,7 +73,8 @@ std::vector<double> numbers_of(const CouplerFit& fit) {
   return {fit.rms, fit.largest, fit.offset, fit.coupler.fraction, p.x, p.y, p.z};
 }
 
-/// A seed that came to its end as a checkpoint keeps it: links, couplers and spins, not what follows.
+/// A seed that came to its end as a checkpoint keeps it: links, couplers and carrier pitches, not what
+/// follows.
 Value kept(const SeedRun& run) {
   const auto fits = [](const auto& all) {
     Value out = Value::array();
@@ -87,12 +88,13 @@ Value kept(const SeedRun& run) {
     }
     return out;
   };
-  std::vector<double> spins;
-  for (const CarrierTarget& pose : run.answer.targets.poses) spins.push_back(pose.angles.spin);
+  std::vector<double> carrier_pitches;
+  for (const CarrierTarget& pose : run.answer.targets.poses)
+    carrier_pitches.push_back(pose.angles.carrier_pitch);
   Value out;
   out["links"] = fits(run.answer.links);
   out["couplers"] = fits(run.answer.couplers);
-  out["spins"] = pack_numbers(spins);
+  out["carrier_pitches"] = pack_numbers(carrier_pitches);
   out["evaluations"] = run.answer.evaluations;
   out["generations"] = run.answer.generations;
   return out;
@@ -106,7 +108,8 @@ std::vector<double> restored_fit(const Value& value, std::size_t count, std::str
       (numbers.size() == 2 || numbers.size() == 2 + count) && is_error(numbers[0]) && is_error(numbers[1]) &&
       std::all_of(numbers.begin() + 2, numbers.end(), [](double x) { return std::abs(x) < 1e6; }) &&
       (numbers.size() > 2 || std::isinf(numbers[0]));
-  if (!sound) throw CheckpointError(fmt::format("{}: a link or coupler is none of this guide", what));
+  if (!sound)
+    throw CheckpointError(fmt::format("{}: a link or coupler does not belong to this suspension", what));
   return numbers;
 }
 
@@ -139,23 +142,25 @@ SeedRun restored(const Value& value, const IndirectStudy& s, std::string_view wh
     CouplerFit fit{.status = study::restored_status(one, what), .coupler = {}, .rms = v[0], .largest = v[1]};
     const Value& looked_for = kept_member(one, "looked_for", what);
     if (!looked_for.is_bool() || v.size() == 2)
-      throw CheckpointError(fmt::format("{}: coupler '{}' is not told", what, task.name));
+      throw CheckpointError(fmt::format("{}: coupler '{}' is incomplete", what, task.name));
     if (looked_for.as_bool()) fit.coupler = {.name = task.name, .first = task.first, .second = task.second};
     fit.offset = v[2];
     fit.coupler.fraction = v[3];
     fit.coupler.point = {v[4], v[5], v[6]};
     ended.couplers.push_back(std::move(fit));
   }
-  const std::vector<double> spins = unpack_numbers(kept_member(value, "spins", what), what);
-  if (spins.size() != ended.targets.poses.size())
-    throw CheckpointError(
-        fmt::format("{}: {} spins of {} positions", what, spins.size(), ended.targets.poses.size()));
-  for (std::size_t i = 0; i < spins.size(); ++i) {
-    double& spin = ended.targets.poses[i].angles.spin;
+  const std::vector<double> carrier_pitches =
+      unpack_numbers(kept_member(value, "carrier_pitches", what), what);
+  if (carrier_pitches.size() != ended.targets.poses.size())
+    throw CheckpointError(fmt::format("{}: {} carrier pitches of {} positions", what, carrier_pitches.size(),
+                                      ended.targets.poses.size()));
+  for (std::size_t i = 0; i < carrier_pitches.size(); ++i) {
+    double& carrier_pitch = ended.targets.poses[i].angles.carrier_pitch;
     // Only those that were not prescribed were found.
-    if (std::isinf(spins[i]) || (!std::isnan(spin) && spin != spins[i]))
-      throw CheckpointError(fmt::format("{}: spin {} is none of this position", what, spins[i]));
-    spin = spins[i];
+    if (std::isinf(carrier_pitches[i]) || (!std::isnan(carrier_pitch) && carrier_pitch != carrier_pitches[i]))
+      throw CheckpointError(
+          fmt::format("{}: carrier pitch {} does not belong to this position", what, carrier_pitches[i]));
+    carrier_pitch = carrier_pitches[i];
   }
   ended.evaluations = kept_integer(value, "evaluations", 0, study::most_kept_evaluations, what);
   ended.generations = static_cast<int>(kept_integer(value, "generations", 0, 1000000000, what));
@@ -230,8 +235,8 @@ Table poses_table(const CarrierTargets& targets, const WheelGuide& left) {
     const WheelAngles a = wheel_angles(Side::left, left.wheel, p.place.carrier.rotation);
     const Vec3 c = p.place.carrier.centre;
     const std::array<double, 6> wanted{t.centre.x,   t.centre.y,      t.centre.z,
-                                       t.angles.toe, t.angles.camber, t.angles.spin};
-    const std::array<double, 6> got{c.x, c.y, c.z, a.toe, a.camber, a.spin};
+                                       t.angles.toe, t.angles.camber, t.angles.carrier_pitch};
+    const std::array<double, 6> got{c.x, c.y, c.z, a.toe, a.camber, a.carrier_pitch};
     columns[0].push_back(travel);
     columns[1].push_back(t.rack);
     for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -266,7 +271,7 @@ Table conditioning_table(const IndirectStudy& s, const SeedRun& run) {
     rms.push_back(fit.rms);
     largest.push_back(fit.largest);
     double most = WheelParameters::missing, least = most;
-    if (spin_is_given(run.answer.targets) && std::isfinite(fit.rms)) {
+    if (carrier_pitch_is_given(run.answer.targets) && std::isfinite(fit.rms)) {
       const LinkConditioning c = conditioning(run.answer.targets, s.task.links[i], fit.link);
       if (!c.singular_values.empty()) most = c.singular_values.front(), least = c.singular_values.back();
     }
@@ -284,7 +289,7 @@ Table conditioning_table(const IndirectStudy& s, const SeedRun& run) {
 /// The name of the link of the task in whose boxes a rod lies; "-" of a rod that lies in none.
 std::string place_of(const IndirectStudy& s, const GuideLink& rod) {
   for (const LinkTask& task : s.task.links) {
-    if ((task.type != LinkType::KS && task.type != LinkType::SS) || task.moved_by_rack != rod.moved_by_rack)
+    if ((task.type != LinkType::US && task.type != LinkType::SS) || task.moved_by_rack != rod.moved_by_rack)
       continue;
     GuideLink as_asked = rod;
     as_asked.type = task.type;
@@ -306,7 +311,7 @@ void add_seven_poses(study::Result& result, const IndirectStudy& s, const Carrie
   std::vector<double> arm_moved;
   for (const bool by_rack : {false, true}) {
     const bool asked = std::any_of(s.task.links.begin(), s.task.links.end(), [&](const LinkTask& l) {
-      return (l.type == LinkType::KS || l.type == LinkType::SS) && l.moved_by_rack == by_rack &&
+      return (l.type == LinkType::US || l.type == LinkType::SS) && l.moved_by_rack == by_rack &&
              !LinkCoordinates(l).free().empty();
     });
     if (!asked || link_motion(targets, by_rack).size() < 6) continue;
@@ -491,13 +496,14 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
   const bool good = best.answer.status == Status::done;
   const std::size_t poses = s.task.targets.poses.size();
   result.headline =
-      good ? fmt::format("A {} wheel guide takes all {} positions: its joints miss at most {}.",
-                         structure_name(structure_of(guide)), poses, metres(best.error))
+      good
+          ? fmt::format("A {} wheel suspension reaches all {} positions; its joints miss them by at most {}.",
+                        structure_name(structure_of(guide)), poses, metres(best.error))
       : assembled
           ? fmt::format(
-                "No exact wheel guide found ({}): the best one misses the {} positions by {} at most.",
+                "No exact wheel suspension found ({}): the best one misses the {} positions by at most {}.",
                 to_string(best.answer.status), poses, metres(best.error))
-          : fmt::format("No wheel guide found ({}).", to_string(best.answer.status));
+          : fmt::format("No wheel suspension found ({}).", to_string(best.answer.status));
   result.facts = {
       {"largest constraint error at the positions", assembled ? metres(best.error) : "-",
        good ? Verdict::good : Verdict::bad},
@@ -508,18 +514,18 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
        fmt::format("{:.0f} of {}", success * static_cast<double>(runs.answers.size()), runs.answers.size()),
        success > 0.9 ? Verdict::good : Verdict::plain},
       {"evaluations", fmt::format("{}", result.statistics.find("evaluations")->as_integer())}};
-  if (spin_is_given(best.answer.targets)) add_seven_poses(result, s, best.answer.targets);
+  if (carrier_pitch_is_given(best.answer.targets)) add_seven_poses(result, s, best.answer.targets);
   for (const Diagnostic& d : best.answer.findings) {
     Diagnostic remark = d;
     remark.severity = Diagnostic::Severity::warning;
     result.diagnostics.push_back(std::move(remark));
   }
-  if (!spin_is_given(s.task.targets))
+  if (!carrier_pitch_is_given(s.task.targets))
     result.diagnostics.push_back({Diagnostic::Severity::warning,
                                   {},
                                   {},
                                   {},
-                                  "the positions do not prescribe the carrier pitch: many guides move "
+                                  "the positions do not prescribe the carrier pitch: many suspensions move "
                                   "the wheel alike, this is one of them",
                                   {}});
   if (runs.answers.size() < static_cast<std::size_t>(common.seeds.count))

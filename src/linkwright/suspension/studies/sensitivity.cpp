@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "linkwright/core/units.h"
-#include "linkwright/study/designed.h"
+#include "linkwright/study/design_variables.h"
 #include "linkwright/study/memory.h"
 #include "linkwright/suspension/guide/hard_points.h"
 #include "linkwright/suspension/wheel/derivatives.h"
@@ -40,7 +40,7 @@ void complete_quantities(study::ObjectReader& table, std::vector<std::string>& q
   for (const std::string& q : quantities) {
     if (std::find(known.begin(), known.end(), q) != known.end()) {
       if (const std::string why = why_missing(guide, *guide_column(q)); !why.empty())
-        table.error("quantities", fmt::format("this guide has no '{}': {}", q, why));
+        table.error("quantities", fmt::format("this suspension has no '{}': {}", q, why));
       continue;
     }
     const std::vector<std::string_view> words(known.begin(), known.end());

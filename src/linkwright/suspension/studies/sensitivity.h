@@ -9,7 +9,7 @@
 #include "linkwright/suspension/wheel/guide_columns.h"
 #include "linkwright/suspension/wheel/tolerances.h"
 
-// What an analysis of a wheel guide may ask about its hard points: `[sensitivity]` and `[tolerances]`.
+// What an analysis of a wheel suspension may ask about its hard points: `[sensitivity]` and `[tolerances]`.
 namespace linkwright::suspension {
 
 /// `[sensitivity]`.
@@ -72,7 +72,7 @@ void fields(Visitor&& visit, TolerancesForm& t) {
   visit(Field{.key = "seed", .summary = "of the designs drawn", .minimum = 0}, t.monte_carlo.seed);
 }
 
-/// Check what was read against the guide; problems go to the reader. Defaults are filled in.
+/// Check what was read against the suspension; problems go to the reader. Defaults are filled in.
 void complete_sensitivity(study::ObjectReader& document, SensitivityForm& form, const WheelGuide& guide);
 void complete_tolerances(study::ObjectReader& document, TolerancesForm& form, const WheelGuide& guide);
 /// Whether the values of all designs drawn, over so many travels, have room in memory; an error at the reader

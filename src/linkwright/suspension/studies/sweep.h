@@ -12,7 +12,7 @@
 #include "linkwright/suspension/studies/sensitivity.h"
 #include "linkwright/suspension/wheel/parameters.h"
 
-// The analysis of a wheel guide over wheel travel and rack: what its file holds, how it is read, run and
+// The analysis of a wheel suspension over wheel travel and rack: what its file holds, how it is read, run and
 // reported.
 namespace linkwright::suspension {
 
@@ -49,7 +49,7 @@ void fields(Visitor&& visit, GuideSweep& s) {
               .summary = "what is held while the wheel is steered about its steering axis: spring, "
                          "wheel_centre_z or contact_z; default: the spring if there is one"},
         s.steering_lock);
-  visit(Field{.key = "assemblies", .summary = "table of the other ways to put the guide together"},
+  visit(Field{.key = "assemblies", .summary = "table of the other assembly modes of the suspension"},
         s.assemblies);
 }
 
@@ -59,10 +59,10 @@ struct SweepStudy {
   Driver travel = Driver::wheel_centre_z;
   std::vector<double> travels, racks;        ///< m, ascending
   Driver lock = Driver::wheel_centre_z;      ///< of the steering axis
-  std::vector<std::string> quantities;       ///< empty = all that the guide has
-  bool assemblies = false;                   ///< the other ways to put it together are looked for
+  std::vector<std::string> quantities;       ///< empty = all that the suspension has
+  bool assemblies = false;                   ///< the other assembly modes are looked for
   bool drawn = true;                         ///< whether a scene is wanted: a grid may have many positions
-  std::optional<GuideDescription> baseline;  ///< another guide, whose curves are laid behind
+  std::optional<GuideDescription> baseline;  ///< another suspension, whose curves are laid behind
   std::optional<VehicleForm> vehicle;
   std::optional<AxleForm> axle;
   std::optional<ComplianceForm> compliance;
@@ -78,7 +78,7 @@ study::Kind sweep_kind();
 std::optional<SweepStudy> read_sweep_study(study::ObjectReader& document, const study::Common& common,
                                            Value& canonical);
 
-/// Columns that are quantities of the study, whether its guide has them or not, else all that it has.
+/// Columns that are quantities of the study, whether its suspension has them or not, else all that it has.
 std::vector<const GuideColumn*> columns_of(const SweepStudy& study);
 
 /// Positions of a grid: for each rack all travels. Each rack is gone to at the travel next to zero, and the

@@ -40,7 +40,8 @@ std::optional<GuideDescription> read_baseline(study::ObjectReader& document, con
     study::DocumentReader reader(other, file, problems);
     study::ObjectReader root = reader.root();
     out = read_guide(root, there, OpenPoints::none);
-    if (!out && !has_errors(problems)) table->error("file", fmt::format("'{}' has no wheel guide", file));
+    if (!out && !has_errors(problems))
+      table->error("file", fmt::format("'{}' has no wheel suspension", file));
   }
   for (const Diagnostic& d : problems)
     if (d.severity == Diagnostic::Severity::error) table->unreadable("file", to_string(d));
@@ -157,7 +158,7 @@ study::Kind sweep_kind() {
   kind.kind = "analysis";
   kind.mechanism = "suspension.corner";
   kind.summary =
-      "wheel guide over wheel travel and rack: toe, camber, track, roll centre, steering axis, ...";
+      "wheel suspension over wheel travel and rack: toe, camber, track, roll centre, steering axis, ...";
   kind.quantities = quantity_words();
   kind.example = R"(# linkwright study: a double wishbone over wheel travel and rack
 schema = 1
@@ -227,7 +228,7 @@ values_mm = [-60.0, -30.0, 0.0, 30.0, 60.0]
     baseline.property(Field{.key = "file", .summary = "study whose mechanism it is"}, Value());
     baseline.property(Field{.key = "mechanism", .summary = "the mechanism itself"},
                       study::schema_fields<GuideForm>());
-    document.property(Field{.key = "baseline", .summary = "another wheel guide to compare with"},
+    document.property(Field{.key = "baseline", .summary = "another wheel suspension to compare with"},
                       std::move(baseline).finish());
     document.property(Field{.key = "vehicle", .summary = "what the axle is part of: anti-dive, Ackermann"},
                       study::schema_fields<VehicleForm>());

@@ -135,8 +135,13 @@ void add_assemblies(study::Result& result, const SweepStudy& s, const GuidePlan&
   for (const Assembly& a : assemblies(plan, s.travel, input)) {
     const WheelAngles angles = wheel_angles(plan.side, plan.wheel, a.place.carrier.rotation);
     const Vec3& centre = a.place.carrier.centre;
-    const std::array<double, 7> row{
-        centre.x, centre.y, centre.z, angles.toe, angles.camber, angles.spin, static_cast<double>(a.hits)};
+    const std::array<double, 7> row{centre.x,
+                                    centre.y,
+                                    centre.z,
+                                    angles.toe,
+                                    angles.camber,
+                                    angles.carrier_pitch,
+                                    static_cast<double>(a.hits)};
     for (std::size_t i = 0; i < row.size(); ++i) c[i].push_back(row[i]);
   }
   constexpr std::array<std::pair<const char*, const char*>, 7> keys{
@@ -148,7 +153,7 @@ void add_assemblies(study::Result& result, const SweepStudy& s, const GuidePlan&
        {"carrier_pitch_rad", "carrier pitch (rad)"},
        {"hits", "random starts that ended here"}}};
   for (std::size_t i = 0; i < keys.size(); ++i) table.add(keys[i].first, keys[i].second, c[i]);
-  result.facts.push_back({"ways to put it together, found", fmt::format("{}", table.rows())});
+  result.facts.push_back({"assembly modes found", fmt::format("{}", table.rows())});
   result.tables.push_back(std::move(table));
 }
 
@@ -179,7 +184,7 @@ void add_plots(study::Result& result, const SweepStudy& s) {
   over_travel("carrier_pitch", "Carrier pitch over travel", {"carrier_pitch_rad"});
 }
 
-/// The same table of the other guide, laid behind the diagrams.
+/// The same table of the other suspension, laid behind the diagrams.
 void add_baseline(study::Result& result, const SweepStudy& s, RunContext& context) {
   SweepStudy other = s;
   other.description = *s.baseline;
@@ -408,7 +413,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
            {},
            fmt::format("travel {:.6g} mm, rack {:.6g} mm: {}: {}", grid.travel(i) * 1e3, grid.rack(i) * 1e3,
                        to_string(p.status), p.reason),
-           "the table `limits` tells how far the links reach"});
+           "the table `limits` lists how far the links reach"});
   }
   if (lost > 5)
     result.diagnostics.push_back({Diagnostic::Severity::warning,
@@ -418,10 +423,11 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
                                   fmt::format("{} more positions are not reached", lost - 5),
                                   {}});
   result.headline =
-      lost == 0 ? fmt::format("{} wheel guide: all {} positions reached (largest closure residual {:.1g} m).",
-                              structure_name(structure_of(s.description.guide)), grid.rows(), worst)
-                : fmt::format("{} wheel guide: {} of {} positions are not reached.",
-                              structure_name(structure_of(s.description.guide)), lost, grid.rows());
+      lost == 0
+          ? fmt::format("{} wheel suspension: all {} positions reached (largest closure residual {:.1g} m).",
+                        structure_name(structure_of(s.description.guide)), grid.rows(), worst)
+          : fmt::format("{} wheel suspension: {} of {} positions are not reached.",
+                        structure_name(structure_of(s.description.guide)), lost, grid.rows());
   return result;
 }
 

@@ -5,7 +5,7 @@
 
 #include "linkwright/study/kind.h"
 
-// Values of an input as studies of wheel guides list them.
+// Values of an input as studies of wheel suspensions list them.
 namespace linkwright::suspension {
 
 /// Values of one input: from, to and step or samples; or listed (m, rad).
@@ -51,7 +51,7 @@ bool read_value(study::ObjectReader& reader, const study::ObjectReader::Found& f
 Value write_value(const Numbers& member);
 Value schema_value(const Field& field, const Numbers& member);
 
-/// The values, ascending, each once; nothing, and the problem told, if they make no sense. `unit` is for
+/// The values, ascending, each once; nothing, and the problem reported, if they make no sense. `unit` is for
 /// hints: "mm".
 std::optional<std::vector<double>> values_of(study::ObjectReader& table, const InputValues& values,
                                              std::string_view unit);

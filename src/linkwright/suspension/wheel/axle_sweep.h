@@ -64,7 +64,8 @@ struct AxleParameters {
   double roll_steer = WheelParameters::missing;
   double roll_toe_left = WheelParameters::missing, roll_toe_right = WheelParameters::missing;
   double roll_camber_left = WheelParameters::missing, roll_camber_right = WheelParameters::missing;
-  /// By the rack with the springs held, or the contact heights of a guide without; nothing if not steered.
+  /// By the rack with the springs held, or the contact heights of a suspension without; nothing if not
+  /// steered.
   std::optional<SteeringParameters> steering_left, steering_right;
 };
 AxleParameters axle_parameters(const AxlePlan& plan, const AxlePosition& position);

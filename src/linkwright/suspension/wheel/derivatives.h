@@ -14,14 +14,14 @@ namespace linkwright::suspension {
 /// Numbers taken together in one pass.
 inline constexpr int derivative_width = 4;
 
-/// A guide and the numbers that derivatives are asked for. Make it with `prepare_derivatives`.
+/// A suspension and the numbers that derivatives are asked for. Make it with `prepare_derivatives`.
 struct DerivativePlan {
   GuidePlan plan;
   std::vector<DesignNumber> numbers;
   std::vector<BasicGuidePlan<math::Dual<derivative_width>>> passes;
   BasicGuidePlan<math::Dual<derivative_width>> inputs;
 };
-/// Throws ContractError as `prepare` does, and for numbers that the guide does not have.
+/// Throws ContractError as `prepare` does, and for numbers that the suspension does not have.
 DerivativePlan prepare_derivatives(const WheelGuide& guide, std::vector<DesignNumber> numbers);
 
 /// How much of the parameters is wanted: at_rest is what a position shows without motion - angles, contact

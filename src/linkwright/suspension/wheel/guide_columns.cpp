@@ -33,7 +33,7 @@ constexpr std::array columns{
     column("toe_rad", "toe (rad)", "toe", toe),
     column("camber_rad", "camber (rad)", "camber", camber),
     column("front_view_camber_rad", "camber seen along x (rad)", "camber", front_view_camber),
-    column("carrier_pitch_rad", "carrier pitch (rad)", "carrier_pitch", spin),
+    column("carrier_pitch_rad", "carrier pitch (rad)", "carrier_pitch", carrier_pitch),
     column("contact_x_m", "contact point x (m)", "contact", contact_x),
     column("contact_y_m", "contact point y (m)", "contact", contact_y),
     column("contact_z_m", "contact point z (m)", "contact", contact_z),

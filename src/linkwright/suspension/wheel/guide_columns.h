@@ -40,11 +40,11 @@ std::optional<WheelQuantity> quantity_of(const GuideColumn& column, Driver lock)
 /// Its value; NaN without a position, steering axis or spring.
 double value_of(const GuideColumn& column, const GuideRow& row);
 
-/// Empty, or why a guide has no such number: without a spring, without a link on the rack, without two ball
-/// joints or two planes of arms. Its values are then missing.
+/// Empty, or why a suspension has no such number: without a spring, without a link on the rack, without two
+/// ball joints or two planes of arms. Its values are then missing.
 std::string why_missing(const WheelGuide& guide, const GuideColumn& column);
 
-/// The steering axis with `lock` held; null when the guide is not steered or has no spring to hold.
+/// The steering axis with `lock` held; null when the suspension is not steered or has no spring to hold.
 const SteeringAxis* steering_axis_of(const WheelParameters& wheel, Driver lock);
 
 }  // namespace linkwright::suspension

@@ -10,7 +10,7 @@
 namespace linkwright::suspension {
 
 /// The axis about which the wheel turns when it is steered: instantaneous screw axis of the motion by the
-/// rack while `lock` is held (equations 30 to 37 with 30, 31 and 36 put right). What is held has to be told:
+/// rack while `lock` is held (equations 30 to 37 with 30, 31 and 36 corrected). What is held has to be given:
 /// with the spring held the axis of a double wishbone passes through both ball joints, with the wheel
 /// centre's or the contact point's height held it does not. The geometric axis is the line through both ball
 /// joints of the carrier, without any motion: it holds nothing and has no pitch.
@@ -36,7 +36,7 @@ using SteeringAxis = BasicSteeringAxis<double>;
 /// the wheel centre in the front centre and the longitudinal plane through it in the side centre; the line
 /// from the contact point to the front centre meets the middle plane of the vehicle in the roll centre. The
 /// motion itself (`front_centre`, `roll_centre_height`) differs by what the tie rod adds: bump steer. NaN for
-/// a guide without two planes, see GuideConstruction; a centre of parallel arms lies at infinity.
+/// a suspension without two planes, see GuideConstruction; a centre of parallel arms lies at infinity.
 template <class T>
 struct BasicArmCentres {
   static constexpr double missing = nan;
@@ -87,9 +87,9 @@ struct BasicWheelParameters {
   /// m/rad, of the carrier's screw as it travels with the rack held; infinite where it only shifts.
   T screw_pitch = missing;
   BasicArmCentres<T> arms;
-  /// Of a guide with a link on the rack; the second only with a spring.
+  /// Of a suspension with a link on the rack; the second only with a spring.
   std::optional<BasicSteeringAxis<T>> axis_at_height, axis_at_spring, axis_at_contact;
-  /// Of a guide whose carrier has two ball joints, steered or not.
+  /// Of a suspension whose carrier has two ball joints, steered or not.
   std::optional<BasicSteeringAxis<T>> geometric_axis;
 };
 using WheelParameters = BasicWheelParameters<double>;

@@ -7,7 +7,7 @@ std::string_view unit_of(WheelQuantity quantity) {
   switch (quantity) {
     case toe:
     case camber:
-    case spin:
+    case carrier_pitch:
     case side_swing_angle:
     case caster_at_height:
     case inclination_at_height:
@@ -95,8 +95,8 @@ double value_of(const WheelParameters& p, WheelQuantity quantity) {
       return p.angles.toe;
     case camber:
       return p.angles.camber;
-    case spin:
-      return p.angles.spin;
+    case carrier_pitch:
+      return p.angles.carrier_pitch;
     case contact_x:
       return p.contact.x;
     case contact_y:

@@ -14,7 +14,7 @@ namespace linkwright::suspension {
 enum class WheelQuantity {
   toe,
   camber,
-  spin,
+  carrier_pitch,
   contact_x,
   contact_y,
   contact_z,
@@ -89,7 +89,7 @@ constexpr std::array<EnumName<WheelQuantity>, 71> names(WheelQuantity) {
   return {
       {{toe, "toe", "toe angle"},
        {camber, "camber", "camber angle"},
-       {spin, "carrier_pitch", "turn of the carrier about the wheel's axis"},
+       {carrier_pitch, "carrier_pitch", "turn of the carrier about the wheel's axis"},
        {contact_x, "contact_x", "contact point, forward"},
        {contact_y, "contact_y", "contact point, to the left"},
        {contact_z, "contact_z", "contact point, upward"},

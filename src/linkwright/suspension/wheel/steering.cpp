@@ -21,7 +21,8 @@ bool is_steered(const GuidePlan& plan) {
 
 std::optional<SteeringParameters> steering_parameters(const GuidePlan& plan, const GuidePosition& position,
                                                       Driver lock) {
-  LINKWRIGHT_REQUIRE(lock != Driver::spring || plan.spring, "the spring is held, and the guide has none");
+  LINKWRIGHT_REQUIRE(lock != Driver::spring || plan.spring,
+                     "the spring is held, and the suspension has none");
   if (!is_steered(plan)) return std::nullopt;
   const GuideRates rates = solve_rates(plan, position, Driver::wheel_centre_z);
   if (rates.status != Status::done) return std::nullopt;
@@ -36,7 +37,7 @@ std::optional<SteeringParameters> steering_parameters(const GuidePlan& plan, con
                             .toe_by_rack = toe,
                             .steer_by_rack = -outboard * toe,
                             .camber_by_toe = by_rack.camber / toe,
-                            .spin_by_toe = by_rack.spin / toe,
+                            .carrier_pitch_by_toe = by_rack.carrier_pitch / toe,
                             .brake_arm = speed.on_carrier.x / toe,
                             .drive_arm = speed.geometric.x / toe,
                             .lateral_arm = outboard * speed.on_carrier.y / toe,

@@ -17,7 +17,8 @@ struct SteeringParameters {
   double steer_by_rack =
       0;  ///< rad/m, steer angle about +z, of either wheel > 0 if a rack to the left steers left
   double camber_by_toe = 0;  ///< rad/rad
-  double spin_by_toe = 0;  ///< rad/rad, carrier about the wheel's axis: what caster the wheel's bearing keeps
+  double carrier_pitch_by_toe =
+      0;  ///< rad/rad, carrier about the wheel's axis: what caster the wheel's bearing keeps
   /// m: force forward at the contact, braked by the carrier (outboard brake): > 0 where braking toes out.
   double brake_arm = 0;
   /// m: force forward at the contact, the wheel free to turn on its carrier (drive shaft, inboard brake).
@@ -29,11 +30,12 @@ struct SteeringParameters {
   double contact_rise_by_rack = 0;  ///< m/m, the same by rack
 };
 
-/// Nothing for a guide that no rack moves, at a limit of travel, and where the rack does not turn the wheel.
+/// Nothing for a suspension that no rack moves, at a limit of travel, and where the rack does not turn the
+/// wheel.
 std::optional<SteeringParameters> steering_parameters(const GuidePlan& plan, const GuidePosition& position,
                                                       Driver lock);
 
-/// Whether any link of the guide is on the rack.
+/// Whether any link of the suspension is on the rack.
 bool is_steered(const GuidePlan& plan);
 
 /// Turn of the steering wheel (with its pinion) by steer angle, > 0: from the rack travel by a turn of the

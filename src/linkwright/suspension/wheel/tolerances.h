@@ -10,7 +10,7 @@
 #include "linkwright/suspension/guide/position.h"
 #include "linkwright/suspension/wheel/quantities.h"
 
-/// How far the curves of a wheel guide move when its points are made within tolerances.
+/// How far the curves of a wheel suspension move when its points are made within tolerances.
 namespace linkwright::suspension {
 
 /// A number of the design, made within plus or minus `tolerance` (m, rad, 1), at least 0.
@@ -62,7 +62,7 @@ struct ToleranceBands {
 /// The bands by exact derivatives and, if asked for, by designs drawn at random and solved, on
 /// RunContext::threads() threads. Every sample has random numbers of its own, so that results are the same
 /// bits for any number of threads. Throws ContractError for tolerances below 0 or not finite, numbers that
-/// the guide does not have, and no inputs or curves.
+/// the suspension does not have, and no inputs or curves.
 ToleranceBands tolerance_bands(const ToleranceTask& task, const MonteCarlo& monte_carlo, RunContext& context);
 
 }  // namespace linkwright::suspension

@@ -102,7 +102,7 @@ LINKWRIGHT_KERNEL void check_register(const PoseCheckTask& task, std::size_t k) 
                               task.least_transmission > 0;
   const bool determinant_wanted = wanted(I::rods) || wanted(I::manipulability) || task.assembly != 0;
   if (!xsimd::any(reaches)) {
-    Batch(static_cast<double>(Hurdle::leg)).store_unaligned(task.hurdle + k);
+    Batch(static_cast<double>(Criterion::leg)).store_unaligned(task.criterion + k);
     for (std::size_t index = 0; index < pose_index_count; ++index)
       if (task.wanted[index]) not_known.store_unaligned(task.index[index] + k);
     return;
@@ -227,21 +227,21 @@ LINKWRIGHT_KERNEL void check_register(const PoseCheckTask& task, std::size_t k) 
   }
 
   // The last condition first, so that the first one that fails stays.
-  Batch hurdle(0.0);
-  const auto demand = [&](const Mask& met, Hurdle h) __attribute__((always_inline)) {
-    hurdle = S::choose(met, hurdle, Batch(static_cast<double>(h)));
+  Batch criterion(0.0);
+  const auto demand = [&](const Mask& met, Criterion h) __attribute__((always_inline)) {
+    criterion = S::choose(met, criterion, Batch(static_cast<double>(h)));
   };
-  demand(well_conditioned, Hurdle::conditioning);
-  demand(transmits, Hurdle::transmission);
+  demand(well_conditioned, Criterion::conditioning);
+  demand(transmits, Criterion::transmission);
   if (task.least_drive_transmission > 0)
-    demand(drive_transmission >= Batch(task.least_drive_transmission), Hurdle::drive_transmission);
-  demand(in_swing, Hurdle::swing);
-  demand(in_elbow, Hurdle::elbow);
-  demand(in_travel, Hurdle::travel);
-  demand(held, Hurdle::constraint);
-  demand(same_assembly, Hurdle::assembly);
-  demand(reaches, Hurdle::leg);
-  hurdle.store_unaligned(task.hurdle + k);
+    demand(drive_transmission >= Batch(task.least_drive_transmission), Criterion::drive_transmission);
+  demand(in_swing, Criterion::swing);
+  demand(in_elbow, Criterion::elbow);
+  demand(in_travel, Criterion::travel);
+  demand(held, Criterion::constraint);
+  demand(same_assembly, Criterion::assembly);
+  demand(reaches, Criterion::leg);
+  criterion.store_unaligned(task.criterion + k);
 }
 
 template <class Batch>

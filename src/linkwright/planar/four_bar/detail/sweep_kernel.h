@@ -91,7 +91,7 @@ LINKWRIGHT_KERNEL Batch four_bar_sample(const FourBarSweepTask& task, const Four
   return S::choose(good, Batch(1.0), Batch(0.0));
 }
 
-/// Drives the kernel over registers of angles or of machines. The smallest of all `good` tells whether all
+/// Drives the kernel over registers of angles or of machines. The smallest of all `good` says whether all
 /// are.
 template <class Batch>
 LINKWRIGHT_KERNEL bool four_bar_sweep_with(const FourBarSweepTask& task) {

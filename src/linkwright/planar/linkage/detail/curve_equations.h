@@ -112,7 +112,7 @@ class CurveEquations {
       PartState<double>& part = y.parts[part_index(parts_[i])];
       const auto c = static_cast<Eigen::Index>(3 * i);
       part.origin = part.origin + plan_.size * Vec<double>{z[c], z[c + 1]};
-      part.direction = tidy_unit(turn(part.direction, planar::unit(z[c + 2])));
+      part.direction = renormalised(rotate(part.direction, planar::unit(z[c + 2])));
     }
     y.value += z[n_] / unit_;
   }

@@ -28,8 +28,8 @@ inline JointRows joint_rows(const PlanJoint& j, bool driven, const std::vector<P
   JointRows out;
   out.point = point_on(parts[static_cast<std::size_t>(j.after.part)], j.after.at);
   if (j.slide) {
-    out.along = turn(parts[static_cast<std::size_t>(j.before.part)].direction, j.before.direction);
-    out.rows[0].force = left(out.along);
+    out.along = rotate(parts[static_cast<std::size_t>(j.before.part)].direction, j.before.direction);
+    out.rows[0].force = perpendicular(out.along);
     out.rows[1].moment = 1;
     if (driven) out.rows[2].force = out.along;
   } else {
@@ -50,14 +50,14 @@ inline std::array<double, 3> joint_residuals(const PlanJoint& j, const JointRows
         &after = parts[static_cast<std::size_t>(j.after.part)];
   const Vec<double> apart = r.point - point_on(before, j.before.at);
   if (j.slide) {
-    const Vec<double> other = turn(after.direction, j.after.direction);
+    const Vec<double> other = rotate(after.direction, j.after.direction);
     const double angle = std::atan2(cross(r.along, other), dot(r.along, other));
     return {cross(r.along, apart), angle * size, input ? dot(r.along, apart) - sense(j) * input->value : 0.0};
   }
   double turned = 0;
   if (input) {
-    const Vec<double> relative =
-        unturn(turn(before.direction, j.before.direction), turn(after.direction, j.after.direction));
+    const Vec<double> relative = rotate_inverse(rotate(before.direction, j.before.direction),
+                                                rotate(after.direction, j.after.direction));
     turned = math::wrap_angle(angle_of(relative) - sense(j) * input->value) * size;
   }
   return {apart.x, apart.y, turned};

@@ -62,7 +62,7 @@ struct SweepBlock {
 template <class Batch>
 LINKWRIGHT_KERNEL void sweep_forces(const SweepTask& task, SweepBlock<Batch>& block) {
   const LinkagePlan& plan = *task.plan;
-  const Vec<Batch> gravity = spread<Batch>(task.gravity);
+  const Vec<Batch> gravity = broadcast<Batch>(task.gravity);
   const Batch none(0.0);
   for (auto& r : block.registers) {
     r.needed[0] = {{none, none}, none};
@@ -80,7 +80,8 @@ LINKWRIGHT_KERNEL void sweep_forces(const SweepTask& task, SweepBlock<Batch>& bl
         store_reaction(task, rows, j, true, r.parts, w, point_on(r.parts[j.after.part], j.after.at));
         Batch drive = w.moment;
         if (j.slide)
-          drive = dot(turn(r.parts[j.before.part].direction, spread<Batch>(j.before.direction)), w.force);
+          drive =
+              dot(rotate(r.parts[j.before.part].direction, broadcast<Batch>(j.before.direction)), w.force);
         rows.store(task.drives + static_cast<std::size_t>(g.input), j.reversed ? -drive : drive);
       }
       continue;

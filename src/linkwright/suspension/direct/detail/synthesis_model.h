@@ -7,7 +7,7 @@
 
 namespace linkwright::suspension {
 
-/// What a design comes to, for a method that goes by derivatives: with respect to the designed numbers in
+/// What a design comes to, for a method that goes by derivatives: with respect to the design variables in
 /// parts of their ranges.
 struct DirectPoint {
   bool assembled = false;
@@ -16,7 +16,7 @@ struct DirectPoint {
   std::vector<double> limits, limits_by;  ///< [limit] excess in centimetres, [limit][number]
 };
 
-/// A task as a function of the designed numbers, each from 0 at its lower to 1 at its upper end.
+/// A task as a function of the design variables, each from 0 at its lower to 1 at its upper end.
 class DirectModel {
  public:
   /// Throws ContractError as `synthesise` does.

@@ -9,7 +9,7 @@
 #include "linkwright/suspension/guide/constraints.h"
 #include "linkwright/suspension/guide/detail/wheel_kernel.h"
 
-/// The equations of a wheel guide, written once for numbers and for numbers with derivatives.
+/// The equations of a wheel suspension, written once for numbers and for numbers with derivatives.
 namespace linkwright::suspension::kernel {
 
 /// One equation: a sum of weights on moving points.
@@ -95,8 +95,8 @@ struct LinkPoint {
   Vector3<T> at;
   const BasicLinkConstants<T>* link = nullptr;  ///< null = the carrier
   Vector3<T> offset;                            ///< carrier
-  BasicRodPoint<T> rod;                         ///< KS, SS
-  Vector3<T> line, turning;    ///< KS: along the rod, and the K joint's axis that turns with it
+  BasicRodPoint<T> rod;                         ///< US, SS
+  Vector3<T> line, turning;    ///< US: along the rod, and the U joint's axis that turns with it
   BasicAffinePoint<T> affine;  ///< SR: from the first hinge point; RS: from the first body point
   Vector3<T> f1, f2, r1, r2;
 };
@@ -137,7 +137,7 @@ BasicRodPoint<T> rod_point_of(const Vector3<T>& point, const Vector3<T>& body, c
                               LinkType type, const Vector3<T>& standing_axis) {
   const Vector3<T> line = carrier - body, from = point - body;
   BasicRodPoint<T> out{.along = dot(from, line) / dot(line, line)};
-  if (type != LinkType::KS) return out;
+  if (type != LinkType::US) return out;
   const Vector3<T> turning = unit(cross(standing_axis, line));
   out.held = true;
   out.beside = dot(from, turning);
@@ -220,7 +220,7 @@ void write_meeting(const Placed<T>& placed, const BasicLinkConstants<T>& link, c
 template <class T>
 LINKWRIGHT_KERNEL void write_link(const Placed<T>& placed, const BasicLinkConstants<T>& link, Writer<T>& to) {
   switch (link.type) {
-    case LinkType::KS:
+    case LinkType::US:
     case LinkType::SS:
       write_distance(placed, link, 0, 0, 0, to);
       return;
@@ -320,7 +320,7 @@ T spring_length(const Placed<T>& placed, Row<T>& row) {
     row.by_rack += dot(weight, placed.rack_speed(*link));
     return length;
   }
-  const bool rod = link->type == LinkType::KS || link->type == LinkType::SS;
+  const bool rod = link->type == LinkType::US || link->type == LinkType::SS;
   const LinkPoint<T> end =
       rod ? rod_point(placed, *link, spring.on_rod) : frame_point(placed, *link, spring.point);
   const auto [length, weight] = pull(end.at);
@@ -352,7 +352,7 @@ T write_driver(const Placed<T>& placed, Driver driver, Row<T>& row) {
   return T(0);
 }
 
-/// `prepare` for a guide that has been checked, without labels.
+/// `prepare` for a suspension that has been checked, without labels.
 template <class T>
 BasicGuidePlan<T> prepare(const BasicWheelGuide<T>& guide) {
   BasicGuidePlan<T> plan{.side = guide.side,
@@ -369,10 +369,10 @@ BasicGuidePlan<T> prepare(const BasicWheelGuide<T>& guide) {
     for (std::size_t k = 0; k < from.carrier.size(); ++k) link.offset[k] = from.carrier[k] - centre;
     if (from.body.size() == 2) link.axis = unit(from.body[1] - from.body[0]);
     switch (from.type) {
-      case LinkType::KS:
+      case LinkType::US:
       case LinkType::SS:
         link.length[0] = from.length.value_or(norm(from.carrier[0] - from.body[0]));
-        if (from.type == LinkType::KS)
+        if (from.type == LinkType::US)
           link.standing_axis = standing_axis(from.cross_axis, from.carrier[0] - from.body[0]);
         break;
       case LinkType::RS:

@@ -35,7 +35,8 @@ BasicWheelAngles<T> wheel_angles(Side side, const BasicGuideWheel<T>& reference,
   using std::cos;
   using std::hypot;
   using std::sin;
-  // The second column of the rotation without its reference part is the axis; what is left of it is the spin.
+  // The second column of the rotation without its reference part is the axis; what is left of it is the
+  // carrier pitch.
   const T ct = cos(reference.toe), st = sin(reference.toe);
   const T cc = cos(reference.camber), sc = sin(reference.camber);
   const Matrix3<T> left = on_left(side, rotation);
@@ -55,9 +56,9 @@ Vector3<T> angular_velocity(Side side, const BasicWheelAngles<T>& at, const Basi
   using std::sin;
   const T ct = cos(at.toe), st = sin(at.toe);
   const T cc = cos(at.camber), sc = sin(at.camber);
-  return turning_on_left(
-      side, Vector3<T>{-rates.camber * ct + rates.spin * st * cc, rates.camber * st + rates.spin * ct * cc,
-                       -rates.toe - rates.spin * sc});
+  return turning_on_left(side, Vector3<T>{-rates.camber * ct + rates.carrier_pitch * st * cc,
+                                          rates.camber * st + rates.carrier_pitch * ct * cc,
+                                          -rates.toe - rates.carrier_pitch * sc});
 }
 
 template <class T>
@@ -66,8 +67,8 @@ BasicWheelAngles<T> angle_rates(Side side, const BasicWheelAngles<T>& at, const 
   using std::sin;
   const Vector3<T> turn = turning_on_left(side, turning);
   const T ct = cos(at.toe), st = sin(at.toe);
-  const T spin = (turn.x * st + turn.y * ct) / cos(at.camber);
-  return {-turn.z - spin * sin(at.camber), turn.y * st - turn.x * ct, spin};
+  const T carrier_pitch = (turn.x * st + turn.y * ct) / cos(at.camber);
+  return {-turn.z - carrier_pitch * sin(at.camber), turn.y * st - turn.x * ct, carrier_pitch};
 }
 
 template <class T>

@@ -166,7 +166,7 @@ BasicArmCentres<T> arm_centres(const Placed<T>& placed, const Vector3<T>& contac
   const T ahead = side.across / side.weight, over = side.up / side.weight;
   out.side = {contact.x + ahead, contact.z + over};
   out.side_swing_arm = hypot(ahead, over);
-  // Of parallel traces the ratio still tells the slope.
+  // Of parallel traces the ratio still gives the slope.
   const T slope = side.up / side.across;
   out.side_swing_angle = atan(ahead < 0 ? -slope : slope);
   return out;
@@ -261,7 +261,7 @@ void for_each_number(const BasicWheelParameters<A>& a, BasicWheelParameters<B>& 
   };
   f(a.angles.toe, b.angles.toe);
   f(a.angles.camber, b.angles.camber);
-  f(a.angles.spin, b.angles.spin);
+  f(a.angles.carrier_pitch, b.angles.carrier_pitch);
   f(a.front_view_camber, b.front_view_camber);
   vector(a.contact, b.contact);
   f(a.track, b.track);

@@ -1,0 +1,119 @@
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/math/angles.h"
+#include "linkwright/planar/studies/linkage_scene.h"
+#include "linkwright/planar/studies/speed_fluctuation.h"
+
+namespace linkwright::planar {
+namespace {
+
+double rpm(double speed) { return speed * 30 / pi; }
+
+void warn(study::Result& result, std::string message) {
+  result.diagnostics.push_back({Diagnostic::Severity::warning, {}, {}, {}, std::move(message), {}});
+}
+
+void add_plot(study::Result& result, std::string name, std::string title, std::string table,
+              std::vector<std::string> y) {
+  result.plots.push_back({.name = std::move(name),
+                          .title = std::move(title),
+                          .table = table,
+                          .x = result.scenes.empty() ? "input_rad" : result.scenes[0].input_key,
+                          .y = std::move(y),
+                          .scene = table == "cycle" ? "motion" : ""});
+}
+
+// The cycle drawn with the forces that it has at the mean speed.
+study::Scene drawn(const SpeedFluctuationStudy& s, const SpeedFluctuation& cycle) {
+  LinkageMotion motion(s.plan);
+  LinkageForces forces;
+  std::vector<LinkageRecord> records;
+  for (const double value : cycle.input) {
+    const InputMotion input{value, s.setup.mean_speed, 0};
+    solve_motion(s.plan, std::span(&input, 1), motion);
+    solve_forces(s.linkage, s.plan, motion, 0, value, forces);
+    records.push_back(record_of(s.linkage, s.plan, motion, &forces, value));
+  }
+  return linkage_scene(s.linkage, s.plan, records, s.traces, input_key(s.linkage, s.plan, 0),
+                       input_joint(s.linkage, 0).name + " angle");
+}
+
+}  // namespace
+
+study::Result run_speed_fluctuation(const SpeedFluctuationStudy& s, RunContext& context) {
+  study::Result result;
+  const SpeedFluctuation cycle = speed_fluctuation(s.linkage, s.plan, s.setup, &context);
+  result.status = cycle.status;
+  if (cycle.speed.empty()) {
+    result.headline = "No cycle: " + cycle.message + ".";
+    warn(result, cycle.message);
+    return result;
+  }
+  const std::string key = input_key(s.linkage, s.plan, 0), label = input_label(s.linkage, s.plan, 0);
+  Table table{.name = "cycle"};
+  table.add(key, label, cycle.input);
+  table.add("inertia_kg_m2", "reduced inertia (kg m2)", cycle.inertia);
+  table.add("load_torque_N_m", "torque of weight and loads on the input (N m)", cycle.torque);
+  table.add("excess_energy_J", "excess energy with a constant motor torque (J)", cycle.energy);
+  table.add("speed_rad_per_s", "speed without flywheel (rad/s)", cycle.speed);
+  table.add("speed_with_flywheel_rad_per_s", "speed with flywheel (rad/s)", cycle.with_flywheel);
+  table.status.assign(cycle.input.size(), "done");
+  result.tables.push_back(std::move(table));
+  result.scenes.push_back(drawn(s, cycle));
+  add_plot(result, "inertia", "Reduced inertia", "cycle", {"inertia_kg_m2"});
+  add_plot(result, "torque", "Torque of weight and loads on the input", "cycle", {"load_torque_N_m"});
+  add_plot(result, "energy", "Excess energy with a constant motor torque", "cycle", {"excess_energy_J"});
+  add_plot(result, "speed", "Speed without and with the flywheel", "cycle",
+           {"speed_rad_per_s", "speed_with_flywheel_rad_per_s"});
+  const auto fact = [&](std::string name, std::string text) {
+    result.facts.push_back({std::move(name), std::move(text), study::Fact::Verdict::plain});
+  };
+  fact("constant motor torque",
+       fmt::format("{:.6g} N m ({:.5g} W at {:.5g} rpm)", cycle.motor_torque,
+                   cycle.motor_torque * s.setup.mean_speed, rpm(s.setup.mean_speed)));
+  fact("fluctuation of energy", fmt::format("{:.6g} J", cycle.energy_fluctuation));
+  fact("coefficient of fluctuation without flywheel", fmt::format("{:.5g}", cycle.fluctuation));
+  const bool found = cycle.status == Status::done;  // else interrupted, with the cycle, without the flywheel
+  fact("flywheel on the input", !found               ? "not found: " + cycle.message
+                                : cycle.flywheel > 0 ? fmt::format("{:.6g} kg m2 for a coefficient of {:.4g}",
+                                                                   cycle.flywheel, s.setup.fluctuation)
+                                                     : "none is needed");
+  result.statistics["motor_torque_N_m"] = cycle.motor_torque;
+  result.statistics["energy_fluctuation_J"] = cycle.energy_fluctuation;
+  result.statistics["fluctuation"] = cycle.fluctuation;
+  result.statistics["flywheel_kg_m2"] = cycle.flywheel;
+  result.headline =
+      !found ? fmt::format("The speed varies by {:.4g} of its mean of {:.5g} rpm; {}.", cycle.fluctuation,
+                           rpm(s.setup.mean_speed), cycle.message)
+      : cycle.flywheel > 0
+          ? fmt::format(
+                "A flywheel of {:.5g} kg m2 on {} keeps the speed within {:.4g} of its mean of {:.5g} rpm.",
+                cycle.flywheel, input_joint(s.linkage, 0).name, s.setup.fluctuation, rpm(s.setup.mean_speed))
+          : fmt::format("The speed stays within {:.4g} of its mean of {:.5g} rpm without a flywheel.",
+                        cycle.fluctuation, rpm(s.setup.mean_speed));
+  if (!found) warn(result, cycle.message);
+  if (!found || !s.has_motor) return result;
+
+  const SteadyCycle steady = steady_cycle(s.linkage, s.plan, s.setup, &context);
+  if (steady.status != Status::done) {
+    result.status = steady.status;
+    warn(result, "with the motor, without flywheel: " + steady.message);
+    return result;
+  }
+  Table with{.name = "steady"};
+  with.add(key, label, steady.input);
+  with.add("speed_rad_per_s", "speed with the motor, without flywheel (rad/s)", steady.speed);
+  with.status.assign(steady.input.size(), "done");
+  result.tables.push_back(std::move(with));
+  add_plot(result, "steady", "Speed with the motor, without flywheel", "steady", {"speed_rad_per_s"});
+  fact("steady mean speed with the motor", fmt::format("{:.6g} rpm, coefficient of fluctuation {:.5g}",
+                                                       rpm(steady.mean_speed), steady.fluctuation));
+  result.statistics["steady_mean_speed_rad_per_s"] = steady.mean_speed;
+  result.statistics["steady_fluctuation"] = steady.fluctuation;
+  return result;
+}
+
+}  // namespace linkwright::planar
