@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "linkwright/clearance/studies/simulation.h"
+#include "linkwright/clearance/studies/templates.h"
 #include "linkwright/clearance/studies/tolerance.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/study/bind.h"
@@ -379,101 +380,7 @@ study::Kind tolerance_kind() {
       "random linkages, which tolerance to tighten";
   kind.schema = describe;
   kind.prepare = prepare;
-  kind.example = R"(# linkwright study: clearances and length errors of a planar linkage
-schema = 1
-kind   = "analysis"
-title  = "How well does my four-bar keep to its path?"
-
-[mechanism]
-type = "clearance.linkage"
-
-# The first body is the ground. Points are in the frame of the body.
-[[mechanism.body]]
-name      = "ground"
-points_mm = { O = [0, 0], B0 = [200, 0] }
-
-[[mechanism.body]]
-name      = "crank"
-points_mm = { O = [0, 0], A = [50, 0] }
-
-[[mechanism.body]]
-name      = "coupler"
-points_mm = { A = [0, 0], B = [160, 0], P = [80, 90] }
-
-[[mechanism.body]]
-name      = "rocker"
-points_mm = { B0 = [0, 0], B = [120, 0] }
-
-[[mechanism.joint]]
-name   = "O"
-first  = "ground.O"
-second = "crank.O"
-
-[[mechanism.joint]]
-name   = "A"
-first  = "crank.A"
-second = "coupler.A"
-
-[[mechanism.joint]]
-name   = "B"
-first  = "coupler.B"
-second = "rocker.B"
-
-[[mechanism.joint]]
-name   = "B0"
-first  = "ground.B0"
-second = "rocker.B0"
-
-# A pair of bodies can be assembled two ways: plus = the inner pin lies to the left.
-[[mechanism.assembly]]
-bodies = ["coupler", "rocker"]
-mode   = "plus"
-
-[[drive]]
-joint     = "O"
-speed_rpm = 60.0
-
-[sweep]
-type = "grid"
-
-[[sweep.input]]
-joint    = "O"
-from_deg = 0.0
-to_deg   = 360.0
-samples  = 181
-
-# Loose pins: the pin lies anywhere within its clearance.
-[[clearance]]
-joint        = "A"
-clearance_mm = 0.05                 # radius of the bush less radius of the pin
-
-[[clearance]]
-joint        = "B"
-clearance_mm = 0.05
-
-# Lengths: the distance of two points of a body errs by at most this.
-[[tolerance]]
-body         = "coupler"
-from         = "A"
-to           = "B"
-tolerance_mm = 0.1
-
-# What is looked at: points, and angles, ways, forces and drives of joints.
-[[trace]]
-point = "coupler.P"
-
-[watch]
-coordinates = ["B0"]
-
-# How many linkages keep to an error?
-[[limit]]
-point    = "coupler.P"
-error_mm = 0.15
-
-[monte_carlo]
-draws = 2000
-seed  = 1
-)";
+  kind.example = templates::analysis_linkage();
   return kind;
 }
 

@@ -6,6 +6,7 @@
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "linkwright/planar/studies/linkage.h"
+#include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
@@ -277,76 +278,7 @@ study::Kind linkage_kind() {
   study::Kind kind = kind_of(LinkageType::linkage);
   kind.mechanism = "planar.linkage";
   kind.summary = "motion, joint reactions, drive torque and shaking force of any planar linkage";
-  kind.example = R"(# linkwright study: motion and forces of a planar linkage
-schema = 1
-kind   = "analysis"
-title  = "Forces of my linkage"
-
-[mechanism]
-type = "planar.linkage"
-
-# The first body is the ground. Points are in the frame of the body.
-[[mechanism.body]]
-name      = "ground"
-points_mm = { O = [0, 0], B0 = [600, 0] }
-
-[[mechanism.body]]
-name      = "crank"
-points_mm = { O = [0, 0], A = [100, 0] }
-mass_kg   = 0.36                    # inertia and centre: those of a uniform bar unless given
-
-[[mechanism.body]]
-name      = "coupler"
-points_mm = { A = [0, 0], B = [400, 0], C = [250, 150] }
-mass_kg   = 1.3
-
-[[mechanism.body]]
-name      = "rocker"
-points_mm = { B0 = [0, 0], B = [320, 0] }
-mass_kg   = 1.05
-
-# Joints: revolute, prismatic, pin_in_slot, fixed, gear.
-[[mechanism.joint]]
-name   = "O"
-first  = "ground.O"
-second = "crank.O"
-
-[[mechanism.joint]]
-name   = "A"
-first  = "crank.A"
-second = "coupler.A"
-
-[[mechanism.joint]]
-name   = "B"
-first  = "coupler.B"
-second = "rocker.B"
-
-[[mechanism.joint]]
-name   = "B0"
-first  = "ground.B0"
-second = "rocker.B0"
-
-# A pair of bodies can be assembled two ways: plus = the inner pin lies to the left.
-[[mechanism.assembly]]
-bodies = ["coupler", "rocker"]
-mode   = "plus"
-
-[[drive]]
-joint     = "O"
-speed_rpm = 300.0
-
-[sweep]
-type = "grid"
-
-[[sweep.input]]
-joint    = "O"
-from_deg = 0.0
-to_deg   = 360.0
-samples  = 361
-
-[[trace]]
-point = "coupler.C"
-)";
+  kind.example = templates::analysis_linkage();
   return kind;
 }
 
@@ -354,45 +286,7 @@ study::Kind slider_crank_kind() {
   study::Kind kind = kind_of(LinkageType::slider_crank);
   kind.mechanism = "planar.slider_crank";
   kind.summary = "motion, joint reactions, drive torque and shaking force of a slider-crank";
-  kind.example = R"(# linkwright study: motion and forces of a slider-crank
-schema = 1
-kind   = "analysis"
-title  = "Forces of my engine"
-
-[mechanism]
-type   = "planar.slider_crank"
-branch = "forward"                  # forward | backward
-
-[mechanism.parameters]
-crank_mm        = 50.0
-rod_mm          = 150.0
-offset_mm       = 0.0               # of the guide from the crank pivot, to the left of its direction
-guide_angle_deg = 0.0
-
-[mechanism.mass]
-slider_kg = 0.4
-
-[mechanism.mass.crank]
-mass_kg            = 0.9
-inertia_kg_m2      = 1.2e-3         # about the mass centre
-centre_distance_mm = 10.0           # from O
-
-[mechanism.mass.rod]
-mass_kg            = 0.5
-inertia_kg_m2      = 1.5e-3
-centre_distance_mm = 50.0           # from A
-
-[[drive]]
-speed_rpm = 3000.0
-
-[sweep]
-type = "grid"
-
-[[sweep.input]]
-from_deg = 0.0
-to_deg   = 360.0
-samples  = 361
-)";
+  kind.example = templates::analysis_slider_crank();
   return kind;
 }
 

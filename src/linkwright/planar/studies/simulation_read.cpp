@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "linkwright/planar/studies/elastic.h"
+#include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
@@ -251,58 +252,7 @@ study::Kind linkage_simulation_kind() {
   kind.mechanism = "planar.linkage";
   kind.summary =
       "motion of any planar linkage under weight, springs, forces and motors, with an energy audit";
-  kind.example = R"(# linkwright study: motion of a planar linkage under forces
-schema = 1
-kind   = "simulation"
-title  = "My linkage swings"
-
-[mechanism]
-type = "planar.linkage"
-
-# The first body is the ground. Points are in the frame of the body.
-[[mechanism.body]]
-name      = "ground"
-points_mm = { O = [0, 0] }
-
-[[mechanism.body]]
-name      = "upper"
-points_mm = { O = [0, 0], A = [300, 0] }
-mass_kg   = 0.5                     # inertia and centre: those of a uniform bar unless given
-
-[[mechanism.body]]
-name      = "lower"
-points_mm = { A = [0, 0], B = [200, 0] }
-mass_kg   = 0.3
-
-[[mechanism.joint]]
-name   = "O"
-first  = "ground.O"
-second = "upper.O"
-
-[[mechanism.joint]]
-name   = "A"
-first  = "upper.A"
-second = "lower.A"
-
-# One [[drive]] for each degree of freedom: free = true, or a motion law.
-[[drive]]
-joint           = "O"
-free            = true
-start_deg       = 0.0
-start_speed_rpm = 0.0
-
-[[drive]]
-joint     = "A"
-free      = true
-start_deg = 90.0
-
-[simulation]
-to_s    = 5.0
-samples = 501
-
-[[trace]]
-point = "lower.B"
-)";
+  kind.example = templates::simulation_linkage();
   return kind;
 }
 
@@ -310,41 +260,7 @@ study::Kind slider_crank_simulation_kind() {
   study::Kind kind = kind_of(LinkageType::slider_crank);
   kind.mechanism = "planar.slider_crank";
   kind.summary = "motion of a slider-crank under its weight, with an energy audit";
-  kind.example = R"(# linkwright study: a slider-crank let go
-schema = 1
-kind   = "simulation"
-title  = "My engine coasts"
-
-[mechanism]
-type   = "planar.slider_crank"
-branch = "forward"                  # forward | backward
-
-[mechanism.parameters]
-crank_mm        = 50.0
-rod_mm          = 150.0
-guide_angle_deg = 0.0
-
-[mechanism.mass]
-slider_kg = 0.4
-
-[mechanism.mass.crank]
-mass_kg            = 0.9
-inertia_kg_m2      = 1.2e-3         # about the mass centre
-centre_distance_mm = 10.0           # from O
-
-[mechanism.mass.rod]
-mass_kg            = 0.5
-inertia_kg_m2      = 1.5e-3
-centre_distance_mm = 50.0           # from A
-
-[[drive]]
-free            = true
-start_deg       = 90.0
-start_speed_rpm = 600.0
-
-[simulation]
-to_s = 0.5
-)";
+  kind.example = templates::simulation_slider_crank();
   return kind;
 }
 

@@ -10,6 +10,7 @@
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/designed.h"
 #include "linkwright/suspension/studies/direct.h"
+#include "linkwright/suspension/studies/templates.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -418,44 +419,7 @@ study::Kind direct_kind() {
   kind.summary =
       "wheel guide from what its wheel is to do: toe, camber, track, roll centre ... (direct synthesis)";
   kind.seeded = true;
-  kind.example =
-      R"(# linkwright study: less bump steer of a double wishbone, only the inner point of the tie rod being free
-schema = 1
-kind   = "synthesis"
-title  = "Less bump steer"
-
-[mechanism]
-type   = "suspension.corner"
-sample = "2RS-KS"                   # or links with their points, as in an analysis
-
-# What is free: a box around the point. Also link = "tie rod", length_mm = { min = 250, max = 300 }
-[[design]]
-point  = "tie rod.body"
-box_mm = 60.0
-
-[target]
-type       = "wheel_parameters"
-coordinate = "wheel_centre_z"       # what travel_mm counts
-# file = "curves.csv"               # columns travel_mm, rack_mm, toe_deg, ... for curves without value
-
-[[target.curve]]
-quantity      = "toe"               # any column of an analysis
-measure       = "change"            # against the reference position; or value, relative_change
-travel_mm     = [-80, -60, -40, -20, 20, 40, 60, 80]
-value_deg     = 0.0
-tolerance_deg = 0.02
-
-[[constraint]]
-type   = "link_length"
-link   = "tie rod"
-min_mm = 250.0
-
-[optimiser]
-method = "recommended"
-goal   = "largest"                  # or least_squares, priorities (in the order of curves), one
-starts = 10
-seeds  = { first = 1, count = 1 }
-)";
+  kind.example = templates::synthesis_corner_wheel_parameters();
   kind.schema = [](study::SchemaWriter& document) {
     describe_guide(document);
     study::SchemaWriter target, curve;
