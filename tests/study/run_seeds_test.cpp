@@ -102,5 +102,18 @@ TEST(RunSeeds, LogsComeBackToTheBit) {
               ThrowsMessage<CheckpointError>(HasSubstr("seed 1: its log is none of generations")));
 }
 
+TEST(RunSeeds, StatisticsOfWhatIsToBecomeLargeAreWrittenAsThemselves) {
+  const std::vector<optimise::SeedOutcome> outcomes{{-0.75, 0, 10}, {-0.5, 0, 30}};
+  Value out;
+  write_statistics(out, optimise::statistics(outcomes, -0.625), -1);
+  EXPECT_EQ(out.find("best")->as_number(), 0.75);
+  EXPECT_EQ(out.find("median")->as_number(), 0.625);
+  EXPECT_EQ(out.find("worst")->as_number(), 0.5);
+  EXPECT_GT(out.find("quantile10")->as_number(), out.find("quantile90")->as_number());
+  EXPECT_EQ(out.find("success_threshold")->as_number(), 0.625);
+  EXPECT_EQ(out.find("success_rate")->as_number(), 0.5);
+  EXPECT_EQ(out.find("evaluations")->as_integer(), 40);
+}
+
 }  // namespace
 }  // namespace linkwright::study

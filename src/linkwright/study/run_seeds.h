@@ -79,19 +79,8 @@ auto run_seeds(const Seeds& asked, RunContext& context, std::string_view stage, 
   return out;
 }
 
-/// Writes what seeds came to behind what `out` holds, under the keys that all studies with seeds have.
-inline void write_statistics(Value& out, const optimise::SeedStatistics& st) {
-  out["seeds"] = st.seeds;
-  out["feasible_seeds"] = st.feasible;
-  out["best"] = st.best;
-  out["quantile10"] = st.quantile10;
-  out["median"] = st.median;
-  out["quantile90"] = st.quantile90;
-  out["worst"] = st.worst;
-  out["success_threshold"] = st.threshold;
-  out["success_rate"] = st.success_rate;
-  out["evaluations"] = st.evaluations;
-  out["median_evaluations"] = st.median_evaluations;
-}
+/// Writes what seeds came to behind what `out` holds, under the keys that all studies with seeds have. Where
+/// a cost is minus what is to become large, sign = -1 writes what it stands for.
+void write_statistics(Value& out, const optimise::SeedStatistics& st, double sign = 1);
 
 }  // namespace linkwright::study

@@ -188,14 +188,7 @@ void add_statistics(study::Result& result, const DexterityStudy& s, const Runs& 
   }
   const optimise::SeedStatistics st = optimise::statistics(outcomes, best + 1e-6 * std::abs(best));
   result.statistics["method"] = std::visit([](const auto& m) { return choice_word(m).name; }, s.method);
-  result.statistics["seeds"] = st.seeds;
-  result.statistics["success_rate"] = st.success_rate;
-  const double sign = larger_is_better(s.task.goal) ? -1 : 1;
-  result.statistics["best"] = sign * st.best;
-  result.statistics["median"] = sign * st.median;
-  result.statistics["worst"] = sign * st.worst;
-  result.statistics["evaluations"] = st.evaluations;
-  result.statistics["median_evaluations"] = st.median_evaluations;
+  study::write_statistics(result.statistics, st, larger_is_better(s.task.goal) ? -1 : 1);
 }
 
 study::Solution solution_of(const DexterityStudy& s, const Answer& a) {

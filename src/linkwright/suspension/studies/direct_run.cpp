@@ -300,13 +300,7 @@ void add_statistics(study::Result& result, const DirectStudy& s, const Runs& run
   result.statistics["method"] =
       std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method);
   result.statistics["goal"] = name_of(options_of(s).goal);
-  result.statistics["seeds"] = st.seeds;
-  result.statistics["success_rate"] = st.success_rate;
-  result.statistics["best"] = st.best;
-  result.statistics["median"] = st.median;
-  result.statistics["worst"] = st.worst;
-  result.statistics["evaluations"] = st.evaluations;
-  result.statistics["median_evaluations"] = st.median_evaluations;
+  study::write_statistics(result.statistics, st);
 }
 
 Table directions_table(const DirectStudy& s, const DirectSynthesis& best) {

@@ -429,13 +429,7 @@ void add_statistics(study::Result& result, const IndirectStudy& s, const Runs& r
   const optimise::SeedStatistics st = optimise::statistics(outcomes, infinity);
   result.statistics["method"] =
       std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method);
-  result.statistics["seeds"] = st.seeds;
-  result.statistics["success_rate"] = st.success_rate;
-  result.statistics["best"] = st.best;
-  result.statistics["median"] = st.median;
-  result.statistics["worst"] = st.worst;
-  result.statistics["evaluations"] = st.evaluations;
-  result.statistics["median_evaluations"] = st.median_evaluations;
+  study::write_statistics(result.statistics, st);
 }
 
 std::string metres(double value) {
