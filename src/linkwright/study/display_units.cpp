@@ -41,16 +41,15 @@ void count(const Value& value, std::vector<Count>& counts) {
 /// Every unit suffix that a list may name.
 std::vector<std::string_view> all_suffixes() {
   std::vector<std::string_view> all;
-  for (int d = 1; d <= static_cast<int>(Dimension::second_moment_of_area); ++d)
-    for (const Unit& unit : units(static_cast<Dimension>(d)))
+  for (const Dimension dimension : dimensions())
+    for (const Unit& unit : units(dimension))
       if (std::find(all.begin(), all.end(), unit.suffix) == all.end()) all.push_back(unit.suffix);
   return all;
 }
 
 std::optional<UnitKey> unit_called(std::string_view suffix) {
-  for (int d = 1; d <= static_cast<int>(Dimension::second_moment_of_area); ++d)
-    if (const Unit* unit = find_unit(static_cast<Dimension>(d), suffix))
-      return UnitKey{{}, unit, static_cast<Dimension>(d)};
+  for (const Dimension dimension : dimensions())
+    if (const Unit* unit = find_unit(dimension, suffix)) return UnitKey{{}, unit, dimension};
   return std::nullopt;
 }
 
