@@ -151,9 +151,8 @@ bool read_value(ObjectReader& reader, const ObjectReader::Found& found, const Fi
     return true;
   }
   if (value.is_string()) {
-    const std::string_view nearest = nearest_word(value.as_string(), {"si", "study"});
     reader.problem(found, fmt::format("is '{}', must be {}", value.as_string(), allowed),
-                   nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+                   did_you_mean(value.as_string(), {"si", "study"}));
     return false;
   }
   if (!value.is_array()) {
@@ -168,11 +167,9 @@ bool read_value(ObjectReader& reader, const ObjectReader::Found& found, const Fi
     const ObjectReader::Found at{&element, nullptr, fmt::format("{}[{}]", found.path, i)};
     const auto unit = element.is_string() ? unit_called(element.as_string()) : std::nullopt;
     if (!unit) {
-      const std::string_view nearest =
-          element.is_string() ? nearest_word(element.as_string(), all_suffixes()) : std::string_view();
       reader.problem(at, "is no unit that keys may carry",
-                     nearest.empty() ? fmt::format("units are {}", fmt::join(all_suffixes(), ", "))
-                                     : fmt::format("did you mean '{}'?", nearest));
+                     did_you_mean(element.is_string() ? element.as_string() : std::string(), all_suffixes(),
+                                  fmt::format("units are {}", fmt::join(all_suffixes(), ", "))));
       good = false;
       continue;
     }

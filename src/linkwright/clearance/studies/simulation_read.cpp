@@ -165,9 +165,7 @@ std::optional<int> joint_named(study::ObjectReader& table, std::string_view key,
   if (j >= 0) return j;
   std::vector<std::string_view> known;
   for (const planar::LinkageJoint& k : l.joints) known.push_back(k.name);
-  const std::string_view nearest = nearest_word(name, known);
-  table.error(key, fmt::format("there is no joint '{}'", name),
-              nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+  table.error(key, fmt::format("there is no joint '{}'", name), did_you_mean(name, known));
   return std::nullopt;
 }
 

@@ -85,11 +85,6 @@ constexpr Field limit_field(bool angle) {
                angle ? Dimension::angle : Dimension::length);
 }
 
-std::string hint_for(std::string_view name, const std::vector<std::string_view>& known) {
-  const std::string_view nearest = nearest_word(name, known);
-  return nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest);
-}
-
 // ---- what is loose
 // ----------------------------------------------------------------------------------------------------
 
@@ -117,7 +112,7 @@ std::optional<int> point_of(study::ObjectReader& table, std::string_view key, co
   if (point >= 0) return point;
   std::vector<std::string_view> known;
   for (const planar::LinkagePoint& p : body.points) known.push_back(p.name);
-  table.error(key, fmt::format("body '{}' has no point '{}'", body.name, name), hint_for(name, known));
+  table.error(key, fmt::format("body '{}' has no point '{}'", body.name, name), did_you_mean(name, known));
   return std::nullopt;
 }
 
@@ -127,7 +122,7 @@ std::optional<LengthTolerance> length_of(study::ObjectReader& table, const Lengt
   if (b < 0) {
     std::vector<std::string_view> known;
     for (const planar::LinkageBody& body : l.bodies) known.push_back(body.name);
-    table.error("body", fmt::format("there is no body '{}'", form.body), hint_for(form.body, known));
+    table.error("body", fmt::format("there is no body '{}'", form.body), did_you_mean(form.body, known));
     return std::nullopt;
   }
   const planar::LinkageBody& body = l.bodies[at(b)];

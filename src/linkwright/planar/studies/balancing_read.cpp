@@ -105,10 +105,9 @@ void check_quantities(study::ObjectReader& document, std::string_view list,
   std::vector<study::ObjectReader> entries = document.tables(list);
   for (std::size_t k = 0; k < quantities.size() && k < entries.size(); ++k) {
     if (table.find(quantities[k])) continue;
-    const std::string_view nearest = nearest_word(quantities[k], known);
-    entries[k].error("quantity", fmt::format("the analysis has no column '{}'", quantities[k]),
-                     nearest.empty() ? fmt::format("columns are: {}", fmt::join(known, ", "))
-                                     : fmt::format("did you mean '{}'?", nearest));
+    entries[k].error(
+        "quantity", fmt::format("the analysis has no column '{}'", quantities[k]),
+        did_you_mean(quantities[k], known, fmt::format("columns are: {}", fmt::join(known, ", "))));
   }
 }
 

@@ -40,9 +40,8 @@ std::optional<PointAddress> find_point(study::ObjectReader& table, const WheelGu
         if (known.back() == label) return PointAddress{static_cast<int>(i), carrier, static_cast<int>(k)};
       }
   const std::vector<std::string_view> words(known.begin(), known.end());
-  const std::string_view nearest = nearest_word(label, words);
   table.error("point", fmt::format("no point is called '{}'; there are: {}", label, fmt::join(known, ", ")),
-              nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+              did_you_mean(label, words));
   return std::nullopt;
 }
 
@@ -53,9 +52,8 @@ std::optional<int> find_link(study::ObjectReader& table, std::string_view key, c
     if (guide.links[i].name == name) return static_cast<int>(i);
     known.emplace_back(guide.links[i].name);
   }
-  const std::string_view nearest = nearest_word(name, known);
   table.error(key, fmt::format("no link is called '{}'; there are: {}", name, fmt::join(known, ", ")),
-              nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+              did_you_mean(name, known));
   return std::nullopt;
 }
 
