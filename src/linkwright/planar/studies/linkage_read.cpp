@@ -26,12 +26,6 @@ void fields(Visitor&& visit, LinkageQuality& q) {
         q.assembly_modes);
 }
 
-static constexpr Field samples_field{.key = "samples",
-                                     .summary = "number of values, both ends included",
-                                     .minimum = 2,
-                                     .maximum = 100000,
-                                     .required = true};
-
 namespace {
 
 enum class SweepType { grid, time };
@@ -59,8 +53,7 @@ void read_drives(study::ObjectReader& document, const Linkage& l, bool over_time
     const bool rotary = input_joint(l, *input).type == JointType::revolute;
     LinkageDrive& d = s.drives[*input];
     if (!over_time) {
-      drive(drive_field(rotary, 1, "speed", "rate at every position"), d.rate);
-      drive(drive_field(rotary, 2, "acceleration", "acceleration at every position"), d.acceleration);
+      joint_fields(drive, rotary, d);
     } else {
       d.law = read_law(drive, rotary, true, canonical[*input]);
     }
@@ -74,8 +67,7 @@ void read_drives(study::ObjectReader& document, const Linkage& l, bool over_time
     }
     const bool rotary = input_joint(l, i).type == JointType::revolute;
     study::ObjectWriter writer(canonical[i]);
-    writer(drive_field(rotary, 1, "speed", {}), s.drives[i].rate);
-    writer(drive_field(rotary, 2, "acceleration", {}), s.drives[i].acceleration);
+    joint_fields(writer, rotary, s.drives[i]);
   }
 }
 
@@ -90,16 +82,14 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageStudy& s, Va
     const bool rotary = input_joint(l, *input).type == JointType::revolute;
     InputSamples& a = grid.inputs[*input];
     a.joint = input_joint(l, *input).name;
-    axis(drive_field(rotary, 0, "from", "first value", true), a.from);
-    axis(drive_field(rotary, 0, "to", "last value", true), a.to);
-    axis(samples_field, a.samples);
+    joint_fields(axis, rotary, a);
     rows *= std::max(a.samples, 1);
     if (a.samples >= 2 && a.from == a.to)
       axis.error("to", "the sweep ends where it begins",
                  rotary ? "for a full turn write from_deg = 0, to_deg = 360" : "give another end");
   }
   for (std::size_t i = 0; i < grid.inputs.size(); ++i) {
-    const InputSamples& a = grid.inputs[i];
+    InputSamples& a = grid.inputs[i];
     if (a.samples == 0 && !sweep.document().has_errors())
       sweep.error("input",
                   fmt::format("joint '{}' is driven, but the sweep does not say where it goes",
@@ -108,9 +98,7 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageStudy& s, Va
     const bool rotary = input_joint(l, i).type == JointType::revolute;
     study::ObjectWriter writer(axes[i]);
     writer(Field{.key = "joint", .summary = {}}, input_joint(l, i).name);
-    writer(drive_field(rotary, 0, "from", {}), a.from);
-    writer(drive_field(rotary, 0, "to", {}), a.to);
-    writer(samples_field, a.samples);
+    joint_fields(writer, rotary, a);
   }
   if (rows > most_rows)
     sweep.error("input", fmt::format("the grid has {:.0f} rows, at most {:.0f} are allowed", rows, most_rows),
@@ -169,9 +157,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
       Value axis;
       study::ObjectWriter writer(axis);
       writer(Field{.key = "joint", .summary = {}}, grid.inputs[i].joint);
-      writer(drive_field(rotary, 0, "from", {}), sample.from[i]);
-      writer(drive_field(rotary, 0, "to", {}), sample.to[i]);
-      writer(samples_field, 361);
+      joint_fields(writer, rotary, grid.inputs.back());
       axes.push_back(std::move(axis));
     }
     canonical_sweep["type"] = "grid";
@@ -185,7 +171,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
       for (std::size_t i = 0; i < l.driven.size(); ++i) {
         s.drives[i].rate = i == 0 ? sample.speed : 0.0;
         study::ObjectWriter writer(drives[i]);
-        writer(drive_field(description->plan.rotary[i], 1, "speed", {}), s.drives[i].rate);
+        joint_fields(writer, description->plan.rotary[i], s.drives[i]);
       }
   } else if (how == SweepType::grid) {
     read_grid(*sweep, l, s, canonical_sweep);
@@ -231,18 +217,12 @@ void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bo
   study::SchemaWriter drive;
   drive(Field{.key = "joint", .summary = "driven joint"}, std::string());
   drive(Field{.key = "law", .summary = "motion law, for a sweep over time"}, std::optional<study::AnyLaw>());
-  for (bool rotary : {true, false})
-    for (const auto& [order, key] : {std::pair{1, "speed"}, std::pair{2, "acceleration"}})
-      drive.property(drive_field(rotary, order, key, "over a grid: the same at every position"),
-                     study::schema_number());
+  describe_joint_fields<LinkageDrive>(drive);
   document.property(Field{.key = "drive", .summary = "how driven joints move"},
                     study::schema_array(std::move(drive).finish()));
   study::SchemaWriter axis;
   axis(Field{.key = "joint", .summary = "driven joint"}, std::string());
-  for (bool rotary : {true, false})
-    for (const char* key : {"from", "to"})
-      axis.property(drive_field(rotary, 0, key, "end of the axis"), study::schema_number());
-  axis(samples_field, 361);
+  describe_joint_fields<InputSamples>(axis);
   study::SchemaWriter sweep;
   sweep(Field{.key = "type", .summary = "how rows are placed"}, SweepType::grid);
   sweep.property(Field{.key = "input", .summary = "axes of a grid"},

@@ -84,8 +84,7 @@ std::vector<InputCourse> read_courses(study::ObjectReader& document, const Linka
     const bool rotary = d.plan.rotary[i];
     study::ObjectWriter writer(canonical[i]);
     writer(free_field, true);
-    writer(drive_field(rotary, 0, "start", {}), courses[i].value);
-    writer(drive_field(rotary, 1, "start_speed", {}), courses[i].rate);
+    joint_fields(writer, rotary, courses[i]);
   };
   for (std::size_t i = 0; i < l.driven.size(); ++i) {
     canonical[i]["joint"] = input_joint(l, i).name;
@@ -102,8 +101,7 @@ std::vector<InputCourse> read_courses(study::ObjectReader& document, const Linka
     bool free = false;
     if (!drive(free_field, free) && drive.has("free")) continue;
     if (free) {
-      drive(drive_field(rotary, 0, "start", "position at the start"), courses[i].value);
-      drive(drive_field(rotary, 1, "start_speed", "rate at the start"), courses[i].rate);
+      joint_fields(drive, rotary, courses[i]);
       if (drive.has("law"))
         drive.error("law", fmt::format("joint '{}' is free and has a motion law", joint),
                     "remove one of them");
@@ -126,9 +124,7 @@ void describe_courses(study::SchemaWriter& document) {
   study::SchemaWriter drive;
   drive(Field{.key = "joint", .summary = "joint whose coordinate it is"}, std::string());
   drive(free_field, false);
-  for (bool rotary : {true, false})
-    for (const auto& [order, key] : {std::pair{0, "start"}, std::pair{1, "start_speed"}})
-      drive.property(drive_field(rotary, order, key, "of a free joint"), study::schema_number());
+  describe_joint_fields<InputCourse>(drive);
   drive(Field{.key = "law", .summary = "motion law of a joint that is not free"},
         std::optional<study::AnyLaw>());
   document.property(Field{.key = "drive", .summary = "joints that are free, or move as a law says"},
