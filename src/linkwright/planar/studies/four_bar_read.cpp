@@ -35,18 +35,20 @@ ReactionsQuantities chosen_four_bar_quantities(const std::vector<std::string>& l
 }
 
 // Lengths so small or so far apart that the mechanics would leave the range of a double are no design.
-void check_lengths(study::ObjectReader& mechanism, const FourBar& l, const study::DisplayUnits& units) {
+void check_lengths(study::ObjectReader& mechanism, FourBar l, const study::DisplayUnits& units) {
   constexpr double least = 1e-9;
   auto parameters = mechanism.table("parameters");
   if (!parameters) return;
-  for (const auto& [key, length] : {std::pair{"ground", l.ground}, std::pair{"crank", l.crank},
-                                    std::pair{"coupler", l.coupler}, std::pair{"rocker", l.rocker}})
-    if (length < least)
-      parameters->error(
-          key,
-          fmt::format("is {}, a link must be at least {} long", units.text(length, Dimension::length),
-                      units.text(least, Dimension::length)),
-          "check the unit");
+  fields(
+      [&](const Field& field, double& length) {
+        if (field.exclusive_minimum && length < least)
+          parameters->error(
+              field.key,
+              fmt::format("is {}, a link must be at least {} long", units.text(length, Dimension::length),
+                          units.text(least, Dimension::length)),
+              "check the unit");
+      },
+      l);
 }
 
 }  // namespace

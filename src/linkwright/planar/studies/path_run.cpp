@@ -5,6 +5,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
+#include "linkwright/core/units.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/optimise/statistics.h"
 #include "linkwright/planar/four_bar/classify.h"
@@ -137,9 +138,12 @@ std::vector<PathDesign> distinct_designs(const PathStudy& s, const Run& run) {
 }
 
 std::array<double, four_bar_parameter_count> values_of(const PathDesign& d, bool with_start) {
-  const FourBar& l = d.linkage;
-  return {l.ground,    l.crank,   l.coupler, l.rocker,      l.coupler_u,
-          l.coupler_v, l.pivot_x, l.pivot_y, l.frame_angle, with_start ? d.angles[0] : 0.0};
+  std::array<double, four_bar_parameter_count> out{};
+  std::size_t j = 0;
+  FourBar l = d.linkage;
+  fields([&](const Field&, double& value) { out[j++] = value; }, l);
+  out[j] = with_start ? d.angles[0] : 0.0;
+  return out;
 }
 
 study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t number) {
@@ -413,15 +417,18 @@ void warn_of_transmission(study::Result& result, const PathProblem& p, const Pat
 
 void add_cognates(study::Result& result, const PathDesign& best) {
   Table table{.name = "cognates"};
-  const std::array<std::string_view, 10> keys = {"ground_m",        "crank_m",     "coupler_m", "rocker_m",
-                                                 "coupler_u_m",     "coupler_v_m", "pivot_x_m", "pivot_y_m",
-                                                 "frame_angle_rad", "same_timing"};
-  for (std::string_view key : keys) table.add(std::string(key), std::string(key));
-  const auto row = [&](const FourBar& l, bool same_timing) {
-    const std::array<double, 10> v = {
-        l.ground,    l.crank,   l.coupler, l.rocker,      l.coupler_u,
-        l.coupler_v, l.pivot_x, l.pivot_y, l.frame_angle, same_timing ? 1.0 : 0.0};
-    for (std::size_t i = 0; i < v.size(); ++i) table.columns[i].values.push_back(v[i]);
+  FourBar numbers;
+  fields(
+      [&](const Field& field, double&) {
+        const std::string key = si_key(field.key, field.dimension);
+        table.add(key, key);
+      },
+      numbers);
+  table.add("same_timing", "same_timing");
+  const auto row = [&](FourBar l, bool same_timing) {
+    std::size_t i = 0;
+    fields([&](const Field&, double& value) { table.columns[i++].values.push_back(value); }, l);
+    table.columns[i].values.push_back(same_timing ? 1.0 : 0.0);
   };
   row(best.linkage, true);
   for (const Cognate& cognate : cognates(best.linkage, best.angles[0]))
