@@ -8,6 +8,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/flexible/response.h"
 #include "linkwright/flexible/studies/templates.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::flexible {
 namespace {
@@ -204,9 +205,7 @@ study::Result run_arm_study(const ArmStudy& s, RunContext& context) {
   const Table& motion = result.tables.front();
   const std::vector<Worst> worst = record(s, run.arm, run.simulation).worst;
   std::vector<study::Fact> facts;
-  const auto fact = [&](std::string label, std::string text) {
-    facts.push_back({std::move(label), std::move(text), study::Fact::Verdict::plain});
-  };
+  const study::AddFact fact{facts};
 
   double peak = 0, when = 0;
   for (std::size_t i = 0; i < motion.rows(); ++i) {

@@ -9,6 +9,7 @@
 #include "linkwright/flexible/response.h"
 #include "linkwright/flexible/studies/templates.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::flexible {
 namespace {
@@ -166,9 +167,7 @@ study::Result run_hub_link(const HubLinkStudy& s, RunContext& context) {
   const Table& motion = result.tables.front();
   const double peak = largest_of(motion, "tip_eta_m");
   std::vector<study::Fact> facts;
-  const auto fact = [&](std::string label, std::string text) {
-    facts.push_back({std::move(label), std::move(text), study::Fact::Verdict::plain});
-  };
+  const study::AddFact fact{facts};
   fact("largest displacement of the tip across the link", millimetres(peak));
   if (s.mechanism.fibre_distance)
     fact("largest bending stress", fmt::format("{:.4g} MPa", 1e-6 * largest_of(motion, "bending_stress_Pa")));

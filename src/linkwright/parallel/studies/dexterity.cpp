@@ -12,6 +12,7 @@
 #include "linkwright/parallel/studies/templates.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/memory.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
 namespace linkwright::parallel {
@@ -424,9 +425,7 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
   result.tables.push_back(seeds_table(s, runs));
   using Verdict = study::Fact::Verdict;
   const bool good = a.best.status == Status::done;
-  const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
-    result.facts.push_back({std::move(label), std::move(text), verdict});
-  };
+  const study::AddFact fact{result.facts};
   const auto variables = design_variables(s.task);
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const bool angle = variables[i].name.ends_with("_rad"), length = variables[i].name.ends_with("_m");

@@ -11,6 +11,7 @@
 #include "linkwright/planar/studies/balancing.h"
 #include "linkwright/planar/studies/four_bar_balancing.h"
 #include "linkwright/planar/studies/mass_balancing.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
 namespace linkwright::planar {
@@ -351,9 +352,7 @@ class Report {
   void facts() {
     using Verdict = study::Fact::Verdict;
     const BalancedDesign& d = designs_.front();
-    const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
-      result_.facts.push_back({std::move(label), std::move(text), verdict});
-    };
+    const study::AddFact fact{result_.facts};
     std::string told;
     const std::vector<double> values = goal_values(p_.task, balanced()),
                               old = goal_values(p_.task, initial());

@@ -16,6 +16,7 @@
 #include "linkwright/planar/path/usability.h"
 #include "linkwright/planar/studies/four_bar_scene.h"
 #include "linkwright/planar/studies/path.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
 namespace linkwright::planar {
@@ -312,11 +313,7 @@ void add_published(study::Result& result, const PathProblem& p, double best) {
   }
 }
 
-std::string metres(double value) {
-  if (value >= 0.1) return fmt::format("{:.4g} m", value);
-  if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
-  return fmt::format("{:.3g} µm", value * 1e6);
-}
+using study::metres;
 
 // Distances below this share of the size of the path are rounding.
 constexpr double exact_share = 1e-12;

@@ -11,6 +11,7 @@
 #include "linkwright/planar/path/slider_crank_samples.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
 #include "linkwright/planar/studies/slider_crank_path_scene.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
 namespace linkwright::planar {
@@ -25,11 +26,7 @@ constexpr std::size_t most_drawn = 15;
 // A pressure angle beyond this moves the slider badly.
 constexpr double steep = 75;
 
-std::string metres(double value) {
-  if (value >= 0.1) return fmt::format("{:.4g} m", value);
-  if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
-  return fmt::format("{:.3g} µm", value * 1e6);
-}
+using study::metres;
 
 class Report {
  public:
@@ -298,9 +295,7 @@ class Report {
     const SliderPathErrors errors = path_errors(p_, best);
     const auto worst = std::max_element(errors.distance.begin(), errors.distance.end());
     const double pressure = math::degrees(greatest_pressure_angle(best.mechanism.parameters));
-    const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
-      result_.facts.push_back({std::move(label), std::move(text), verdict});
-    };
+    const study::AddFact fact{result_.facts};
     if (!feasible_) {
       std::string reasons;
       for (const auto& v : best.violations) reasons += (reasons.empty() ? "" : ", ") + v.reason;
@@ -340,10 +335,7 @@ class Report {
          fmt::format("{:.0f} of {}", success_ * static_cast<double>(runs_.runs.size()), runs_.runs.size()),
          success_ > 0.9 ? Verdict::good : Verdict::plain);
     fact("evaluations", fmt::format("{}", result_.statistics.find("evaluations")->as_integer()));
-    const auto warn = [&](std::string message, std::string hint) {
-      result_.diagnostics.push_back(
-          {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
-    };
+    const study::AddWarning warn{result_.diagnostics};
     if (runs_.runs.size() < static_cast<std::size_t>(common_.seeds.count))
       warn(fmt::format("interrupted: {} of {} seeds ran", runs_.runs.size(), common_.seeds.count), {});
     if (pressure > steep)
