@@ -79,6 +79,23 @@ auto run_seeds(const Seeds& asked, RunContext& context, std::string_view stage, 
   return out;
 }
 
+/// What one seed came to, for the log of a result.
+Value seed_entry(std::uint64_t seed, Status status, double best, std::int64_t evaluations);
+
+/// Adds how the best of a seed fell to its entry: what had been reached after so many evaluations, to the end
+/// of the run.
+template <class Point>
+void write_history(Value& entry, std::vector<Point> points, std::int64_t evaluations) {
+  if (!points.empty()) points.push_back({evaluations, points.back().best});
+  entry["history"] = Value::array();
+  for (const Point& point : points) {
+    Value step;
+    step["evaluations"] = point.evaluations;
+    step["best"] = point.best;
+    entry["history"].push_back(std::move(step));
+  }
+}
+
 /// Writes what seeds came to behind what `out` holds, under the keys that all studies with seeds have. Where
 /// a cost is minus what is to become large, sign = -1 writes what it stands for.
 void write_statistics(Value& out, const optimise::SeedStatistics& st, double sign = 1);

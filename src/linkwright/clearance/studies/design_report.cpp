@@ -212,11 +212,7 @@ class DesignReporter {
     for (std::size_t i = 0; i < runs_.answers.size(); ++i) {
       const ClearanceDesignAnswer& a = runs_.answers[i];
       outcomes.push_back({a.cost, std::isfinite(a.cost) ? 0.0 : 1.0, a.evaluations});
-      Value entry;
-      entry["seed"] = static_cast<std::int64_t>(runs_.seeds[i]);
-      entry["status"] = to_string(a.status);
-      entry["best"] = a.cost;
-      entry["evaluations"] = a.evaluations;
+      Value entry = study::seed_entry(runs_.seeds[i], a.status, a.cost, a.evaluations);
       entry["history"] = Value::array();
       double last = infinity;
       for (const optimise::GenerationLog& g : a.log) {

@@ -169,11 +169,7 @@ void add_statistics(study::Result& result, const DexterityStudy& s, const Runs& 
     const Answer& a = runs.answers[i];
     const double cost = cost_of(s.task.goal, a);
     outcomes.push_back({cost, std::isfinite(cost) ? 0.0 : 1.0, a.evaluations});
-    Value entry;
-    entry["seed"] = static_cast<std::int64_t>(runs.seeds[i]);
-    entry["status"] = to_string(a.status);
-    entry["best"] = cost;
-    entry["evaluations"] = a.evaluations;
+    Value entry = study::seed_entry(runs.seeds[i], a.status, cost, a.evaluations);
     Value history = Value::array();
     double last = infinity;
     for (const optimise::GenerationLog& g : a.log) {

@@ -257,26 +257,14 @@ double add_statistics(study::Result& result, const Run& run, double best, double
     const double error = seed.designs.empty() ? infinity : seed.designs[0].error;
     const double violation = seed.designs.empty() ? infinity : total_violation(seed.designs[0]);
     outcomes.push_back({error, violation, seed.evaluations});
-    Value entry;
-    entry["seed"] = static_cast<std::int64_t>(run.seeds[i]);
-    entry["status"] = to_string(seed.status);
-    entry["best"] = violation > 0 ? nan : error;  // sum of squared distances (m2)
+    Value entry = study::seed_entry(run.seeds[i], seed.status, violation > 0 ? nan : error,
+                                    seed.evaluations);  // sum of squared distances (m2)
     entry["violation"] = violation;
-    entry["evaluations"] = seed.evaluations;
     if (!seed.designs.empty()) {
       entry["violations"] = Value::array();
       for (const auto& v : seed.designs[0].violations) entry["violations"].push_back(v.reason);
     }
-    entry["history"] = Value::array();
-    std::vector<SearchPoint> history = seed.history;
-    if (!history.empty())
-      history.push_back({seed.evaluations, history.back().best});  // to the end of the run
-    for (const SearchPoint& point : history) {
-      Value step;
-      step["evaluations"] = point.evaluations;
-      step["best"] = point.best;
-      entry["history"].push_back(std::move(step));
-    }
+    study::write_history(entry, seed.history, seed.evaluations);
     result.log.push_back(std::move(entry));
   }
   const double threshold = best + std::max(success_share * best, success_of_size * size * size);

@@ -147,22 +147,10 @@ class Report {
       const double violation = run.designs.empty() ? infinity : total_violation(run.designs[0]);
       const double error = run.designs.empty() ? infinity : run.designs[0].error;
       outcomes.push_back({s_.front ? missing_[i] : error, violation, run.evaluations});
-      Value entry;
-      entry["seed"] = static_cast<std::int64_t>(runs_.seeds[i]);
-      entry["status"] = to_string(run.status);
-      entry["best"] = violation > 0 ? nan : error;  // sum of squared distances (m2)
+      Value entry = study::seed_entry(runs_.seeds[i], run.status, violation > 0 ? nan : error,
+                                      run.evaluations);  // sum of squared distances (m2)
       entry["violation"] = violation;
-      entry["evaluations"] = run.evaluations;
-      entry["history"] = Value::array();
-      std::vector<SearchPoint> history = run.history;
-      if (!history.empty())
-        history.push_back({run.evaluations, history.back().best});  // to the end of the run
-      for (const SearchPoint& point : history) {
-        Value step;
-        step["evaluations"] = point.evaluations;
-        step["best"] = point.best;
-        entry["history"].push_back(std::move(step));
-      }
+      study::write_history(entry, run.history, run.evaluations);
       result_.log.push_back(std::move(entry));
     }
     const double size = path_size(p_), best = feasible_ ? designs_[0].error : infinity;

@@ -276,11 +276,7 @@ void add_statistics(study::Result& result, const DirectStudy& s, const Runs& run
     const DirectSynthesis& a = runs.answers[i];
     const double value = cost_of(a, options_of(s));
     outcomes.push_back({value, a.status == Status::done ? 0.0 : 1.0, a.evaluations});
-    Value entry;
-    entry["seed"] = static_cast<std::int64_t>(runs.seeds[i]);
-    entry["status"] = to_string(a.status);
-    entry["best"] = value;
-    entry["evaluations"] = a.evaluations;
+    Value entry = study::seed_entry(runs.seeds[i], a.status, value, a.evaluations);
     entry["history"] = Value::array();
     result.log.push_back(std::move(entry));
     number.push_back(static_cast<double>(runs.seeds[i]));

@@ -417,11 +417,7 @@ void add_statistics(study::Result& result, const IndirectStudy& s, const Runs& r
     const SeedRun& r = runs.answers[i];
     const bool good = r.answer.status == Status::done;
     outcomes.push_back({r.error, good ? 0.0 : 1.0, r.answer.evaluations});
-    Value entry;
-    entry["seed"] = static_cast<std::int64_t>(runs.seeds[i]);
-    entry["status"] = to_string(r.answer.status);
-    entry["best"] = r.error;
-    entry["evaluations"] = r.answer.evaluations;
+    Value entry = study::seed_entry(runs.seeds[i], r.answer.status, r.error, r.answer.evaluations);
     if (r.answer.generations > 0) entry["generations"] = r.answer.generations;
     entry["history"] = Value::array();
     result.log.push_back(std::move(entry));
