@@ -51,6 +51,27 @@ function(linkwright_library module)
   add_library(Linkwright::${module} ALIAS linkwright_${module})
 endfunction()
 
+# linkwright_templates(<domain>): each studies/templates/<name>.toml of a domain, which is what `linkwright new` writes,
+# becomes <name>() of the generated header linkwright/<domain>/studies/templates.h. A kind without its file does not compile.
+function(linkwright_templates domain)
+  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/studies/templates/*.toml)
+  set(functions)
+  foreach(file IN LISTS files)
+    cmake_path(GET file STEM LAST_ONLY name)
+    list(APPEND functions ${name}=${file})
+  endforeach()
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/generated)
+  set(header linkwright/${domain}/studies/templates.h)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/templates.cpp)
+  add_custom_command(OUTPUT ${source} ${folder}/${header}
+    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${source} -DHEADER=${header} -DDECLARE=${folder}/${header}
+            -DNAMESPACE=linkwright::${domain}::templates "-DFILES=${functions}"
+            -P ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
+    DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/embed.cmake VERBATIM)
+  target_sources(linkwright_${domain}_studies PRIVATE ${source} ${folder}/${header})
+  target_include_directories(linkwright_${domain}_studies PRIVATE ${folder})
+endfunction()
+
 # linkwright_kernels(<module> BASELINE <files> AVX2 <files> [AVX512 <files>] [FLAGS <flags>]): kernels, once per instruction
 # set and each in a compilation of its own; core/kernels.h chooses at run time. Each is one huge function: with sanitizers
 # a single file takes many minutes to compile, so they are left out; what the kernels read and write is tested against the

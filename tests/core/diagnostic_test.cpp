@@ -24,6 +24,10 @@ TEST(NearestWord, FindsSwapsAndMissingLetters) {
   EXPECT_EQ(nearest_word("grey_wulf", {"grey_wolf", "recommended"}), "grey_wolf");
   EXPECT_EQ(nearest_word("zebra", {"crank_m", "rocker_m"}), "");
   EXPECT_EQ(nearest_word("", {"a"}), "");
+  EXPECT_EQ(did_you_mean("grey_wulf", {"grey_wolf", "recommended"}, "there are: two"),
+            "did you mean 'grey_wolf'?");
+  EXPECT_EQ(did_you_mean("zebra", {"crank_m", "rocker_m"}, "there are: two"), "there are: two");
+  EXPECT_EQ(did_you_mean("zebra", {"crank_m", "rocker_m"}), "");
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include "linkwright/core/numbers.h"
 
@@ -51,12 +53,30 @@ TEST(Units, KeysTakeTheLongestSuffix) {
   EXPECT_EQ(dimension("_m"), "none");
 }
 
+// A key must mean one unit: split_unit looks at its end alone.
+TEST(Units, EveryDimensionHasUnitsAndWordsOfItsOwn) {
+  std::set<std::string_view> suffixes, words;
+  for (const Dimension dimension : dimensions()) {
+    EXPECT_TRUE(words.insert(describe(dimension)).second) << describe(dimension);
+    ASSERT_FALSE(units(dimension).empty()) << describe(dimension);
+    EXPECT_EQ(units(dimension).front().to_si(1), 1) << describe(dimension);
+    for (const Unit& unit : units(dimension)) {
+      EXPECT_TRUE(suffixes.insert(unit.suffix).second) << unit.suffix;
+      EXPECT_EQ(find_unit(dimension, unit.suffix), &unit);
+    }
+  }
+  EXPECT_TRUE(units(Dimension::none).empty());
+  EXPECT_EQ(units(Dimension::length).size(), 5u);
+  EXPECT_EQ(units(Dimension::second_moment_of_area).size(), 3u);
+}
+
 TEST(Units, NamesForKeysAndPeople) {
   EXPECT_EQ(si_key("crank", Dimension::length), "crank_m");
   EXPECT_EQ(si_key("weight", Dimension::none), "weight");
   EXPECT_EQ(find_unit(Dimension::length, "deg"), nullptr);
   EXPECT_EQ(readable_unit("m_per_s2"), "m/s2");
   EXPECT_EQ(readable_unit("N_m"), "N m");
+  EXPECT_EQ(readable_unit("N_m_s_per_rad"), "N m s/rad");
 }
 
 }  // namespace

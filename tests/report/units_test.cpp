@@ -1,8 +1,14 @@
 #include "linkwright/report/units.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <string>
+
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/units.h"
 
 namespace linkwright::report {
 namespace {
@@ -17,6 +23,32 @@ TEST(Units, SuffixesDecide) {
   EXPECT_EQ(display_unit("speed_rad_per_s").factor, 1);
   EXPECT_EQ(display_unit("toe_deg").factor, 1);
   EXPECT_EQ(display_unit("share").symbol, "");
+}
+
+TEST(Units, EveryUnitOfKeysIsShown) {
+  EXPECT_EQ(display_unit("toe_deg_per_s").symbol, "°/s");
+  EXPECT_EQ(display_unit("toe_rad_per_m").symbol, "°/m");
+  EXPECT_DOUBLE_EQ(display_unit("toe_rad_per_m").factor * pi, 180);
+  EXPECT_EQ(display_unit("inertia_kg_mm2").symbol, "kg mm²");
+  EXPECT_EQ(display_unit("strokes_per_min").symbol, "1/min");
+  EXPECT_EQ(display_unit("wear_um").symbol, "µm");
+  for (const Dimension dimension : dimensions())
+    for (const Unit& unit : units(dimension))
+      EXPECT_FALSE(display_unit("a_" + std::string(unit.suffix)).symbol.empty()) << unit.suffix;
+}
+
+// The list of the viewer is made from the one here: when this fails, the file must become `made`.
+TEST(Units, TheViewerHasTheSameUnits) {
+  std::string made =
+      "// How numbers are shown, by the suffix of their key: [suffix, factor, symbol]. Made from "
+      "core/units;\n"
+      "// tests/report/units_test.cpp fails when it is not up to date, and prints what it must be.\n"
+      "export const suffixes: [string, number, string][] = [\n";
+  for (const SuffixUnit& s : suffix_units())
+    made += fmt::format("  [\"{}\", {}, \"{}\"],\n", s.suffix, s.factor, s.symbol);
+  made += "];\n";
+  std::ifstream file(LINKWRIGHT_SOURCE_DIR "/web/src/suffixes.ts");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), made);
 }
 
 TEST(Units, SizesDecideForLengthsAndStresses) {

@@ -102,5 +102,37 @@ TEST(RunSeeds, LogsComeBackToTheBit) {
               ThrowsMessage<CheckpointError>(HasSubstr("seed 1: its log is not one of generations")));
 }
 
+TEST(RunSeeds, EntriesOfTheLogHaveTheirHistoryToTheEnd) {
+  struct Point {
+    std::int64_t evaluations = 0;
+    double best = 0;
+  };
+  Value entry = seed_entry(7, Status::infeasible, nan, 50);
+  write_history(entry, std::vector<Point>{{10, 3.0}, {20, 2.5}}, 50);
+  EXPECT_EQ(entry.find("seed")->as_integer(), 7);
+  EXPECT_EQ(entry.find("status")->as_string(), "infeasible");
+  EXPECT_EQ(entry.find("evaluations")->as_integer(), 50);
+  const Value::Array& history = entry.find("history")->as_array();
+  ASSERT_EQ(history.size(), 3u);
+  EXPECT_EQ(history[1].find("best")->as_number(), 2.5);
+  EXPECT_EQ(history[2].find("evaluations")->as_integer(), 50);
+  EXPECT_EQ(history[2].find("best")->as_number(), 2.5);
+  write_history(entry, std::vector<Point>{}, 50);
+  EXPECT_TRUE(entry.find("history")->as_array().empty());
+}
+
+TEST(RunSeeds, StatisticsOfWhatIsToBecomeLargeAreWrittenAsThemselves) {
+  const std::vector<optimise::SeedOutcome> outcomes{{-0.75, 0, 10}, {-0.5, 0, 30}};
+  Value out;
+  write_statistics(out, optimise::statistics(outcomes, -0.625), -1);
+  EXPECT_EQ(out.find("best")->as_number(), 0.75);
+  EXPECT_EQ(out.find("median")->as_number(), 0.625);
+  EXPECT_EQ(out.find("worst")->as_number(), 0.5);
+  EXPECT_GT(out.find("quantile10")->as_number(), out.find("quantile90")->as_number());
+  EXPECT_EQ(out.find("success_threshold")->as_number(), 0.625);
+  EXPECT_EQ(out.find("success_rate")->as_number(), 0.5);
+  EXPECT_EQ(out.find("evaluations")->as_integer(), 40);
+}
+
 }  // namespace
 }  // namespace linkwright::study

@@ -1,4 +1,5 @@
 // Numbers for people: SI in the data, degrees and millimetres on the page.
+import { suffixes } from "./suffixes";
 
 const missing = "–";
 
@@ -21,45 +22,14 @@ export interface Unit {
   symbol: string;
 }
 
-// Longer ones first: each ends with units of its own.
-export const suffixes: [string, Unit][] = [
-  ["_N_m_per_rad", { factor: 1, symbol: "N m/rad" }],
-  ["_rad_per_s3", { factor: 1, symbol: "rad/s³" }],
-  ["_rad_per_s2", { factor: 1, symbol: "rad/s²" }],
-  ["_rad_per_m2", { factor: 180 / Math.PI, symbol: "°/m²" }],
-  ["_rad_per_m", { factor: 180 / Math.PI, symbol: "°/m" }],
-  ["_rad_per_s", { factor: 1, symbol: "rad/s" }],
-  ["_m_per_s3", { factor: 1, symbol: "m/s³" }],
-  ["_m_per_s2", { factor: 1, symbol: "m/s²" }],
-  ["_m_per_s", { factor: 1, symbol: "m/s" }],
-  ["_kg_per_m3", { factor: 1, symbol: "kg/m³" }],
-  ["_kg_m2", { factor: 1, symbol: "kg m²" }],
-  ["_m3", { factor: 1, symbol: "m³" }],
-  ["_m2", { factor: 1, symbol: "m²" }],
-  ["_mm", { factor: 1, symbol: "mm" }],
-  ["_deg", { factor: 1, symbol: "°" }],
-  ["_rpm", { factor: 1, symbol: "rpm" }],
-  ["_rad", { factor: 180 / Math.PI, symbol: "°" }],
-  ["_N_per_m", { factor: 1, symbol: "N/m" }],
-  ["_N_m", { factor: 1, symbol: "N m" }],
-  ["_N", { factor: 1, symbol: "N" }],
-  ["_MPa", { factor: 1, symbol: "MPa" }],
-  ["_Pa", { factor: 1, symbol: "Pa" }],
-  ["_Hz", { factor: 1, symbol: "Hz" }],
-  ["_W", { factor: 1, symbol: "W" }],
-  ["_J", { factor: 1, symbol: "J" }],
-  ["_kg", { factor: 1, symbol: "kg" }],
-  ["_s", { factor: 1, symbol: "s" }],
-  ["_m", { factor: 1, symbol: "m" }],
-];
-
 /** Unit of a key by its suffix; with `size`, the largest of the numbers, lengths below a metre in millimetres, stresses from a hundredth of a megapascal on in megapascals. */
 export function unitOf(key: string, size = Infinity): Unit {
   const found = suffixes.find(([suffix]) => key.endsWith(suffix));
   if (!found) return { factor: 1, symbol: "" };
-  if (found[0] === "_m" && size < 1) return { factor: 1000, symbol: "mm" };
-  if (found[0] === "_Pa" && size >= 1e4 && size < Infinity) return { factor: 1e-6, symbol: "MPa" };
-  return found[1];
+  const [suffix, factor, symbol] = found;
+  if (suffix === "_m" && size < 1) return { factor: 1000, symbol: "mm" };
+  if (suffix === "_Pa" && size >= 1e4 && size < Infinity) return { factor: 1e-6, symbol: "MPa" };
+  return { factor, symbol };
 }
 
 /** "crank_angle_rad" -> "crank angle". */

@@ -1,11 +1,10 @@
 /// <reference types="vite/client" />
 import { describe, expect, it } from "vitest";
-import printedUnits from "../../src/linkwright/report/units.cpp?raw";
 import { readTable, type Scene } from "../src/data";
 import { csv, dxf, slug } from "../src/exports";
 import { histogram, readLog, stackDots } from "../src/log";
 import { nearestRow, sortedRows } from "../src/rows";
-import { format, labelWith, nameOf, quantity, suffixes, unitOf } from "../src/units";
+import { format, labelWith, nameOf, quantity, unitOf } from "../src/units";
 import { bodyColours, fit, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, zoom } from "../src/view";
 
 describe("units", () => {
@@ -136,12 +135,5 @@ describe("colours of bodies", () => {
   it("go by their names", () => {
     const bodies = ["base", "arm", "rod", "rod", "", "", "arm"].map((name) => ({ name, style: name === "base" ? "ground" : "bar" }));
     expect(bodyColours(bodies)).toEqual([0, 0, 1, 1, 2, 3, 0]);
-  });
-});
-
-describe("units of the printed form", () => {
-  it("are those of the viewer", () => {
-    const printed = [...printedUnits.matchAll(/\{"(_\w+)", (1|degree), "([^"]+)"\}/g)].map(([, key, factor, symbol]) => [key, { factor: factor === "1" ? 1 : 180 / Math.PI, symbol }]);
-    expect(printed).toEqual(suffixes);
   });
 });

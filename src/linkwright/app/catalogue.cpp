@@ -55,9 +55,7 @@ const study::Kind* find_kind(std::string_view name, std::span<const study::Kind>
   if (fitting.empty()) {
     problem.message = fmt::format("there is no kind of study '{}'", name);
     const std::vector<std::string_view> allowed(names.begin(), names.end());
-    const std::string_view nearest = nearest_word(name, allowed);
-    problem.hint = nearest.empty() ? fmt::format("there is: {}", fmt::join(names, ", "))
-                                   : fmt::format("did you mean '{}'?", nearest);
+    problem.hint = did_you_mean(name, allowed, fmt::format("there is: {}", fmt::join(names, ", ")));
   } else {
     std::vector<std::string> several;
     for (const study::Kind* kind : fitting) several.push_back(name_of(*kind));
@@ -91,14 +89,12 @@ std::vector<const study::Reproduction*> find_reproductions(std::string_view id,
     if (id == "all" || r.id.starts_with(id)) found.push_back(&r);
   }
   if (found.empty()) {
-    const std::string_view nearest = nearest_word(id, ids);
     diagnostics.push_back({Diagnostic::Severity::error,
                            {},
                            {},
                            {},
                            fmt::format("there is no published table '{}'", id),
-                           nearest.empty() ? fmt::format("there is: {}, or all", fmt::join(ids, ", "))
-                                           : fmt::format("did you mean '{}'?", nearest)});
+                           did_you_mean(id, ids, fmt::format("there is: {}, or all", fmt::join(ids, ", ")))});
   }
   return found;
 }

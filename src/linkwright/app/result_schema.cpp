@@ -77,7 +77,24 @@ constexpr std::string_view text = R"json({
       "note": {"type": "string"}
     }
   }},
-  "statistics": {"type": "object", "description": "over seeds"},
+  "statistics": {
+    "type": "object",
+    "description": "over seeds, of the cost that is searched; a study adds figures of its own",
+    "properties": {
+      "method": {"type": "string"},
+      "seeds": {"type": "integer", "description": "that ran"},
+      "feasible_seeds": {"type": "integer"},
+      "best": {"type": ["number", "null"]},
+      "quantile10": {"type": ["number", "null"], "description": "that a tenth of the seeds reached"},
+      "median": {"type": ["number", "null"]},
+      "quantile90": {"type": ["number", "null"], "description": "that nine tenths of the seeds reached"},
+      "worst": {"type": ["number", "null"]},
+      "success_threshold": {"type": ["number", "null"], "description": "a seed that reached it counts as a success"},
+      "success_rate": {"type": ["number", "null"], "description": "successes by seeds"},
+      "evaluations": {"type": "integer", "description": "of all seeds"},
+      "median_evaluations": {"type": ["number", "null"]}
+    }
+  },
   "log": {"type": "array", "description": "one object a seed"},
   "tables": {"type": "array", "items": {
     "type": "object",

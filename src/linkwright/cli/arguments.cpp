@@ -23,8 +23,7 @@ std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
     const std::string_view word = std::string_view(argv[i]).substr(0, std::string_view(argv[i]).find('='));
     if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) continue;
     if (command != &app && !word.starts_with("--")) continue;
-    if (const std::string_view nearest = nearest_word(word, allowed); !nearest.empty())
-      return "did you mean '" + std::string(nearest) + "'?\n";
+    if (const std::string hint = did_you_mean(word, allowed); !hint.empty()) return hint + "\n";
   }
   return {};
 }

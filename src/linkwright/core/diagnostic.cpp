@@ -61,4 +61,10 @@ std::string_view nearest_word(std::string_view word, const std::vector<std::stri
                                                                                     : std::string_view();
 }
 
+std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& allowed,
+                         std::string otherwise) {
+  const std::string_view nearest = nearest_word(word, allowed);
+  return nearest.empty() ? otherwise : "did you mean '" + std::string(nearest) + "'?";
+}
+
 }  // namespace linkwright

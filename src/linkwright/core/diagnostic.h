@@ -30,4 +30,8 @@ std::string to_string(const Diagnostic& diagnostic);
 /// third of its letters); empty if none is near.
 std::string_view nearest_word(std::string_view word, const std::vector<std::string_view>& allowed);
 
+/// The hint "did you mean 'crank'?" with the nearest word; `otherwise` when none is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& allowed,
+                         std::string otherwise = {});
+
 }  // namespace linkwright

@@ -1,128 +1,80 @@
 #include "linkwright/core/units.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "linkwright/core/numbers.h"
 
 namespace linkwright {
 namespace {
 
-constexpr std::array length_units{Unit{"m"}, Unit{"mm", 1, 1e3}, Unit{"cm", 1, 1e2}, Unit{"um", 1, 1e6},
-                                  Unit{"in", 254, 1e4}};
-constexpr std::array angle_units{Unit{"rad"}, Unit{"deg", pi, 180}};
-constexpr std::array time_units{Unit{"s"}, Unit{"ms", 1, 1e3}};
-constexpr std::array speed_angular_units{Unit{"rad_per_s"}, Unit{"deg_per_s", pi, 180}, Unit{"rpm", pi, 30}};
-constexpr std::array acceleration_angular_units{Unit{"rad_per_s2"}, Unit{"deg_per_s2", pi, 180}};
-constexpr std::array speed_units{Unit{"m_per_s"}, Unit{"mm_per_s", 1, 1e3}};
-constexpr std::array acceleration_units{Unit{"m_per_s2"}, Unit{"mm_per_s2", 1, 1e3}};
-constexpr std::array mass_units{Unit{"kg"}, Unit{"g", 1, 1e3}};
-constexpr std::array inertia_units{Unit{"kg_m2"}, Unit{"kg_cm2", 1, 1e4}, Unit{"kg_mm2", 1, 1e6},
-                                   Unit{"g_mm2", 1, 1e9}};
-constexpr std::array area_units{Unit{"m2"}, Unit{"cm2", 1, 1e4}, Unit{"mm2", 1, 1e6}};
-constexpr std::array force_units{Unit{"N"}, Unit{"kN", 1e3, 1}};
-constexpr std::array torque_units{Unit{"N_m"}, Unit{"N_mm", 1, 1e3}};
-constexpr std::array frequency_units{Unit{"Hz"}, Unit{"per_min", 1, 60}};
-constexpr std::array jerk_units{Unit{"m_per_s3"}, Unit{"mm_per_s3", 1, 1e3}};
-constexpr std::array jerk_angular_units{Unit{"rad_per_s3"}, Unit{"deg_per_s3", pi, 180}};
-constexpr std::array power_units{Unit{"W"}, Unit{"kW", 1e3, 1}};
-constexpr std::array energy_units{Unit{"J"}, Unit{"kJ", 1e3, 1}};
+/// Row i is dimension i.
+struct DimensionRow {
+  Dimension dimension;
+  std::string_view words;
+  Unit units[5];  ///< the SI unit first; no unit is called "", which ends them
+};
+constexpr DimensionRow dimension_rows[] = {
+    {Dimension::none, "a number without unit", {}},
+    {Dimension::length,
+     "a length",
+     {{"m"}, {"mm", 1, 1e3}, {"cm", 1, 1e2}, {"um", 1, 1e6}, {"in", 254, 1e4}}},
+    {Dimension::angle, "an angle", {{"rad"}, {"deg", pi, 180}}},
+    {Dimension::time, "a time", {{"s"}, {"ms", 1, 1e3}}},
+    {Dimension::speed_angular, "an angular speed", {{"rad_per_s"}, {"deg_per_s", pi, 180}, {"rpm", pi, 30}}},
+    {Dimension::acceleration, "an acceleration", {{"m_per_s2"}, {"mm_per_s2", 1, 1e3}}},
+    {Dimension::mass, "a mass", {{"kg"}, {"g", 1, 1e3}}},
+    {Dimension::inertia,
+     "a moment of inertia",
+     {{"kg_m2"}, {"kg_cm2", 1, 1e4}, {"kg_mm2", 1, 1e6}, {"g_mm2", 1, 1e9}}},
+    {Dimension::area, "an area", {{"m2"}, {"cm2", 1, 1e4}, {"mm2", 1, 1e6}}},
+    {Dimension::speed, "a speed", {{"m_per_s"}, {"mm_per_s", 1, 1e3}}},
+    {Dimension::acceleration_angular, "an angular acceleration", {{"rad_per_s2"}, {"deg_per_s2", pi, 180}}},
+    {Dimension::force, "a force", {{"N"}, {"kN", 1e3, 1}}},
+    {Dimension::torque, "a torque", {{"N_m"}, {"N_mm", 1, 1e3}}},
+    {Dimension::frequency, "a frequency", {{"Hz"}, {"per_min", 1, 60}}},
+    {Dimension::jerk, "a jerk", {{"m_per_s3"}, {"mm_per_s3", 1, 1e3}}},
+    {Dimension::jerk_angular, "an angular jerk", {{"rad_per_s3"}, {"deg_per_s3", pi, 180}}},
+    {Dimension::power, "a power", {{"W"}, {"kW", 1e3, 1}}},
+    {Dimension::energy, "an energy", {{"J"}, {"kJ", 1e3, 1}}},
+    {Dimension::stiffness, "a stiffness", {{"N_per_m"}, {"N_per_mm", 1e3, 1}}},
+    {Dimension::stiffness_angular, "a torsional stiffness", {{"N_m_per_rad"}, {"N_m_per_deg", 180, pi}}},
+    {Dimension::damping, "a damping", {{"N_s_per_m"}}},
+    {Dimension::damping_angular, "a torsional damping", {{"N_m_s_per_rad"}}},
+    {Dimension::angle_by_length,
+     "an angle by length",
+     {{"rad_per_m"}, {"deg_per_m", pi, 180}, {"deg_per_mm", 1e3 * pi, 180}}},
+    {Dimension::density, "a density", {{"kg_per_m3"}, {"g_per_cm3", 1e3, 1}}},
+    {Dimension::pressure, "a stress or modulus", {{"Pa"}, {"kPa", 1e3, 1}, {"MPa", 1e6, 1}, {"GPa", 1e9, 1}}},
+    {Dimension::second_moment_of_area,
+     "a second moment of area",
+     {{"m4"}, {"cm4", 1, 1e8}, {"mm4", 1, 1e12}}},
+};
 
-constexpr std::array stiffness_units{Unit{"N_per_m"}, Unit{"N_per_mm", 1e3, 1}};
-constexpr std::array stiffness_angular_units{Unit{"N_m_per_rad"}, Unit{"N_m_per_deg", 180, pi}};
-constexpr std::array damping_units{Unit{"N_s_per_m"}};
-constexpr std::array damping_angular_units{Unit{"N_m_s_per_rad"}};
-constexpr std::array angle_by_length_units{Unit{"rad_per_m"}, Unit{"deg_per_m", pi, 180},
-                                           Unit{"deg_per_mm", 1e3 * pi, 180}};
+const DimensionRow& row_of(Dimension dimension) {
+  return dimension_rows[static_cast<std::size_t>(dimension)];
+}
 
-constexpr std::array density_units{Unit{"kg_per_m3"}, Unit{"g_per_cm3", 1e3, 1}};
-constexpr std::array pressure_units{Unit{"Pa"}, Unit{"kPa", 1e3, 1}, Unit{"MPa", 1e6, 1},
-                                    Unit{"GPa", 1e9, 1}};
-constexpr std::array second_moment_of_area_units{Unit{"m4"}, Unit{"cm4", 1, 1e8}, Unit{"mm4", 1, 1e12}};
-
-constexpr std::array all_dimensions{Dimension::length,
-                                    Dimension::angle,
-                                    Dimension::time,
-                                    Dimension::speed_angular,
-                                    Dimension::speed,
-                                    Dimension::acceleration,
-                                    Dimension::mass,
-                                    Dimension::acceleration_angular,
-                                    Dimension::inertia,
-                                    Dimension::area,
-                                    Dimension::force,
-                                    Dimension::torque,
-                                    Dimension::frequency,
-                                    Dimension::jerk,
-                                    Dimension::jerk_angular,
-                                    Dimension::power,
-                                    Dimension::energy,
-                                    Dimension::stiffness,
-                                    Dimension::stiffness_angular,
-                                    Dimension::damping,
-                                    Dimension::damping_angular,
-                                    Dimension::angle_by_length,
-                                    Dimension::density,
-                                    Dimension::pressure,
-                                    Dimension::second_moment_of_area};
+constexpr auto with_units = [] {
+  std::array<Dimension, std::size(dimension_rows) - 1> out{};
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = dimension_rows[i + 1].dimension;
+  return out;
+}();
+static_assert([] {
+  for (std::size_t i = 0; i < std::size(dimension_rows); ++i)
+    if (dimension_rows[i].dimension != static_cast<Dimension>(i)) return false;
+  return dimension_rows[std::size(dimension_rows) - 1].dimension == Dimension::second_moment_of_area;
+}());
 
 }  // namespace
 
+std::span<const Dimension> dimensions() { return with_units; }
+
 std::span<const Unit> units(Dimension dimension) {
-  switch (dimension) {
-    case Dimension::none:
-      return {};
-    case Dimension::length:
-      return length_units;
-    case Dimension::angle:
-      return angle_units;
-    case Dimension::time:
-      return time_units;
-    case Dimension::speed_angular:
-      return speed_angular_units;
-    case Dimension::acceleration_angular:
-      return acceleration_angular_units;
-    case Dimension::speed:
-      return speed_units;
-    case Dimension::acceleration:
-      return acceleration_units;
-    case Dimension::mass:
-      return mass_units;
-    case Dimension::inertia:
-      return inertia_units;
-    case Dimension::area:
-      return area_units;
-    case Dimension::force:
-      return force_units;
-    case Dimension::torque:
-      return torque_units;
-    case Dimension::frequency:
-      return frequency_units;
-    case Dimension::jerk:
-      return jerk_units;
-    case Dimension::jerk_angular:
-      return jerk_angular_units;
-    case Dimension::power:
-      return power_units;
-    case Dimension::energy:
-      return energy_units;
-    case Dimension::stiffness:
-      return stiffness_units;
-    case Dimension::stiffness_angular:
-      return stiffness_angular_units;
-    case Dimension::damping:
-      return damping_units;
-    case Dimension::damping_angular:
-      return damping_angular_units;
-    case Dimension::angle_by_length:
-      return angle_by_length_units;
-    case Dimension::density:
-      return density_units;
-    case Dimension::pressure:
-      return pressure_units;
-    case Dimension::second_moment_of_area:
-      return second_moment_of_area_units;
-  }
-  return {};
+  const std::span<const Unit> all = row_of(dimension).units;
+  const auto end = std::find_if(all.begin(), all.end(), [](const Unit& unit) { return unit.suffix.empty(); });
+  return {all.begin(), end};
 }
 
 const Unit* find_unit(Dimension dimension, std::string_view suffix) {
@@ -139,7 +91,7 @@ std::string si_key(std::string_view base, Dimension dimension) {
 
 std::optional<UnitKey> split_unit(std::string_view key) {
   std::optional<UnitKey> longest;
-  for (Dimension dimension : all_dimensions) {
+  for (const Dimension dimension : dimensions()) {
     for (const Unit& unit : units(dimension)) {
       const std::size_t n = unit.suffix.size();
       if (key.size() < n + 2 || !key.ends_with(unit.suffix) || key[key.size() - n - 1] != '_') continue;
@@ -150,72 +102,12 @@ std::optional<UnitKey> split_unit(std::string_view key) {
   return longest;
 }
 
-std::string_view describe(Dimension dimension) {
-  switch (dimension) {
-    case Dimension::none:
-      return "a number without unit";
-    case Dimension::length:
-      return "a length";
-    case Dimension::angle:
-      return "an angle";
-    case Dimension::time:
-      return "a time";
-    case Dimension::speed_angular:
-      return "an angular speed";
-    case Dimension::acceleration_angular:
-      return "an angular acceleration";
-    case Dimension::speed:
-      return "a speed";
-    case Dimension::acceleration:
-      return "an acceleration";
-    case Dimension::mass:
-      return "a mass";
-    case Dimension::inertia:
-      return "a moment of inertia";
-    case Dimension::area:
-      return "an area";
-    case Dimension::force:
-      return "a force";
-    case Dimension::torque:
-      return "a torque";
-    case Dimension::frequency:
-      return "a frequency";
-    case Dimension::jerk:
-      return "a jerk";
-    case Dimension::jerk_angular:
-      return "an angular jerk";
-    case Dimension::power:
-      return "a power";
-    case Dimension::energy:
-      return "an energy";
-    case Dimension::stiffness:
-      return "a stiffness";
-    case Dimension::stiffness_angular:
-      return "a torsional stiffness";
-    case Dimension::damping:
-      return "a damping";
-    case Dimension::damping_angular:
-      return "a torsional damping";
-    case Dimension::angle_by_length:
-      return "an angle by length";
-    case Dimension::density:
-      return "a density";
-    case Dimension::pressure:
-      return "a stress or modulus";
-    case Dimension::second_moment_of_area:
-      return "a second moment of area";
-  }
-  return "a number";
-}
+std::string_view describe(Dimension dimension) { return row_of(dimension).words; }
 
 std::string readable_unit(std::string_view suffix) {
-  std::string text;
-  if (const std::size_t at = suffix.find("_per_"); at != std::string_view::npos) {
-    text = suffix.substr(0, at);
-    text += '/';
-    suffix.remove_prefix(at + 5);
-  }
-  for (char c : suffix) text += c == '_' ? ' ' : c;
+  std::string text(suffix);
+  if (const std::size_t at = text.find("_per_"); at != std::string::npos) text.replace(at, 5, "/");
+  std::replace(text.begin(), text.end(), '_', ' ');
   return text;
 }
 

@@ -20,6 +20,9 @@ struct Unit {
   double from_si(double value) const { return value * divide / multiply; }
 };
 
+/// All dimensions but Dimension::none.
+std::span<const Dimension> dimensions();
+
 /// The units that keys of a dimension may carry, the SI unit first; empty for Dimension::none.
 std::span<const Unit> units(Dimension dimension);
 

@@ -1,69 +1,66 @@
 #include "linkwright/report/units.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/core/units.h"
 #include "linkwright/report/markup.h"
 
 namespace linkwright::report {
 namespace {
 
-struct Suffix {
-  std::string_view key;
-  double factor;
-  std::string_view symbol;
-};
-
 constexpr double degree = 180 / pi;
 
-// Longer ones first: each ends with units of its own.
-constexpr std::array<Suffix, 28> suffixes = {{
-    {"_N_m_per_rad", 1, "N m/rad"},
-    {"_rad_per_s3", 1, "rad/s³"},
-    {"_rad_per_s2", 1, "rad/s²"},
-    {"_rad_per_m2", degree, "°/m²"},
-    {"_rad_per_m", degree, "°/m"},
-    {"_rad_per_s", 1, "rad/s"},
-    {"_m_per_s3", 1, "m/s³"},
-    {"_m_per_s2", 1, "m/s²"},
-    {"_m_per_s", 1, "m/s"},
-    {"_kg_per_m3", 1, "kg/m³"},
-    {"_kg_m2", 1, "kg m²"},
-    {"_m3", 1, "m³"},
-    {"_m2", 1, "m²"},
-    {"_mm", 1, "mm"},
-    {"_deg", 1, "°"},
-    {"_rpm", 1, "rpm"},
-    {"_rad", degree, "°"},
-    {"_N_per_m", 1, "N/m"},
-    {"_N_m", 1, "N m"},
-    {"_N", 1, "N"},
-    {"_MPa", 1, "MPa"},
-    {"_Pa", 1, "Pa"},
-    {"_Hz", 1, "Hz"},
-    {"_W", 1, "W"},
-    {"_J", 1, "J"},
-    {"_kg", 1, "kg"},
-    {"_s", 1, "s"},
-    {"_m", 1, "m"},
-}};
+/// "m_per_s2" -> "m/s²".
+std::string symbol_of(std::string_view suffix) {
+  if (suffix == "deg") return "°";
+  if (suffix == "um") return "µm";
+  if (suffix == "per_min") return "1/min";
+  std::string text = readable_unit(suffix);
+  for (const auto& [plain, shown] : {std::pair{"deg", "°"}, {"2", "²"}, {"3", "³"}, {"4", "⁴"}})
+    if (const std::size_t at = text.find(plain); at != std::string::npos)
+      text.replace(at, std::string_view(plain).size(), shown);
+  return text;
+}
+
+std::vector<SuffixUnit> all_suffixes() {
+  // Quantities of results that no key of a study has.
+  std::vector<SuffixUnit> out{{"_m3", 1, "m³"}, {"_rad_per_m2", degree, "°/m²"}};
+  for (const Dimension dimension : dimensions()) {
+    const bool in_degrees = dimension == Dimension::angle || dimension == Dimension::angle_by_length;
+    for (const Unit& unit : units(dimension)) {
+      const bool radians = in_degrees && unit.suffix.starts_with("rad");
+      const std::string shown = (radians ? "deg" : "") + std::string(unit.suffix.substr(radians ? 3 : 0));
+      out.push_back({"_" + std::string(unit.suffix), radians ? degree : 1, symbol_of(shown)});
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), [](const SuffixUnit& a, const SuffixUnit& b) {
+    return a.suffix.size() > b.suffix.size();
+  });
+  return out;
+}
 
 std::string_view name_of(std::string_view key) {
-  for (const Suffix& s : suffixes)
-    if (key.ends_with(s.key)) return key.substr(0, key.size() - s.key.size());
+  for (const SuffixUnit& s : suffix_units())
+    if (key.ends_with(s.suffix)) return key.substr(0, key.size() - s.suffix.size());
   return key;
 }
 
 }  // namespace
 
+std::span<const SuffixUnit> suffix_units() {
+  static const std::vector<SuffixUnit> all = all_suffixes();
+  return all;
+}
+
 DisplayUnit display_unit(std::string_view key, double largest) {
-  for (const Suffix& s : suffixes) {
-    if (!key.ends_with(s.key)) continue;
-    if (s.key == "_m" && largest < 1) return {1000, "mm"};
-    if (s.key == "_Pa" && largest >= 1e4 && std::isfinite(largest)) return {1e-6, "MPa"};
-    return {s.factor, std::string(s.symbol)};
+  for (const SuffixUnit& s : suffix_units()) {
+    if (!key.ends_with(s.suffix)) continue;
+    if (s.suffix == "_m" && largest < 1) return {1000, "mm"};
+    if (s.suffix == "_Pa" && largest >= 1e4 && std::isfinite(largest)) return {1e-6, "MPa"};
+    return {s.factor, s.symbol};
   }
   return {};
 }

@@ -105,8 +105,8 @@ std::optional<FactValue> value_of(const Fact& fact) {
   if (unit.front() != ' ' || unit.size() < 2) return std::nullopt;
   unit.erase(0, 1);
   if (unit == "%") return FactValue{value, unit};
-  for (int d = 1; d <= static_cast<int>(Dimension::second_moment_of_area); ++d)
-    for (const Unit& known : units(static_cast<Dimension>(d)))
+  for (const Dimension dimension : dimensions())
+    for (const Unit& known : units(dimension))
       if (readable_unit(known.suffix) == unit) return FactValue{value, unit};
   return std::nullopt;
 }

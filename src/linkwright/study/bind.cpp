@@ -491,9 +491,8 @@ std::optional<std::size_t> ObjectReader::one_of(const Found& found, std::span<co
     if (words[i].name == found.value->as_string()) return i;
     names.push_back(words[i].name);
   }
-  const std::string_view nearest = nearest_word(found.value->as_string(), names);
   problem(found, fmt::format("is '{}', must be one of: {}", shown(found.value->as_string()), list_of(words)),
-          nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+          did_you_mean(found.value->as_string(), names));
   return std::nullopt;
 }
 

@@ -19,12 +19,9 @@ struct Resolved {
 };
 
 Resolved unknown(std::string_view what, std::string_view name, const std::vector<std::string_view>& allowed) {
-  std::string message = fmt::format("there is no {} '{}'", what, name);
-  if (const std::string_view nearest = nearest_word(name, allowed); !nearest.empty())
-    message += fmt::format("; did you mean '{}'?", nearest);
-  else if (!allowed.empty())
-    message += fmt::format("; there is: {}", fmt::join(allowed, ", "));
-  return {nan, message};
+  const std::string hint = did_you_mean(
+      name, allowed, allowed.empty() ? "" : fmt::format("there is: {}", fmt::join(allowed, ", ")));
+  return {nan, fmt::format("there is no {} '{}'{}{}", what, name, hint.empty() ? "" : "; ", hint)};
 }
 
 /// Factor from numbers under the key `from` to numbers under the key `to`; nothing when they are not the same

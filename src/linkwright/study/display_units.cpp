@@ -41,16 +41,15 @@ void count(const Value& value, std::vector<Count>& counts) {
 /// Every unit suffix that a list may name.
 std::vector<std::string_view> all_suffixes() {
   std::vector<std::string_view> all;
-  for (int d = 1; d <= static_cast<int>(Dimension::second_moment_of_area); ++d)
-    for (const Unit& unit : units(static_cast<Dimension>(d)))
+  for (const Dimension dimension : dimensions())
+    for (const Unit& unit : units(dimension))
       if (std::find(all.begin(), all.end(), unit.suffix) == all.end()) all.push_back(unit.suffix);
   return all;
 }
 
 std::optional<UnitKey> unit_called(std::string_view suffix) {
-  for (int d = 1; d <= static_cast<int>(Dimension::second_moment_of_area); ++d)
-    if (const Unit* unit = find_unit(static_cast<Dimension>(d), suffix))
-      return UnitKey{{}, unit, static_cast<Dimension>(d)};
+  for (const Dimension dimension : dimensions())
+    if (const Unit* unit = find_unit(dimension, suffix)) return UnitKey{{}, unit, dimension};
   return std::nullopt;
 }
 
@@ -152,9 +151,8 @@ bool read_value(ObjectReader& reader, const ObjectReader::Found& found, const Fi
     return true;
   }
   if (value.is_string()) {
-    const std::string_view nearest = nearest_word(value.as_string(), {"si", "study"});
     reader.problem(found, fmt::format("is '{}', must be {}", value.as_string(), allowed),
-                   nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+                   did_you_mean(value.as_string(), {"si", "study"}));
     return false;
   }
   if (!value.is_array()) {
@@ -169,11 +167,9 @@ bool read_value(ObjectReader& reader, const ObjectReader::Found& found, const Fi
     const ObjectReader::Found at{&element, nullptr, fmt::format("{}[{}]", found.path, i)};
     const auto unit = element.is_string() ? unit_called(element.as_string()) : std::nullopt;
     if (!unit) {
-      const std::string_view nearest =
-          element.is_string() ? nearest_word(element.as_string(), all_suffixes()) : std::string_view();
       reader.problem(at, "is not a unit that keys may carry",
-                     nearest.empty() ? fmt::format("units are {}", fmt::join(all_suffixes(), ", "))
-                                     : fmt::format("did you mean '{}'?", nearest));
+                     did_you_mean(element.is_string() ? element.as_string() : std::string(), all_suffixes(),
+                                  fmt::format("units are {}", fmt::join(all_suffixes(), ", "))));
       good = false;
       continue;
     }

@@ -69,4 +69,27 @@ std::vector<double> restored_numbers(const Value& table, std::string_view key, s
   return out;
 }
 
+Value seed_entry(std::uint64_t seed, Status status, double best, std::int64_t evaluations) {
+  Value entry;
+  entry["seed"] = static_cast<std::int64_t>(seed);
+  entry["status"] = to_string(status);
+  entry["best"] = best;
+  entry["evaluations"] = evaluations;
+  return entry;
+}
+
+void write_statistics(Value& out, const optimise::SeedStatistics& st, double sign) {
+  out["seeds"] = st.seeds;
+  out["feasible_seeds"] = st.feasible;
+  out["best"] = sign * st.best;
+  out["quantile10"] = sign * st.quantile10;
+  out["median"] = sign * st.median;
+  out["quantile90"] = sign * st.quantile90;
+  out["worst"] = sign * st.worst;
+  out["success_threshold"] = sign * st.threshold;
+  out["success_rate"] = st.success_rate;
+  out["evaluations"] = st.evaluations;
+  out["median_evaluations"] = st.median_evaluations;
+}
+
 }  // namespace linkwright::study

@@ -79,19 +79,25 @@ auto run_seeds(const Seeds& asked, RunContext& context, std::string_view stage, 
   return out;
 }
 
-/// Writes what seeds came to behind what `out` holds, under the keys that all studies with seeds have.
-inline void write_statistics(Value& out, const optimise::SeedStatistics& st) {
-  out["seeds"] = st.seeds;
-  out["feasible_seeds"] = st.feasible;
-  out["best"] = st.best;
-  out["quantile10"] = st.quantile10;
-  out["median"] = st.median;
-  out["quantile90"] = st.quantile90;
-  out["worst"] = st.worst;
-  out["success_threshold"] = st.threshold;
-  out["success_rate"] = st.success_rate;
-  out["evaluations"] = st.evaluations;
-  out["median_evaluations"] = st.median_evaluations;
+/// What one seed came to, for the log of a result.
+Value seed_entry(std::uint64_t seed, Status status, double best, std::int64_t evaluations);
+
+/// Adds how the best of a seed fell to its entry: what had been reached after so many evaluations, to the end
+/// of the run.
+template <class Point>
+void write_history(Value& entry, std::vector<Point> points, std::int64_t evaluations) {
+  if (!points.empty()) points.push_back({evaluations, points.back().best});
+  entry["history"] = Value::array();
+  for (const Point& point : points) {
+    Value step;
+    step["evaluations"] = point.evaluations;
+    step["best"] = point.best;
+    entry["history"].push_back(std::move(step));
+  }
 }
+
+/// Writes what seeds came to behind what `out` holds, under the keys that all studies with seeds have. Where
+/// a cost is minus what is to become large, sign = -1 writes what it stands for.
+void write_statistics(Value& out, const optimise::SeedStatistics& st, double sign = 1);
 
 }  // namespace linkwright::study

@@ -84,9 +84,8 @@ void read_output(ObjectReader& root, const Kind* kind, Output& output) {
   for (const Word& word : kind->quantities) allowed.push_back(word.name);
   for (const std::string& quantity : output.quantities) {
     if (std::find(allowed.begin(), allowed.end(), quantity) != allowed.end()) continue;
-    const std::string_view nearest = nearest_word(quantity, allowed);
     table->error("quantities", fmt::format("'{}' is none of: {}", quantity, fmt::join(allowed, ", ")),
-                 nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+                 did_you_mean(quantity, allowed));
   }
 }
 

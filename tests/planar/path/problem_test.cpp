@@ -23,6 +23,14 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
 
+TEST(PathProblem, ParametersAreTheNumbersOfAFourBarInTheirOrder) {
+  EXPECT_EQ(name(FourBarParameter::ground), "ground");
+  EXPECT_EQ(name(FourBarParameter::rocker), "rocker");
+  EXPECT_EQ(name(FourBarParameter::coupler_v), "coupler_v");
+  EXPECT_EQ(name(FourBarParameter::frame_angle), "frame_angle");
+  EXPECT_EQ(name(FourBarParameter::start_angle), "start_angle");
+}
+
 std::vector<double> stepped(double first, double step, std::size_t count) {
   std::vector<double> out(count);
   for (std::size_t k = 0; k < count; ++k) out[k] = first + step * static_cast<double>(k);

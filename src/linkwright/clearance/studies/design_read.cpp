@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linkwright/clearance/studies/design.h"
+#include "linkwright/clearance/studies/templates.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/study/bind_write.h"
 
@@ -189,81 +190,6 @@ const char* target_name(DesignTarget target) {
                                           : "path_points_and_phase";
 }
 
-constexpr const char* lengths_example = R"(branch       = "open"
-clearance_mm = 1.0                  # radius of the bush less radius of the pin
-
-[mechanism.parameters]              # if absent bounds follow from the path
-ground_mm         = { min = 150.0, max = 250.0 }
-crank_mm          = { min = 60.0, max = 140.0 }
-coupler_mm        = { min = 150.0, max = 250.0 }
-rocker_mm         = { min = 200.0, max = 300.0 }
-point_distance_mm = { min = 50.0, max = 150.0 }
-point_angle_deg   = { min = 20.0, max = 70.0 }
-pivot_x_mm        = { min = -10.0, max = 10.0 }
-pivot_y_mm        = { min = -10.0, max = 10.0 }
-frame_angle_deg   = { min = -10.0, max = 10.0 }
-)";
-constexpr const char* masses_example = R"(
-[mechanism.mass.coupler]
-mass_kg       = { min = 0.02, max = 0.2 }
-centre_u_mm   = { min = -50.0, max = 200.0 }   # along the link, from the loose pin
-centre_v_mm   = { min = -50.0, max = 50.0 }
-inertia_kg_m2 = { min = 1e-6, max = 5e-4 }
-
-[mechanism.mass.rocker]
-mass_kg       = { min = 0.02, max = 0.2 }
-centre_u_mm   = { min = -50.0, max = 250.0 }   # from its pivot
-centre_v_mm   = { min = -50.0, max = 50.0 }
-inertia_kg_m2 = { min = 1e-6, max = 5e-4 }
-)";
-constexpr const char* points_example =
-    R"(timing    = { start_deg = 0.0, step_deg = 30.0 }   # of the crank, from the x axis
-points_mm = [
-  [10.73, 45.07], [37.38, 137.05], [34.73, 185.43], [-0.92, 200.0], [-48.65, 186.59], [-91.54, 149.88],
-  [-118.69, 98.24], [-125.07, 42.31], [-110.79, -7.2], [-80.55, -40.74], [-43.22, -50.42], [-10.86, -27.63],
-]
-)";
-
-std::string example_of(DesignTarget target) {
-  std::string out = fmt::format(
-      "# linkwright study: {}; a range is designed, a number is fixed\nschema = 1\nkind   = "
-      "\"synthesis\"\ntitle  = \"My four-bar with a loose crank pin\"\n\n[mechanism]\ntype         = "
-      "\"clearance.four_bar\"\n",
-      target == DesignTarget::lengths  ? "lengths of a four-bar whose crank pin has clearance"
-      : target == DesignTarget::masses ? "masses that keep a loose crank pin pressed into its bush"
-                                       : "lengths and masses of a four-bar whose crank pin has clearance");
-  if (target == DesignTarget::masses) {
-    out += R"(branch       = "open"
-clearance_mm = 1.0                  # radius of the bush less radius of the pin
-
-[mechanism.parameters]
-ground_mm         = 200.0
-crank_mm          = 100.0
-coupler_mm        = 200.0
-rocker_mm         = 250.0
-point_distance_mm = 100.0
-point_angle_deg   = 45.0
-pivot_x_mm        = 0.0
-pivot_y_mm        = 0.0
-frame_angle_deg   = 0.0
-)";
-  } else {
-    out += lengths_example;
-  }
-  if (target != DesignTarget::lengths)
-    out += std::string(masses_example) +
-           "\n[drive]\nspeed_rpm = 100.0\n\n[environment]\ngravity_m_per_s2 = 0.0\n";
-  out += fmt::format(
-      "\n[target]\ntype      = \"{}\"\nphase_deg = 0.0                     # of the "
-      "clearance link before the crank\n",
-      target_name(target));
-  if (target == DesignTarget::both)
-    out += "stages    = \"at_once\"               # or in_turn, as published\n";
-  if (target != DesignTarget::masses) out += points_example;
-  out += "\n[optimiser]\nmethod = \"recommended\"\nstarts = 6\nseeds  = { first = 1, count = 2 }\n";
-  return out;
-}
-
 study::Kind kind_of(DesignTarget target) {
   study::Kind kind;
   kind.kind = "synthesis";
@@ -275,7 +201,9 @@ study::Kind kind_of(DesignTarget target) {
                  : target == DesignTarget::masses
                      ? "masses of a four-bar that keep its crank pin, a clearance joint, in contact"
                      : "lengths and masses of a four-bar whose crank pin has clearance, in turn or at once";
-  kind.example = example_of(target);
+  kind.example = target == DesignTarget::lengths  ? templates::synthesis_four_bar_path_points()
+                 : target == DesignTarget::masses ? templates::synthesis_four_bar_phase()
+                                                  : templates::synthesis_four_bar_path_points_and_phase();
   kind.schema = [target](study::SchemaWriter& document) {
     const auto table = [&](const char* key, const char* summary, bool required, auto form) {
       if constexpr (requires { form.target; }) form.target = target;

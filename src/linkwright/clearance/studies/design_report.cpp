@@ -7,6 +7,7 @@
 #include "linkwright/clearance/studies/design.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
 namespace linkwright::clearance {
@@ -41,11 +42,7 @@ constexpr std::array<Variable, clearance_length_count + clearance_mass_count> va
      {"rocker_v_m", "mass centre of the rocker, across (m)"},
      {"rocker_inertia_kg_m2", "inertia of the rocker (kg m2)"}}};
 
-std::string metres(double value) {
-  if (value >= 0.1) return fmt::format("{:.4g} m", value);
-  if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
-  return fmt::format("{:.3g} µm", value * 1e6);
-}
+using study::metres;
 double wrapped_degrees(double angle) {
   const double d = std::fmod(math::degrees(angle), 360);
   return d < 0 ? d + 360 : d;
@@ -106,13 +103,6 @@ class DesignReporter {
   }
   std::string_view method() const {
     return std::visit([](const auto& m) { return choice_word(m).name; }, s_.method);
-  }
-  void warn(std::string message, std::string hint = {}) {
-    result_.diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
-  }
-  void fact(std::string label, std::string text, Verdict verdict = Verdict::plain) {
-    result_.facts.push_back({std::move(label), std::move(text), verdict});
   }
   void interrupted() {
     if (runs_.answers.size() < static_cast<std::size_t>(common_.seeds.count))
@@ -222,11 +212,7 @@ class DesignReporter {
     for (std::size_t i = 0; i < runs_.answers.size(); ++i) {
       const ClearanceDesignAnswer& a = runs_.answers[i];
       outcomes.push_back({a.cost, std::isfinite(a.cost) ? 0.0 : 1.0, a.evaluations});
-      Value entry;
-      entry["seed"] = static_cast<std::int64_t>(runs_.seeds[i]);
-      entry["status"] = to_string(a.status);
-      entry["best"] = a.cost;
-      entry["evaluations"] = a.evaluations;
+      Value entry = study::seed_entry(runs_.seeds[i], a.status, a.cost, a.evaluations);
       entry["history"] = Value::array();
       double last = infinity;
       for (const optimise::GenerationLog& g : a.log) {
@@ -482,6 +468,8 @@ class DesignReporter {
   bool feasible_ = false;
   double success_ = 0;
   study::Result result_;
+  const study::AddFact fact{result_.facts};
+  const study::AddWarning warn{result_.diagnostics};
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::clearance {
 namespace {
@@ -70,13 +71,6 @@ class Facts {
 
  private:
   using Verdict = study::Fact::Verdict;
-  void fact(std::string label, std::string text, Verdict verdict = Verdict::plain) {
-    result_.facts.push_back({std::move(label), std::move(text), verdict});
-  }
-  void warn(std::string message, std::string hint) {
-    result_.diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
-  }
   double duration() const { return r_.time - r_.from; }
   std::size_t rows() const { return r_.rows.size(); }
   const std::string& name(std::size_t pin) const { return s_.pin_name(pin); }
@@ -265,6 +259,8 @@ class Facts {
   const ClearanceRecording& r_;
   const PathErrors& errors_;
   study::Result& result_;
+  const study::AddFact fact{result_.facts};
+  const study::AddWarning warn{result_.diagnostics};
   double largest_force_ = 0;
   bool lost_ = false;
 };

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "linkwright/clearance/studies/simulation.h"
+#include "linkwright/clearance/studies/templates.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/simulation.h"
 #include "linkwright/study/bind.h"
@@ -164,9 +165,7 @@ std::optional<int> joint_named(study::ObjectReader& table, std::string_view key,
   if (j >= 0) return j;
   std::vector<std::string_view> known;
   for (const planar::LinkageJoint& k : l.joints) known.push_back(k.name);
-  const std::string_view nearest = nearest_word(name, known);
-  table.error(key, fmt::format("there is no joint '{}'", name),
-              nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+  table.error(key, fmt::format("there is no joint '{}'", name), did_you_mean(name, known));
   return std::nullopt;
 }
 
@@ -424,88 +423,7 @@ study::Kind clearance_kind() {
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {
     return prepare(document, common);
   };
-  kind.example = R"(# linkwright study: a linkage whose pins have clearance
-schema = 1
-kind   = "simulation"
-title  = "A loose pin between rod and slider"
-source = "Flores, Ambrosio, Claro 2004"
-
-[mechanism]
-type = "clearance.linkage"
-
-# The first body is the ground. Points are in the frame of the body.
-[[mechanism.body]]
-name      = "ground"
-points_mm = { O = [0, 0] }
-
-[[mechanism.body]]
-name          = "crank"
-points_mm     = { O = [0, 0], A = [50, 0] }
-mass_kg       = 0.3
-inertia_kg_m2 = 1e-4
-
-[[mechanism.body]]
-name          = "rod"
-points_mm     = { A = [0, 0], B = [120, 0] }
-mass_kg       = 0.21
-inertia_kg_m2 = 2.5e-4
-start         = { x_mm = 50.0, angle_deg = 0.0 }   # about where it stands at the start: crank and rod in line
-
-[[mechanism.body]]
-name          = "slider"
-points_mm     = { B = [0, 0] }
-mass_kg       = 0.14
-inertia_kg_m2 = 0.0
-start         = { x_mm = 170.0 }
-
-[[mechanism.joint]]
-name   = "O"
-first  = "ground.O"
-second = "crank.O"
-
-[[mechanism.joint]]
-name   = "A"
-first  = "crank.A"
-second = "rod.A"
-
-[[mechanism.joint]]
-name   = "B"
-first  = "rod.B"
-second = "slider.B"
-
-[[mechanism.joint]]
-name   = "guide"
-type   = "prismatic"
-first  = "ground.O"
-second = "slider.B"
-
-[[drive]]
-joint     = "O"
-law       = "constant_speed"
-speed_rpm = 5000.0
-
-# One table for each loose pin. model = "continuous" takes pin and bush to touch always.
-[[clearance]]
-joint          = "B"
-clearance_mm   = 0.5                # radius of the bush less radius of the pin
-model          = "contact"          # contact | continuous | automatic
-bush_radius_mm = 10.0
-law            = "lankarani_nikravesh"   # lankarani_nikravesh | flores_2011
-restitution    = 0.9
-modulus_GPa    = 207.0
-poisson        = 0.3
-friction       = 0.03
-
-[environment]
-gravity_m_per_s2 = 0.0
-
-[simulation]
-to_s    = 0.036                     # three turns
-samples = 3601
-
-[[trace]]
-point = "slider.B"
-)";
+  kind.example = templates::simulation_linkage();
   return kind;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "linkwright/clearance/studies/simulation.h"
+#include "linkwright/clearance/studies/templates.h"
 #include "linkwright/clearance/studies/tolerance.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/study/bind.h"
@@ -85,11 +86,6 @@ constexpr Field limit_field(bool angle) {
                angle ? Dimension::angle : Dimension::length);
 }
 
-std::string hint_for(std::string_view name, const std::vector<std::string_view>& known) {
-  const std::string_view nearest = nearest_word(name, known);
-  return nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest);
-}
-
 // ---- what has clearance
 // ----------------------------------------------------------------------------------------------------
 
@@ -117,7 +113,7 @@ std::optional<int> point_of(study::ObjectReader& table, std::string_view key, co
   if (point >= 0) return point;
   std::vector<std::string_view> known;
   for (const planar::LinkagePoint& p : body.points) known.push_back(p.name);
-  table.error(key, fmt::format("body '{}' has no point '{}'", body.name, name), hint_for(name, known));
+  table.error(key, fmt::format("body '{}' has no point '{}'", body.name, name), did_you_mean(name, known));
   return std::nullopt;
 }
 
@@ -127,7 +123,7 @@ std::optional<LengthTolerance> length_of(study::ObjectReader& table, const Lengt
   if (b < 0) {
     std::vector<std::string_view> known;
     for (const planar::LinkageBody& body : l.bodies) known.push_back(body.name);
-    table.error("body", fmt::format("there is no body '{}'", form.body), hint_for(form.body, known));
+    table.error("body", fmt::format("there is no body '{}'", form.body), did_you_mean(form.body, known));
     return std::nullopt;
   }
   const planar::LinkageBody& body = l.bodies[at(b)];
@@ -383,101 +379,7 @@ study::Kind tolerance_kind() {
       "random linkages, which tolerance to tighten";
   kind.schema = describe;
   kind.prepare = prepare;
-  kind.example = R"(# linkwright study: clearances and length errors of a planar linkage
-schema = 1
-kind   = "analysis"
-title  = "How well does my four-bar keep to its path?"
-
-[mechanism]
-type = "clearance.linkage"
-
-# The first body is the ground. Points are in the frame of the body.
-[[mechanism.body]]
-name      = "ground"
-points_mm = { O = [0, 0], B0 = [200, 0] }
-
-[[mechanism.body]]
-name      = "crank"
-points_mm = { O = [0, 0], A = [50, 0] }
-
-[[mechanism.body]]
-name      = "coupler"
-points_mm = { A = [0, 0], B = [160, 0], P = [80, 90] }
-
-[[mechanism.body]]
-name      = "rocker"
-points_mm = { B0 = [0, 0], B = [120, 0] }
-
-[[mechanism.joint]]
-name   = "O"
-first  = "ground.O"
-second = "crank.O"
-
-[[mechanism.joint]]
-name   = "A"
-first  = "crank.A"
-second = "coupler.A"
-
-[[mechanism.joint]]
-name   = "B"
-first  = "coupler.B"
-second = "rocker.B"
-
-[[mechanism.joint]]
-name   = "B0"
-first  = "ground.B0"
-second = "rocker.B0"
-
-# A pair of bodies can be assembled two ways: plus = the inner pin lies to the left.
-[[mechanism.assembly]]
-bodies = ["coupler", "rocker"]
-mode   = "plus"
-
-[[drive]]
-joint     = "O"
-speed_rpm = 60.0
-
-[sweep]
-type = "grid"
-
-[[sweep.input]]
-joint    = "O"
-from_deg = 0.0
-to_deg   = 360.0
-samples  = 181
-
-# Loose pins: the pin lies anywhere within its clearance.
-[[clearance]]
-joint        = "A"
-clearance_mm = 0.05                 # radius of the bush less radius of the pin
-
-[[clearance]]
-joint        = "B"
-clearance_mm = 0.05
-
-# Lengths: the distance of two points of a body errs by at most this.
-[[tolerance]]
-body         = "coupler"
-from         = "A"
-to           = "B"
-tolerance_mm = 0.1
-
-# What is looked at: points, and angles, ways, forces and drives of joints.
-[[trace]]
-point = "coupler.P"
-
-[watch]
-coordinates = ["B0"]
-
-# How many linkages keep to an error?
-[[limit]]
-point    = "coupler.P"
-error_mm = 0.15
-
-[monte_carlo]
-draws = 2000
-seed  = 1
-)";
+  kind.example = templates::analysis_linkage();
   return kind;
 }
 

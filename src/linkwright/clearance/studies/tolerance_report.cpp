@@ -9,6 +9,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/columns.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::clearance {
 namespace {
@@ -161,9 +162,6 @@ class ToleranceReporter {
   // --------------------------------------------------------------------------------------------------
 
   using Verdict = study::Fact::Verdict;
-  void fact(std::string label, std::string text, Verdict verdict = Verdict::plain) {
-    result_.facts.push_back({std::move(label), std::move(text), verdict});
-  }
   void facts() {
     result_.statistics["draws"] = r_.random.draws;
     result_.statistics["seed"] = s_.seed;
@@ -245,10 +243,6 @@ class ToleranceReporter {
     fact("tighten first for " + quantity.name, text);
   }
 
-  void warn(std::string message, std::string hint = {}) {
-    result_.diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
-  }
   void warnings() {
     const auto told = [&](auto&& bad, std::string_view what, std::string hint) {
       std::size_t count = 0, first = 0;
@@ -351,6 +345,8 @@ class ToleranceReporter {
   std::vector<Yield> yields_;
   double scale_ = 1;
   study::Result result_;
+  const study::AddFact fact{result_.facts};
+  const study::AddWarning warn{result_.diagnostics};
 };
 
 }  // namespace

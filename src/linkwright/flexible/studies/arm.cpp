@@ -7,6 +7,8 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/flexible/response.h"
+#include "linkwright/flexible/studies/templates.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::flexible {
 namespace {
@@ -203,9 +205,7 @@ study::Result run_arm_study(const ArmStudy& s, RunContext& context) {
   const Table& motion = result.tables.front();
   const std::vector<Worst> worst = record(s, run.arm, run.simulation).worst;
   std::vector<study::Fact> facts;
-  const auto fact = [&](std::string label, std::string text) {
-    facts.push_back({std::move(label), std::move(text), study::Fact::Verdict::plain});
-  };
+  const study::AddFact fact{facts};
 
   double peak = 0, when = 0;
   for (std::size_t i = 0; i < motion.rows(); ++i) {
@@ -266,61 +266,7 @@ study::Kind arm_kind() {
   kind.summary =
       "arm of elastic links in series, hinged or welded: motion, torques, joint forces, stress, frequencies, "
       "input shaping";
-  kind.example = R"(# linkwright study: two elastic links, turned by motors in hub and elbow
-schema = 1
-kind   = "simulation"
-title  = "Elastic two-link arm"
-
-[mechanism]
-type              = "flexible.arm"
-hub_radius_mm     = 40.0
-hub_inertia_kg_m2 = 0.05
-
-[[mechanism.link]]
-name                = "upper"
-length_mm           = 500.0
-density_kg_per_m3   = 2700
-area_mm2            = 150.0            # 30 x 5 mm
-second_moment_mm4   = 312.5
-elastic_modulus_GPa = 70.0
-fibre_distance_mm   = 2.5              # for the stress
-divisions           = 2
-
-[[mechanism.link]]
-name                = "fore"
-length_mm           = 400.0
-density_kg_per_m3   = 2700
-area_mm2            = 75.0             # 25 x 3 mm
-second_moment_mm4   = 56.25
-elastic_modulus_GPa = 70.0
-tip_mass_kg         = 0.1
-fibre_distance_mm   = 1.5
-divisions           = 2
-[mechanism.link.hinge]                 # without it, the link is welded on in line
-mass_kg             = 0.5
-outer_inertia_kg_m2 = 1e-4
-
-[[drive]]
-link       = "upper"                   # turned with the hub
-law        = "cycloidal"               # or polynomial_345, table, spin_up, sine_torque, torque_table, none, ...
-from_deg   = 0.0
-to_deg     = 60.0
-duration_s = 1.0
-
-[[drive]]
-link       = "fore"                    # turned in its hinge, against the line of the upper link
-law        = "cycloidal"
-from_deg   = 90.0
-to_deg     = 20.0
-duration_s = 1.0
-
-[shaping]                              # leave it out to see the vibration
-shaper = "zv"
-
-[simulation]
-end_s  = 2.0
-step_s = 0.005
-)";
+  kind.example = templates::simulation_arm();
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "hub and links", .required = true},
                       study::schema_fields<ArmForm>());

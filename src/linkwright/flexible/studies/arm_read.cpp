@@ -64,10 +64,9 @@ std::vector<DriveLaw> sorted_drives(study::ObjectReader& document, const ArmForm
     const auto at = std::find(known.begin(), known.end(), drive.link);
     if (at == known.end()) {
       if (drive.link.empty() && !tables[i].has("link")) continue;  // reported as missing
-      const std::string_view nearest = nearest_word(drive.link, known);
       tables[i].error(
           "link", fmt::format("no link is called '{}'; there are: {}", drive.link, fmt::join(known, ", ")),
-          nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+          did_you_mean(drive.link, known));
       continue;
     }
     const auto k = static_cast<std::size_t>(at - known.begin());

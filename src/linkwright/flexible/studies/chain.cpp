@@ -9,6 +9,7 @@
 #include "linkwright/flexible/statics.h"
 #include "linkwright/flexible/studies/chain_scene.h"
 #include "linkwright/study/memory.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::flexible {
 namespace {
@@ -229,13 +230,8 @@ ChainRun run_chain(const ChainStudy& s, RunContext& context) {
   ChainRun out{.arm = s.arm(1), .simulation = {}, .result = {}};
   study::Result& result = out.result;
   const Chain& chain = out.arm.chain;
-  const auto fact = [&](std::string label, std::string text) {
-    result.facts.push_back({std::move(label), std::move(text), study::Fact::Verdict::plain});
-  };
-  const auto warn = [&](std::string where, std::string message, std::string hint) {
-    result.diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, std::move(where), std::move(message), std::move(hint)});
-  };
+  const study::AddFact fact{result.facts};
+  const study::AddWarning warn{result.diagnostics};
 
   const Pose first(s, &JointDrive::angle), last(s, &JointDrive::last);
   const std::vector<Mode> found = vibrations(chain, first, s.simulation.modes);

@@ -7,7 +7,9 @@
 
 #include "linkwright/flexible/reference_beam.h"
 #include "linkwright/flexible/response.h"
+#include "linkwright/flexible/studies/templates.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::flexible {
 namespace {
@@ -165,9 +167,7 @@ study::Result run_hub_link(const HubLinkStudy& s, RunContext& context) {
   const Table& motion = result.tables.front();
   const double peak = largest_of(motion, "tip_eta_m");
   std::vector<study::Fact> facts;
-  const auto fact = [&](std::string label, std::string text) {
-    facts.push_back({std::move(label), std::move(text), study::Fact::Verdict::plain});
-  };
+  const study::AddFact fact{facts};
   fact("largest displacement of the tip across the link", millimetres(peak));
   if (s.mechanism.fibre_distance)
     fact("largest bending stress", fmt::format("{:.4g} MPa", 1e-6 * largest_of(motion, "bending_stress_Pa")));
@@ -187,37 +187,7 @@ study::Kind hub_link_kind() {
   kind.mechanism = "flexible.hub_link";
   kind.summary =
       "hub with an elastic link and a tip mass: motion, weld forces, stress, frequencies, input shaping";
-  kind.example = R"(# linkwright study: an elastic link on a hub that is turned by half a turn
-schema = 1
-kind   = "simulation"
-title  = "Elastic arm, half a turn"
-
-[mechanism]
-type                = "flexible.hub_link"
-length_m            = 1.8
-density_kg_per_m3   = 2766
-area_mm2            = 250.0            # 100 x 2.5 mm
-second_moment_mm4   = 130.21
-elastic_modulus_GPa = 69.0
-tip_mass_kg         = 0.085
-hub_radius_mm       = 50.0
-hub_inertia_kg_m2   = 0.30
-fibre_distance_mm   = 1.25             # for the stress
-
-[drive]
-law        = "polynomial_345"          # or cycloidal, table, spin_up, sine_torque, torque_table, none, ...
-from_deg   = 0.0
-to_deg     = 180.0
-duration_s = 2.0
-
-[drive.shaping]                        # leave it out to see the vibration
-shaper = "zv"
-
-[simulation]
-end_s     = 5.0
-step_s    = 0.005
-divisions = 4
-)";
+  kind.example = templates::simulation_hub_link();
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "hub and link", .required = true},
                       study::schema_fields<HubLinkForm>());

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include "linkwright/flexible/modes.h"
+#include "linkwright/flexible/studies/templates.h"
 #include "linkwright/flexible/studies/vibration.h"
 #include "linkwright/study/bind_write.h"
 
@@ -68,36 +69,7 @@ study::Kind vibration_kind() {
       "hub with an elastic link and a tip mass: frequencies and mode shapes, Campbell diagram, resonant "
       "speeds, "
       "deflection under load";
-  kind.example = R"(# linkwright study: frequencies and deflection of an elastic link on a hub
-schema = 1
-kind   = "analysis"
-title  = "Vibrations of my arm"
-
-[mechanism]
-type                = "flexible.hub_link"
-length_m            = 1.8
-density_kg_per_m3   = 2766
-area_mm2            = 250.0            # 100 x 2.5 mm
-second_moment_mm4   = 130.21
-elastic_modulus_GPa = 69.0
-tip_mass_kg         = 0.085
-hub_radius_mm       = 50.0
-hub_inertia_kg_m2   = 0.30
-fibre_distance_mm   = 1.25             # for the stress
-
-[vibration]
-modes     = 3
-divisions = 8                          # of the link, two cells each
-hub       = "driven"                   # or free: it turns with the link
-
-[campbell]                             # frequencies over the speed of the hub
-to_rpm  = 120.0
-samples = 61
-orders  = [1, 2, 3]                    # excitation, in multiples of the speed
-
-[load]                                 # at the tip, in axes of the hub
-force_N = [0.0, -1.0]
-)";
+  kind.example = templates::analysis_hub_link();
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "hub and link", .required = true},
                       study::schema_fields<HubLinkForm>());

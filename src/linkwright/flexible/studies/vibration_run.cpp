@@ -8,9 +8,11 @@
 #include "linkwright/flexible/modes.h"
 #include "linkwright/flexible/response.h"
 #include "linkwright/flexible/statics.h"
+#include "linkwright/flexible/studies/chain.h"
 #include "linkwright/flexible/studies/vibration.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/zero.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::flexible {
 namespace {
@@ -19,7 +21,6 @@ constexpr double turn_of = 2 * pi;
 /// Share of a frequency by which twice the divisions, or the continuum, may change it before it is reported.
 constexpr double poor_frequency = 0.01;
 
-std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
 std::string hertz(double rate) { return fmt::format("{:.4g} Hz", rate / turn_of); }
 
 class Analyst {
@@ -41,13 +42,6 @@ class Analyst {
 
  private:
   using Verdict = study::Fact::Verdict;
-  void fact(std::string label, std::string text, Verdict verdict = Verdict::plain) {
-    result_.facts.push_back({std::move(label), std::move(text), verdict});
-  }
-  void warn(std::string key, std::string message, std::string hint) {
-    result_.diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, std::move(key), std::move(message), std::move(hint)});
-  }
   const Beam& beam() const { return s_.mechanism.beam; }
   int count() const { return s_.vibration.modes; }
   Hub hub() const { return s_.vibration.hub; }
@@ -426,6 +420,8 @@ class Analyst {
   double last_ = 0, lost_ = 0, tip_ = nan;
   std::string crossed_;
   study::Result result_;
+  const study::AddFact fact{result_.facts};
+  const study::AddWarning warn{result_.diagnostics};
 };
 
 }  // namespace

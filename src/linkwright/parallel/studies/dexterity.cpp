@@ -9,8 +9,10 @@
 #include "linkwright/core/units.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/studies/robot_scene.h"
+#include "linkwright/parallel/studies/templates.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/memory.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
 namespace linkwright::parallel {
@@ -167,11 +169,7 @@ void add_statistics(study::Result& result, const DexterityStudy& s, const Runs& 
     const Answer& a = runs.answers[i];
     const double cost = cost_of(s.task.goal, a);
     outcomes.push_back({cost, std::isfinite(cost) ? 0.0 : 1.0, a.evaluations});
-    Value entry;
-    entry["seed"] = static_cast<std::int64_t>(runs.seeds[i]);
-    entry["status"] = to_string(a.status);
-    entry["best"] = cost;
-    entry["evaluations"] = a.evaluations;
+    Value entry = study::seed_entry(runs.seeds[i], a.status, cost, a.evaluations);
     Value history = Value::array();
     double last = infinity;
     for (const optimise::GenerationLog& g : a.log) {
@@ -187,14 +185,7 @@ void add_statistics(study::Result& result, const DexterityStudy& s, const Runs& 
   }
   const optimise::SeedStatistics st = optimise::statistics(outcomes, best + 1e-6 * std::abs(best));
   result.statistics["method"] = std::visit([](const auto& m) { return choice_word(m).name; }, s.method);
-  result.statistics["seeds"] = st.seeds;
-  result.statistics["success_rate"] = st.success_rate;
-  const double sign = larger_is_better(s.task.goal) ? -1 : 1;
-  result.statistics["best"] = sign * st.best;
-  result.statistics["median"] = sign * st.median;
-  result.statistics["worst"] = sign * st.worst;
-  result.statistics["evaluations"] = st.evaluations;
-  result.statistics["median_evaluations"] = st.median_evaluations;
+  study::write_statistics(result.statistics, st, larger_is_better(s.task.goal) ? -1 : 1);
 }
 
 study::Solution solution_of(const DexterityStudy& s, const Answer& a) {
@@ -271,85 +262,6 @@ std::string objective_text(DexterityGoal goal, double value) {
                                        : fmt::format("least conditioning index {:.6f}", value);
 }
 
-std::string example_of(RobotFamily family) {
-  std::string out = fmt::format(
-      "# linkwright study: dimensions of a robot for a region; a range is designed, a number is "
-      "fixed\nschema = 1\nkind   = "
-      "\"synthesis\"\ntitle  = \"My {}\"\n\n[mechanism]\ntype = \"parallel.{}\"\n",
-      family == RobotFamily::delta  ? "DELTA"
-      : family == RobotFamily::hexa ? "HEXA"
-                                    : "five-bar",
-      name_of(family));
-  switch (family) {
-    case RobotFamily::delta:
-      out +=
-          R"(radius_difference_mm = { min = 0, max = 600 }     # radius of the base less that of the platform
-arm_mm               = { min = 100, max = 1000 }
-rod_mm               = { min = 200, max = 1600 }
-offset_mm            = { min = 50, max = 1500 }   # of the region below the arms' pivots
-
-[target]
-type      = "region"
-shape     = "cylinder"        # on the robot's axis
-width_mm  = 800
-height_mm = 250
-goal      = "size"            # or worst, mean: conditioning as good as possible
-
-[target.limits]
-conditioning   = 0.4
-constraint     = 0.2          # how firmly the parallelograms hold the platform: 0.2 if left out
-input          = 0.5
-arm_travel_deg = 120
-side_swing_deg = 40
-
-[target.pi_joint]             # leave out for motors at the pivots
-telescoping = 2.0
-)";
-      break;
-    case RobotFamily::hexa:
-      out += R"(base_radius_mm     = { min = 100, max = 400 }
-base_offset_mm     = { min = 20, max = 150 }
-platform_radius_mm = 90
-platform_angle_deg = { min = 20, max = 60 }
-arm_mm             = { min = 100, max = 500 }
-rod_mm             = { min = 200, max = 900 }
-offset_mm          = { min = 100, max = 900 }     # of the region below the arms' pivots
-
-[target]
-type      = "region"
-shape     = "cylinder"
-width_mm  = 300
-height_mm = 100
-nodes     = [3, 13, 3]
-cells     = [3, 6, 2]
-goal      = "worst"
-
-[target.limits]
-size_mm = 800
-)";
-      break;
-    case RobotFamily::five_bar:
-      out += R"(half_base_mm = { min = 0, max = 400 }
-arm_mm       = { min = 100, max = 600 }
-rod_mm       = { min = 100, max = 800 }
-offset_mm    = { min = 50, max = 800 }            # of the region from the line of the pivots
-
-[target]
-type      = "region"
-shape     = "rectangle"
-width_mm  = 400
-height_mm = 200
-nodes     = [21, 11]
-goal      = "worst"
-
-[target.limits]
-size_mm = 900
-)";
-      break;
-  }
-  return out;
-}
-
 study::Kind kind_of(RobotFamily family) {
   study::Kind kind;
   kind.kind = "synthesis";
@@ -360,7 +272,9 @@ study::Kind kind_of(RobotFamily family) {
                              family == RobotFamily::delta  ? "DELTA robot"
                              : family == RobotFamily::hexa ? "HEXA robot"
                                                            : "planar five-bar robot");
-  kind.example = example_of(family);
+  kind.example = family == RobotFamily::delta  ? templates::synthesis_delta_region()
+                 : family == RobotFamily::hexa ? templates::synthesis_hexa_region()
+                                               : templates::synthesis_five_bar_region();
   kind.schema = [family](study::SchemaWriter& document) {
     study::SchemaWriter mechanism;
     for (const FamilyDimension& d : dimensions(family))
@@ -510,9 +424,7 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
   result.tables.push_back(seeds_table(s, runs));
   using Verdict = study::Fact::Verdict;
   const bool good = a.best.status == Status::done;
-  const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
-    result.facts.push_back({std::move(label), std::move(text), verdict});
-  };
+  const study::AddFact fact{result.facts};
   const auto variables = design_variables(s.task);
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const bool angle = variables[i].name.ends_with("_rad"), length = variables[i].name.ends_with("_m");

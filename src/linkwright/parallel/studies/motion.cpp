@@ -15,6 +15,7 @@
 #include "linkwright/parallel/tool/table.h"
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -332,9 +333,7 @@ void add_motion(study::Result& result, const RobotDescription& d, const std::opt
       "transmission", held ? "Transmission, conditioning and constraint" : "Transmission and conditioning",
       indices));
 
-  const auto fact = [&](std::string label, std::string text) {
-    result.facts.push_back({std::move(label), std::move(text)});
-  };
+  const study::AddFact fact{result.facts};
   fact("duration of the path", fmt::format("{:.4g} s", study.motion.duration()));
   const auto least = [&](Asked asked, const char* label) {
     if (const auto* p = judge.peak(asked))

@@ -8,6 +8,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/pi_joint/singularities.h"
+#include "linkwright/parallel/studies/templates.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::parallel {
@@ -406,40 +407,7 @@ study::Kind pi_analysis_kind() {
   kind.kind = "analysis";
   kind.mechanism = "parallel.pi_joint";
   kind.summary = "active Pi-joint over its angle: diagonal, torque, speed, resolution, stiffness, weight";
-  kind.example =
-      R"(# linkwright study: curves of an active Pi-joint (a parallelogram with a screw as diagonal)
-schema = 1
-kind   = "analysis"
-title  = "Pi-joint with a stepping motor"
-
-[mechanism]
-type   = "parallel.pi_joint"
-arm_mm = 170.0
-ratio  = 0.4                      # base and coupler by arm
-
-[mechanism.drive]
-lead_mm            = 2.54
-efficiency         = 0.6
-force_limit_N      = 130.0
-rate_limit_m_per_s = 0.05
-[mechanism.drive.motor]
-steps_per_turn = 200
-
-[mechanism.stiffness]
-arm_N_per_m      = 5.0e7
-coupler_N_per_m  = 1.2e8
-diagonal_N_per_m = 1.2e7
-
-[masses]
-arm_mass_kg     = 0.2
-arm_inertia_kg_m2 = 0.0021
-arm_centre_mm   = 85.0
-coupler_mass_kg = 0.25
-
-[sweep]
-from_deg = -60.0
-to_deg   = 60.0
-)";
+  kind.example = templates::analysis_pi_joint();
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "the joint", .required = true},
                       study::schema_fields<PiJointForm>());
@@ -468,28 +436,7 @@ study::Kind pi_design_kind() {
   kind.target = "requirements";
   kind.seeded = true;
   kind.summary = "smallest Pi-joint that gives a torque, speed and resolution over a range of its angle";
-  kind.example =
-      R"(# linkwright study: the smallest Pi-joint for given requirements; leave out what does not matter
-schema = 1
-kind   = "synthesis"
-title  = "Pi-joint for my robot"
-
-[mechanism]
-type = "parallel.pi_joint"
-
-[target]
-type               = "requirements"
-half_travel_deg    = 60.0
-torque_N_m         = 4.0          # with
-force_limit_N      = 130.0
-speed_rad_per_s    = 0.7          # with
-rate_limit_m_per_s = 0.05
-quantum_mm         = 0.0127       # a step of the screw, which turns the output by at most
-resolution_rad     = 4.0e-4
-stroke_mm          = 120.0
-telescoping        = 2.0          # longest to shortest diagonal
-transmission_deg   = 8.0
-)";
+  kind.example = templates::synthesis_pi_joint_requirements();
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "what is designed", .required = true},
                       study::SchemaWriter().finish());

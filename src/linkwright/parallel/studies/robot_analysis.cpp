@@ -5,212 +5,11 @@
 #include <algorithm>
 
 #include "linkwright/parallel/robot/constraint.h"
+#include "linkwright/parallel/studies/templates.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::parallel {
 namespace {
-
-constexpr std::string_view planar_example = R"(
-[mechanism.drive]                   # of both arms; one table [[mechanism.drive]] each if they differ
-type             = "revolute"
-gear_ratio       = 10.0
-efficiency       = 0.9
-torque_limit_N_m = 60.0
-[mechanism.drive.motor]
-top_speed_rpm = 3000
-torque_N_m    = 6.0
-
-[masses]
-platform_mass_kg     = 0.6
-payload_kg           = 0.5
-rod_mass_kg          = 0.18
-elbow_mass_kg        = 0.07
-arm_inertia_kg_m2    = 0.0075
-arm_mass_kg          = 0.32
-arm_centre_mm        = 120.0
-gravity_m_per_s2     = [0, -9.80665, 0]
-
-[home]
-position_mm = [-100, 400, 0]
-
-[limits]
-transmission = 0.3
-
-[motion.limits]
-speed_m_per_s         = 2.0
-acceleration_m_per_s2 = 30.0
-jerk_m_per_s3         = 2000.0
-[[motion.step]]
-type  = "line"
-to_mm = [100, 400, 0]
-[[motion.step]]
-type       = "arc"
-through_mm = [0, 500, 0]
-to_mm      = [-100, 400, 0]
-
-[[pose]]
-name        = "middle"
-position_mm = [0, 420, 0]
-force_N     = [0, -20, 0]
-
-[workspace]
-lower_mm = [-600, -100, 0]
-upper_mm = [600, 600, 0]
-step_mm  = 20.0
-[workspace.inscribed]
-shape = "box"
-)";
-
-constexpr std::string_view spatial_example = R"(
-[mechanism.drive]                   # of all arms; one table [[mechanism.drive]] each if they differ
-type          = "pi_joint"          # or "revolute": a motor at the arm's pivot
-ratio         = 0.4                 # base of the parallelogram by its arm
-mounting_deg  = 30.0                # arm angle where the Pi-joint's own angle is 0
-travel_deg    = [-60, 60]
-lead_mm       = 10.0
-efficiency    = 0.9
-force_limit_N = 1500.0
-[mechanism.drive.motor]
-steps_per_turn = 4096
-top_speed_rpm  = 6000
-torque_N_m     = 2.0
-
-[masses]
-platform_mass_kg = 0.9
-payload_kg       = 0.5
-rod_mass_kg      = 0.2
-elbow_mass_kg    = 0.1
-[masses.pi_joint]
-arm_inertia_kg_m2   = 0.0153
-arm_mass_kg         = 0.375
-arm_centre_mm       = 175.0
-coupler_mass_kg     = 0.25
-nut_mass_kg         = 0.3
-nut_centre_mm       = 30.0
-nut_inertia_kg_m2   = 2.0e-4
-rod_mass_kg         = 0.12
-rod_centre_mm       = 220.0
-rod_inertia_kg_m2   = 3.0e-4
-rotor_inertia_kg_m2 = 1.5e-6
-)";
-
-std::string example_of(std::string_view type) {
-  const auto head = [](std::string_view title) {
-    return fmt::format(
-        "# linkwright study: a parallel robot, its poses, a tool path and its workspace\n"
-        "schema = 1\nkind   = \"analysis\"\ntitle  = \"{}\"\n\n[mechanism]\n",
-        title);
-  };
-  if (type == "parallel.delta")
-    return head("My DELTA") +
-           R"(type               = "parallel.delta"     # z up, the platform hangs below the base
-base_radius_mm     = 200.0
-platform_radius_mm = 45.0
-arm_mm             = 350.0
-rod_mm             = 800.0
-)" + std::string(spatial_example) +
-           R"(
-[home]
-position_mm = [-150, 0, -850]
-
-[limits]
-transmission = 0.4
-
-[motion.limits]
-speed_m_per_s         = 2.0
-acceleration_m_per_s2 = 20.0
-jerk_m_per_s3         = 1000.0
-[[motion.step]]
-type      = "pick_and_place"
-to_mm     = [150, 0, -850]
-height_mm = 50.0
-back      = true
-
-[[pose]]
-name        = "corner"
-position_mm = [200, -100, -850]
-force_N     = [10, 5, -30]
-
-[modes]
-
-[workspace]
-lower_mm = [-600, -600, -1100]
-upper_mm = [600, 600, -500]
-step_mm  = 30.0
-boundary = 72
-[workspace.inscribed]               # the largest cylinder about the robot's axis
-axis_mm = [0, 0]
-)";
-  if (type == "parallel.hexa")
-    return head("My HEXA") +
-           R"(type               = "parallel.hexa"      # z up, the platform hangs below the base
-base_radius_mm     = 250.0
-base_offset_mm     = 60.0
-platform_radius_mm = 90.0
-platform_angle_deg = 45.0
-arm_mm             = 250.0
-rod_mm             = 550.0
-)" + std::string(spatial_example) +
-           R"(
-[home]
-position_mm = [-80, 0, -500]
-
-[motion.limits]
-speed_m_per_s                  = 1.0
-acceleration_m_per_s2          = 10.0
-jerk_m_per_s3                  = 500.0
-angular_speed_rad_per_s        = 5.0
-angular_acceleration_rad_per_s2 = 50.0
-angular_jerk_rad_per_s3        = 2000.0
-[[motion.step]]
-type  = "line"
-to_mm = [80, 0, -480]
-[[motion.step]]
-type         = "line"
-to_mm        = [80, 0, -480]
-rotation_deg = [0, 15, 0]
-
-[[pose]]
-name         = "tilted"
-position_mm  = [50, -30, -500]
-rotation_deg = [8.6, -11.5, 14.3]
-
-[modes]
-
-[workspace]
-lower_mm = [-300, -300, -700]
-upper_mm = [300, 300, -300]
-step_mm  = 30.0
-)";
-  if (type == "parallel.five_bar")
-    return head("My five-bar") +
-           R"(type = "parallel.five_bar"        # x right, y up; the rods meet in the platform point
-
-[[mechanism.leg]]
-base_mm = [-150, 0]
-arm_mm  = 250.0
-rod_mm  = 350.0
-
-[[mechanism.leg]]
-base_mm = [150, 0]
-arm_mm  = 250.0
-rod_mm  = 350.0
-)" + std::string(planar_example);
-  return head("My platform") + R"(type = "parallel.constant_orientation"   # the platform does not turn
-
-[[mechanism.leg]]
-base_mm     = [-150, 0]
-arm_mm      = 250.0
-rod_mm      = 350.0
-platform_mm = [-50, 0]
-
-[[mechanism.leg]]
-base_mm     = [150, 0]
-arm_mm      = 250.0
-rod_mm      = 350.0
-platform_mm = [50, 0]
-)" + std::string(planar_example);
-}
 
 std::string summary_of(std::string_view type) {
   const std::string_view what = type == "parallel.delta"      ? "DELTA robot"
@@ -225,7 +24,10 @@ study::Kind kind_of(const char* type) {
   kind.kind = "analysis";
   kind.mechanism = type;
   kind.summary = summary_of(type);
-  kind.example = example_of(type);
+  kind.example = type == std::string_view("parallel.delta")      ? templates::analysis_delta()
+                 : type == std::string_view("parallel.hexa")     ? templates::analysis_hexa()
+                 : type == std::string_view("parallel.five_bar") ? templates::analysis_five_bar()
+                                                                 : templates::analysis_constant_orientation();
   kind.schema = [type](study::SchemaWriter& document) {
     describe_robot(document, type);
     document.property(Field{.key = "home", .summary = "where motions begin, and which assembly is meant"},

@@ -10,96 +10,13 @@
 #include "linkwright/core/units.h"
 #include "linkwright/parallel/studies/serial_pi_arm_motion.h"
 #include "linkwright/parallel/studies/serial_pi_arm_poses.h"
+#include "linkwright/parallel/studies/templates.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::parallel {
 namespace {
 
 constexpr double most_arm_nodes = 5e5;
-
-constexpr const char* example =
-    R"(# linkwright study: a serial arm of two Pi-joints, its poses, a tool path and its workspace
-schema = 1
-kind   = "analysis"
-title  = "My arm of two Pi-joints"
-
-[mechanism]
-type      = "parallel.serial_pi_arm"   # x right, y up; the second joint stands on the coupler of the first
-base_mm   = [0, 0]
-offset_mm = [60, -20]                  # all that the couplers add between pivots and tool
-arms_mm   = [300, 250]
-mode      = -1                         # 1: the second arm turns to the left of the first
-
-[[mechanism.drive]]                    # one table [mechanism.drive] if both are alike
-type          = "pi_joint"             # or "revolute": a motor beside a passive parallelogram
-ratio         = 0.4                    # base of the parallelogram by its arm
-mounting_deg  = 30.0                   # arm angle where the Pi-joint's own angle is 0
-travel_deg    = [-60, 60]
-lead_mm       = 10.0
-efficiency    = 0.9
-force_limit_N = 1500.0
-[mechanism.drive.motor]
-steps_per_turn = 4096
-top_speed_rpm  = 6000
-torque_N_m     = 1.0
-
-[[mechanism.drive]]
-type          = "pi_joint"
-ratio         = 0.4
-mounting_deg  = 0.0
-mirrored      = true                   # its screw is on the other side
-travel_deg    = [-60, 60]
-lead_mm       = 10.0
-efficiency    = 0.9
-force_limit_N = 1500.0
-[mechanism.drive.motor]
-steps_per_turn = 4096
-top_speed_rpm  = 6000
-torque_N_m     = 1.0
-
-[masses]
-payload_kg       = 0.8
-gravity_m_per_s2 = [0, -9.80665, 0]
-[[masses.joint]]
-arm_inertia_kg_m2 = 0.03
-arm_mass_kg       = 0.9
-arm_centre_mm     = 140.0
-coupler_mass_kg   = 0.5                # with the frame and the motor of the second joint
-[[masses.joint]]
-arm_inertia_kg_m2 = 0.012
-arm_mass_kg       = 0.6
-arm_centre_mm     = 110.0
-coupler_mass_kg   = 0.3
-
-[home]
-position_mm = [330, 180, 0]
-
-[limits]
-conditioning       = 0.2
-drive_transmission = 0.1
-
-[motion.limits]
-speed_m_per_s         = 1.0
-acceleration_m_per_s2 = 10.0
-jerk_m_per_s3         = 500.0
-[[motion.step]]
-type  = "line"
-to_mm = [450, 180, 0]
-[[motion.step]]
-type       = "arc"
-through_mm = [390, 240, 0]
-to_mm      = [330, 180, 0]
-
-[[pose]]
-name        = "reaching out"
-position_mm = [400, 220, 0]
-force_N     = [0, -20, 0]
-
-[modes]
-
-[workspace]
-step_mm = 10.0
-)";
 
 std::string words_of(SerialIndex index) {
   for (const auto& entry : names(SerialIndex{}))
@@ -392,7 +309,7 @@ study::Kind serial_pi_arm_kind() {
   kind.summary =
       "serial arm of two Pi-joints: poses with both modes, a tool path with what its drives must give, "
       "workspace";
-  kind.example = example;
+  kind.example = templates::analysis_serial_pi_arm();
   kind.schema = [](study::SchemaWriter& document) {
     study::SchemaWriter mechanism;
     SerialArmForm form;

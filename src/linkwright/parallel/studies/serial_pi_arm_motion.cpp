@@ -9,6 +9,7 @@
 #include "linkwright/math/zero.h"
 #include "linkwright/parallel/studies/drive_use.h"
 #include "linkwright/parallel/studies/serial_pi_arm_scene.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -188,9 +189,7 @@ void add_serial_motion(study::Result& result, const SerialAnalysis& s, RunContex
   add_drive_plots(result, table, d.arm.drive);
   result.plots.push_back(motion_plot("conditioning", "Conditioning", {"local_conditioning"}));
 
-  const auto fact = [&](std::string label, std::string text) {
-    result.facts.push_back({std::move(label), std::move(text)});
-  };
+  const study::AddFact fact{result.facts};
   fact("duration of the path", fmt::format("{:.4g} s", study.motion.duration()));
   if (const auto* p = judge.peak(Asked::conditioning))
     fact("least local conditioning index",

@@ -13,6 +13,7 @@
 #include "linkwright/parallel/workspace/aspects.h"
 #include "linkwright/parallel/workspace/rays.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -240,9 +241,7 @@ void add_workspace(study::Result& result, const RobotDescription& d, const Quali
   const int axes = planar ? 2 : 3;
 
   result.tables.push_back(totals_table(map, sums, axes));
-  const auto fact = [&](std::string label, std::string text) {
-    result.facts.push_back({std::move(label), std::move(text)});
-  };
+  const study::AddFact fact{result.facts};
   fact("workspace", fmt::format("{:.4g} {} ({} of {} nodes)", sums.measure, planar ? "m2" : "m3",
                                 sums.passing, map.count()));
   const IndexSummary lci = sums.index[slot(PoseIndex::conditioning)];

@@ -52,11 +52,9 @@ class Names {
 
  private:
   static std::string nearest(std::string_view name, const std::vector<std::string_view>& known) {
-    const std::string_view word = nearest_word(name, known);
-    if (!word.empty()) return fmt::format("did you mean '{}'?", word);
     std::string all;
     for (std::string_view k : known) all += fmt::format("{}{}", all.empty() ? "there are: " : ", ", k);
-    return all;
+    return did_you_mean(name, known, all);
   }
   const Linkage& l_;
   std::vector<FormProblem>& problems_;

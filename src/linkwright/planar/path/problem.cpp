@@ -36,8 +36,14 @@ void add_violation(PathDesign& design, const char* reason, double amount) {
 }  // namespace
 
 std::string_view name(FourBarParameter parameter) {
-  constexpr std::string_view all[] = {"ground",    "crank",   "coupler", "rocker",      "coupler_u",
-                                      "coupler_v", "pivot_x", "pivot_y", "frame_angle", "start_angle"};
+  static const auto all = [] {
+    std::array<std::string_view, four_bar_parameter_count> keys;
+    std::size_t j = 0;
+    FourBar numbers;
+    fields([&](const Field& field, double&) { keys[j++] = field.key; }, numbers);
+    keys[j] = "start_angle";
+    return keys;
+  }();
   return all[index(parameter)];
 }
 

@@ -61,6 +61,7 @@ void fields(Visitor&& visit, BalancingLimit& c) {
 /// A kind of mechanism that can be balanced.
 struct BalancedMechanism {
   std::string_view type;  ///< "planar.four_bar"
+  std::string_view (*example)();
   study::Kind (*analysis)();
   /// The table of its analysis; problems go to the reader, and the table is then empty.
   Table (*table)(study::ObjectReader& document, const study::Common& common,

@@ -10,6 +10,7 @@
 #include "linkwright/planar/studies/four_bar.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/serial_arm.h"
+#include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/study.h"
@@ -54,7 +55,7 @@ Table linkage_columns_of(study::ObjectReader& document, const study::Common& com
 }
 
 constexpr std::array<BalancedMechanism, 4> mechanisms = {{
-    {"planar.four_bar", reactions_kind,
+    {"planar.four_bar", templates::balancing_four_bar, reactions_kind,
      [](study::ObjectReader& document, const study::Common& common, std::span<const std::string>) {
        const ReactionsStudy s = read_reactions_study(document, common);
        if (document.document().has_errors()) return Table();
@@ -64,15 +65,15 @@ constexpr std::array<BalancedMechanism, 4> mechanisms = {{
        add_gyration(table, "rocker", s.mechanism.masses->rocker);
        return table;
      }},
-    {"planar.linkage", linkage_kind,
+    {"planar.linkage", templates::balancing_linkage, linkage_kind,
      [](study::ObjectReader& document, const study::Common& common, std::span<const std::string> columns) {
        return linkage_columns_of(document, common, LinkageType::linkage, columns);
      }},
-    {"planar.slider_crank", slider_crank_kind,
+    {"planar.slider_crank", templates::balancing_slider_crank, slider_crank_kind,
      [](study::ObjectReader& document, const study::Common& common, std::span<const std::string> columns) {
        return linkage_columns_of(document, common, LinkageType::slider_crank, columns);
      }},
-    {"planar.serial_arm", serial_arm_kind,
+    {"planar.serial_arm", templates::balancing_serial_arm, serial_arm_kind,
      [](study::ObjectReader& document, const study::Common& common, std::span<const std::string>) {
        const SerialArmStudy s = read_serial_arm_study(document, common);
        if (document.document().has_errors()) return Table();
@@ -104,10 +105,9 @@ void check_quantities(study::ObjectReader& document, std::string_view list,
   std::vector<study::ObjectReader> entries = document.tables(list);
   for (std::size_t k = 0; k < quantities.size() && k < entries.size(); ++k) {
     if (table.find(quantities[k])) continue;
-    const std::string_view nearest = nearest_word(quantities[k], known);
-    entries[k].error("quantity", fmt::format("the analysis has no column '{}'", quantities[k]),
-                     nearest.empty() ? fmt::format("columns are: {}", fmt::join(known, ", "))
-                                     : fmt::format("did you mean '{}'?", nearest));
+    entries[k].error(
+        "quantity", fmt::format("the analysis has no column '{}'", quantities[k]),
+        did_you_mean(quantities[k], known, fmt::format("columns are: {}", fmt::join(known, ", "))));
   }
 }
 
@@ -260,8 +260,6 @@ void describe_table(study::SchemaWriter& document, std::string_view key, bool ar
                     array ? study::schema_array(std::move(table)) : std::move(table));
 }
 
-std::string_view example_of(std::string_view type);
-
 study::Kind kind_of(const BalancedMechanism& mechanism) {
   const study::Kind analysis = mechanism.analysis();
   study::Kind kind;
@@ -269,7 +267,7 @@ study::Kind kind_of(const BalancedMechanism& mechanism) {
   kind.mechanism = mechanism.type;
   kind.summary = "least joint forces, shaking forces or drive torques by masses, lengths or motion laws";
   kind.seeded = true;
-  kind.example = example_of(mechanism.type);
+  kind.example = mechanism.example();
   const bool many_drives = mechanism.type != std::string_view("planar.four_bar");
   kind.schema = [many_drives](study::SchemaWriter& document) {
     describe_table(document, "mechanism", false, true);
@@ -317,262 +315,5 @@ study::Result design_analysis(const BalancingStudy& s, const study::Common& comm
   const study::Prepared prepared = s.mechanism->analysis().prepare(root, plain(common));
   return prepared.run && !reader.has_errors() ? prepared.run(context) : study::Result();
 }
-
-namespace {
-
-std::string_view example_of(std::string_view type) {
-  if (type == "planar.four_bar")
-    return R"(# linkwright study: balancing of a four-bar by its masses
-schema = 1
-kind   = "balancing"
-title  = "Balance of my four-bar"
-
-# The tables of an analysis. Where a number may stand, { min, max, initial } makes it a designed one.
-[mechanism]
-type   = "planar.four_bar"
-branch = "open"
-
-[mechanism.parameters]
-ground_mm  = 600.0
-crank_mm   = 100.0
-coupler_mm = 400.0
-rocker_mm  = 320.0
-
-[mechanism.mass.crank]
-mass_kg            = { min = 0.01, max = 3.0, initial = 0.36 }
-inertia_kg_m2      = 4.13e-4
-centre_distance_mm = { min = 1.0, max = 100.0, initial = 50.0 }
-centre_angle_deg   = { min = 0.0, max = 360.0, initial = 0.0 }
-
-[mechanism.mass.coupler]
-mass_kg            = 1.296
-inertia_kg_m2      = 1.87e-2
-centre_distance_mm = 200.0
-
-[mechanism.mass.rocker]
-mass_kg            = { min = 0.5, max = 1.5, initial = 1.046 }
-inertia_kg_m2      = 9.85e-3
-centre_distance_mm = { min = 1.0, max = 320.0, initial = 160.0 }
-centre_angle_deg   = { min = 0.0, max = 360.0, initial = 0.0 }
-
-[drive]
-speed_rpm = 300.0
-
-[sweep.crank_angle]
-from_deg = 0.0
-to_deg   = 360.0
-samples  = 201
-
-# A measure of a column of the analysis. Ratios to the initial design are added up (combine = "mean").
-[[objective]]
-quantity = "shaking_force_N"
-measure  = "rms"                    # rss_over_n | rms | mean_abs | max_abs | ...
-
-[[objective]]
-quantity = "shaking_moment_with_drive_N_m"
-measure  = "rms"
-
-[[constraint]]
-quantity = "drive_torque_N_m"
-measure  = "max_abs"
-at_most  = 15.0                     # in the unit of the column
-
-[optimiser]
-method  = "recommended"
-combine = "mean"                    # mean | largest | front | in_order | all
-seeds   = { first = 1, count = 2 }
-)";
-  if (type == "planar.slider_crank")
-    return R"(# linkwright study: counterweight of an engine
-schema = 1
-kind   = "balancing"
-title  = "Counterweight of my engine"
-
-# The tables of an analysis. Where a number may stand, { min, max, initial } makes it a designed one.
-[mechanism]
-type = "planar.slider_crank"
-
-[mechanism.parameters]
-crank_mm = 50.0
-rod_mm   = 150.0
-
-[mechanism.mass]
-slider_kg = 0.4
-
-[mechanism.mass.crank]
-mass_kg            = { min = 0.9, max = 4.0, initial = 0.9 }
-inertia_kg_m2      = 1.2e-3
-centre_distance_mm = { min = 0.0, max = 40.0, initial = 10.0 }
-centre_angle_deg   = { min = 0.0, max = 360.0, initial = 0.0 }
-
-[mechanism.mass.rod]
-mass_kg            = 0.5
-inertia_kg_m2      = 1.5e-3
-centre_distance_mm = 50.0
-
-[[drive]]
-speed_rpm = 3000.0
-
-[sweep]
-type = "grid"
-
-[[sweep.input]]
-from_deg = 0.0
-to_deg   = 360.0
-samples  = 181
-
-[[objective]]
-quantity = "shaking_force_N"
-measure  = "max_abs"
-
-[optimiser]
-method  = "recommended"
-combine = "mean"
-)";
-  if (type == "planar.serial_arm")
-    return R"(# linkwright study: motion of an arm with small joint forces
-schema = 1
-kind   = "balancing"
-title  = "Motion law of my arm"
-
-[mechanism]
-type = "planar.serial_arm"
-
-[[mechanism.link]]
-name      = "upper"
-length_mm = 500.0
-mass_kg   = 12.0
-
-[[mechanism.link]]
-name      = "fore"
-length_mm = 500.0
-mass_kg   = 6.0
-
-[[mechanism.link.attached]]
-mass_kg     = 4.0
-distance_mm = 500.0
-
-# Coefficients from a_6 on are free; a_3, a_4, a_5 follow from rest at both ends.
-[[drive]]
-link       = "upper"
-law        = "polynomial_345"
-from_deg   = 0.0
-to_deg     = 180.0
-duration_s = 10.0
-higher_coefficients = [{ min = -28.0, max = 35.0, initial = 0.0 }]
-
-[[drive]]
-link       = "fore"
-law        = "polynomial_345"
-from_deg   = 0.0
-to_deg     = 270.0
-duration_s = 10.0
-higher_coefficients = [{ min = -28.0, max = 35.0, initial = 0.0 }]
-
-[environment]
-gravity_m_per_s2 = 0.0
-
-[sweep.time]
-to_s    = 10.0
-samples = 201
-
-[[objective]]
-quantity = "O1_N"
-measure  = "rms"
-
-[[objective]]
-quantity = "O2_N"
-measure  = "rms"
-
-[optimiser]
-method  = "recommended"
-combine = "mean"
-)";
-  return R"(# linkwright study: counterweights of a linkage
-schema = 1
-kind   = "balancing"
-title  = "Counterweights of my linkage"
-
-# The tables of an analysis. Where a number may stand, { min, max, initial } makes it a designed one.
-[mechanism]
-type = "planar.linkage"
-
-[[mechanism.body]]
-name      = "ground"
-points_mm = { O = [0, 0], B0 = [600, 0] }
-
-[[mechanism.body]]
-name      = "crank"
-points_mm = { O = [0, 0], A = [100, 0] }
-mass_kg   = 0.36
-
-[[mechanism.body.attached]]         # a counterweight
-name    = "crank counterweight"
-mass_kg = { min = 0.0, max = 3.0, initial = 0.0 }
-at_mm   = [-80, 0]
-
-[[mechanism.body]]
-name      = "coupler"
-points_mm = { A = [0, 0], B = [400, 0] }
-mass_kg   = 1.3
-
-[[mechanism.body]]
-name      = "rocker"
-points_mm = { B0 = [0, 0], B = [320, 0] }
-mass_kg   = 1.05
-
-[[mechanism.body.attached]]
-name    = "rocker counterweight"
-mass_kg = { min = 0.0, max = 3.0, initial = 0.0 }
-at_mm   = [-120, 0]
-
-[[mechanism.joint]]
-name   = "O"
-first  = "ground.O"
-second = "crank.O"
-
-[[mechanism.joint]]
-name   = "A"
-first  = "crank.A"
-second = "coupler.A"
-
-[[mechanism.joint]]
-name   = "B"
-first  = "coupler.B"
-second = "rocker.B"
-
-[[mechanism.joint]]
-name   = "B0"
-first  = "ground.B0"
-second = "rocker.B0"
-
-[[mechanism.assembly]]
-bodies = ["coupler", "rocker"]
-mode   = "plus"
-
-[[drive]]
-joint     = "O"
-speed_rpm = 300.0
-
-[sweep]
-type = "grid"
-
-[[sweep.input]]
-joint    = "O"
-from_deg = 0.0
-to_deg   = 360.0
-samples  = 181
-
-[[objective]]
-quantity = "shaking_force_N"
-measure  = "rms"
-
-[optimiser]
-method  = "recommended"
-combine = "mean"
-)";
-}
-
-}  // namespace
 
 }  // namespace linkwright::planar

@@ -11,6 +11,7 @@
 #include "linkwright/planar/studies/balancing.h"
 #include "linkwright/planar/studies/four_bar_balancing.h"
 #include "linkwright/planar/studies/mass_balancing.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
 namespace linkwright::planar {
@@ -325,20 +326,9 @@ class Report {
       const double cost = best_cost(run);
       best = std::min(best, cost);
       outcomes.push_back({cost, std::isfinite(cost) ? 0.0 : 1.0, run.evaluations});
-      Value entry;
-      entry["seed"] = static_cast<std::int64_t>(runs_.seeds[i]);
-      entry["status"] = to_string(run.status);
-      entry["best"] = std::isfinite(cost) ? cost : nan;
-      entry["evaluations"] = run.evaluations;
-      entry["history"] = Value::array();
-      std::vector<BalancingRun::Step> history = run.history;
-      if (!history.empty()) history.push_back({run.evaluations, history.back().best});
-      for (const BalancingRun::Step& point : history) {
-        Value step;
-        step["evaluations"] = point.evaluations;
-        step["best"] = point.best;
-        entry["history"].push_back(std::move(step));
-      }
+      Value entry =
+          study::seed_entry(runs_.seeds[i], run.status, std::isfinite(cost) ? cost : nan, run.evaluations);
+      study::write_history(entry, run.history, run.evaluations);
       result_.log.push_back(std::move(entry));
     }
     const optimise::SeedStatistics st = optimise::statistics(outcomes, best * (1 + success_share));
@@ -351,9 +341,7 @@ class Report {
   void facts() {
     using Verdict = study::Fact::Verdict;
     const BalancedDesign& d = designs_.front();
-    const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
-      result_.facts.push_back({std::move(label), std::move(text), verdict});
-    };
+    const study::AddFact fact{result_.facts};
     std::string told;
     const std::vector<double> values = goal_values(p_.task, balanced()),
                               old = goal_values(p_.task, initial());

@@ -15,11 +15,6 @@ namespace {
 // Beyond it the mass that a file gives is not that of the beam.
 constexpr double other_mass = 0.01;
 
-std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& known) {
-  const std::string_view nearest = nearest_word(word, known);
-  return nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest);
-}
-
 // Index of a point that may be left out; -1 then, and when there is none.
 int point_of(study::ObjectReader& entry, const LinkageBody& body, std::string_view key,
              const std::optional<std::string>& name) {

@@ -7,6 +7,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/math/spectrum.h"
 #include "linkwright/planar/studies/elastic.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::planar {
 namespace {
@@ -45,10 +46,6 @@ class ElasticReporter {
   }
 
  private:
-  void warn(std::string message, std::string hint) {
-    result_.diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
-  }
   const std::string& name_of_beam(const ElasticPieces& p) const {
     return s_.linkage.bodies[at(p.beam.body)].name;
   }
@@ -141,9 +138,6 @@ class ElasticReporter {
   static double largest(const Column* c) {
     const auto row = c ? worst_row(c->values) : std::nullopt;
     return row ? std::abs(c->values[*row]) : nan;
-  }
-  void fact(std::string label, std::string text, study::Fact::Verdict v = study::Fact::Verdict::plain) {
-    result_.facts.push_back({std::move(label), std::move(text), v});
   }
   std::string place_text(const ElasticPieces& p, double place) const {
     const auto& points = s_.linkage.bodies[at(p.beam.body)].points;
@@ -291,6 +285,8 @@ class ElasticReporter {
   const LinkageSimulationStudy& s_;
   const ElasticRecording& r_;
   study::Result result_;
+  const study::AddFact fact{result_.facts};
+  const study::AddWarning warn{result_.diagnostics};
 };
 
 }  // namespace

@@ -19,40 +19,6 @@ struct ReactionsMechanism {
   FourBar linkage;
   std::optional<FourBarMasses> masses;
 };
-/// `[mechanism.parameters]`.
-template <class Visitor>
-void fields(Visitor&& visit, FourBar& l) {
-  const auto link = [&](std::string_view key, std::string_view summary, double& value) {
-    visit(Field{.key = key,
-                .summary = summary,
-                .dimension = Dimension::length,
-                .minimum = 0,
-                .maximum = 1e9,
-                .exclusive_minimum = true,
-                .required = true},
-          value);
-  };
-  const auto place = [&](std::string_view key, std::string_view summary, double& value) {
-    visit(
-        Field{
-            .key = key, .summary = summary, .dimension = Dimension::length, .minimum = -1e9, .maximum = 1e9},
-        value);
-  };
-  link("ground", "length of the ground link O1-O4", l.ground);
-  link("crank", "length of the crank O1-O2", l.crank);
-  link("coupler", "length of the coupler O2-O3", l.coupler);
-  link("rocker", "length of the rocker O4-O3", l.rocker);
-  place("coupler_u", "coupler point along O2->O3", l.coupler_u);
-  place("coupler_v", "coupler point along the left normal of O2->O3", l.coupler_v);
-  place("pivot_x", "crank pivot O1, x", l.pivot_x);
-  place("pivot_y", "crank pivot O1, y", l.pivot_y);
-  visit(Field{.key = "frame_angle",
-              .summary = "direction of O1->O4",
-              .dimension = Dimension::angle,
-              .minimum = -1e3,
-              .maximum = 1e3},
-        l.frame_angle);
-}
 template <class Visitor>
 void fields(Visitor&& visit, ReactionsMechanism& m) {
   visit(Field{.key = "branch", .summary = "assembly branch"}, m.linkage.branch);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linkwright/planar/studies/four_bar.h"
+#include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::planar {
@@ -34,18 +35,20 @@ ReactionsQuantities chosen_four_bar_quantities(const std::vector<std::string>& l
 }
 
 // Lengths so small or so far apart that the mechanics would leave the range of a double are no design.
-void check_lengths(study::ObjectReader& mechanism, const FourBar& l, const study::DisplayUnits& units) {
+void check_lengths(study::ObjectReader& mechanism, FourBar l, const study::DisplayUnits& units) {
   constexpr double least = 1e-9;
   auto parameters = mechanism.table("parameters");
   if (!parameters) return;
-  for (const auto& [key, length] : {std::pair{"ground", l.ground}, std::pair{"crank", l.crank},
-                                    std::pair{"coupler", l.coupler}, std::pair{"rocker", l.rocker}})
-    if (length < least)
-      parameters->error(
-          key,
-          fmt::format("is {}, a link must be at least {} long", units.text(length, Dimension::length),
-                      units.text(least, Dimension::length)),
-          "check the unit");
+  fields(
+      [&](const Field& field, double& length) {
+        if (field.exclusive_minimum && length < least)
+          parameters->error(
+              field.key,
+              fmt::format("is {}, a link must be at least {} long", units.text(length, Dimension::length),
+                          units.text(least, Dimension::length)),
+              "check the unit");
+      },
+      l);
 }
 
 }  // namespace
@@ -84,53 +87,7 @@ study::Kind reactions_kind() {
   kind.mechanism = "planar.four_bar";
   kind.summary = "motion, joint reactions, drive torque and shaking force of a four-bar over its crank angle";
   kind.quantities = quantity_words();
-  kind.example = R"(# linkwright study: motion and forces of a four-bar
-schema = 1
-kind   = "analysis"
-title  = "Forces of my four-bar"
-
-[mechanism]
-type   = "planar.four_bar"
-branch = "open"                     # open | crossed
-
-[mechanism.parameters]
-ground_mm  = 600.0
-crank_mm   = 100.0
-coupler_mm = 400.0
-rocker_mm  = 320.0
-
-# Mass centre: distance from the link's own joint (O1, O2, O4), angle from the link line.
-[mechanism.mass.crank]
-mass_kg            = 0.36
-inertia_kg_m2      = 4.13e-4        # about the mass centre
-centre_distance_mm = 50.0
-
-[mechanism.mass.coupler]
-mass_kg            = 1.296
-inertia_kg_m2      = 1.87e-2
-centre_distance_mm = 200.0
-centre_angle_deg   = 0.0
-
-[mechanism.mass.rocker]
-mass_kg            = 1.046
-inertia_kg_m2      = 9.85e-3
-centre_distance_mm = 160.0
-
-[drive]
-input     = "crank"
-speed_rpm = 300.0
-
-[environment]
-gravity_m_per_s2 = 9.81
-
-[sweep.crank_angle]
-from_deg = 0.0
-to_deg   = 360.0
-samples  = 361
-
-[output]                            # without quantities: all of them
-quantities = ["position", "rates", "reactions", "drive_torque", "shaking", "transmission_angle"]
-)";
+  kind.example = templates::analysis_four_bar();
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "the four-bar", .required = true},
                       study::schema_fields<ReactionsMechanism>());

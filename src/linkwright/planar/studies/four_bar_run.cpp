@@ -15,6 +15,7 @@
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/studies/four_bar.h"
 #include "linkwright/planar/studies/four_bar_scene.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::planar {
 namespace {
@@ -365,10 +366,7 @@ void warn_of_rows(study::Result& result, const ReactionsStudy& s, const FourBarB
   const auto count = [&](Status status) {
     return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), is(status)));
   };
-  const auto warn = [&](std::string message, std::string hint) {
-    result.diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
-  };
+  const study::AddWarning warn{result.diagnostics};
   if (const std::size_t n = count(Status::singular)) {
     const double angle = first(Status::singular)->angle;
     warn(fmt::format(

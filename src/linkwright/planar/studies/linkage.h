@@ -11,6 +11,7 @@
 #include "linkwright/planar/linkage/form.h"
 #include "linkwright/planar/linkage/plan.h"
 #include "linkwright/planar/linkage/slider_crank.h"
+#include "linkwright/study/bind_schema.h"
 #include "linkwright/study/driven_law.h"
 #include "linkwright/study/kind.h"
 
@@ -114,6 +115,42 @@ void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bo
 /// A key of a driven joint: an angle or a length, or its derivative of that order by time.
 Field drive_field(bool rotary, int order, std::string_view key, std::string_view summary,
                   bool required = false);
+
+/// The numbers of a joint: its kind decides whether they are of angles or of lengths. These are the field
+/// lists by which they are read, written into the canonical study and described.
+template <class Visitor>
+void joint_fields(Visitor&& visit, bool rotary, LinkageDrive& d) {
+  visit(drive_field(rotary, 1, "speed", "rate at every position of a grid"), d.rate);
+  visit(drive_field(rotary, 2, "acceleration", "acceleration at every position of a grid"), d.acceleration);
+}
+template <class Visitor>
+void joint_fields(Visitor&& visit, bool rotary, InputSamples& a) {
+  visit(drive_field(rotary, 0, "from", "first value", true), a.from);
+  visit(drive_field(rotary, 0, "to", "last value", true), a.to);
+  visit(Field{.key = "samples",
+              .summary = "number of values, both ends included",
+              .minimum = 2,
+              .maximum = 100000,
+              .required = true},
+        a.samples);
+}
+/// Describes them for both kinds of joints; which of them is required only the reader knows.
+template <class T>
+void describe_joint_fields(study::SchemaWriter& table) {
+  T defaults;
+  for (const bool rotary : {true, false})
+    joint_fields(
+        [&](Field field, auto& member) {
+          if (field.dimension == Dimension::none) {
+            if (rotary) table(field, member);
+            return;
+          }
+          field.required = false;
+          table.property(field, study::schema_number());
+        },
+        rotary, defaults);
+}
+
 /// The input that a table with `joint` means: the only one when it names none. Nothing, and the problem
 /// reported, when there is no such input.
 std::optional<std::size_t> input_of(study::ObjectReader& table, const Linkage& linkage);

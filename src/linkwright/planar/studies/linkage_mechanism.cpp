@@ -156,9 +156,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
     if (j < 0) {
       std::vector<std::string_view> known;
       for (const LinkageJoint& k : l.joints) known.push_back(k.name);
-      const std::string_view nearest = nearest_word(joint, known);
-      drive.error("joint", fmt::format("there is no joint '{}'", joint),
-                  nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+      drive.error("joint", fmt::format("there is no joint '{}'", joint), did_you_mean(joint, known));
       good = false;
     } else if (!own_drives) {
       l.driven.push_back(j);

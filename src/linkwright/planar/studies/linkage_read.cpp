@@ -6,6 +6,7 @@
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/samples.h"
 #include "linkwright/planar/studies/linkage.h"
+#include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
@@ -24,12 +25,6 @@ void fields(Visitor&& visit, LinkageQuality& q) {
               .summary = "table of all ways to assemble the linkage at the first position"},
         q.assembly_modes);
 }
-
-static constexpr Field samples_field{.key = "samples",
-                                     .summary = "number of values, both ends included",
-                                     .minimum = 2,
-                                     .maximum = 100000,
-                                     .required = true};
 
 namespace {
 
@@ -58,8 +53,7 @@ void read_drives(study::ObjectReader& document, const Linkage& l, bool over_time
     const bool rotary = input_joint(l, *input).type == JointType::revolute;
     LinkageDrive& d = s.drives[*input];
     if (!over_time) {
-      drive(drive_field(rotary, 1, "speed", "rate at every position"), d.rate);
-      drive(drive_field(rotary, 2, "acceleration", "acceleration at every position"), d.acceleration);
+      joint_fields(drive, rotary, d);
     } else {
       d.law = read_law(drive, rotary, true, canonical[*input]);
     }
@@ -73,8 +67,7 @@ void read_drives(study::ObjectReader& document, const Linkage& l, bool over_time
     }
     const bool rotary = input_joint(l, i).type == JointType::revolute;
     study::ObjectWriter writer(canonical[i]);
-    writer(drive_field(rotary, 1, "speed", {}), s.drives[i].rate);
-    writer(drive_field(rotary, 2, "acceleration", {}), s.drives[i].acceleration);
+    joint_fields(writer, rotary, s.drives[i]);
   }
 }
 
@@ -89,16 +82,14 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageStudy& s, Va
     const bool rotary = input_joint(l, *input).type == JointType::revolute;
     InputSamples& a = grid.inputs[*input];
     a.joint = input_joint(l, *input).name;
-    axis(drive_field(rotary, 0, "from", "first value", true), a.from);
-    axis(drive_field(rotary, 0, "to", "last value", true), a.to);
-    axis(samples_field, a.samples);
+    joint_fields(axis, rotary, a);
     rows *= std::max(a.samples, 1);
     if (a.samples >= 2 && a.from == a.to)
       axis.error("to", "the sweep ends where it begins",
                  rotary ? "for a full turn write from_deg = 0, to_deg = 360" : "give another end");
   }
   for (std::size_t i = 0; i < grid.inputs.size(); ++i) {
-    const InputSamples& a = grid.inputs[i];
+    InputSamples& a = grid.inputs[i];
     if (a.samples == 0 && !sweep.document().has_errors())
       sweep.error("input",
                   fmt::format("joint '{}' is driven, but the sweep does not say where it goes",
@@ -107,9 +98,7 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageStudy& s, Va
     const bool rotary = input_joint(l, i).type == JointType::revolute;
     study::ObjectWriter writer(axes[i]);
     writer(Field{.key = "joint", .summary = {}}, input_joint(l, i).name);
-    writer(drive_field(rotary, 0, "from", {}), a.from);
-    writer(drive_field(rotary, 0, "to", {}), a.to);
-    writer(samples_field, a.samples);
+    joint_fields(writer, rotary, a);
   }
   if (rows > most_rows)
     sweep.error("input", fmt::format("the grid has {:.0f} rows, at most {:.0f} are allowed", rows, most_rows),
@@ -168,9 +157,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
       Value axis;
       study::ObjectWriter writer(axis);
       writer(Field{.key = "joint", .summary = {}}, grid.inputs[i].joint);
-      writer(drive_field(rotary, 0, "from", {}), sample.from[i]);
-      writer(drive_field(rotary, 0, "to", {}), sample.to[i]);
-      writer(samples_field, 361);
+      joint_fields(writer, rotary, grid.inputs.back());
       axes.push_back(std::move(axis));
     }
     canonical_sweep["type"] = "grid";
@@ -184,7 +171,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
       for (std::size_t i = 0; i < l.driven.size(); ++i) {
         s.drives[i].rate = i == 0 ? sample.speed : 0.0;
         study::ObjectWriter writer(drives[i]);
-        writer(drive_field(description->plan.rotary[i], 1, "speed", {}), s.drives[i].rate);
+        joint_fields(writer, description->plan.rotary[i], s.drives[i]);
       }
   } else if (how == SweepType::grid) {
     read_grid(*sweep, l, s, canonical_sweep);
@@ -230,18 +217,12 @@ void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bo
   study::SchemaWriter drive;
   drive(Field{.key = "joint", .summary = "driven joint"}, std::string());
   drive(Field{.key = "law", .summary = "motion law, for a sweep over time"}, std::optional<study::AnyLaw>());
-  for (bool rotary : {true, false})
-    for (const auto& [order, key] : {std::pair{1, "speed"}, std::pair{2, "acceleration"}})
-      drive.property(drive_field(rotary, order, key, "over a grid: the same at every position"),
-                     study::schema_number());
+  describe_joint_fields<LinkageDrive>(drive);
   document.property(Field{.key = "drive", .summary = "how driven joints move"},
                     study::schema_array(std::move(drive).finish()));
   study::SchemaWriter axis;
   axis(Field{.key = "joint", .summary = "driven joint"}, std::string());
-  for (bool rotary : {true, false})
-    for (const char* key : {"from", "to"})
-      axis.property(drive_field(rotary, 0, key, "end of the axis"), study::schema_number());
-  axis(samples_field, 361);
+  describe_joint_fields<InputSamples>(axis);
   study::SchemaWriter sweep;
   sweep(Field{.key = "type", .summary = "how rows are placed"}, SweepType::grid);
   sweep.property(Field{.key = "input", .summary = "axes of a grid"},
@@ -277,76 +258,7 @@ study::Kind linkage_kind() {
   study::Kind kind = kind_of(LinkageType::linkage);
   kind.mechanism = "planar.linkage";
   kind.summary = "motion, joint reactions, drive torque and shaking force of any planar linkage";
-  kind.example = R"(# linkwright study: motion and forces of a planar linkage
-schema = 1
-kind   = "analysis"
-title  = "Forces of my linkage"
-
-[mechanism]
-type = "planar.linkage"
-
-# The first body is the ground. Points are in the frame of the body.
-[[mechanism.body]]
-name      = "ground"
-points_mm = { O = [0, 0], B0 = [600, 0] }
-
-[[mechanism.body]]
-name      = "crank"
-points_mm = { O = [0, 0], A = [100, 0] }
-mass_kg   = 0.36                    # inertia and centre: those of a uniform bar unless given
-
-[[mechanism.body]]
-name      = "coupler"
-points_mm = { A = [0, 0], B = [400, 0], C = [250, 150] }
-mass_kg   = 1.3
-
-[[mechanism.body]]
-name      = "rocker"
-points_mm = { B0 = [0, 0], B = [320, 0] }
-mass_kg   = 1.05
-
-# Joints: revolute, prismatic, pin_in_slot, fixed, gear.
-[[mechanism.joint]]
-name   = "O"
-first  = "ground.O"
-second = "crank.O"
-
-[[mechanism.joint]]
-name   = "A"
-first  = "crank.A"
-second = "coupler.A"
-
-[[mechanism.joint]]
-name   = "B"
-first  = "coupler.B"
-second = "rocker.B"
-
-[[mechanism.joint]]
-name   = "B0"
-first  = "ground.B0"
-second = "rocker.B0"
-
-# A pair of bodies can be assembled two ways: plus = the inner pin lies to the left.
-[[mechanism.assembly]]
-bodies = ["coupler", "rocker"]
-mode   = "plus"
-
-[[drive]]
-joint     = "O"
-speed_rpm = 300.0
-
-[sweep]
-type = "grid"
-
-[[sweep.input]]
-joint    = "O"
-from_deg = 0.0
-to_deg   = 360.0
-samples  = 361
-
-[[trace]]
-point = "coupler.C"
-)";
+  kind.example = templates::analysis_linkage();
   return kind;
 }
 
@@ -354,45 +266,7 @@ study::Kind slider_crank_kind() {
   study::Kind kind = kind_of(LinkageType::slider_crank);
   kind.mechanism = "planar.slider_crank";
   kind.summary = "motion, joint reactions, drive torque and shaking force of a slider-crank";
-  kind.example = R"(# linkwright study: motion and forces of a slider-crank
-schema = 1
-kind   = "analysis"
-title  = "Forces of my engine"
-
-[mechanism]
-type   = "planar.slider_crank"
-branch = "forward"                  # forward | backward
-
-[mechanism.parameters]
-crank_mm        = 50.0
-rod_mm          = 150.0
-offset_mm       = 0.0               # of the guide from the crank pivot, to the left of its direction
-guide_angle_deg = 0.0
-
-[mechanism.mass]
-slider_kg = 0.4
-
-[mechanism.mass.crank]
-mass_kg            = 0.9
-inertia_kg_m2      = 1.2e-3         # about the mass centre
-centre_distance_mm = 10.0           # from O
-
-[mechanism.mass.rod]
-mass_kg            = 0.5
-inertia_kg_m2      = 1.5e-3
-centre_distance_mm = 50.0           # from A
-
-[[drive]]
-speed_rpm = 3000.0
-
-[sweep]
-type = "grid"
-
-[[sweep.input]]
-from_deg = 0.0
-to_deg   = 360.0
-samples  = 361
-)";
+  kind.example = templates::analysis_slider_crank();
   return kind;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 
 #include "linkwright/core/numbers.h"
@@ -15,6 +14,7 @@
 #include "linkwright/planar/linkage/smooth_branch.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_scene.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::planar {
 namespace {
@@ -361,9 +361,7 @@ class Runner {
 
   void facts() {
     using Verdict = study::Fact::Verdict;
-    const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
-      result_.facts.push_back({std::move(label), std::move(text), verdict});
-    };
+    const study::AddFact fact{result_.facts};
     fact("degrees of freedom", fmt::format("{}, {} driven", mobility(s_.linkage), s_.plan.inputs()));
     std::string order;
     for (const Group& g : s_.plan.groups)
@@ -399,10 +397,7 @@ class Runner {
   }
 
   void warnings() {
-    const auto warn = [&](std::string message, std::string hint) {
-      result_.diagnostics.push_back(
-          {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
-    };
+    const study::AddWarning warn{result_.diagnostics};
     // Change points are told of by themselves.
     std::size_t first_row = 0;
     const auto count = [&](Status s) {
@@ -451,7 +446,7 @@ class Runner {
     return limits_ ? "it " + assembly_range_text(*limits_, modes_) : std::string();
   }
   // Positions where the branch is a choice.
-  void change_points(const std::function<void(std::string, std::string)>& warn) const {
+  void change_points(const study::AddWarning& warn) const {
     if (!branch_) return;
     for (std::size_t r = 0; r < statuses_.size(); ++r)
       if (passed_[r] && statuses_[r] == Status::singular) {

@@ -5,6 +5,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/path.h"
+#include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::planar {
@@ -234,43 +235,7 @@ study::Kind path_kind() {
   kind.target = "path_points";
   kind.summary = "four-bar linkage whose coupler point traces a path";
   kind.seeded = true;
-  kind.example = R"(# linkwright study: a four-bar whose coupler point traces a closed path
-schema = 1
-kind   = "synthesis"
-title  = "Four-bar for my path"
-
-[mechanism]
-type = "planar.four_bar"
-# Bounds follow from the path. To fix or limit a quantity:
-# [mechanism.parameters]
-# ground_mm = 400.0
-# crank_mm  = { min = 50.0, max = 200.0 }
-# rocker_pivot_x_mm = { min = 0.0, max = 500.0 }   # where the other fixed pivot may be
-
-[target]
-type   = "path_points"
-closed = true
-timing = { mode = "free" }          # free | equal_steps | given
-points_mm = [
-  [500, 1100], [300, 1100], [100, 900], [20, 600], [0, 400], [100, 250],
-  [200, 300], [400, 500], [600, 900],
-]
-# or: points_file = "path.csv"      # columns x_mm, y_mm; tolerance_mm, where there is one
-# or: gates_mm = [{ from = [500, 1090], to = [500, 1110] }, ...]   # to pass between two points
-#     (in a points_file: columns from_x_mm, from_y_mm, to_x_mm, to_y_mm)
-# tolerance_mm = 1.0                # points count as met this near, at no cost
-
-[[constraint]]
-type = "crank_rotates_fully"
-
-[[constraint]]
-type    = "transmission_angle"
-min_deg = 30.0
-
-[optimiser]
-method = "recommended"
-seeds  = { first = 1, count = 4 }
-)";
+  kind.example = templates::synthesis_four_bar_path_points();
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "the four-bar"},
                       study::schema_fields<PathMechanism>());

@@ -5,6 +5,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
+#include "linkwright/core/units.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/optimise/statistics.h"
 #include "linkwright/planar/four_bar/classify.h"
@@ -15,6 +16,7 @@
 #include "linkwright/planar/path/usability.h"
 #include "linkwright/planar/studies/four_bar_scene.h"
 #include "linkwright/planar/studies/path.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
 namespace linkwright::planar {
@@ -137,9 +139,12 @@ std::vector<PathDesign> distinct_designs(const PathStudy& s, const Run& run) {
 }
 
 std::array<double, four_bar_parameter_count> values_of(const PathDesign& d, bool with_start) {
-  const FourBar& l = d.linkage;
-  return {l.ground,    l.crank,   l.coupler, l.rocker,      l.coupler_u,
-          l.coupler_v, l.pivot_x, l.pivot_y, l.frame_angle, with_start ? d.angles[0] : 0.0};
+  std::array<double, four_bar_parameter_count> out{};
+  std::size_t j = 0;
+  FourBar l = d.linkage;
+  fields([&](const Field&, double& value) { out[j++] = value; }, l);
+  out[j] = with_start ? d.angles[0] : 0.0;
+  return out;
 }
 
 study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t number) {
@@ -252,26 +257,14 @@ double add_statistics(study::Result& result, const Run& run, double best, double
     const double error = seed.designs.empty() ? infinity : seed.designs[0].error;
     const double violation = seed.designs.empty() ? infinity : total_violation(seed.designs[0]);
     outcomes.push_back({error, violation, seed.evaluations});
-    Value entry;
-    entry["seed"] = static_cast<std::int64_t>(run.seeds[i]);
-    entry["status"] = to_string(seed.status);
-    entry["best"] = violation > 0 ? nan : error;  // sum of squared distances (m2)
+    Value entry = study::seed_entry(run.seeds[i], seed.status, violation > 0 ? nan : error,
+                                    seed.evaluations);  // sum of squared distances (m2)
     entry["violation"] = violation;
-    entry["evaluations"] = seed.evaluations;
     if (!seed.designs.empty()) {
       entry["violations"] = Value::array();
       for (const auto& v : seed.designs[0].violations) entry["violations"].push_back(v.reason);
     }
-    entry["history"] = Value::array();
-    std::vector<SearchPoint> history = seed.history;
-    if (!history.empty())
-      history.push_back({seed.evaluations, history.back().best});  // to the end of the run
-    for (const SearchPoint& point : history) {
-      Value step;
-      step["evaluations"] = point.evaluations;
-      step["best"] = point.best;
-      entry["history"].push_back(std::move(step));
-    }
+    study::write_history(entry, seed.history, seed.evaluations);
     result.log.push_back(std::move(entry));
   }
   const double threshold = best + std::max(success_share * best, success_of_size * size * size);
@@ -308,11 +301,7 @@ void add_published(study::Result& result, const PathProblem& p, double best) {
   }
 }
 
-std::string metres(double value) {
-  if (value >= 0.1) return fmt::format("{:.4g} m", value);
-  if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
-  return fmt::format("{:.3g} µm", value * 1e6);
-}
+using study::metres;
 
 // Distances below this share of the size of the path are rounding.
 constexpr double exact_share = 1e-12;
@@ -412,15 +401,18 @@ void warn_of_transmission(study::Result& result, const PathProblem& p, const Pat
 
 void add_cognates(study::Result& result, const PathDesign& best) {
   Table table{.name = "cognates"};
-  const std::array<std::string_view, 10> keys = {"ground_m",        "crank_m",     "coupler_m", "rocker_m",
-                                                 "coupler_u_m",     "coupler_v_m", "pivot_x_m", "pivot_y_m",
-                                                 "frame_angle_rad", "same_timing"};
-  for (std::string_view key : keys) table.add(std::string(key), std::string(key));
-  const auto row = [&](const FourBar& l, bool same_timing) {
-    const std::array<double, 10> v = {
-        l.ground,    l.crank,   l.coupler, l.rocker,      l.coupler_u,
-        l.coupler_v, l.pivot_x, l.pivot_y, l.frame_angle, same_timing ? 1.0 : 0.0};
-    for (std::size_t i = 0; i < v.size(); ++i) table.columns[i].values.push_back(v[i]);
+  FourBar numbers;
+  fields(
+      [&](const Field& field, double&) {
+        const std::string key = si_key(field.key, field.dimension);
+        table.add(key, key);
+      },
+      numbers);
+  table.add("same_timing", "same_timing");
+  const auto row = [&](FourBar l, bool same_timing) {
+    std::size_t i = 0;
+    fields([&](const Field&, double& value) { table.columns[i++].values.push_back(value); }, l);
+    table.columns[i].values.push_back(same_timing ? 1.0 : 0.0);
   };
   row(best.linkage, true);
   for (const Cognate& cognate : cognates(best.linkage, best.angles[0]))

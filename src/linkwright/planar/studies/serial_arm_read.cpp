@@ -5,6 +5,7 @@
 #include <string>
 
 #include "linkwright/planar/studies/serial_arm.h"
+#include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::planar {
@@ -83,10 +84,9 @@ std::vector<ArmDrive> sorted_drives(study::ObjectReader& document, const std::ve
     const auto at = std::find(known.begin(), known.end(), drive.link);
     if (at == known.end()) {
       if (drive.link.empty() && !tables[i].has("link")) continue;  // reported as missing
-      const std::string_view nearest = nearest_word(drive.link, known);
       tables[i].error(
           "link", fmt::format("no link is called '{}'; there are: {}", drive.link, fmt::join(known, ", ")),
-          nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+          did_you_mean(drive.link, known));
       continue;
     }
     const auto k = static_cast<std::size_t>(at - known.begin());
@@ -151,58 +151,7 @@ study::Kind serial_arm_kind() {
   kind.mechanism = "planar.serial_arm";
   kind.summary = "motion, joint forces, torques, power and energy of an arm of revolute links over time";
   kind.quantities = quantity_words();
-  kind.example = R"(# linkwright study: motion and forces of an arm
-schema = 1
-kind   = "analysis"
-title  = "Torques of my arm"
-
-[mechanism]
-type = "planar.serial_arm"
-
-# Links from the base outwards. Left out: inertia and mass centre of a uniform rod.
-[[mechanism.link]]
-name      = "upper"
-length_mm = 400.0
-mass_kg   = 5.0
-
-[[mechanism.link]]
-name               = "fore"
-length_mm          = 300.0
-mass_kg            = 3.0
-inertia_kg_m2      = 0.02           # about the mass centre
-centre_distance_mm = 140.0          # from the link's own joint
-centre_angle_deg   = 0.0            # from the link line
-
-[[mechanism.link.attached]]         # payload in the hand; a counterweight has a negative distance
-mass_kg     = 1.5
-distance_mm = 300.0
-
-# One drive for each link. Angles are absolute (from the x axis) unless angle = "joint" (from the link before).
-[[drive]]
-link       = "upper"
-law        = "cycloidal"            # or constant_speed, polynomial_345, polynomial, table, harmonic
-from_deg   = 0.0
-to_deg     = 90.0
-duration_s = 0.8
-
-[[drive]]
-link       = "fore"
-angle      = "joint"
-law        = "polynomial_345"
-from_deg   = 30.0
-to_deg     = -60.0
-duration_s = 0.8
-
-[environment]
-gravity_m_per_s2 = 9.81
-
-[sweep.time]
-to_s    = 0.8
-samples = 201
-
-[output]                            # without quantities: all of them
-quantities = ["position", "rates", "reactions", "torques", "power", "energy"]
-)";
+  kind.example = templates::analysis_serial_arm();
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "the arm", .required = true},
                       study::schema_fields<ArmMechanism>());

@@ -10,6 +10,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/serial_arm/reactions.h"
 #include "linkwright/planar/studies/serial_arm.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::planar {
 namespace {
@@ -274,9 +275,7 @@ Peak peak_torque(const std::vector<Row>& rows, std::size_t k, double ArmJointLoa
 void add_facts(study::Result& result, const SerialArmStudy& s, const std::vector<Row>& rows) {
   const ArmQuantities& q = s.quantities;
   const std::vector<ArmLinkEntry>& links = s.mechanism.links;
-  const auto fact = [&](std::string label, std::string value) {
-    result.facts.push_back({std::move(label), std::move(value)});
-  };
+  const study::AddFact fact{result.facts};
   fact("links", fmt::format("{}", links.size()));
   if (q.reactions)
     for (std::size_t k = 0; k < links.size(); ++k)

@@ -49,6 +49,13 @@ study::Result run_linkage_simulation(const LinkageSimulationStudy& study, RunCon
 // ---- shared with other simulations of linkages
 // ------------------------------------------------------------------
 
+/// Numbers of a joint that is free, as those of `linkage.h`.
+template <class Visitor>
+void joint_fields(Visitor&& visit, bool rotary, InputDrive& c) {
+  visit(drive_field(rotary, 0, "start", "of a free joint: position at the start"), c.value);
+  visit(drive_field(rotary, 1, "start_speed", "of a free joint: rate at the start"), c.rate);
+}
+
 /// `[[drive]]` of a simulation, one drive an input: a law, or free with what it starts from. Inputs of
 /// samples and shorthands that the file does not name are free. The tables are written into `canonical`;
 /// problems go to the reader.

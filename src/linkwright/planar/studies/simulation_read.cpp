@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "linkwright/planar/studies/elastic.h"
+#include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
@@ -84,8 +85,7 @@ std::vector<InputDrive> read_input_drives(study::ObjectReader& document, const L
     const bool rotary = d.plan.rotary[i];
     study::ObjectWriter writer(canonical[i]);
     writer(free_field, true);
-    writer(drive_field(rotary, 0, "start", {}), drives[i].value);
-    writer(drive_field(rotary, 1, "start_speed", {}), drives[i].rate);
+    joint_fields(writer, rotary, drives[i]);
   };
   for (std::size_t i = 0; i < l.driven.size(); ++i) {
     canonical[i]["joint"] = input_joint(l, i).name;
@@ -102,8 +102,7 @@ std::vector<InputDrive> read_input_drives(study::ObjectReader& document, const L
     bool free = false;
     if (!drive(free_field, free) && drive.has("free")) continue;
     if (free) {
-      drive(drive_field(rotary, 0, "start", "position at the start"), drives[i].value);
-      drive(drive_field(rotary, 1, "start_speed", "rate at the start"), drives[i].rate);
+      joint_fields(drive, rotary, drives[i]);
       if (drive.has("law"))
         drive.error("law", fmt::format("joint '{}' is free and has a motion law", joint),
                     "remove one of them");
@@ -126,9 +125,7 @@ void describe_input_drives(study::SchemaWriter& document) {
   study::SchemaWriter drive;
   drive(Field{.key = "joint", .summary = "joint whose coordinate it is"}, std::string());
   drive(free_field, false);
-  for (bool rotary : {true, false})
-    for (const auto& [order, key] : {std::pair{0, "start"}, std::pair{1, "start_speed"}})
-      drive.property(drive_field(rotary, order, key, "of a free joint"), study::schema_number());
+  describe_joint_fields<InputCourse>(drive);
   drive(Field{.key = "law", .summary = "motion law of a joint that is not free"},
         std::optional<study::AnyLaw>());
   document.property(Field{.key = "drive", .summary = "joints that are free, or move as a law says"},
@@ -253,58 +250,7 @@ study::Kind linkage_simulation_kind() {
   kind.mechanism = "planar.linkage";
   kind.summary =
       "motion of any planar linkage under weight, springs, forces and motors, with an energy audit";
-  kind.example = R"(# linkwright study: motion of a planar linkage under forces
-schema = 1
-kind   = "simulation"
-title  = "My linkage swings"
-
-[mechanism]
-type = "planar.linkage"
-
-# The first body is the ground. Points are in the frame of the body.
-[[mechanism.body]]
-name      = "ground"
-points_mm = { O = [0, 0] }
-
-[[mechanism.body]]
-name      = "upper"
-points_mm = { O = [0, 0], A = [300, 0] }
-mass_kg   = 0.5                     # inertia and centre: those of a uniform bar unless given
-
-[[mechanism.body]]
-name      = "lower"
-points_mm = { A = [0, 0], B = [200, 0] }
-mass_kg   = 0.3
-
-[[mechanism.joint]]
-name   = "O"
-first  = "ground.O"
-second = "upper.O"
-
-[[mechanism.joint]]
-name   = "A"
-first  = "upper.A"
-second = "lower.A"
-
-# One [[drive]] for each degree of freedom: free = true, or a motion law.
-[[drive]]
-joint           = "O"
-free            = true
-start_deg       = 0.0
-start_speed_rpm = 0.0
-
-[[drive]]
-joint     = "A"
-free      = true
-start_deg = 90.0
-
-[simulation]
-to_s    = 5.0
-samples = 501
-
-[[trace]]
-point = "lower.B"
-)";
+  kind.example = templates::simulation_linkage();
   return kind;
 }
 
@@ -312,41 +258,7 @@ study::Kind slider_crank_simulation_kind() {
   study::Kind kind = kind_of(LinkageType::slider_crank);
   kind.mechanism = "planar.slider_crank";
   kind.summary = "motion of a slider-crank under its weight, with an energy audit";
-  kind.example = R"(# linkwright study: a slider-crank let go
-schema = 1
-kind   = "simulation"
-title  = "My engine coasts"
-
-[mechanism]
-type   = "planar.slider_crank"
-branch = "forward"                  # forward | backward
-
-[mechanism.parameters]
-crank_mm        = 50.0
-rod_mm          = 150.0
-guide_angle_deg = 0.0
-
-[mechanism.mass]
-slider_kg = 0.4
-
-[mechanism.mass.crank]
-mass_kg            = 0.9
-inertia_kg_m2      = 1.2e-3         # about the mass centre
-centre_distance_mm = 10.0           # from O
-
-[mechanism.mass.rod]
-mass_kg            = 0.5
-inertia_kg_m2      = 1.5e-3
-centre_distance_mm = 50.0           # from A
-
-[[drive]]
-free            = true
-start_deg       = 90.0
-start_speed_rpm = 600.0
-
-[simulation]
-to_s = 0.5
-)";
+  kind.example = templates::simulation_slider_crank();
   return kind;
 }
 

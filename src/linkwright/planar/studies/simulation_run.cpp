@@ -9,6 +9,7 @@
 #include "linkwright/planar/simulation/coordinates.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/planar/studies/simulation.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::planar {
 namespace {
@@ -149,13 +150,8 @@ class SimulationRunner {
 
   void facts() {
     using Verdict = study::Fact::Verdict;
-    const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
-      result_.facts.push_back({std::move(label), std::move(text), verdict});
-    };
-    const auto warn = [&](std::string message, std::string hint) {
-      result_.diagnostics.push_back(
-          {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
-    };
+    const study::AddFact fact{result_.facts};
+    const study::AddWarning warn{result_.diagnostics};
     std::size_t free = 0;
     for (std::size_t k = 0; k < s_.drives.size(); ++k) free += is_free(k);
     fact("degrees of freedom",

@@ -6,6 +6,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
+#include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind_write.h"
 
 namespace linkwright::planar {
@@ -219,46 +220,7 @@ study::Kind slider_path_kind() {
   kind.summary =
       "slider-crank with an inclined, offset guide whose rod point traces a path, also with a short stroke";
   kind.seeded = true;
-  kind.example = R"(# linkwright study: a slider-crank whose rod point traces a closed path
-schema = 1
-kind   = "synthesis"
-title  = "Slider-crank for my path"
-
-[mechanism]
-type = "planar.slider_crank"
-# Bounds follow from the path. To fix or limit a quantity:
-# [mechanism.parameters]
-# guide_angle_deg = 0.0
-# crank_mm        = { min = 50.0, max = 400.0 }
-
-[target]
-type   = "path_points"
-closed = true
-timing = { mode = "equal_steps", step_deg = 40.0 }   # free | equal_steps | increments | given
-points_mm = [
-  [500, 1100], [300, 1100], [100, 900], [20, 600], [0, 400], [100, 250],
-  [200, 300], [400, 500], [600, 900],
-]
-# or: points_file = "path.csv"      # columns x_mm, y_mm
-
-[[objective]]
-type = "path.sum_squared_distance"
-
-[[objective]]                       # both objectives: a front to pick from
-type = "slider.stroke"
-
-[[constraint]]
-type = "crank_rotates_fully"
-
-[[constraint]]
-type    = "pressure_angle"          # between rod and guide
-max_deg = 75.0
-
-[optimiser]
-method = "recommended"
-front  = 15
-seeds  = { first = 1, count = 2 }
-)";
+  kind.example = templates::synthesis_slider_crank_path_points();
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "the slider-crank"},
                       study::schema_fields<SliderPathMechanism>());

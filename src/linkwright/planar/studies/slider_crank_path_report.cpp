@@ -11,6 +11,7 @@
 #include "linkwright/planar/path/slider_crank_samples.h"
 #include "linkwright/planar/studies/slider_crank_path.h"
 #include "linkwright/planar/studies/slider_crank_path_scene.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
 namespace linkwright::planar {
@@ -25,11 +26,7 @@ constexpr std::size_t most_drawn = 15;
 // A pressure angle beyond this moves the slider badly.
 constexpr double steep = 75;
 
-std::string metres(double value) {
-  if (value >= 0.1) return fmt::format("{:.4g} m", value);
-  if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
-  return fmt::format("{:.3g} µm", value * 1e6);
-}
+using study::metres;
 
 class Report {
  public:
@@ -150,22 +147,10 @@ class Report {
       const double violation = run.designs.empty() ? infinity : total_violation(run.designs[0]);
       const double error = run.designs.empty() ? infinity : run.designs[0].error;
       outcomes.push_back({s_.front ? missing_[i] : error, violation, run.evaluations});
-      Value entry;
-      entry["seed"] = static_cast<std::int64_t>(runs_.seeds[i]);
-      entry["status"] = to_string(run.status);
-      entry["best"] = violation > 0 ? nan : error;  // sum of squared distances (m2)
+      Value entry = study::seed_entry(runs_.seeds[i], run.status, violation > 0 ? nan : error,
+                                      run.evaluations);  // sum of squared distances (m2)
       entry["violation"] = violation;
-      entry["evaluations"] = run.evaluations;
-      entry["history"] = Value::array();
-      std::vector<SearchPoint> history = run.history;
-      if (!history.empty())
-        history.push_back({run.evaluations, history.back().best});  // to the end of the run
-      for (const SearchPoint& point : history) {
-        Value step;
-        step["evaluations"] = point.evaluations;
-        step["best"] = point.best;
-        entry["history"].push_back(std::move(step));
-      }
+      study::write_history(entry, run.history, run.evaluations);
       result_.log.push_back(std::move(entry));
     }
     const double size = path_size(p_), best = feasible_ ? designs_[0].error : infinity;
@@ -298,9 +283,7 @@ class Report {
     const SliderPathErrors errors = path_errors(p_, best);
     const auto worst = std::max_element(errors.distance.begin(), errors.distance.end());
     const double pressure = math::degrees(greatest_pressure_angle(best.mechanism.parameters));
-    const auto fact = [&](std::string label, std::string text, Verdict verdict = Verdict::plain) {
-      result_.facts.push_back({std::move(label), std::move(text), verdict});
-    };
+    const study::AddFact fact{result_.facts};
     if (!feasible_) {
       std::string reasons;
       for (const auto& v : best.violations) reasons += (reasons.empty() ? "" : ", ") + v.reason;
@@ -340,10 +323,7 @@ class Report {
          fmt::format("{:.0f} of {}", success_ * static_cast<double>(runs_.runs.size()), runs_.runs.size()),
          success_ > 0.9 ? Verdict::good : Verdict::plain);
     fact("evaluations", fmt::format("{}", result_.statistics.find("evaluations")->as_integer()));
-    const auto warn = [&](std::string message, std::string hint) {
-      result_.diagnostics.push_back(
-          {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
-    };
+    const study::AddWarning warn{result_.diagnostics};
     if (runs_.runs.size() < static_cast<std::size_t>(common_.seeds.count))
       warn(fmt::format("interrupted: {} of {} seeds ran", runs_.runs.size(), common_.seeds.count), {});
     if (pressure > steep)

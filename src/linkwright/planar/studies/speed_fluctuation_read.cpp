@@ -4,6 +4,7 @@
 
 #include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/studies/speed_fluctuation.h"
+#include "linkwright/planar/studies/templates.h"
 #include "linkwright/study/bind.h"
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
@@ -96,85 +97,7 @@ study::Kind linkage_speed_fluctuation_kind() {
   kind.summary =
       "speed fluctuation of a planar linkage whose input rotates fully: reduced inertia, flywheel, cycle "
       "with a motor";
-  kind.example = R"(# linkwright study: flywheel and motor of a planar linkage
-schema = 1
-kind   = "speed_fluctuation"
-title  = "Flywheel of my press"
-
-[mechanism]
-type = "planar.linkage"
-
-# The first body is the ground. Points are in the frame of the body.
-[[mechanism.body]]
-name      = "ground"
-points_mm = { O = [0, 0] }
-
-[[mechanism.body]]
-name          = "crank"
-points_mm     = { O = [0, 0], A = [40, 0] }
-mass_kg       = 6.0                 # inertia and centre: those of a uniform bar unless given
-inertia_kg_m2 = 0.1
-
-[[mechanism.body]]
-name      = "rod"
-points_mm = { A = [0, 0], B = [200, 0] }
-mass_kg   = 4.0
-
-[[mechanism.body]]
-name      = "ram"
-points_mm = { B = [0, 0] }
-mass_kg   = 8.0
-
-[[mechanism.joint]]
-name   = "O"
-first  = "ground.O"
-second = "crank.O"
-
-[[mechanism.joint]]
-name   = "A"
-first  = "crank.A"
-second = "rod.A"
-
-[[mechanism.joint]]
-name   = "B"
-first  = "rod.B"
-second = "ram.B"
-
-[[mechanism.joint]]
-name   = "guide"
-type   = "prismatic"
-first  = "ground.O"
-second = "ram.B"
-
-[[mechanism.assembly]]
-bodies = ["rod", "ram"]
-mode   = "plus"
-
-# The press works over the last part of the stroke: a factor over the input angle, in rad.
-[[mechanism.force]]
-name     = "press"
-point    = "ram.B"
-force_N  = [-2000, 0]
-against  = "input"
-argument = [0.0, 5.0, 5.2, 6.2, 6.2831853]
-factor   = [0.0, 0.0, 1.0, 1.0, 0.0]
-
-# The motor: torque over the speed of the crank, in rad/s. Leave it out to size the flywheel alone.
-[[mechanism.torque]]
-name       = "motor"
-body       = "crank"
-torque_N_m = 400.0
-against    = "speed"
-argument   = [0.0, 15.0, 20.0]
-factor     = [0.9, 1.0, 0.0]
-
-[[drive]]
-joint = "O"
-
-[speed_fluctuation]
-mean_speed_rpm = 180.0
-fluctuation    = 0.05
-)";
+  kind.example = templates::speed_fluctuation_linkage();
   return kind;
 }
 
@@ -182,37 +105,7 @@ study::Kind slider_crank_speed_fluctuation_kind() {
   study::Kind kind = kind_of(LinkageType::slider_crank);
   kind.mechanism = "planar.slider_crank";
   kind.summary = "speed fluctuation of a slider-crank that rotates fully: reduced inertia and flywheel";
-  kind.example = R"(# linkwright study: how evenly a slider-crank runs
-schema = 1
-kind   = "speed_fluctuation"
-title  = "Flywheel of my engine"
-
-[mechanism]
-type   = "planar.slider_crank"
-branch = "forward"                  # forward | backward
-
-[mechanism.parameters]
-crank_mm        = 50.0
-rod_mm          = 150.0
-guide_angle_deg = 90.0
-
-[mechanism.mass]
-slider_kg = 0.4
-
-[mechanism.mass.crank]
-mass_kg            = 0.9
-inertia_kg_m2      = 1.2e-3         # about the mass centre
-centre_distance_mm = 10.0           # from O
-
-[mechanism.mass.rod]
-mass_kg            = 0.5
-inertia_kg_m2      = 1.5e-3
-centre_distance_mm = 50.0           # from A
-
-[speed_fluctuation]
-mean_speed_rpm = 600.0
-fluctuation    = 0.02
-)";
+  kind.example = templates::speed_fluctuation_slider_crank();
   return kind;
 }
 

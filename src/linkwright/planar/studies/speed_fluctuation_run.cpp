@@ -6,6 +6,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/studies/linkage_scene.h"
 #include "linkwright/planar/studies/speed_fluctuation.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::planar {
 namespace {
@@ -68,9 +69,7 @@ study::Result run_speed_fluctuation(const SpeedFluctuationStudy& s, RunContext& 
   add_plot(result, "energy", "Excess energy with a constant motor torque", "cycle", {"excess_energy_J"});
   add_plot(result, "speed", "Speed without and with the flywheel", "cycle",
            {"speed_rad_per_s", "speed_with_flywheel_rad_per_s"});
-  const auto fact = [&](std::string name, std::string text) {
-    result.facts.push_back({std::move(name), std::move(text), study::Fact::Verdict::plain});
-  };
+  const study::AddFact fact{result.facts};
   fact("constant motor torque",
        fmt::format("{:.6g} N m ({:.5g} W at {:.5g} rpm)", cycle.motor_torque,
                    cycle.motor_torque * s.setup.mean_speed, rpm(s.setup.mean_speed)));

@@ -8,6 +8,7 @@
 
 #include "linkwright/math/angles.h"
 #include "linkwright/study/memory.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -208,9 +209,7 @@ void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& fo
   const AxlePosition reference = reference_position(plan);
   if (reference.status != Status::done) return;  // the sweep says why
   const AxleParameters straight = axle_parameters(plan, reference);
-  const auto fact = [&](std::string label, std::string text) {
-    result.facts.push_back({std::move(label), std::move(text)});
-  };
+  const study::AddFact fact{result.facts};
   const auto swept = [&](AxleMotion motion, std::span<const double> values) {
     auto rows = sweep_axle(plan, motion, values, {}, &context);
     if (rows.size() < values.size()) result.status = context.interruption();

@@ -212,10 +212,8 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
     };
     const int link = link_index(guide, j.link);
     if (link < 0) {
-      const std::string_view nearest = nearest_word(j.link, known);
       wrong("link", fmt::format("no link is called '{}'", j.link),
-            nearest.empty() ? fmt::format("there are: {}", fmt::join(known, ", "))
-                            : fmt::format("did you mean '{}'?", nearest));
+            did_you_mean(j.link, known, fmt::format("there are: {}", fmt::join(known, ", "))));
       continue;
     }
     const LinkType type = guide.links[static_cast<std::size_t>(link)].type;

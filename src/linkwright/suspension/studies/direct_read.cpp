@@ -10,6 +10,7 @@
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/design_variables.h"
 #include "linkwright/suspension/studies/direct.h"
+#include "linkwright/suspension/studies/templates.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -39,9 +40,8 @@ std::optional<PointAddress> find_point(study::ObjectReader& table, const WheelGu
         if (known.back() == label) return PointAddress{static_cast<int>(i), carrier, static_cast<int>(k)};
       }
   const std::vector<std::string_view> words(known.begin(), known.end());
-  const std::string_view nearest = nearest_word(label, words);
   table.error("point", fmt::format("no point is called '{}'; there are: {}", label, fmt::join(known, ", ")),
-              nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+              did_you_mean(label, words));
   return std::nullopt;
 }
 
@@ -52,9 +52,8 @@ std::optional<int> find_link(study::ObjectReader& table, std::string_view key, c
     if (guide.links[i].name == name) return static_cast<int>(i);
     known.emplace_back(guide.links[i].name);
   }
-  const std::string_view nearest = nearest_word(name, known);
   table.error(key, fmt::format("no link is called '{}'; there are: {}", name, fmt::join(known, ", ")),
-              nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+              did_you_mean(name, known));
   return std::nullopt;
 }
 
@@ -419,44 +418,7 @@ study::Kind direct_kind() {
       "wheel suspension from target curves of its wheel: toe, camber, track, roll centre ... (direct "
       "synthesis)";
   kind.seeded = true;
-  kind.example =
-      R"(# linkwright study: less bump steer of a double wishbone, only the inner point of the tie rod being free
-schema = 1
-kind   = "synthesis"
-title  = "Less bump steer"
-
-[mechanism]
-type   = "suspension.corner"
-sample = "2RS-KS"                   # or links with their points, as in an analysis
-
-# What is free: a box around the point. Also link = "tie rod", length_mm = { min = 250, max = 300 }
-[[design]]
-point  = "tie rod.body"
-box_mm = 60.0
-
-[target]
-type       = "wheel_parameters"
-coordinate = "wheel_centre_z"       # what travel_mm counts
-# file = "curves.csv"               # columns travel_mm, rack_mm, toe_deg, ... for curves without value
-
-[[target.curve]]
-quantity      = "toe"               # any column of an analysis
-measure       = "change"            # against the reference position; or value, relative_change
-travel_mm     = [-80, -60, -40, -20, 20, 40, 60, 80]
-value_deg     = 0.0
-tolerance_deg = 0.02
-
-[[constraint]]
-type   = "link_length"
-link   = "tie rod"
-min_mm = 250.0
-
-[optimiser]
-method = "recommended"
-goal   = "largest"                  # or least_squares, priorities (in the order of curves), one
-starts = 10
-seeds  = { first = 1, count = 1 }
-)";
+  kind.example = templates::synthesis_corner_wheel_parameters();
   kind.schema = [](study::SchemaWriter& document) {
     describe_guide(document);
     study::SchemaWriter target, curve;

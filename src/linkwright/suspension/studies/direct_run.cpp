@@ -276,11 +276,7 @@ void add_statistics(study::Result& result, const DirectStudy& s, const Runs& run
     const DirectSynthesis& a = runs.answers[i];
     const double value = cost_of(a, options_of(s));
     outcomes.push_back({value, a.status == Status::done ? 0.0 : 1.0, a.evaluations});
-    Value entry;
-    entry["seed"] = static_cast<std::int64_t>(runs.seeds[i]);
-    entry["status"] = to_string(a.status);
-    entry["best"] = value;
-    entry["evaluations"] = a.evaluations;
+    Value entry = study::seed_entry(runs.seeds[i], a.status, value, a.evaluations);
     entry["history"] = Value::array();
     result.log.push_back(std::move(entry));
     number.push_back(static_cast<double>(runs.seeds[i]));
@@ -300,13 +296,7 @@ void add_statistics(study::Result& result, const DirectStudy& s, const Runs& run
   result.statistics["method"] =
       std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method);
   result.statistics["goal"] = name_of(options_of(s).goal);
-  result.statistics["seeds"] = st.seeds;
-  result.statistics["success_rate"] = st.success_rate;
-  result.statistics["best"] = st.best;
-  result.statistics["median"] = st.median;
-  result.statistics["worst"] = st.worst;
-  result.statistics["evaluations"] = st.evaluations;
-  result.statistics["median_evaluations"] = st.median_evaluations;
+  study::write_statistics(result.statistics, st);
 }
 
 Table directions_table(const DirectStudy& s, const DirectSynthesis& best) {

@@ -231,11 +231,10 @@ class GuideReader {
     std::vector<std::string_view> known;
     for (const GuideSample& s : guide_samples()) known.emplace_back(s.name);
     if (std::find(known.begin(), known.end(), form_.sample) == known.end()) {
-      const std::string_view nearest = nearest_word(form_.sample, known);
       mechanism_.error(
           "sample",
           fmt::format("there is no sample '{}'; there are: {}", form_.sample, fmt::join(known, ", ")),
-          nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+          did_you_mean(form_.sample, known));
       return std::nullopt;
     }
     for (const char* key : {"hard_points", "wheel", "link", "coupler", "spring", "rack"})
@@ -287,14 +286,12 @@ class GuideReader {
     if (const HardPoint* p = find(plain_name(name))) return p->at;
     std::vector<std::string_view> known;
     for (const HardPoint& p : hard_) known.emplace_back(p.name);
-    const std::string_view nearest = nearest_word(plain_name(name), known);
     table.error(key,
                 hard_.empty()
                     ? fmt::format("there is no hard point '{}': there are none", name)
                     : fmt::format("there is no hard point '{}'; there are: {}", name, fmt::join(known, ", ")),
-                !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
-                : hard_.empty()  ? "give [mechanism.hard_points] file = \"points.csv\""
-                                 : "");
+                did_you_mean(plain_name(name), known,
+                             hard_.empty() ? "give [mechanism.hard_points] file = \"points.csv\"" : ""));
     return std::nullopt;
   }
 
@@ -408,9 +405,7 @@ class GuideReader {
       if (out_.guide.links[i].name == name) return static_cast<int>(i);
       known.emplace_back(out_.guide.links[i].name);
     }
-    const std::string_view nearest = nearest_word(name, known);
-    table.error(key, fmt::format("no link is called '{}'", name),
-                nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+    table.error(key, fmt::format("no link is called '{}'", name), did_you_mean(name, known));
     return -1;
   }
 

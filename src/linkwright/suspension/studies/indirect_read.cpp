@@ -8,6 +8,7 @@
 #include "linkwright/study/bind_write.h"
 #include "linkwright/suspension/guide/plausibility.h"
 #include "linkwright/suspension/studies/indirect.h"
+#include "linkwright/suspension/studies/templates.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -165,76 +166,7 @@ study::Kind indirect_kind() {
   kind.target = "carrier_poses";
   kind.summary = "wheel suspension whose carrier takes prescribed positions (indirect synthesis)";
   kind.seeded = true;
-  kind.example = R"(# linkwright study: three rods of a five-link suspension from positions of its carrier
-schema = 1
-kind   = "synthesis"
-title  = "Rods for my carrier motion"
-
-[mechanism]
-type = "suspension.corner"     # frame: x forward, y to the left, z up
-side = "left"
-
-[mechanism.wheel]
-centre_mm        = [0.0, 768.0, 0.0]
-camber_deg       = -0.7
-tyre_diameter_mm = 604.0
-
-# A given point is [x, y, z]; one to be found { near = [x, y, z], box_mm = edge }.
-[[mechanism.link]]
-name       = "lower front rod"
-type       = "KS"
-body_mm    = { near = [220.0, 380.0,  -90.0], box_mm = 150.0 }
-carrier_mm = { near = [ 10.0, 730.0, -140.0], box_mm = 150.0 }
-
-[[mechanism.link]]
-name       = "lower rear rod"
-type       = "KS"
-body_mm    = { near = [-230.0, 380.0, -110.0], box_mm = 150.0 }
-carrier_mm = { near = [   0.0, 730.0, -120.0], box_mm = 150.0 }
-
-[[mechanism.link]]
-name       = "tie rod"
-type       = "KS"
-body_mm    = { near = [-100.0, 370.0,   0.0], box_mm = 150.0 }
-carrier_mm = { near = [-180.0, 650.0, -30.0], box_mm = 150.0 }
-moved_by   = "rack"
-
-[[mechanism.link]]
-name       = "upper rear rod"
-type       = "KS"
-body_mm    = [-303.0, 432.0, 295.0]
-carrier_mm = [-117.0, 636.0, 338.0]
-
-[[mechanism.link]]
-name       = "upper front rod"
-type       = "KS"
-body_mm    = [-64.0, 413.0, 327.0]
-carrier_mm = [-64.0, 636.0, 345.0]
-
-# Or file = "poses.csv" with the columns rack_mm,centre_x_mm,centre_y_mm,centre_z_mm,toe_deg,camber_deg,carrier_pitch_deg
-[target]
-type = "carrier_poses"
-pose = [
-  { rack_m = 0.0, centre_m = [0.002861998415, 0.6826680943, -0.2], toe_deg = -6.688676046, camber_deg = -1.652053421, carrier_pitch_deg = 0.1680795677 },
-  { rack_m = 0.0, centre_m = [0.005730264494, 0.7235117288, -0.15], toe_deg = -2.28735283, camber_deg = 0.2687526315, carrier_pitch_deg = 1.219416897 },
-  { rack_m = 0.0, centre_m = [0.004569064669, 0.7480698437, -0.1], toe_deg = -1.030872049, camber_deg = 0.4783324696, carrier_pitch_deg = 1.023041541 },
-  { rack_m = 0.0, centre_m = [0.002486871976, 0.7623126819, -0.05], toe_deg = -0.4143097706, camber_deg = 0.09083904684, carrier_pitch_deg = 0.5701769279 },
-  { rack_m = 0.0, centre_m = [-0.002700675123, 0.7657175349, 0.05], toe_deg = 0.3906419809, camber_deg = -1.884277994, carrier_pitch_deg = -0.6381377505 },
-  { rack_m = 0.0, centre_m = [-0.00550114657, 0.7553228277, 0.1], toe_deg = 0.8866406962, camber_deg = -3.559885061, carrier_pitch_deg = -1.30710296 },
-  { rack_m = 0.0, centre_m = [-0.00827816346, 0.7358851716, 0.15], toe_deg = 1.652894437, camber_deg = -5.971405095, carrier_pitch_deg = -1.943189515 },
-  { rack_m = 0.0, centre_m = [-0.01079312112, 0.7050512822, 0.2], toe_deg = 3.021814454, camber_deg = -9.699955519, carrier_pitch_deg = -2.365042515 },
-  { rack_m = -0.075, centre_m = [-0.01875979938, 0.7701986017, 0.0], toe_deg = -23.45924997, camber_deg = 2.510559538, carrier_pitch_deg = -2.650583115 },
-  { rack_m = -0.05, centre_m = [-0.0113524973, 0.7706370829, 0.0], toe_deg = -14.94173729, camber_deg = 1.247494922, carrier_pitch_deg = -1.612318581 },
-  { rack_m = -0.025, centre_m = [-0.005226815289, 0.7698295994, 0.0], toe_deg = -7.263311113, camber_deg = 0.2307496603, carrier_pitch_deg = -0.7529531339 },
-  { rack_m = 0.025, centre_m = [0.004527479726, 0.7652039146, 0.0], toe_deg = 7.107690599, camber_deg = -1.640212823, carrier_pitch_deg = 0.7166787762 },
-  { rack_m = 0.05, centre_m = [0.008468028918, 0.7613971501, 0.0], toe_deg = 14.26761681, camber_deg = -2.654370026, carrier_pitch_deg = 1.477382897 },
-  { rack_m = 0.075, centre_m = [0.01187823496, 0.7564448526, 0.0], toe_deg = 21.69163029, camber_deg = -3.786586863, carrier_pitch_deg = 2.384545291 },
-]
-
-[optimiser]
-method = "recommended"              # or "differential_evolution" with the settings of the source
-seeds  = { first = 1, count = 10 }
-)";
+  kind.example = templates::synthesis_corner_carrier_poses();
   kind.schema = [](study::SchemaWriter& document) {
     describe_guide(document);
     document.property(Field{.key = "target", .summary = "positions of the carrier", .required = true},

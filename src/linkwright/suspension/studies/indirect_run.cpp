@@ -422,11 +422,7 @@ void add_statistics(study::Result& result, const IndirectStudy& s, const Runs& r
     const SeedRun& r = runs.answers[i];
     const bool good = r.answer.status == Status::done;
     outcomes.push_back({r.error, good ? 0.0 : 1.0, r.answer.evaluations});
-    Value entry;
-    entry["seed"] = static_cast<std::int64_t>(runs.seeds[i]);
-    entry["status"] = to_string(r.answer.status);
-    entry["best"] = r.error;
-    entry["evaluations"] = r.answer.evaluations;
+    Value entry = study::seed_entry(runs.seeds[i], r.answer.status, r.error, r.answer.evaluations);
     if (r.answer.generations > 0) entry["generations"] = r.answer.generations;
     entry["history"] = Value::array();
     result.log.push_back(std::move(entry));
@@ -434,13 +430,7 @@ void add_statistics(study::Result& result, const IndirectStudy& s, const Runs& r
   const optimise::SeedStatistics st = optimise::statistics(outcomes, infinity);
   result.statistics["method"] =
       std::visit([](const auto& m) { return choice_word(m).name; }, s.optimiser.method);
-  result.statistics["seeds"] = st.seeds;
-  result.statistics["success_rate"] = st.success_rate;
-  result.statistics["best"] = st.best;
-  result.statistics["median"] = st.median;
-  result.statistics["worst"] = st.worst;
-  result.statistics["evaluations"] = st.evaluations;
-  result.statistics["median_evaluations"] = st.median_evaluations;
+  study::write_statistics(result.statistics, st);
 }
 
 std::string metres(double value) {

@@ -44,10 +44,9 @@ void complete_quantities(study::ObjectReader& table, std::vector<std::string>& q
       continue;
     }
     const std::vector<std::string_view> words(known.begin(), known.end());
-    const std::string_view nearest = nearest_word(q, words);
     table.error("quantities",
                 fmt::format("there is no quantity '{}'; there are: {}", q, fmt::join(known, ", ")),
-                nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest));
+                did_you_mean(q, words));
   }
 }
 
@@ -99,10 +98,8 @@ void complete_tolerances(study::ObjectReader& document, TolerancesForm& form, co
                     [&](const std::string& k) { return k == asked || k.starts_with(asked + "_"); }))
       continue;
     const std::vector<std::string_view> words(known.begin(), known.end());
-    const std::string_view nearest = nearest_word(asked, words);
     tables[i].error("coordinate", fmt::format("no point or coordinate is called '{}'", asked),
-                    nearest.empty() ? fmt::format("there are: {}", fmt::join(known, ", "))
-                                    : fmt::format("did you mean '{}'?", nearest));
+                    did_you_mean(asked, words, fmt::format("there are: {}", fmt::join(known, ", "))));
   }
 }
 

@@ -7,6 +7,7 @@
 #include "linkwright/study/memory.h"
 #include "linkwright/study/read.h"
 #include "linkwright/suspension/studies/sweep.h"
+#include "linkwright/suspension/studies/templates.h"
 #include "linkwright/suspension/wheel/guide_columns.h"
 
 namespace linkwright::suspension {
@@ -160,66 +161,7 @@ study::Kind sweep_kind() {
   kind.summary =
       "wheel suspension over wheel travel and rack: toe, camber, track, roll centre, steering axis, ...";
   kind.quantities = quantity_words();
-  kind.example = R"(# linkwright study: a double wishbone over wheel travel and rack
-schema = 1
-kind   = "analysis"
-title  = "My front suspension"
-
-[mechanism]
-type = "suspension.corner"     # frame: x forward, y to the left, z up
-side = "left"
-
-# Points by name. A list of another program: file = "points.csv" (name,x_mm,y_mm,z_mm) or plain text, and the
-# directions of its axes, for example x = "rearward", y = "right".
-[mechanism.hard_points.points_mm]
-lower_front   = [ 180.0, 370.0, -110.0]
-lower_rear    = [-170.0, 370.0, -100.0]
-lower_ball    = [   8.0, 715.0, -130.0]
-upper_front   = [ 120.0, 440.0,  165.0]
-upper_rear    = [-140.0, 440.0,  150.0]
-upper_ball    = [ -22.0, 665.0,  215.0]
-tie_inner     = [-125.0, 415.0,  -47.0]
-tie_outer     = [-140.0, 700.0,  -42.0]
-spring_top    = [ -10.0, 500.0,  330.0]
-spring_bottom = [   0.0, 570.0, -105.0]
-wheel_centre  = [   0.0, 760.0,    0.0]
-
-[mechanism.wheel]
-point            = "wheel_centre"   # or centre_mm = [0, 760, 0]
-toe_deg          = 0.1
-camber_deg       = -0.5
-tyre_diameter_mm = 640.0
-
-# Type: joint at the body, joint at the carrier. Points: those of the body first; or body_mm and carrier_mm.
-[[mechanism.link]]
-name   = "lower wishbone"
-type   = "RS"
-points = ["lower_front", "lower_rear", "lower_ball"]
-
-[[mechanism.link]]
-name   = "upper wishbone"
-type   = "RS"
-points = ["upper_front", "upper_rear", "upper_ball"]
-
-[[mechanism.link]]
-name     = "tie rod"
-type     = "KS"
-points   = ["tie_inner", "tie_outer"]
-moved_by = "rack"
-
-[mechanism.spring]
-points      = ["spring_top", "spring_bottom"]
-attached_to = "lower wishbone"
-
-[sweep.travel]
-coordinate = "wheel_centre_z"       # or contact_z, spring
-from_mm    = -80.0
-to_mm      =  80.0
-step_mm    =  5.0
-
-[sweep.rack]
-values_mm = [-60.0, -30.0, 0.0, 30.0, 60.0]
-)";
+  kind.example = templates::analysis_corner();
   kind.schema = [](study::SchemaWriter& document) {
     describe_guide(document);
     document.property(Field{.key = "sweep", .summary = "positions that are taken", .required = true},

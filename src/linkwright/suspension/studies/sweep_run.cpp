@@ -6,6 +6,7 @@
 #include <string>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/suspension/guide/assemblies.h"
 #include "linkwright/suspension/guide/constructions.h"
 #include "linkwright/suspension/guide/hard_points.h"
@@ -214,9 +215,7 @@ std::string degrees_by_metre(double value) { return fmt::format("{:.3f} °/m", m
 
 void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, const TravelLimits& limits) {
   const WheelGuide& guide = s.description.guide;
-  const auto fact = [&](std::string label, std::string text) {
-    result.facts.push_back({std::move(label), std::move(text)});
-  };
+  const study::AddFact fact{result.facts};
   fact("structure", structure_name(structure_of(guide)));
   const std::size_t rack = next_to_zero(s.racks), first = rack * s.travels.size();
   if (rack >= grid.racks) return;

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <fmt/core.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "linkwright/core/diagnostic.h"
+#include "linkwright/study/result.h"
+
+// How a study that reports says what it found: `const AddFact fact{result.facts};`, then fact("circuits",
+// "2").
+namespace linkwright::study {
+
+/// Adds facts to those of a result.
+struct AddFact {
+  std::vector<Fact>& facts;
+  void operator()(std::string label, std::string text, Fact::Verdict verdict = Fact::Verdict::plain) const {
+    facts.push_back({std::move(label), std::move(text), verdict});
+  }
+};
+
+/// Adds warnings to the diagnostics of a result; `key` is that of the study which they are about.
+struct AddWarning {
+  Diagnostics& diagnostics;
+  void operator()(std::string message, std::string hint = {}) const {
+    (*this)({}, std::move(message), std::move(hint));
+  }
+  void operator()(std::string key, std::string message, std::string hint) const {
+    diagnostics.push_back(
+        {Diagnostic::Severity::warning, {}, {}, std::move(key), std::move(message), std::move(hint)});
+  }
+};
+
+/// A length for people, in the unit that suits its size: "1.25 m", "12.5 mm", "3.1 µm".
+inline std::string metres(double value) {
+  if (value >= 0.1) return fmt::format("{:.4g} m", value);
+  if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
+  return fmt::format("{:.3g} µm", value * 1e6);
+}
+
+}  // namespace linkwright::study
