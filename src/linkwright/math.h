@@ -8,6 +8,7 @@
 #include "linkwright/math/dual.h"
 #include "linkwright/math/function_ref.h"
 #include "linkwright/math/least_squares.h"
+#include "linkwright/math/minimum.h"
 #include "linkwright/math/motion_law.h"
 #include "linkwright/math/newton.h"
 #include "linkwright/math/ode.h"
