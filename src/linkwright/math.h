@@ -10,7 +10,6 @@
 #include "linkwright/math/least_squares.h"
 #include "linkwright/math/minimum.h"
 #include "linkwright/math/motion_law.h"
-#include "linkwright/math/newton.h"
 #include "linkwright/math/ode.h"
 #include "linkwright/math/ode_events.h"
 #include "linkwright/math/ode_stepper.h"
