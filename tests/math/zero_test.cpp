@@ -38,5 +38,32 @@ TEST(ZeroBetween, WantsAChangeOfSign) {
   EXPECT_THROW(zero_between([](double x) { return x * x + 1; }, -1, 1), ContractError);
 }
 
+TEST(Bisect, NarrowsABracketFromEitherSide) {
+  const auto below = [](double x) { return x < 0.3; };
+  const Boundary b = bisect(below, 0, 1, {.relative = 1e-3});
+  EXPECT_LT(b.inside, 0.3);
+  EXPECT_GE(b.outside, 0.3);
+  EXPECT_LE(b.outside - b.inside, 1e-3 * b.outside);
+  const Boundary c = bisect([](double x) { return x > 0.3; }, 1, 0, {.relative = 1e-3});
+  EXPECT_GT(c.inside, 0.3);
+  EXPECT_LE(c.outside, 0.3);
+}
+
+TEST(Bisect, GoesOnToTheLastDigit) {
+  const Boundary b = bisect([](double x) { return x * x < 2; }, 0, 1e300, {});
+  EXPECT_LT(b.inside * b.inside, 2);
+  EXPECT_EQ(b.outside, std::nextafter(b.inside, 2));
+  EXPECT_EQ(bisect([](double x) { return x <= 0; }, 0, 1e300, {}).outside,
+            std::numeric_limits<double>::denorm_min());
+}
+
+TEST(Bisect, HalvesNoMoreThanAsked) {
+  int calls = 0;
+  const Boundary b = bisect([&](double x) { return ++calls, x < 0.3; }, 0, 1, {.halvings = 3});
+  EXPECT_EQ(calls, 3);
+  EXPECT_EQ(b.inside, 0.25);
+  EXPECT_EQ(b.outside, 0.375);
+}
+
 }  // namespace
 }  // namespace linkwright::math

@@ -9,6 +9,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/flexible/chain_equations.h"
 #include "linkwright/flexible/links.h"
+#include "linkwright/math/zero.h"
 
 namespace linkwright::flexible {
 
@@ -160,14 +161,9 @@ ModeShape mode_shape(const Chain& chain, int k, const Vibration& about) {
 }
 
 std::optional<double> critical_speed(const Chain& chain, double limit) {
-  const auto unstable = [&](double speed) { return Straight(chain, {.speed = speed}).below(0) > 0; };
-  if (!unstable(limit)) return {};
-  double low = 0, high = limit;
-  while (high - low > 1e-12 * high) {
-    const double middle = low + (high - low) / 2;
-    (unstable(middle) ? high : low) = middle;
-  }
-  return high;
+  const auto stable = [&](double speed) { return Straight(chain, {.speed = speed}).below(0) == 0; };
+  if (stable(limit)) return {};
+  return math::bisect(stable, 0, limit, {.relative = 1e-12}).outside;
 }
 
 Table campbell(const Chain& chain, std::span<const double> speeds, int count, Hub hub) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/minimum.h"
 
 namespace linkwright::math {
 namespace {
@@ -99,32 +100,14 @@ bool OdeEventFinder::suspicious() const {
   return false;
 }
 
-// Golden-section search for a place in [a, b] beyond zero; b is moved there.
+// Whether a place in [a, b] lies beyond zero; b is moved there.
 bool OdeEventFinder::dip(OdeStepper& stepper, std::size_t event, double& a, double& b) {
-  constexpr double golden = 0.6180339887498949;
-  const double side = sides_[event];
-  double left = a, right = b;
-  double u = right - golden * (right - left), v = left + golden * (right - left);
-  double at_u = side * value(stepper, event, u), at_v = side * value(stepper, event, v);
-  for (int i = 0; i < 40 && std::abs(right - left) > tolerance_; ++i) {
-    if (at_u <= 0 || at_v <= 0) {
-      b = at_u <= 0 ? u : v;
+  GoldenSection section{[&](double t) { return sides_[event] * value(stepper, event, t); }, a, b};
+  for (int i = 0; i < 40 && std::abs(section.high - section.low) > tolerance_; ++i, section.narrow())
+    if (section.at_left <= 0 || section.at_right <= 0) {
+      b = section.at_left <= 0 ? section.left : section.right;
       return true;
     }
-    if (at_u < at_v) {
-      right = v;
-      v = u;
-      at_v = at_u;
-      u = right - golden * (right - left);
-      at_u = side * value(stepper, event, u);
-    } else {
-      left = u;
-      u = v;
-      at_u = at_v;
-      v = left + golden * (right - left);
-      at_v = side * value(stepper, event, v);
-    }
-  }
   return false;
 }
 

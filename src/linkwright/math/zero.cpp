@@ -41,4 +41,14 @@ double zero_between(FunctionRef<double(double)> f, double a, double b) {
   return std::abs(fa) < std::abs(fb) ? a : b;
 }
 
+Boundary bisect(FunctionRef<bool(double)> holds, double inside, double outside, const BisectionStop& stop) {
+  for (int k = 0; k < stop.halvings; ++k) {
+    if (!(std::abs(outside - inside) > stop.relative * std::max(std::abs(inside), std::abs(outside)))) break;
+    const double middle = (inside + outside) / 2;
+    if (middle == inside || middle == outside) break;
+    (holds(middle) ? inside : outside) = middle;
+  }
+  return {inside, outside};
+}
+
 }  // namespace linkwright::math

@@ -11,4 +11,17 @@ namespace linkwright::math {
 /// Throws ContractError when f(a) and f(b) have the same sign.
 double zero_between(FunctionRef<double(double)> f, double a, double b);
 
+/// A bracket of a place where a condition changes: it holds at `inside` and does not at `outside`.
+struct Boundary {
+  double inside, outside;
+};
+
+struct BisectionStop {
+  double relative = 0;  ///< width of the bracket over its larger end
+  int halvings = 2100;  ///< at most: a double has no more
+};
+
+/// Halves a bracket, whose ends are taken as they are, until it is narrow enough or no number lies between.
+Boundary bisect(FunctionRef<bool(double)> holds, double inside, double outside, const BisectionStop& stop);
+
 }  // namespace linkwright::math

@@ -16,82 +16,59 @@
 #include "linkwright/optimise/self_adaptive_differential_evolution.h"
 #include "linkwright/optimise/subpopulation_firefly.h"
 
+// The population methods, a row each: name in files, options, what it is. A new one is its own files, which
+// give its options and their `make_optimiser`, and a row here.
+#define LINKWRIGHT_POPULATION_METHODS(ROW)                                                             \
+  ROW(grey_wolf, GreyWolfOptions, "grey wolf optimiser (Mirjalili et al. 2014)")                       \
+  ROW(differential_evolution, DifferentialEvolutionOptions,                                            \
+      "differential evolution with constant factors (Storn and Price 1997)")                           \
+  ROW(self_adaptive_differential_evolution, SelfAdaptiveDifferentialEvolutionOptions,                  \
+      "jDE (Brest et al. 2006)")                                                                       \
+  ROW(jade, JadeOptions, "adaptive differential evolution with an archive (Zhang and Sanderson 2009)") \
+  ROW(particle_swarm, ParticleSwarmOptions,                                                            \
+      "particle swarm with decreasing inertia (Shi and Eberhart 1998)")                                \
+  ROW(firefly, FireflyOptions, "firefly algorithm (Yang 2009; Boskovic 2018)")                         \
+  ROW(cuckoo_search, CuckooSearchOptions, "cuckoo search (Yang and Deb 2009; Boskovic 2018)")          \
+  ROW(hybrid_cuckoo_firefly, HybridCuckooFireflyOptions,                                               \
+      "cuckoos that move as fireflies, H-CS-FA (Boskovic 2018)")                                       \
+  ROW(subpopulation_firefly, SubpopulationFireflyOptions,                                              \
+      "fireflies in two subpopulations, SP-FA (Boskovic 2018)")                                        \
+  ROW(cma_es, CmaEsOptions, "covariance matrix adaptation evolution strategy, by pagmo (Hansen 2016)")
+
 namespace linkwright::optimise {
 
-/// The population methods by name. A new one needs a line here, in OptimiserOptions and in its
-/// `visit_method`.
 enum class Method {
-  differential_evolution,
-  self_adaptive_differential_evolution,
-  jade,
-  grey_wolf,
-  particle_swarm,
-  firefly,
-  cuckoo_search,
-  hybrid_cuckoo_firefly,
-  subpopulation_firefly,
-  cma_es,
+#define LINKWRIGHT_ROW(name, Options, summary) name,
+  LINKWRIGHT_POPULATION_METHODS(LINKWRIGHT_ROW)
+#undef LINKWRIGHT_ROW
 };
 
 /// The first name of a method is its full one; "jde" is accepted in files as the short name it goes by.
-constexpr std::array<EnumName<Method>, 11> names(Method) {
-  return {{{Method::differential_evolution, "differential_evolution",
-            "differential evolution with constant factors"},
-           {Method::self_adaptive_differential_evolution, "self_adaptive_differential_evolution",
-            "rand/1/bin in which every member carries its own factors"},
-           {Method::jade, "jade", "current-to-pbest/1/bin with adaptive factors and an archive"},
-           {Method::grey_wolf, "grey_wolf", "grey wolf optimiser"},
-           {Method::particle_swarm, "particle_swarm", "particle swarm with linearly decreasing inertia"},
-           {Method::firefly, "firefly", "fireflies that move towards brighter ones"},
-           {Method::cuckoo_search, "cuckoo_search", "Levy flights and abandoned nests"},
-           {Method::hybrid_cuckoo_firefly, "hybrid_cuckoo_firefly",
-            "Levy flights of cuckoos, then moves of fireflies (H-CS-FA)"},
-           {Method::subpopulation_firefly, "subpopulation_firefly",
-            "fireflies in two subpopulations that are redrawn all the time (SP-FA)"},
-           {Method::cma_es, "cma_es", "covariance matrix adaptation evolution strategy, by pagmo"},
-           {Method::self_adaptive_differential_evolution, "jde",
-            "short for self_adaptive_differential_evolution"}}};
+constexpr auto names(Method) {
+#define LINKWRIGHT_ROW(name, Options, summary) {Method::name, #name, summary},
+  return std::to_array<EnumName<Method>>(
+      {LINKWRIGHT_POPULATION_METHODS(LINKWRIGHT_ROW){Method::self_adaptive_differential_evolution, "jde",
+                                                     "short for self_adaptive_differential_evolution"}});
+#undef LINKWRIGHT_ROW
 }
 
 /// A method and the options of each; only those of the chosen method count.
 struct OptimiserOptions {
   Method method = Method::differential_evolution;
-  DifferentialEvolutionOptions differential_evolution = {};
-  SelfAdaptiveDifferentialEvolutionOptions self_adaptive_differential_evolution = {};
-  JadeOptions jade = {};
-  GreyWolfOptions grey_wolf = {};
-  ParticleSwarmOptions particle_swarm = {};
-  FireflyOptions firefly = {};
-  CuckooSearchOptions cuckoo_search = {};
-  HybridCuckooFireflyOptions hybrid_cuckoo_firefly = {};
-  SubpopulationFireflyOptions subpopulation_firefly = {};
-  CmaEsOptions cma_es = {};
+#define LINKWRIGHT_ROW(name, Options, summary) Options name = {};
+  LINKWRIGHT_POPULATION_METHODS(LINKWRIGHT_ROW)
+#undef LINKWRIGHT_ROW
 };
 
 /// Calls f with the options of the chosen method.
 template <class Options, class F>
 decltype(auto) visit_method(Options&& o, F&& f) {
   switch (o.method) {
-    case Method::self_adaptive_differential_evolution:
-      return f(o.self_adaptive_differential_evolution);
-    case Method::jade:
-      return f(o.jade);
-    case Method::grey_wolf:
-      return f(o.grey_wolf);
-    case Method::particle_swarm:
-      return f(o.particle_swarm);
-    case Method::firefly:
-      return f(o.firefly);
-    case Method::cuckoo_search:
-      return f(o.cuckoo_search);
-    case Method::hybrid_cuckoo_firefly:
-      return f(o.hybrid_cuckoo_firefly);
-    case Method::subpopulation_firefly:
-      return f(o.subpopulation_firefly);
-    case Method::cma_es:
-      return f(o.cma_es);
-    case Method::differential_evolution:
-      break;
+#define LINKWRIGHT_ROW(name, Options, summary) \
+  case Method::name:                           \
+    return f(o.name);
+    LINKWRIGHT_POPULATION_METHODS(LINKWRIGHT_ROW)
+#undef LINKWRIGHT_ROW
   }
   return f(o.differential_evolution);
 }

@@ -22,50 +22,20 @@ void fields(Visitor&& visit, PopulationMethod<Options, constraints>& m) {
   fields(visit, m.minimise);
 }
 
-constexpr Word choice_word(const GreyWolfOptions&) {
-  return {"grey_wolf", "grey wolf optimiser (Mirjalili et al. 2014)"};
-}
-constexpr Word choice_word(const DifferentialEvolutionOptions&) {
-  return {"differential_evolution", "differential evolution with constant factors (Storn and Price 1997)"};
-}
-constexpr Word choice_word(const SelfAdaptiveDifferentialEvolutionOptions&) {
-  return {"self_adaptive_differential_evolution", "jDE (Brest et al. 2006)"};
-}
-constexpr Word choice_word(const JadeOptions&) {
-  return {"jade", "adaptive differential evolution with an archive (Zhang and Sanderson 2009)"};
-}
-constexpr Word choice_word(const ParticleSwarmOptions&) {
-  return {"particle_swarm", "particle swarm with decreasing inertia (Shi and Eberhart 1998)"};
-}
-constexpr Word choice_word(const FireflyOptions&) {
-  return {"firefly", "firefly algorithm (Yang 2009; Boskovic 2018)"};
-}
-constexpr Word choice_word(const CuckooSearchOptions&) {
-  return {"cuckoo_search", "cuckoo search (Yang and Deb 2009; Boskovic 2018)"};
-}
-constexpr Word choice_word(const HybridCuckooFireflyOptions&) {
-  return {"hybrid_cuckoo_firefly", "cuckoos that move as fireflies, H-CS-FA (Boskovic 2018)"};
-}
-constexpr Word choice_word(const SubpopulationFireflyOptions&) {
-  return {"subpopulation_firefly", "fireflies in two subpopulations, SP-FA (Boskovic 2018)"};
-}
-constexpr Word choice_word(const CmaEsOptions&) {
-  return {"cma_es", "covariance matrix adaptation evolution strategy, by pagmo (Hansen 2016)"};
-}
+#define LINKWRIGHT_ROW(name, Options, summary) \
+  constexpr Word choice_word(const Options&) { return {#name, summary}; }
+LINKWRIGHT_POPULATION_METHODS(LINKWRIGHT_ROW)
+#undef LINKWRIGHT_ROW
+
 template <class Options, Constraints constraints>
 constexpr Word choice_word(const PopulationMethod<Options, constraints>& m) {
   return choice_word(m.options);
 }
 
+#define LINKWRIGHT_ROW(name, Options, summary) , PopulationMethod<Options, constraints>
 /// The choice of a study: methods of its own first, the first of all is what is taken when it names none.
 template <Constraints constraints, class... Own>
-using MethodChoice = std::variant<
-    Own..., PopulationMethod<GreyWolfOptions, constraints>,
-    PopulationMethod<DifferentialEvolutionOptions, constraints>,
-    PopulationMethod<SelfAdaptiveDifferentialEvolutionOptions, constraints>,
-    PopulationMethod<JadeOptions, constraints>, PopulationMethod<ParticleSwarmOptions, constraints>,
-    PopulationMethod<FireflyOptions, constraints>, PopulationMethod<CuckooSearchOptions, constraints>,
-    PopulationMethod<HybridCuckooFireflyOptions, constraints>,
-    PopulationMethod<SubpopulationFireflyOptions, constraints>, PopulationMethod<CmaEsOptions, constraints>>;
+using MethodChoice = std::variant<Own... LINKWRIGHT_POPULATION_METHODS(LINKWRIGHT_ROW)>;
+#undef LINKWRIGHT_ROW
 
 }  // namespace linkwright::optimise

@@ -214,20 +214,17 @@ class Analyst {
     for (int i = 0; i < c.samples; ++i) speeds.push_back(c.from + (c.to - c.from) * i / (c.samples - 1));
     const auto bad = std::find_if(speeds.begin(), speeds.end(), [&](double speed) { return !steady(speed); });
     if (bad != speeds.end()) {
-      double low = bad == speeds.begin() ? 0 : *(bad - 1), high = *bad;
-      while (high - low > 1e-9 * high) {
-        const double middle = low + (high - low) / 2;
-        (steady(middle) ? low : high) = middle;
-      }
-      lost_ = high;
+      lost_ = math::bisect([&](double speed) { return steady(speed); },
+                           bad == speeds.begin() ? 0 : *(bad - 1), *bad, {.relative = 1e-9})
+                  .outside;
       fact("loses stability",
-           fmt::format("at {:.5g} rad/s, below the {:.5g} rad/s that are asked for", high, c.to),
+           fmt::format("at {:.5g} rad/s, below the {:.5g} rad/s that are asked for", lost_, c.to),
            Verdict::bad);
       warn("campbell.to",
            fmt::format(
                "the straight chain loses its stability at {:.5g} rad/s: real links do not, its {} cells are "
                "too long for the speed",
-               high, chain_.cells.size()),
+               lost_, chain_.cells.size()),
            hint_for_cells());
       result_.status = Status::singular;
       // A chain that stretches has no frequencies beyond it; the others go on with the modes that vibrate.

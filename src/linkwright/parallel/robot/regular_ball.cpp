@@ -6,6 +6,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/singular_values.h"
 #include "linkwright/math/small_lu.h"
+#include "linkwright/math/zero.h"
 #include "linkwright/parallel/robot/constraint.h"
 #include "linkwright/parallel/robot/detail/legs_kernel.h"
 
@@ -115,7 +116,7 @@ double clear_radius(const Robot& robot, const RegularAt& at, double length) {
       if (!(square_within(at.legs[i], robot.leg[i].arm, r) >= at.legs[i].square / 4)) return false;
     return true;
   };
-  double sum = 0, low = 0, high = 0;
+  double sum = 0, high = 0;
   for (int i = 0; i < robot.legs(); ++i) {
     // The rows of turning of a HEXA move, too.
     const double rows =
@@ -123,12 +124,7 @@ double clear_radius(const Robot& robot, const RegularAt& at, double length) {
     sum += rows * rows / at.legs[i].square;
     high = std::max(high, robot.leg[i].arm + robot.leg[i].rod);
   }
-  constexpr int halvings = 40;
-  for (int k = 0; k < halvings; ++k) {
-    const double middle = (low + high) / 2;
-    (keeps(middle) ? low : high) = middle;
-  }
-  return std::min(low, spare / (2 * std::sqrt(sum)));
+  return std::min(math::bisect(keeps, 0, high, {.halvings = 40}).inside, spare / (2 * std::sqrt(sum)));
 }
 
 }  // namespace linkwright::parallel

@@ -9,6 +9,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/math/minimum.h"
 #include "linkwright/math/zero.h"
 
 namespace linkwright::parallel {
@@ -25,26 +26,6 @@ std::string name_of_use(const Demand& d, std::span<const Drive> drives) {
                      : pi                    ? "screw force"
                                              : "torque",
                      d.drive + 1);
-}
-
-/// Where f is largest in (a, c), with f(b) at least f(a) and f(c): by golden sections of the larger part.
-double peak_between(math::FunctionRef<double(double)> f, double a, double b, double c) {
-  constexpr double golden = 0.38196601125010515;
-  constexpr int sections = 40;  // of which 36 come down to the square root of rounding
-  double best = f(b);
-  for (int k = 0; k < sections && c - a > 1e-9 * std::max(std::abs(a), std::abs(c)); ++k) {
-    const bool right = c - b > b - a;
-    const double x = right ? b + golden * (c - b) : b - golden * (b - a);
-    const double value = f(x);
-    if (value > best) {
-      (right ? a : c) = b;
-      b = x;
-      best = value;
-    } else {
-      (right ? c : a) = x;
-    }
-  }
-  return b;
 }
 
 }  // namespace
@@ -135,7 +116,10 @@ Status PathJudge::judge(Look look, double end, const RunContext& context) {
         if (n < 2 || last[0].size() <= k || last[1].size() <= k) continue;
         const double a = last[0][k].excess, b = last[1][k].excess, c = last[2][k].excess;
         if (!(b >= a && b >= c && (b > a || b > c) && std::isfinite(b))) continue;
-        const double top = peak_between([&](double x) { return excess(x, k); }, times[0], times[1], times[2]);
+        // Of these sections 36 come down to the square root of rounding.
+        const double top = math::minimum_about([&](double x) { return -excess(x, k); }, times[0], times[1],
+                                               times[2], {.relative = 1e-9, .sections = 40})
+                               .at;
         look(top, now);
         if (now.size() <= k) continue;
         take(now[k], k, top);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "linkwright/math/function_ref.h"
+#include "linkwright/math/minimum.h"
 #include "linkwright/math/zero.h"
 
 namespace linkwright::parallel {
@@ -81,20 +82,10 @@ double largest(math::FunctionRef<double(double)> f, double a, double b) {
   double best = std::max(values.front(), values.back());
   for (int i = 1; i < samples; ++i) {
     if (values[i] < values[i - 1] || values[i] < values[i + 1]) continue;
-    constexpr double golden = 0.6180339887498949;
-    double low = place(i - 1), high = place(i + 1);
-    double c = high - golden * (high - low), d = low + golden * (high - low), at_c = f(c), at_d = f(d);
+    math::GoldenSection section{[&](double x) { return -f(x); }, place(i - 1), place(i + 1)};
     // Eight digits of the place are all digits of the value.
-    for (int step = 0; step < 32; ++step) {
-      if (at_c > at_d) {
-        high = d, d = c, at_d = at_c;
-        c = high - golden * (high - low), at_c = f(c);
-      } else {
-        low = c, c = d, at_c = at_d;
-        d = low + golden * (high - low), at_d = f(d);
-      }
-    }
-    best = std::max({best, values[i], at_c, at_d});
+    for (int step = 0; step < 32; ++step) section.narrow();
+    best = std::max({best, values[i], -section.at_left, -section.at_right});
   }
   return best;
 }

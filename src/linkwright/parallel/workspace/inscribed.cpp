@@ -7,6 +7,7 @@
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
+#include "linkwright/math/zero.h"
 
 namespace linkwright::parallel {
 
@@ -454,11 +455,8 @@ void make_proven(const InscribedTask& task, Inscribed& out) {
     out.proven = proven(fits);
   }
   if (!out.proven) return;
-  for (int k = 0; k < 12 && settled; ++k) {
-    const double middle = (fits + beyond) / 2;
-    (proven(middle) ? fits : beyond) = middle;
-  }
-  out.half = smaller(fits);
+  const auto still_proven = [&](double factor) { return settled && proven(factor); };
+  out.half = smaller(math::bisect(still_proven, fits, beyond, {.halvings = 12}).inside);
 }
 
 }  // namespace

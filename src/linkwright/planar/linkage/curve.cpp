@@ -249,13 +249,9 @@ struct ModeCurve::Memory {
     return between(*(beyond - 1), *beyond, value);
   }
   std::optional<CurveNode> between(const CurveNode& a, const CurveNode& b, double value) {
-    double before = 0, behind = 1;
     const double sense = b.value > a.value ? 1 : -1;
-    for (int i = 0; i < 60; ++i) {
-      const double s = (before + behind) / 2;
-      ((interpolated(a, b, s).value - value) * sense < 0 ? before : behind) = s;
-    }
-    CurveNode y = interpolated(a, b, behind);
+    const auto before = [&](double s) { return (interpolated(a, b, s).value - value) * sense < 0; };
+    CurveNode y = interpolated(a, b, math::bisect(before, 0, 1, {.halvings = 60}).outside);
     for (int i = 0; i < 8; ++i) {
       Eigen::VectorXd direction = equations.tangent(y);
       direction /= equations.length(direction);

@@ -7,6 +7,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/math/minimum.h"
 
 namespace linkwright::planar {
 namespace {
@@ -45,26 +46,6 @@ class OneInput {
   std::size_t input_;
   std::vector<InputMotion> motion_;
 };
-
-// The lowest value of f near b, from a bracket a < b < c with f(b) lowest: golden section.
-template <class F>
-std::pair<double, double> lowest(F&& f, double a, double b, double c, double tolerance) {
-  const double golden = (3 - std::sqrt(5.0)) / 2;
-  double fb = f(b);
-  while (std::abs(c - a) > tolerance) {
-    const bool right = std::abs(c - b) > std::abs(b - a);
-    const double x = right ? b + golden * (c - b) : b - golden * (b - a);
-    const double fx = f(x);
-    if (fx < fb) {
-      (right ? a : c) = b;
-      b = x, fb = fx;
-    } else {
-      (right ? c : a) = x;
-    }
-    if (!std::isfinite(fx)) break;
-  }
-  return {b, fb};
-}
 
 }  // namespace
 
@@ -108,18 +89,22 @@ std::vector<TransmissionRange> transmission_ranges(const LinkagePlan& plan, std:
       for (std::size_t i = 0; i < samples; ++i)
         if (std::isfinite(values[i]) && (best == samples || sign * values[i] < sign * values[best])) best = i;
       if (best == samples) continue;
-      std::pair<double, double> found{value_at(from, to, best, samples), sign * values[best]};
+      math::Minimum found{value_at(from, to, best, samples), sign * values[best]};
       const double a = value_at(from, to, best > 0 ? best - 1 : 0, samples),
                    c = value_at(from, to, std::min(best + 1, samples - 1), samples);
+      // Beyond a place that cannot be reached the motion would be sought from nowhere.
+      bool lost = false;
+      const auto angle = [&](double x) {
+        if (lost) return nan;
+        solve_position(plan, one(x, 0), motion);
+        const double value = sign * transmission_angle(plan, motion, r.group);
+        lost = !std::isfinite(value);
+        return value;
+      };
       if (best > 0 && best + 1 < samples)
-        found = lowest(
-            [&](double x) {
-              solve_position(plan, one(x, 0), motion);
-              return sign * transmission_angle(plan, motion, r.group);
-            },
-            a, found.first, c, tolerance);
-      (sign > 0 ? r.minimum : r.maximum) = sign * found.second;
-      (sign > 0 ? r.minimum_at : r.maximum_at) = found.first;
+        found = math::minimum_about(angle, a, found.at, c, {.absolute = tolerance});
+      (sign > 0 ? r.minimum : r.maximum) = sign * found.value;
+      (sign > 0 ? r.minimum_at : r.maximum_at) = found.at;
     }
     r.missing = static_cast<std::size_t>(
         std::count_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }));

@@ -9,6 +9,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/math/zero.h"
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/dynamics.h"
 #include "linkwright/planar/linkage/quality.h"
@@ -438,14 +439,14 @@ class Simulation {
       const SmoothBranch::Near next = branch_->next(value, sense);
       if (!next.end || (next.value - now.value) * sense > 0) return;
       value = next.value;
-      double low = 0, high = 1;
-      for (int i = 0; i < 50; ++i) {
-        const double s = (low + high) / 2, r = 1 - s;
+      const auto yet_before = [&](double s) {
+        const double r = 1 - s;
         const double there = before.value * r * r * (1 + 2 * s) + now.value * s * s * (1 + 2 * r) +
                              span * s * r * (r * before.rate - s * now.rate);
-        ((there - value) * sense < 0 ? low : high) = s;
-      }
-      report_.passages.push_back({from + span * low, value, next.end->groups, 0});
+        return (there - value) * sense < 0;
+      };
+      const double share = math::bisect(yet_before, 0, 1, {.halvings = 50}).inside;
+      report_.passages.push_back({from + span * share, value, next.end->groups, 0});
     }
   }
 

@@ -11,6 +11,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/ode.h"
+#include "linkwright/math/zero.h"
 #include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/dynamics.h"
 
@@ -79,13 +80,10 @@ std::vector<double> speeds(const SpeedFluctuation& cycle, double extra, double m
   };
   // More energy, less time. The answer lies between nearly none and far more than the mean speed needs.
   const double most = *std::max_element(cycle.inertia.begin(), cycle.inertia.end()) + extra;
-  double low = 0, high = most * mean * mean + cycle.energy_fluctuation;
-  while (slowness(high) > 1 / mean) high *= 2;
-  for (int i = 0; i < 200 && high - low > 1e-16 * high; ++i) {
-    const double middle = (low + high) / 2;
-    (slowness(middle) > 1 / mean ? low : high) = middle;
-  }
-  slowness(high);
+  const auto slow = [&](double c) { return slowness(c) > 1 / mean; };
+  double high = most * mean * mean + cycle.energy_fluctuation;
+  while (slow(high)) high *= 2;
+  slowness(math::bisect(slow, 0, high, {}).outside);
   return out;
 }
 double spread(const std::vector<double>& speeds, double mean) {
@@ -143,12 +141,8 @@ SpeedFluctuation speed_fluctuation(const Linkage& linkage, const LinkagePlan& pl
     if (excessive(0)) {
       double low = 0, high = out.energy_fluctuation / (setup.fluctuation * mean * mean) + out.inertia[0];
       while (excessive(high)) low = high, high *= 2;
-      for (int i = 0; i < 100 && high - low > 1e-12 * high; ++i) {
-        const double middle = (low + high) / 2;
-        (excessive(middle) ? low : high) = middle;
-      }
-      excessive(high);
-      out.flywheel = high;
+      out.flywheel = math::bisect(excessive, low, high, {.relative = 1e-12, .halvings = 100}).outside;
+      excessive(out.flywheel);
     }
   } catch (const Interrupted& why) {
     out.status = why.status();

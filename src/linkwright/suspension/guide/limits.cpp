@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/math/minimum.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -71,26 +72,11 @@ double least_along(const Vec3& a, const Vec3& b, F f) {
       least = v;
       best = i;
     }
-  double low = std::max(0.0, (best - 1.0) / steps), high = std::min(1.0, (best + 1.0) / steps);
-  constexpr double golden = 0.6180339887498949;
-  double s1 = high - golden * (high - low), s2 = low + golden * (high - low);
-  double v1 = value(s1), v2 = value(s2);
-  for (int i = 0; i < 40; ++i) {
-    if (v1 <= v2) {
-      high = s2;
-      s2 = s1;
-      v2 = v1;
-      s1 = high - golden * (high - low);
-      v1 = value(s1);
-    } else {
-      low = s1;
-      s1 = s2;
-      v1 = v2;
-      s2 = low + golden * (high - low);
-      v2 = value(s2);
-    }
-  }
-  return (low + high) / 2;
+  // Begun at the far end, so that it goes towards a where all is level.
+  math::GoldenSection section{value, std::min(1.0, (best + 1.0) / steps),
+                              std::max(0.0, (best - 1.0) / steps)};
+  for (int i = 0; i < 40; ++i) section.narrow();
+  return (section.low + section.high) / 2;
 }
 
 /// Parameters of the nearest points of two segments a + s d, b + t e (Ericson 2005, section 5.1.9).
