@@ -55,8 +55,8 @@ void expect_row(const GuidePlan& plan, const Value& row) {
   expect_rate(found.camber_by_travel, row, "dcamber_dz_rad_per_m");
   expect_rate(found.roll_centre_height, row, "roll_centre_height_m");
   expect_rate(found.roll_centre_height_geometric, row, "roll_centre_height_geometric_contact_m");
-  expect_rate(found.support_tangent, row, "tan_support_carrier_fixed");
-  expect_rate(found.support_tangent_free, row, "tan_support_wheel_free");
+  expect_rate(found.anti_pitch_tangent, row, "tan_support_carrier_fixed");
+  expect_rate(found.anti_pitch_tangent_free, row, "tan_support_wheel_free");
   EXPECT_EQ(row.find("motion_ratio") != nullptr, plan.spring.has_value());
   if (plan.spring) {
     expect_rate(found.motion_ratio, row, "motion_ratio");
@@ -245,7 +245,7 @@ TEST(WheelParameters, RightWheelHasTheNumbersOfTheLeftAtTheOppositeRack) {
   same(a.toe_by_travel, b.toe_by_travel);
   same(a.camber_by_travel, b.camber_by_travel);
   same(a.roll_centre_height, b.roll_centre_height);
-  same(a.support_tangent_free, b.support_tangent_free);
+  same(a.anti_pitch_tangent_free, b.anti_pitch_tangent_free);
   same(a.motion_ratio, b.motion_ratio);
   same(a.toe_by_rack, -b.toe_by_rack);
   same(a.side_swing_arm, b.side_swing_arm);
@@ -324,7 +324,7 @@ TEST(WheelParameters, SwingArmsOfATrailingArm) {
   EXPECT_NEAR(found.side_centre[1], 0.1, 1e-15);
   EXPECT_NEAR(found.side_swing_arm, std::hypot(0.5, 0.4), 1e-15);
   EXPECT_NEAR(found.side_swing_angle, std::atan2(0.4, 0.5), 1e-15);
-  EXPECT_NEAR(found.support_tangent, -0.4 / 0.5, 1e-15);
+  EXPECT_NEAR(found.anti_pitch_tangent, -0.4 / 0.5, 1e-15);
   EXPECT_GT(found.front_swing_arm, 1e12);
   EXPECT_NEAR(found.roll_centre_height, 0, 1e-15);
   // With the hinge along x it is the front view that turns.

@@ -24,11 +24,11 @@ TEST(WheelQuantities, EachIsAnotherNumberOfTheParameters) {
     if (name.value != WheelQuantity::axis_pitch_at_spring && !name.name.starts_with("geometric_")) {
       EXPECT_TRUE(values.insert(value).second) << name.name;
     }
-    EXPECT_FALSE(unit_of(name.value).empty()) << name.name;
+    EXPECT_FALSE(row_of(name.value).unit.empty()) << name.name;
   }
   EXPECT_EQ(value_of(parameters, WheelQuantity::camber), parameters.angles.camber);
   EXPECT_EQ(value_of(parameters, WheelQuantity::caster_at_spring), parameters.axis_at_spring->caster);
-  EXPECT_EQ(unit_of(WheelQuantity::toe_by_travel), "rad/m");
+  EXPECT_EQ(row_of(WheelQuantity::toe_by_travel).unit, "rad/m");
 }
 
 TEST(WheelQuantities, WhatAPositionShowsByItselfIsKnownWithoutMotions) {
@@ -40,13 +40,14 @@ TEST(WheelQuantities, WhatAPositionShowsByItselfIsKnownWithoutMotions) {
   ASSERT_EQ(parameters.status, Status::singular);
   for (const auto& name : names(WheelQuantity{}))
     if (!name.name.starts_with("geometric_") && !name.name.starts_with("arm_")) {
-      EXPECT_EQ(std::isfinite(value_of(parameters, name.value)), at_rest(name.value)) << name.name;
+      EXPECT_EQ(std::isfinite(value_of(parameters, name.value)), row_of(name.value).extent == Extent::at_rest)
+          << name.name;
     }
   // Constructions are known there as well; only derivatives take their time for them with the motions.
   const GuidePlan wishbones = prepare(guide_sample("2RS-US").guide);
   const WheelParameters drawn = wheel_parameters(wishbones, reference_position(wishbones));
   EXPECT_TRUE(std::isfinite(value_of(drawn, WheelQuantity::geometric_caster)));
-  EXPECT_FALSE(at_rest(WheelQuantity::geometric_caster));
+  EXPECT_EQ(row_of(WheelQuantity::geometric_caster).extent, Extent::all);
 }
 
 // A number that is left out of a list would have no derivative: by the design, by travel and by rack.
@@ -67,7 +68,7 @@ TEST(WheelQuantities, WhatHasAValueHasItsDerivatives) {
       EXPECT_TRUE(std::isfinite(value_of(by_inputs.by_travel, name.value)))
           << sample.name << " " << name.name;
       EXPECT_TRUE(std::isfinite(value_of(by_inputs.by_rack, name.value))) << sample.name << " " << name.name;
-      if (!at_rest(name.value)) continue;
+      if (row_of(name.value).extent != Extent::at_rest) continue;
       const WheelDerivatives rest = wheel_derivatives(plan, at, Extent::at_rest);
       EXPECT_TRUE(std::isfinite(value_of(rest.by.at(0), name.value))) << sample.name << " " << name.name;
     }

@@ -48,7 +48,7 @@ TargetPositions target_positions(std::span<const TargetObjective> objectives, Dr
     const std::size_t before = out.rows.size();
     for (std::size_t c = 0; c < objective.curves.size(); ++c) {
       const TargetCurve& curve = objective.curves[c];
-      if (!at_rest(curve.quantity)) out.extent = Extent::all;
+      if (row_of(curve.quantity).extent == Extent::all) out.extent = Extent::all;
       for (std::size_t p = 0; p < curve.points.size(); ++p) {
         const TargetPoint& point = curve.points[p];
         LINKWRIGHT_REQUIRE(point.tolerance > 0 && std::isfinite(point.tolerance) && point.weight >= 0 &&

@@ -31,8 +31,8 @@ AntiFeatures anti_features(const WheelParameters& wheel, AxlePlace place, const 
   const bool front = place == AxlePlace::front;
   const double gain = (front ? 100 : -100) * layout.wheelbase / layout.centre_height;
   const double braking = front ? layout.front_brake_share : 1 - layout.front_brake_share;
-  return {gain * braking * wheel.support_tangent, gain * braking * wheel.support_tangent_free,
-          gain * layout.axle_drive_share * wheel.support_tangent_free};
+  return {gain * braking * wheel.anti_pitch_tangent, gain * braking * wheel.anti_pitch_tangent_free,
+          gain * layout.axle_drive_share * wheel.anti_pitch_tangent_free};
 }
 
 Ackermann ackermann(double inner, double outer, double wheelbase, double track) {

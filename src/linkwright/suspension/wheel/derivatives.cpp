@@ -194,9 +194,9 @@ class Linearised {
 
 /// Values and derivatives out of dual parameters; `by[k]` may end before the last direction.
 void take_apart(const BasicWheelParameters<T>& from, WheelParameters& values, std::span<WheelParameters> by) {
-  kernel::for_each_number(from, values, [](const T& a, double& to) { to = a.value; });
+  for_each_number(from, values, [](const T& a, double& to) { to = a.value; });
   for (std::size_t k = 0; k < by.size(); ++k)
-    kernel::for_each_number(from, by[k], [k](const T& a, double& to) {
+    for_each_number(from, by[k], [k](const T& a, double& to) {
       to = std::isfinite(a.value) ? a.by[k] : WheelParameters::missing;
     });
 }
@@ -204,7 +204,7 @@ void take_apart(const BasicWheelParameters<T>& from, WheelParameters& values, st
 WheelParameters unknown(Status status) {
   WheelParameters out;
   const BasicWheelParameters<double> nothing;
-  kernel::for_each_number(nothing, out, [](double, double& to) { to = WheelParameters::missing; });
+  for_each_number(nothing, out, [](double, double& to) { to = WheelParameters::missing; });
   out.status = status;
   return out;
 }

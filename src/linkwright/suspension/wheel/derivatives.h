@@ -24,10 +24,6 @@ struct DerivativePlan {
 /// Throws ContractError as `prepare` does, and for numbers that the suspension does not have.
 DerivativePlan prepare_derivatives(const WheelGuide& guide, std::vector<DesignNumber> numbers);
 
-/// How much of the parameters is wanted: at_rest is what a position shows without motion - angles, contact
-/// point, track, changes, length of the spring - and costs half.
-enum class Extent { at_rest, all };
-
 struct WheelDerivatives {
   /// singular: at a limit of travel nothing has a derivative, and `by` has NaN.
   Status status = Status::done;

@@ -231,8 +231,8 @@ void add_rates(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place, c
   const T ahead = out.side_centre[0] - out.contact.x, above = out.side_centre[1] - out.contact.z;
   out.side_swing_arm = hypot(ahead, above);
   out.side_swing_angle = atan(above / abs(ahead));
-  out.support_tangent = on_carrier.x / on_carrier.z;
-  out.support_tangent_free = geometric.x / geometric.z;
+  out.anti_pitch_tangent = on_carrier.x / on_carrier.z;
+  out.anti_pitch_tangent_free = geometric.x / geometric.z;
   out.screw_pitch = dot(turning, velocity) / dot(turning, turning);
   if (plan.spring) out.motion_ratio = -kernel::driver_rate(plan, place, rack, Driver::spring, bump, 0);
 
@@ -249,76 +249,6 @@ void add_rates(const BasicGuidePlan<T>& plan, const BasicGuidePlace<T>& place, c
   if (plan.spring)
     out.axis_at_spring =
         axis(kernel::steering_twist(plan, place, rack, bump, steer, Driver::spring), Driver::spring);
-}
-
-/// f(a, b) for every number of two sets of parameters; axes of steering that `a` has appear in `b`.
-template <class A, class B, class F>
-void for_each_number(const BasicWheelParameters<A>& a, BasicWheelParameters<B>& b, F f) {
-  const auto vector = [&](const Vector3<A>& from, Vector3<B>& to) {
-    f(from.x, to.x);
-    f(from.y, to.y);
-    f(from.z, to.z);
-  };
-  f(a.angles.toe, b.angles.toe);
-  f(a.angles.camber, b.angles.camber);
-  f(a.angles.carrier_pitch, b.angles.carrier_pitch);
-  f(a.front_view_camber, b.front_view_camber);
-  vector(a.contact, b.contact);
-  f(a.track, b.track);
-  f(a.half_track_change, b.half_track_change);
-  f(a.wheelbase_change, b.wheelbase_change);
-  f(a.recession, b.recession);
-  f(a.toe_by_travel, b.toe_by_travel);
-  f(a.camber_by_travel, b.camber_by_travel);
-  vector(a.velocity, b.velocity);
-  vector(a.turning, b.turning);
-  vector(a.contact_velocity.on_carrier, b.contact_velocity.on_carrier);
-  vector(a.contact_velocity.geometric, b.contact_velocity.geometric);
-  f(a.roll_centre_height, b.roll_centre_height);
-  f(a.roll_centre_height_geometric, b.roll_centre_height_geometric);
-  for (int i : {0, 1}) {
-    f(a.front_centre[i], b.front_centre[i]);
-    f(a.side_centre[i], b.side_centre[i]);
-  }
-  f(a.front_swing_arm, b.front_swing_arm);
-  f(a.side_swing_arm, b.side_swing_arm);
-  f(a.side_swing_angle, b.side_swing_angle);
-  f(a.support_tangent, b.support_tangent);
-  f(a.support_tangent_free, b.support_tangent_free);
-  f(a.spring_length, b.spring_length);
-  f(a.motion_ratio, b.motion_ratio);
-  f(a.toe_by_rack, b.toe_by_rack);
-  f(a.screw_pitch, b.screw_pitch);
-  f(a.arms.roll_centre_height, b.arms.roll_centre_height);
-  for (int i : {0, 1}) {
-    f(a.arms.front[i], b.arms.front[i]);
-    f(a.arms.side[i], b.arms.side[i]);
-  }
-  f(a.arms.front_swing_arm, b.arms.front_swing_arm);
-  f(a.arms.side_swing_arm, b.arms.side_swing_arm);
-  f(a.arms.side_swing_angle, b.arms.side_swing_angle);
-  const auto axis = [&](const std::optional<BasicSteeringAxis<A>>& from,
-                        std::optional<BasicSteeringAxis<B>>& to) {
-    if (!from) return;
-    if (!to) to.emplace();
-    to->lock = from->lock;
-    vector(from->point, to->point);
-    vector(from->direction, to->direction);
-    vector(from->ground, to->ground);
-    f(from->caster, to->caster);
-    f(from->inclination, to->inclination);
-    f(from->trail, to->trail);
-    f(from->scrub, to->scrub);
-    f(from->wheel_trail, to->wheel_trail);
-    f(from->wheel_scrub, to->wheel_scrub);
-    f(from->caster_offset, to->caster_offset);
-    f(from->kingpin_offset, to->kingpin_offset);
-    f(from->pitch, to->pitch);
-  };
-  axis(a.axis_at_height, b.axis_at_height);
-  axis(a.axis_at_spring, b.axis_at_spring);
-  axis(a.axis_at_contact, b.axis_at_contact);
-  axis(a.geometric_axis, b.geometric_axis);
 }
 
 }  // namespace linkwright::suspension::kernel
