@@ -39,6 +39,21 @@ TEST(Measures, KeepWhatIsMissing) {
   for (auto of : {rss_over_n, rms, mean_abs, max_abs}) EXPECT_TRUE(std::isnan(of(samples)));
 }
 
+TEST(Measures, HaveTheirProperties) {
+  const std::vector<double> x = {1, -2, 4}, y = {3, 1, -5}, minus = {-1, 2, -4}, ones = {1, 1, 1};
+  const std::vector<double> sum = {4, -1, -1}, difference = {-2, -3, 9};
+  for (const auto& name : names(Measure())) {
+    const auto of = [&](const std::vector<double>& samples) { return measure(name.value, samples); };
+    const bool norm = of(sum) <= of(x) + of(y) && of(x) == of(minus) && of(ones) > 0;
+    EXPECT_EQ(properties(name.value).norm, norm) << name.name;
+    const auto square = [&](const std::vector<double>& samples) { return of(samples) * of(samples); };
+    const double both = 2 * (square(x) + square(y));
+    EXPECT_EQ(properties(name.value).quadratic,
+              std::abs(square(sum) + square(difference) - both) < 1e-12 * both)
+        << name.name;
+  }
+}
+
 TEST(Measures, NeedSamples) {
   EXPECT_THAT(test::message([] { rss_over_n(std::vector<double>{1}); }), HasSubstr("needs 2 samples, got 1"));
   for (auto of : {rms, mean_abs, max_abs})

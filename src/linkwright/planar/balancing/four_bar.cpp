@@ -221,9 +221,8 @@ void require_valid(const FourBarBalancing& b) {
   }
   LINKWRIGHT_REQUIRE(!b.objectives.empty(), "balancing needs objectives");
   for (const BalancingObjective& o : b.objectives) {
-    LINKWRIGHT_REQUIRE(
-        o.measure != Measure::maximum && o.measure != Measure::minimum && o.measure != Measure::range,
-        "{} of {}: take rss_over_n, rms, mean_abs or max_abs", name_of(o.measure), name_of(o.component));
+    LINKWRIGHT_REQUIRE(properties(o.measure).norm, "{} of {}: take rss_over_n, rms, mean_abs or max_abs",
+                       name_of(o.measure), name_of(o.component));
     LINKWRIGHT_REQUIRE(o.reference > 0 && std::isfinite(o.reference),
                        "reference of {} must be more than 0, got {}", name_of(o.component), o.reference);
   }

@@ -16,9 +16,8 @@ constexpr std::size_t followed = 8;  // ends
 constexpr double cap_tolerance = 1e-6;
 
 bool has_kinks(const FourBarBalancing& b) {
-  return std::any_of(b.objectives.begin(), b.objectives.end(), [](const BalancingObjective& o) {
-    return o.measure == Measure::mean_abs || o.measure == Measure::max_abs;
-  });
+  return std::any_of(b.objectives.begin(), b.objectives.end(),
+                     [](const BalancingObjective& o) { return !properties(o.measure).quadratic; });
 }
 
 // Cost and violation without rounding.

@@ -311,7 +311,7 @@ void Balancer::add_objective(std::size_t k, std::size_t t) {
       }
     return form;
   };
-  if (o.measure == Measure::rss_over_n || o.measure == Measure::rms) {
+  if (properties(o.measure).quadratic) {
     // |all (x, 1)| = |R (x, 1)|
     if (rows > columns + 1) {
       const Eigen::HouseholderQR<Matrix> qr(all);

@@ -36,4 +36,26 @@ constexpr std::array<EnumName<Measure>, 7> names(Measure) {
 }
 double measure(Measure measure, std::span<const double> samples);
 
+/// What searches may build on.
+struct MeasureProperties {
+  /// Of the sizes of the samples: it is convex, the same for x and -x, and zero only where all are.
+  bool norm = false;
+  bool quadratic = false;  ///< root of a sum of squares: smooth but at zero
+};
+constexpr MeasureProperties properties(Measure measure) {
+  switch (measure) {
+    case Measure::rss_over_n:
+    case Measure::rms:
+      return {.norm = true, .quadratic = true};
+    case Measure::mean_abs:
+    case Measure::max_abs:
+      return {.norm = true};
+    case Measure::maximum:
+    case Measure::minimum:
+    case Measure::range:
+      break;
+  }
+  return {};
+}
+
 }  // namespace linkwright::planar

@@ -263,7 +263,7 @@ void require_valid(const ArmTask& task, const ArmDesign& design) {
   LINKWRIGHT_REQUIRE(task.intervals >= 2, "needs at least 2 intervals, got {}", task.intervals);
   LINKWRIGHT_REQUIRE(task.duration > 0 && std::isfinite(task.duration), "duration {} s must be more than 0",
                      task.duration);
-  LINKWRIGHT_REQUIRE(task.measure == Measure::rss_over_n || task.measure == Measure::rms,
+  LINKWRIGHT_REQUIRE(properties(task.measure).quadratic,
                      "measure {}: the cost of an arm takes rss_over_n or rms", name_of(task.measure));
   double sum = 0;
   for (const double w : task.weights) {

@@ -56,9 +56,7 @@ std::optional<optimise::SmoothProblem> four_bar_problem(const BalancingStudy& s,
   for (std::size_t k = 0; k < p.task.objectives.size(); ++k) {
     const BalancingGoal& o = p.task.objectives[k];
     const auto component = component_of(o.quantity);
-    if (!component || o.measure == Measure::maximum || o.measure == Measure::minimum ||
-        o.measure == Measure::range)
-      return std::nullopt;
+    if (!component || !properties(o.measure).norm) return std::nullopt;
     b.objectives.push_back({*component, o.measure, p.references[k]});
   }
   Diagnostics problems;

@@ -370,8 +370,7 @@ std::optional<MassBalancing> programme(const MassStudy& s, const BalancingProble
   }
   for (std::size_t k = 0; k < p.task.objectives.size(); ++k) {
     const BalancingGoal& o = p.task.objectives[k];
-    if (o.measure != Measure::rss_over_n && o.measure != Measure::rms && o.measure != Measure::mean_abs &&
-        o.measure != Measure::max_abs) {
+    if (!properties(o.measure).norm) {
       why = fmt::format("{} is not convex", name_of(o.measure));
       return std::nullopt;
     }
