@@ -1,12 +1,12 @@
 #include "linkwright/math/scalar.h"
 
-#include <ceres/jet.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "linkwright/core/numbers.h"
+#include "linkwright/math/dual.h"
 
 namespace linkwright::math {
 namespace {
@@ -56,17 +56,17 @@ TEST(Scalar, ExtremesSizesAndWholeParts) {
   EXPECT_EQ(S::floor(3.0), 3.0);
 }
 
-TEST(Scalar, JetsCarryDerivativesThrough) {
-  using Jet = ceres::Jet<double, 2>;
-  const Jet x(3.0, 0), y(-4.0, 1);
-  const Jet sum = Scalar<Jet>::multiply_add(x, y, x);  // d = (y + 1, x)
-  EXPECT_EQ(sum.a, -9.0);
-  EXPECT_EQ(sum.v[0], -3.0);
-  EXPECT_EQ(sum.v[1], 3.0);
-  EXPECT_EQ(Scalar<Jet>::positive_part(x).v[0], 1.0);
-  const Jet none = Scalar<Jet>::positive_part(y);
-  EXPECT_EQ(none.a, 0.0);
-  EXPECT_EQ(none.v[1], 0.0);
+TEST(Scalar, DualNumbersCarryDerivativesThrough) {
+  using D = Dual<2>;
+  const D a = D::variable(3, 0), b = D::variable(-4, 1);
+  const D sum = Scalar<D>::multiply_add(a, b, a);  // by (b + 1, a)
+  EXPECT_EQ(sum.value, -9.0);
+  EXPECT_EQ(sum.by[0], -3.0);
+  EXPECT_EQ(sum.by[1], 3.0);
+  EXPECT_EQ(Scalar<D>::positive_part(a).by[0], 1.0);
+  const D none = Scalar<D>::positive_part(b);
+  EXPECT_EQ(none.value, 0.0);
+  EXPECT_EQ(none.by[1], 0.0);
 }
 
 }  // namespace

@@ -4,12 +4,12 @@
 /// object files.
 #define LINKWRIGHT_KERNEL [[gnu::always_inline]] inline
 
-/// What a formula needs beyond + - * / and sqrt to be written once for `double`, `ceres::Jet` and SIMD
+/// What a formula needs beyond + - * / and sqrt to be written once for `double`, `Dual` and SIMD
 /// batches.
 namespace linkwright::math {
 
 template <class T>
-struct Scalar {  // double, ceres::Jet
+struct Scalar {  // double, Dual
   /// a b + c: fused where the translation unit is compiled for it, so that one scalar and a register of
   /// scalars give the same bits within one instruction set.
   LINKWRIGHT_KERNEL static T multiply_add(const T& a, const T& b, const T& c) { return a * b + c; }

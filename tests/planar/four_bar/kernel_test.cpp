@@ -1,6 +1,5 @@
 #include "linkwright/planar/four_bar/kernel.h"
 
-#include <ceres/jet.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -14,6 +13,7 @@
 
 #include "linkwright/core/random.h"
 #include "linkwright/math/differences.h"
+#include "linkwright/math/dual.h"
 #include "linkwright/math/simd.h"
 #include "planar/four_bars.h"
 #include "planar/path_cases.h"
@@ -37,14 +37,14 @@ std::array<T, 2> coupler_point(const std::array<T, parameter_count>& q, double b
   return {q[6] + c * zx - s * zy, q[7] + s * zx + c * zy};
 }
 
-using Jet = ceres::Jet<double, parameter_count>;
-std::array<Jet, 2> derivatives(const std::array<double, parameter_count>& q, double branch) {
-  std::array<Jet, parameter_count> jets;
-  for (int i = 0; i < static_cast<int>(parameter_count); ++i) jets[i] = Jet(q[i], i);
-  return coupler_point(jets, branch);
+using Dual = math::Dual<parameter_count>;
+std::array<Dual, 2> derivatives(const std::array<double, parameter_count>& q, double branch) {
+  std::array<Dual, parameter_count> parameters;
+  for (int i = 0; i < static_cast<int>(parameter_count); ++i) parameters[i] = Dual::variable(q[i], i);
+  return coupler_point(parameters, branch);
 }
 
-TEST(FourBarKernel, JetsMeetThePublishedDerivatives) {
+TEST(FourBarKernel, DualNumbersMeetThePublishedDerivatives) {
   const Value& entry = path_case("JAC-1");
   std::array<double, parameter_count> q;
   std::size_t i = 0;
@@ -56,15 +56,14 @@ TEST(FourBarKernel, JetsMeetThePublishedDerivatives) {
     const auto expected_point = numbers(at(at(entry, key), "C_m"));
     const auto& expected = at(at(entry, key), "dC_dx").as_array();
     for (int axis = 0; axis < 2; ++axis) {
-      EXPECT_NEAR(point[axis].a, expected_point[axis], 1e-10);
+      EXPECT_NEAR(point[axis].value, expected_point[axis], 1e-10);
       for (std::size_t j = 0; j < parameter_count; ++j)
-        EXPECT_NEAR(point[axis].v[static_cast<int>(j)], numbers(expected[j])[axis], 1e-10)
-            << key << " quantity " << j;
+        EXPECT_NEAR(point[axis].by[j], numbers(expected[j])[axis], 1e-10) << key << " quantity " << j;
     }
   }
 }
 
-RC_GTEST_PROP(FourBarKernel, JetsAgreeWithDifferences, ()) {
+RC_GTEST_PROP(FourBarKernel, DualNumbersAgreeWithDifferences, ()) {
   const FourBar l = *any_four_bar();
   const double angle = *any_angle(), branch = sign(l.branch);
   const auto pose = position(l, angle);
@@ -93,8 +92,7 @@ RC_GTEST_PROP(FourBarKernel, JetsAgreeWithDifferences, ()) {
   // The error of differences is some eps^(2/3) = 4e-11 of size / bend.
   for (std::size_t j = 0; j < parameter_count; ++j)
     for (std::size_t axis = 0; axis < 2; ++axis)
-      RC_ASSERT(std::abs(differences[2 * j + axis] - exact[axis].v[static_cast<int>(j)]) <
-                1e-7 * (1 + size / bend));
+      RC_ASSERT(std::abs(differences[2 * j + axis] - exact[axis].by[j]) < 1e-7 * (1 + size / bend));
 }
 
 TEST(FourBarKernel, BatchesGiveTheBitsOfTheScalar) {

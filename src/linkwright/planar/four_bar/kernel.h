@@ -7,7 +7,7 @@
 
 namespace linkwright::planar {
 
-/// Closure of the loop O-A-B-B0 for one crank direction; written once for `double`, `ceres::Jet` and SIMD
+/// Closure of the loop O-A-B-B0 for one crank direction; written once for `double`, `Dual` and SIMD
 /// batches.
 template <class T>
 struct Closure {

@@ -1,13 +1,12 @@
 #include "linkwright/suspension/indirect/guide_errors.h"
 
-#include <ceres/jet.h>
 #include <fmt/core.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "linkwright/core/check.h"
+#include "linkwright/math/dual.h"
 #include "linkwright/suspension/indirect/link_fit_direct.h"
 
 namespace linkwright::suspension {
@@ -24,40 +23,21 @@ Mat3 turn_rate_y(double angle) {
 /// joint and both hinge points of the second, the offset, the point on the second link.
 template <class T>
 struct CouplerPoints {
-  using V = Eigen::Matrix<T, 3, 1>;
-  V body, carrier, ball, hinge, other, point;
+  math::Vector3<T> body, carrier, ball, hinge, other, point;
   T offset;
 };
 
 /// The point at the offset on the first link as the second one sees it; `frame` are its axes (59)-(64).
 template <class T>
-typename CouplerPoints<T>::V seen(const CouplerPoints<T>& p, const Eigen::Matrix<T, 3, 3>& rotation,
-                                  const Eigen::Vector3d& centre, const Eigen::Vector3d& first_shift,
-                                  const Eigen::Vector3d& second_shift, Eigen::Matrix<T, 3, 3>& frame,
-                                  typename CouplerPoints<T>::V& hinge) {
-  using V = typename CouplerPoints<T>::V;
-  using std::sqrt;
-  const V c = centre.cast<T>();
-  hinge = c + rotation * p.hinge;
-  const V along = rotation * (p.other - p.hinge), ball = p.ball + second_shift.cast<T>();
-  const V from = p.body + first_shift.cast<T>();
-  const V y = along / sqrt(along.squaredNorm());
-  const V across = (ball - hinge).cross(along);
-  const V z = across / sqrt(across.squaredNorm());
-  const V x = y.cross(z);
-  frame.row(0) = x.transpose();
-  frame.row(1) = y.transpose();
-  frame.row(2) = z.transpose();
-  const V rod = c + rotation * p.carrier - from;
-  const V at = from + (p.offset / sqrt(rod.squaredNorm())) * rod;
-  return frame * (at - hinge);
-}
-
-Eigen::Vector3d eigen(const Vec3& a) { return {a.x, a.y, a.z}; }
-Eigen::Matrix3d eigen(const Mat3& m) {
-  Eigen::Matrix3d out;
-  for (int k = 0; k < 3; ++k) out.row(k) = eigen(m.row[static_cast<std::size_t>(k)]).transpose();
-  return out;
+math::Vector3<T> seen(const CouplerPoints<T>& p, const math::Matrix3<T>& rotation, const Vec3& centre,
+                      const Vec3& first_shift, const Vec3& second_shift, math::Matrix3<T>& frame,
+                      math::Vector3<T>& hinge) {
+  hinge = centre + rotation * p.hinge;
+  const math::Vector3<T> along = rotation * (p.other - p.hinge), ball = p.ball + second_shift;
+  const math::Vector3<T> y = math::unit(along), z = math::unit(cross(ball - hinge, along));
+  frame = {{cross(y, z), y, z}};
+  const math::Vector3<T> from = p.body + first_shift, rod = centre + rotation * p.carrier - from;
+  return frame * (from + (p.offset / norm(rod)) * rod - hinge);
 }
 
 double longest(const LinkTask& task) {
@@ -331,45 +311,45 @@ bool GuideErrors::evaluate_coupler(const CouplerPart& part, std::span<double> er
                                           &second.link.carrier[1], &part.point};
   const std::size_t n = poses_.size();
   const auto all = [&]<class T>(const CouplerPoints<T>& p, auto&& rotation_at, auto&& write) {
-    using V = typename CouplerPoints<T>::V;
-    using M = Eigen::Matrix<T, 3, 3>;
-    using std::sqrt;
-    M frame;
-    V hinge;
-    const Eigen::Vector3d none = Eigen::Vector3d::Zero();
-    const V t0 = seen<T>(p, M::Identity(), none, none, none, frame, hinge);
-    const V y = frame * (p.point - hinge), d0 = t0 - y;
-    const T l0 = sqrt(d0.squaredNorm());
+    math::Matrix3<T> frame;
+    math::Vector3<T> hinge;
+    const math::Vector3<T> at_rest = seen<T>(p, math::Matrix3<T>{}, Vec3{}, Vec3{}, Vec3{}, frame, hinge);
+    const math::Vector3<T> y = frame * (p.point - hinge), d0 = at_rest - y;
+    const T l0 = norm(d0);
     for (std::size_t i = 0; i < n; ++i) {
       const auto shift = [&](const LinkPart& link) {  // of points that the rack moves
-        return Eigen::Vector3d(eigen(motions_[0].shift[i] - motion(link.link).shift[i]));
+        return motions_[0].shift[i] - motion(link.link).shift[i];
       };
-      const V d =
-          seen<T>(p, rotation_at(i), eigen(motions_[0].shift[i]), shift(first), shift(second), frame, hinge) -
-          y;
-      const V change = d - d0, both = d + d0;
-      write(i, T(change.dot(both) / (sqrt(d.squaredNorm()) + l0)));
+      const math::Vector3<T> d =
+          seen<T>(p, rotation_at(i), motions_[0].shift[i], shift(first), shift(second), frame, hinge) - y;
+      write(i, dot(d - d0, d + d0) / (norm(d) + l0));
     }
   };
   bool finite = true;
   if (jacobian.empty()) {
-    CouplerPoints<double> p{eigen(*points[0]), eigen(*points[1]), eigen(*points[2]), eigen(*points[3]),
-                            eigen(*points[4]), eigen(*points[5]), part.offset};
+    CouplerPoints<double> p{*points[0], *points[1], *points[2], *points[3],
+                            *points[4], *points[5], part.offset};
     all(
-        p, [&](std::size_t i) { return eigen(motions_[0].rotation[i]); },
+        p, [&](std::size_t i) { return motions_[0].rotation[i]; },
         [&](std::size_t i, double e) {
           errors[part.first_row + i] = e;
           finite = finite && std::isfinite(e);
         });
     return finite;
   }
-  using Jet = ceres::Jet<double, 20>;  // six points, the offset, the carrier pitch
-  const auto jets = [&](std::size_t point) {
-    Eigen::Matrix<Jet, 3, 1> v;
-    for (int k = 0; k < 3; ++k) v[k] = Jet(component(*points[point], k), static_cast<int>(3 * point) + k);
-    return v;
+  using Number = math::Dual<20>;  // six points, the offset, the carrier pitch
+  const auto variables = [&](int point) {
+    const Vec3& at = *points[static_cast<std::size_t>(point)];
+    return math::Vector3<Number>{Number::variable(at.x, 3 * point), Number::variable(at.y, 3 * point + 1),
+                                 Number::variable(at.z, 3 * point + 2)};
   };
-  CouplerPoints<Jet> p{jets(0), jets(1), jets(2), jets(3), jets(4), jets(5), Jet(part.offset, 18)};
+  CouplerPoints<Number> p{variables(0),
+                          variables(1),
+                          variables(2),
+                          variables(3),
+                          variables(4),
+                          variables(5),
+                          Number::variable(part.offset, 18)};
   std::array<int, 19> columns{};
   const auto take = [&](std::size_t to, const LinkPart& link, std::size_t from) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -383,22 +363,23 @@ bool GuideErrors::evaluate_coupler(const CouplerPart& part, std::span<double> er
   all(
       p,
       [&](std::size_t i) {
-        Eigen::Matrix<Jet, 3, 3> r;
-        for (int a = 0; a < 3; ++a)
-          for (int b = 0; b < 3; ++b) {
-            r(a, b) = Jet(component(motions_[0].rotation[i].row[static_cast<std::size_t>(a)], b));
-            if (poses_[i].open) r(a, b).v[19] = component(poses_[i].rate.row[static_cast<std::size_t>(a)], b);
-          }
+        math::Matrix3<Number> r;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Vec3 &row = motions_[0].rotation[i].row[k], &rate = poses_[i].rate.row[k];
+          r.row[k] = {row.x, row.y, row.z};
+          if (poses_[i].open)
+            r.row[k].x.by[19] = rate.x, r.row[k].y.by[19] = rate.y, r.row[k].z.by[19] = rate.z;
+        }
         return r;
       },
-      [&](std::size_t i, const Jet& e) {
+      [&](std::size_t i, const Number& e) {
         const std::size_t row = part.first_row + i;
-        errors[row] = e.a;
-        finite = finite && std::isfinite(e.a) && e.v.allFinite();
+        errors[row] = e.value;
+        finite = finite && std::isfinite(e.value) &&
+                 std::all_of(e.by.begin(), e.by.end(), [](double v) { return std::isfinite(v); });
         for (std::size_t k = 0; k < columns.size(); ++k)
-          if (columns[k] >= 0)
-            jacobian[static_cast<std::size_t>(columns[k]) * rows_ + row] += e.v[static_cast<int>(k)];
-        if (poses_[i].open) add_carrier_pitch(i, row, e.v[19], jacobian);
+          if (columns[k] >= 0) jacobian[static_cast<std::size_t>(columns[k]) * rows_ + row] += e.by[k];
+        if (poses_[i].open) add_carrier_pitch(i, row, e.by[19], jacobian);
       });
   return finite;
 }
