@@ -41,13 +41,8 @@ GIVEN_UP = [
     words("wheel guides?", "wheel suspension"),
     words("rooms and floors|furniture|strangers?", "module, layer, files of a unit, untrusted input"),
 ]
-# Where the old words are quoted, and texts that still have them.
+# Where the old words are quoted.
 QUOTED = {"CHANGELOG.md", "src/linkwright/study/renamed.cpp"}
-TO_SAY_BETTER = {
-    "src/linkwright/clearance/studies/design_read.cpp",
-    "src/linkwright/planar/studies/four_bar_run.cpp",
-    "src/linkwright/planar/studies/linkage_read.cpp",
-}
 # Written by tools, not by people.
 RAW_STRING = re.compile(r'R"(\w*)\(.*?\)\1"', re.S)
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
@@ -56,7 +51,7 @@ SKIPPED_NAMES = {"package-lock.json", "LICENSE"}
 
 def for_users(where, text):
     """(line number, text) of what users read in a file: pages and study files as a whole, the literals of sources."""
-    if where.as_posix() in QUOTED | TO_SAY_BETTER:
+    if where.as_posix() in QUOTED:
         return
     if where.suffix in (".md", ".toml"):
         yield from enumerate(text.splitlines(), 1)

@@ -258,7 +258,7 @@ TEST(ReactionsStudyRun, OfThePublishedMechanismPassesItsCheck) {
 
   EXPECT_THAT(fact(result, "largest drive torque"), HasSubstr("14.714 N m at "));
   EXPECT_EQ(fact(result, "drive torque, root mean square"), "5.9465 N m");
-  EXPECT_THAT(fact(result, "work of the drive over the turn"), HasSubstr(" J to and fro"));
+  EXPECT_THAT(fact(result, "work of the drive over the turn"), HasSubstr(" J back and forth"));
   EXPECT_THAT(fact(result, "type"), "crank-rocker, open");
   EXPECT_THAT(result.headline, HasSubstr("14.714 N m"));
   // Every plot finds its columns, and those over the crank angle follow the scene.

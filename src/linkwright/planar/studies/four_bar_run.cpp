@@ -280,7 +280,7 @@ void add_facts(study::Result& result, const ReactionsStudy& s, const std::vector
   const ReactionsQuantities& q = s.quantities;
   const FourBarClass type = classify(s.mechanism.linkage);
   result.facts.push_back(
-      {"type", fmt::format("{}, {}", name_of(type.type), name_of(s.mechanism.linkage.branch))});
+      {"type", fmt::format("{}, {}", in_words(type.type), name_of(s.mechanism.linkage.branch))});
   result.facts.push_back({"drive", fmt::format("{:.6g} rad/s ({:.5g} rpm), {:.6g} rad/s²", s.drive.speed,
                                                s.drive.speed * 30 / pi, s.drive.acceleration)});
   const bool complete = count(rows, Status::done) == rows.size();
@@ -301,7 +301,7 @@ void add_facts(study::Result& result, const ReactionsStudy& s, const std::vector
         // At even speed a turn gives back what it takes.
         if (s.drive.acceleration == 0)
           result.facts.push_back({"work of the drive over the turn",
-                                  fmt::format("{:.2g} J of {:.4g} J to and fro", work, moved),
+                                  fmt::format("{:.2g} J of {:.4g} J back and forth", work, moved),
                                   std::abs(work) <= 1e-3 * moved ? Verdict::good : Verdict::plain});
       }
     }

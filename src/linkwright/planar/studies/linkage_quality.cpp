@@ -142,7 +142,7 @@ void add_limits(const LinkageStudy& s, const InputLimits& limits, study::Result&
   table.add("circuit", "circuit", std::move(circuit));
   table.add("from_" + unit, "input from (" + unit + ")", std::move(from));
   table.add("to_" + unit, "input to (" + unit + ")", std::move(to));
-  table.add("full_turn", "turns fully (1 = yes)", std::move(turns));
+  table.add("full_turn", "rotates fully (1 = yes)", std::move(turns));
   for (std::size_t g = 0; g < s.plan.groups.size(); ++g) {
     if (!has_modes(s.plan.groups[g].type)) continue;
     std::vector<double> mode;

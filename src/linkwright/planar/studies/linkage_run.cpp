@@ -133,7 +133,7 @@ class Runner {
   std::string scene_input_label() const {
     return over_time() ? "time"
                        : input_joint(s_.linkage, scene_axis()).name +
-                             (s_.plan.rotary[scene_axis()] ? " angle" : " way");
+                             (s_.plan.rotary[scene_axis()] ? " angle" : " displacement");
   }
   std::string where(std::size_t row) const {
     if (over_time()) return fmt::format("{:.4g} s", rows_.time[row]);

@@ -125,7 +125,7 @@ void describe_input_drives(study::SchemaWriter& document) {
   study::SchemaWriter drive;
   drive(Field{.key = "joint", .summary = "joint whose coordinate it is"}, std::string());
   drive(free_field, false);
-  describe_joint_fields<InputCourse>(drive);
+  describe_joint_fields<InputDrive>(drive);
   drive(Field{.key = "law", .summary = "motion law of a joint that is not free"},
         std::optional<study::AnyLaw>());
   document.property(Field{.key = "drive", .summary = "joints that are free, or move as a law says"},
