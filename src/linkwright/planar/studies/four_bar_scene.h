@@ -14,8 +14,8 @@
 namespace linkwright::planar {
 
 /// The crank angles that a design is shown at: one turn from the first target point in its sense of rotation,
-/// or, when the crank does not rotate fully, the interval of inputs that holds the first point. `samples` >= 2
-/// angles in radians.
+/// or, when the crank does not rotate fully, the interval of inputs that holds the first point. `samples` >=
+/// 2 angles in radians.
 std::vector<double> shown_angles(const PathDesign& design, int samples);
 
 /// Names of the joints O, A, B, B0 in a drawing.

@@ -15,7 +15,8 @@ namespace linkwright::planar {
 
 template <class Visitor>
 void fields(Visitor&& visit, LinkageQuality& q) {
-  visit(Field{.key = "output_joint", .summary = "joint whose ratios to the input and dead centres are reported"},
+  visit(Field{.key = "output_joint",
+              .summary = "joint whose ratios to the input and dead centres are reported"},
         q.output_joint);
   visit(Field{.key = "centrodes", .summary = "bodies whose centrodes against the ground are tabled"},
         q.centrodes);
