@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "linkwright/core/check.h"
@@ -257,7 +258,7 @@ TEST(PoseCheck, EveryInstructionSetAgrees) {
     EXPECT_NEAR(rods[n], expected.index[slot(PoseIndex::rods)], 1e-14);
     EXPECT_NEAR(conditioning[n], expected.index[slot(PoseIndex::conditioning)], 1e-14);
   }
-  EXPECT_THAT(pose_check_kernel_name(), ::testing::AnyOf("baseline", "avx2", "avx512"));
+  EXPECT_THAT(std::string(pose_check_kernel_name()), ::testing::AnyOf("baseline", "avx2", "avx512"));
 }
 
 TEST(PoseCheck, WholeTurnsAndEmptyTravels) {
