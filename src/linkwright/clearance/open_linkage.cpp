@@ -64,8 +64,9 @@ std::vector<int> loose_bodies(const Linkage& l) {
 }
 
 // Two massless blocks and a pin, all driven, between the ground and a body.
-void guide(Linkage& l, int body, const math::Pose& pose) {
-  const std::string& name = l.bodies[at(body)].name;
+// Copies of the pose and of the name: both stand in the list of bodies, which grows.
+void guide(Linkage& l, int body, math::Pose pose) {
+  const std::string name = l.bodies[at(body)].name;
   const int origin = static_cast<int>(l.bodies[0].points.size());
   l.bodies[0].points.push_back({"guide of " + name, {0, 0}});
   const int own = static_cast<int>(l.bodies[at(body)].points.size());
@@ -81,17 +82,16 @@ void guide(Linkage& l, int body, const math::Pose& pose) {
     l.driven.push_back(static_cast<int>(l.joints.size()));
     l.joints.push_back(std::move(joint));
   };
-  const std::string label = l.bodies[at(body)].name;
   const int along = block("block along x of ", pose.x, 0);
   const int across = block("block along y of ", pose.x, pose.y);
-  join({.name = "x of " + label, .type = JointType::prismatic, .first = {0, origin}, .second = {along, 0}});
-  join({.name = "y of " + label,
+  join({.name = "x of " + name, .type = JointType::prismatic, .first = {0, origin}, .second = {along, 0}});
+  join({.name = "y of " + name,
         .type = JointType::prismatic,
         .first = {along, 0},
         .second = {across, 0},
         .slide_first = pi / 2,
         .slide_second = pi / 2});
-  join({.name = "angle of " + label, .first = {across, 0}, .second = {body, own}});
+  join({.name = "angle of " + name, .first = {across, 0}, .second = {body, own}});
 }
 
 // Adds `count` drives at joints that have none, so that the linkage can be planned; the best of all choices.

@@ -309,7 +309,7 @@ std::vector<SensitivitySample> clearance_sensitivity(const Linkage& l, const Lin
       }
     }
     for (std::size_t i = 0; i < values; ++i) {
-      const double* row = &now.derivatives[i * parameters];
+      const double* row = now.derivatives.data() + i * parameters;  // there may be none
       double worst = 0, variance = 0;
       for (std::size_t k = 0; k < pins; ++k) {
         const double change = t.pins[k].clearance * std::hypot(row[2 * k], row[2 * k + 1]);
