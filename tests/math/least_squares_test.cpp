@@ -55,7 +55,7 @@ TEST(LeastSquares, RosenbrockFromTheClassicStart) {
     LeastSquaresOptions options = tight;
     options.damping = damping;
     const auto report = minimise_least_squares(rosenbrock, 2, x, options, workspace);
-    EXPECT_EQ(report.status, Status::done) << to_string(report.end);
+    EXPECT_EQ(report.status, Status::done) << name_of(report.end);
     // The gradient is J'(x - solution) with J'J of smallest eigenvalue 0.2: 1e-14 / 0.2, and some rounding.
     EXPECT_NEAR(x[0], 1, 1e-12);
     EXPECT_NEAR(x[1], 1, 1e-12);
@@ -102,7 +102,7 @@ TEST(LeastSquares, GeodesicAccelerationFollowsACurvedValley) {
     options.max_iterations = 5000;
     options.geodesic_acceleration = accelerated;
     const auto report = minimise_least_squares(narrow, 2, x, options, workspace);
-    EXPECT_EQ(report.status, Status::done) << to_string(report.end);
+    EXPECT_EQ(report.status, Status::done) << name_of(report.end);
     EXPECT_NEAR(x[0], 1, 1e-10);
     EXPECT_NEAR(x[1], 1, 1e-10);
     evaluations[accelerated] = report.evaluations;
@@ -117,7 +117,7 @@ TEST(LeastSquares, GeodesicAccelerationStaysInTheBox) {
   options.geodesic_acceleration = true;
   const auto report = minimise_least_squares(rosenbrock, 2, x, std::array{-2.0, -2.0}, std::array{0.5, 2.0},
                                              options, workspace);
-  EXPECT_EQ(report.status, Status::done) << to_string(report.end);
+  EXPECT_EQ(report.status, Status::done) << name_of(report.end);
   EXPECT_EQ(x[0], 0.5);
   EXPECT_NEAR(x[1], 0.25, 1e-9);  // below it the cost, 0.125, does not change any more
 }
@@ -139,7 +139,7 @@ TEST(LeastSquares, FewerResidualsThanVariables) {
   LeastSquaresOptions options = tight;
   options.cost_tolerance = 1e-28;
   const auto report = minimise_least_squares(f, 2, x, options, workspace);
-  EXPECT_EQ(report.end, LeastSquaresEnd::cost) << to_string(report.end);
+  EXPECT_EQ(report.end, LeastSquaresEnd::cost) << name_of(report.end);
   EXPECT_LE(report.cost, 1e-28);
 }
 
@@ -166,7 +166,7 @@ TEST(LeastSquares, BoundsHoldAndAreLeftAgain) {
        {std::array{0.0, 5.0}, std::array{-7.0, 9.0}, std::array{2.0, 5.0}}) {
     std::array<double, 2> x = start;
     const auto report = minimise_least_squares(f, 2, x, lower, upper, tight, workspace);
-    EXPECT_EQ(report.end, LeastSquaresEnd::gradient) << to_string(report.end);
+    EXPECT_EQ(report.end, LeastSquaresEnd::gradient) << name_of(report.end);
     // On the edge y = -1: (x - 3)^2 + (x - 1)^2 is least at x = 2, where the bound of x is just reached.
     EXPECT_NEAR(x[0], 2, 1e-12);
     EXPECT_EQ(x[1], -1);
@@ -254,7 +254,7 @@ TEST(LeastSquares, ReportsWhyItEnded) {
   std::array<double, 2> x = {-1.2, 1};
   const auto early = minimise_least_squares(rosenbrock, 2, x, {.max_iterations = 3}, workspace);
   EXPECT_EQ(early.status, Status::not_converged);
-  EXPECT_EQ(to_string(early.end), "iterations used up");
+  EXPECT_EQ(name_of(early.end), "iterations");
   EXPECT_EQ(early.evaluations, 4);
   // The workspace holds what belongs to the returned x.
   std::array<double, 2> r{};

@@ -369,7 +369,7 @@ TEST(OdeEnds, ContractsAreChecked) {
 }
 
 TEST(OdeEnds, EndsHaveNames) {
-  EXPECT_EQ(to_string(OdeEnd::step_size), "step_size");
+  EXPECT_EQ(name_of(OdeEnd::step_size), "step_size");
   EXPECT_EQ(name_of(OdeMethod::explicit_runge_kutta_8), "explicit_runge_kutta_8");
 }
 

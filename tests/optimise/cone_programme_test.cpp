@@ -33,7 +33,7 @@ ConeReport run(const ConeProgramme& programme) {
 // their cones, cost the weighted sum of the cones, products of slack and multiplier zero. `tolerance`
 // relative to the largest multiplier and slack.
 void expect_optimal(const ConeProgramme& programme, const ConeReport& r, double tolerance) {
-  ASSERT_EQ(r.status, Status::done) << to_string(r.end);
+  ASSERT_EQ(r.status, Status::done) << name_of(r.end);
   std::vector<double> residual = programme.cost;
   double largest = 1, product = 0;
   for (std::size_t k = 0; k < programme.cones.size(); ++k) {
@@ -293,7 +293,7 @@ TEST(ConeProgramme, LongChainsOfCheapVariables) {
     p.cones.push_back(cone);
   }
   const ConeReport r = run(p);
-  ASSERT_EQ(r.status, Status::done) << to_string(r.end);
+  ASSERT_EQ(r.status, Status::done) << name_of(r.end);
   std::nth_element(a.begin(), a.begin() + n / 2, a.end());
   EXPECT_NEAR(r.x[0], a[n / 2], 1e-6);
   double sum = 0;
@@ -308,7 +308,7 @@ TEST(ConeProgramme, AnOptimumOfZero) {
       .cones = {{.bound = {{2}, {1}, 0}, .parts = {{{0}, {1}, -3}, {{0, 1}, {1, 2}, 1}}}, at_most(0, 100)}};
   RunContext context;
   const ConeReport r = solve(p, {.absolute_gap = 1e-10}, context);
-  EXPECT_EQ(r.status, Status::done) << to_string(r.end);
+  EXPECT_EQ(r.status, Status::done) << name_of(r.end);
   EXPECT_NEAR(r.cost, 0, 1e-9);
   EXPECT_NEAR(r.x[0], 3, 1e-8);
   EXPECT_NEAR(r.x[1], -2, 1e-8);

@@ -44,7 +44,7 @@ TEST(MinimiseLargest, TwoParabolasCross) {
   for (const double start : {-7.0, -0.5, 0.0, 20.0}) {
     std::vector<double> x = {start};
     const LocalReport report = minimise_largest(2, parabolas, {}, x, {}, {}, {}, context);
-    EXPECT_EQ(report.status, Status::done) << start << " " << to_string(report.end);
+    EXPECT_EQ(report.status, Status::done) << start << " " << name_of(report.end);
     EXPECT_NEAR(x[0], -0.5, 1e-8) << start;
     EXPECT_NEAR(report.cost, 2.25, 1e-8) << start;
   }
@@ -60,7 +60,7 @@ TEST(MinimiseLargest, FirstProblemOfCharalambousAndConn) {
   for (const std::vector<double>& start : {std::vector<double>{1, -0.1}, {2, 2}, {-1, 1}}) {
     std::vector<double> x = start;
     const LocalReport report = minimise_largest(3, charalambous_conn, {}, x, {}, {}, {}, context);
-    EXPECT_EQ(report.status, Status::done) << start[0] << " " << to_string(report.end);
+    EXPECT_EQ(report.status, Status::done) << start[0] << " " << name_of(report.end);
     EXPECT_NEAR(report.cost, 1.9522245, 1e-7);  // last printed digit
     EXPECT_NEAR(x[0], 1.1390378, 1e-5);
     EXPECT_NEAR(x[1], 0.8995598, 1e-5);

@@ -74,7 +74,7 @@ TEST(NloptBridge, FindsTheEndOfTheValley) {
     RunContext context;
     std::vector<double> x = {-1.2, 1};
     const LocalReport report = minimise_local(rosenbrock, x, {}, {}, {.method = method}, context);
-    EXPECT_EQ(report.status, Status::done) << name_of(method) << " " << to_string(report.end);
+    EXPECT_EQ(report.status, Status::done) << name_of(method) << " " << name_of(report.end);
     EXPECT_NEAR(x[0], 1, 1e-6) << name_of(method);
     EXPECT_NEAR(x[1], 1, 1e-6) << name_of(method);
     EXPECT_NEAR(report.cost, 0, 1e-12) << name_of(method);
@@ -92,13 +92,13 @@ TEST(NloptBridge, ConstrainedProblemsOfHockAndSchittkowski) {
     const LocalOptions options = {.method = method, .max_evaluations = 5000};
     std::vector<double> x = {1, 5, 5, 1};  // violates the second constraint
     const LocalReport a = minimise_local(hs071, 2, hs071_limits, x, low, high, options, context);
-    EXPECT_EQ(a.status, Status::done) << name_of(method) << " " << to_string(a.end);
+    EXPECT_EQ(a.status, Status::done) << name_of(method) << " " << name_of(a.end);
     EXPECT_NEAR(a.cost, 17.0140173, exact ? 1e-7 : 1e-5) << name_of(method);
     const double at[] = {1, 4.7429994, 3.8211503, 1.3794082};
     for (std::size_t j = 0; j < 4; ++j) EXPECT_NEAR(x[j], at[j], exact ? 1e-6 : 1e-3) << name_of(method);
     std::vector<double> y = {0.5, 0.5, 0.5};
     const LocalReport b = minimise_local(hs035, 1, hs035_limit, y, zero, {}, options, context);
-    EXPECT_EQ(b.status, Status::done) << name_of(method) << " " << to_string(b.end);
+    EXPECT_EQ(b.status, Status::done) << name_of(method) << " " << name_of(b.end);
     EXPECT_NEAR(b.cost, 1.0 / 9, exact ? 1e-8 : 1e-6) << name_of(method);
     EXPECT_NEAR(y[0], 4.0 / 3, exact ? 1e-6 : 1e-3) << name_of(method);
     EXPECT_NEAR(y[2], 4.0 / 9, exact ? 1e-6 : 1e-3) << name_of(method);

@@ -194,9 +194,7 @@ Value result_schema() {
   Diagnostics problems;
   Value schema = study::read_text(text, study::Syntax::json, "result schema", problems);
   LINKWRIGHT_REQUIRE(problems.empty(), "{}", to_string(problems.front()));
-  Value& status = schema["$defs"]["status"]["enum"] = Value::array();
-  for (int i = 0; to_string(static_cast<Status>(i)) != "unknown"; ++i)
-    status.push_back(Value(to_string(static_cast<Status>(i))));
+  put_names(schema["$defs"]["status"], names(Status{}));
   put_names(schema["$defs"]["verdict"], names(study::Verdict{}));
   return schema;
 }

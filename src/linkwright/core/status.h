@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <string_view>
+
+#include "linkwright/core/field.h"
 
 namespace linkwright {
 
@@ -20,7 +23,21 @@ enum class Status {
   cancelled,      ///< asked to stop: best so far
 };
 
+constexpr std::array<EnumName<Status>, 11> names(Status) {
+  return {{{Status::done, "done"},
+           {Status::no_assembly, "no_assembly"},
+           {Status::singular, "singular"},
+           {Status::not_converged, "not_converged"},
+           {Status::branch_lost, "branch_lost"},
+           {Status::limit_reached, "limit_reached"},
+           {Status::at_rest, "at_rest"},
+           {Status::self_locking, "self_locking"},
+           {Status::infeasible, "infeasible"},
+           {Status::deadline, "deadline"},
+           {Status::cancelled, "cancelled"}}};
+}
+
 /// The name used in files and tables, for example "no_assembly".
-std::string_view to_string(Status status);
+constexpr std::string_view to_string(Status status) { return name_of(status); }
 
 }  // namespace linkwright

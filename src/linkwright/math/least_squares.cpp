@@ -28,26 +28,6 @@ double half_sum_of_squares(const std::vector<double>& r) {
 
 }  // namespace
 
-std::string_view to_string(LeastSquaresEnd end) {
-  switch (end) {
-    case LeastSquaresEnd::gradient:
-      return "gradient below its tolerance";
-    case LeastSquaresEnd::decrease:
-      return "decrease below its tolerance";
-    case LeastSquaresEnd::step:
-      return "step below its tolerance";
-    case LeastSquaresEnd::cost:
-      return "cost below its tolerance";
-    case LeastSquaresEnd::damping:
-      return "no damping lowers the cost";
-    case LeastSquaresEnd::iterations:
-      return "iterations used up";
-    case LeastSquaresEnd::start:
-      return "start cannot be evaluated";
-  }
-  return {};
-}
-
 void LeastSquaresWorkspace::resize(std::size_t m, std::size_t n) {
   residuals_.resize(m);
   trial_residuals_.resize(m);

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
-#include <string_view>
 #include <vector>
 
+#include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/math/function_ref.h"
@@ -48,7 +49,15 @@ struct LeastSquaresOptions {
 
 /// Why a search ended.
 enum class LeastSquaresEnd { gradient, decrease, step, cost, damping, iterations, start };
-std::string_view to_string(LeastSquaresEnd end);
+constexpr std::array<EnumName<LeastSquaresEnd>, 7> names(LeastSquaresEnd) {
+  return {{{LeastSquaresEnd::gradient, "gradient", "gradient below its tolerance"},
+           {LeastSquaresEnd::decrease, "decrease", "decrease below its tolerance"},
+           {LeastSquaresEnd::step, "step", "step below its tolerance"},
+           {LeastSquaresEnd::cost, "cost", "cost below its tolerance"},
+           {LeastSquaresEnd::damping, "damping", "no damping lowers the cost"},
+           {LeastSquaresEnd::iterations, "iterations", "iterations used up"},
+           {LeastSquaresEnd::start, "start", "start cannot be evaluated"}}};
+}
 
 struct LeastSquaresReport {
   /// done: a tolerance or the damping limit was met; not_converged: iterations used up; infeasible: the start

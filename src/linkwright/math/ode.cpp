@@ -14,28 +14,6 @@
 
 namespace linkwright::math {
 
-std::string_view to_string(OdeEnd end) {
-  switch (end) {
-    case OdeEnd::time:
-      return "time";
-    case OdeEnd::event:
-      return "event";
-    case OdeEnd::hook:
-      return "hook";
-    case OdeEnd::evaluation:
-      return "evaluation";
-    case OdeEnd::steps:
-      return "steps";
-    case OdeEnd::step_size:
-      return "step_size";
-    case OdeEnd::tolerance:
-      return "tolerance";
-    case OdeEnd::interrupted:
-      return "interrupted";
-  }
-  return "unknown";
-}
-
 struct OdeWorkspace::Parts {
   OdeStepper stepper;
   OdeEventFinder finder;

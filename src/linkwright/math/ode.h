@@ -89,7 +89,16 @@ struct OdeHooks {
 
 /// Why an integration ended.
 enum class OdeEnd { time, event, hook, evaluation, steps, step_size, tolerance, interrupted };
-std::string_view to_string(OdeEnd end);
+constexpr std::array<EnumName<OdeEnd>, 8> names(OdeEnd) {
+  return {{{OdeEnd::time, "time"},
+           {OdeEnd::event, "event"},
+           {OdeEnd::hook, "hook"},
+           {OdeEnd::evaluation, "evaluation"},
+           {OdeEnd::steps, "steps"},
+           {OdeEnd::step_size, "step_size"},
+           {OdeEnd::tolerance, "tolerance"},
+           {OdeEnd::interrupted, "interrupted"}}};
+}
 
 struct OdeReport {
   /// done: `to`, a terminal event, or a hook said stop; infeasible: f cannot be evaluated at the start (y is

@@ -497,24 +497,6 @@ Cone rotated_cone(const std::vector<Affine>& parts, const Affine& first, const A
   return cone;
 }
 
-std::string_view to_string(ConeEnd end) {
-  switch (end) {
-    case ConeEnd::optimal:
-      return "optimal";
-    case ConeEnd::infeasible:
-      return "infeasible";
-    case ConeEnd::unbounded:
-      return "unbounded";
-    case ConeEnd::rounding:
-      return "rounding";
-    case ConeEnd::iterations:
-      return "iterations";
-    case ConeEnd::interrupted:
-      break;
-  }
-  return "interrupted";
-}
-
 ConeReport solve(const ConeProgramme& programme, const ConeOptions& options, RunContext& context) {
   const std::size_t n = programme.cost.size();
   LINKWRIGHT_REQUIRE(n > 0, "a cone programme needs variables");

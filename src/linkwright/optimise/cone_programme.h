@@ -1,10 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
-#include <string_view>
 #include <vector>
 
+#include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/core/status.h"
@@ -52,7 +53,14 @@ enum class ConeEnd {
   iterations,  ///< max_iterations
   interrupted  ///< by the run context
 };
-std::string_view to_string(ConeEnd end);
+constexpr std::array<EnumName<ConeEnd>, 6> names(ConeEnd) {
+  return {{{ConeEnd::optimal, "optimal"},
+           {ConeEnd::infeasible, "infeasible"},
+           {ConeEnd::unbounded, "unbounded"},
+           {ConeEnd::rounding, "rounding"},
+           {ConeEnd::iterations, "iterations"},
+           {ConeEnd::interrupted, "interrupted"}}};
+}
 
 /// Multipliers of one cone: bound >= |parts|. A bound that is larger by a small d lowers the least cost by
 /// `bound` d.

@@ -455,7 +455,7 @@ SmoothReport minimise_smooth_from(const SmoothProblem& problem, const SmoothOpti
   SmoothReport report;
   report.ends.push_back(search(task, u, context));
   report.evaluations = report.ends[0].evaluations;
-  report.stop_reason = to_string(report.ends[0].end);
+  report.stop_reason = name_of(report.ends[0].end);
   conclude(task, report, report.ends[0].end == LocalEnd::interrupted ? context.interruption() : Status::done);
   return report;
 }

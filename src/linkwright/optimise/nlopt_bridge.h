@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <string_view>
 
 #include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
@@ -72,7 +71,16 @@ enum class LocalEnd {
   failed,       ///< the method found no way on, for example towards a feasible point
   interrupted,  ///< by the run context
 };
-std::string_view to_string(LocalEnd end);
+constexpr std::array<EnumName<LocalEnd>, 8> names(LocalEnd) {
+  return {{{LocalEnd::step, "step"},
+           {LocalEnd::decrease, "decrease"},
+           {LocalEnd::success, "success"},
+           {LocalEnd::rounding, "rounding"},
+           {LocalEnd::evaluations, "evaluations"},
+           {LocalEnd::not_finite, "not_finite"},
+           {LocalEnd::failed, "failed"},
+           {LocalEnd::interrupted, "interrupted"}}};
+}
 
 struct LocalReport {
   /// deadline, cancelled; else infeasible: no point met every constraint; not_converged: evaluations used up,
