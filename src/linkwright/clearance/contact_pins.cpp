@@ -8,7 +8,7 @@
 
 namespace linkwright::clearance {
 
-using planar::Vec, planar::dot, planar::cross, planar::left;
+using planar::Vec, planar::dot, planar::cross, planar::perpendicular;
 
 ContactPins::ContactPins(OpenLinkage& open, std::span<const ContactJoint> joints)
     : open_(open),
