@@ -18,9 +18,9 @@ WheelParameters differenced(F f, double h) {
   std::array<WheelParameters, 4> at{f(-2 * h), f(-h), f(h), f(2 * h)};
   WheelParameters out = at[0];
   const auto add = [&](int i, double by) {
-    kernel::for_each_number(at[i], out, [&](double a, double& to) { to += by * a / (12 * h); });
+    for_each_number(at[i], out, [&](double a, double& to) { to += by * a / (12 * h); });
   };
-  kernel::for_each_number(at[0], out, [&](double a, double& to) { to = a / (12 * h); });
+  for_each_number(at[0], out, [&](double a, double& to) { to = a / (12 * h); });
   add(1, -8);
   add(2, 8);
   add(3, -1);
@@ -32,11 +32,11 @@ WheelParameters differenced(F f, double h) {
 double apart(const WheelParameters& a, const WheelParameters& b, const WheelParameters& values, int& count) {
   std::vector<double> sizes, first;
   WheelParameters scratch;
-  kernel::for_each_number(values, scratch, [&](double v, double&) { sizes.push_back(v); });
-  kernel::for_each_number(a, scratch, [&](double v, double&) { first.push_back(v); });
+  for_each_number(values, scratch, [&](double v, double&) { sizes.push_back(v); });
+  for_each_number(a, scratch, [&](double v, double&) { first.push_back(v); });
   double worst = 0;
   std::size_t i = 0;
-  kernel::for_each_number(b, scratch, [&](double v, double&) {
+  for_each_number(b, scratch, [&](double v, double&) {
     const double x = first[i], size = sizes[i++];
     if (std::isnan(size)) {
       EXPECT_TRUE(std::isnan(x));
