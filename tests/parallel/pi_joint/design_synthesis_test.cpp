@@ -286,7 +286,7 @@ TEST(PiDesignSynthesis, TellsWhatIsWrong) {
   EXPECT_EQ(with([](PiRequirements& r) { r.torque = r.quantum = 0; }),
             "neither a torque with a force limit nor a quantum with a resolution is required: the joint "
             "could become arbitrarily small");
-  EXPECT_NE(test::message([] { closed_form_design({.half_travel = 1}); }).find("as small as you like"),
+  EXPECT_NE(test::message([] { closed_form_design({.half_travel = 1}); }).find("arbitrarily small"),
             std::string::npos);
   EXPECT_NE(test::message([] { designed(reference_requirements(), -1); }).find("-1 starts"),
             std::string::npos);

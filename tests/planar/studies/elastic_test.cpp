@@ -242,7 +242,7 @@ TEST(LinkageElasticStudy, SettlesBeforeItsFirstRow) {
   EXPECT_GT(std::abs(before.front() - before.back()), 0.01 * largest(before));
   EXPECT_THAT(fact(settled, "settled"), HasSubstr("0.5 s before the first row"));
   EXPECT_THAT(problems_of(replaced(slider_crank, "samples = 101", "samples = 101\nsettle_s = 0.5")),
-              HasSubstr("settle_s: no body bends"));
+              HasSubstr("settle_s: no body is flexible"));
   const std::string free = replaced(replaced(damped, "law       = \"constant_speed\"\nspeed_rpm = 600.0",
                                              "free = true\nstart_speed_rpm = 600.0"),
                                     "samples = 101", "samples = 101\nsettle_s = 0.5");

@@ -298,7 +298,7 @@ TEST(Compliance, RedundantGuide) {
   EXPECT_EQ(locked.status, Status::singular);
   EXPECT_THAT(locked.reason, ::testing::StartsWith("rigid joints constrain the carrier more than once"));
   EXPECT_THAT(test::message([&] { respond(locked, {}); }),
-              ::testing::StartsWith("respond: the compliance is singular: rigid joints hold"));
+              ::testing::StartsWith("respond: the compliance is singular: rigid joints constrain"));
   const Compliance loose = solve_compliance(five, here, 0, {}, Support::spring);
   EXPECT_EQ(loose.status, Status::singular);
   EXPECT_THAT(loose.reason, ::testing::StartsWith("the carrier can move without resistance"));
