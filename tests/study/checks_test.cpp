@@ -136,7 +136,7 @@ TEST(Checks, ReadingRefusesLimitsThatDoNotFit) {
   EXPECT_THAT(messages("[[check]]\nquantity = 'a'\nequals = 1\ntolerance = 0.1\nat_most = 2\n"),
               HasSubstr("check[0].equals: cannot be combined with at_most or at_least"));
   EXPECT_THAT(messages("[[check]]\nquantity = 'a'\nat_most = 1\ntolerance = 1\n"),
-              HasSubstr("check[0].tolerance: belongs to equals"));
+              HasSubstr("check[0].tolerance: needs equals"));
   EXPECT_THAT(messages("[[check]]\nquantity = 'a'\nat_most = 1\nat_least = 2\n"),
               HasSubstr("at_least: is 2, larger than at_most, which is 1"));
   EXPECT_THAT(messages("[[check]]\nquantity = 'a'\nat_most = 1\nat = { x = 'y' }\n"),

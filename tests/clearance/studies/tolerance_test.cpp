@@ -364,7 +364,7 @@ TEST(ToleranceStudy, NamesWhatIsWrong) {
               HasSubstr("joint 'guide' is prismatic; only revolute joints have clearance"));
   // Nothing deviates, nothing is looked at.
   std::string rigid = four_bar(), blind = four_bar();
-  const auto from = rigid.find("# Loose pins"), to = rigid.find("# What is looked at");
+  const auto from = rigid.find("# Clearance joints"), to = rigid.find("# What is looked at");
   rigid.erase(from, to - from);
   EXPECT_THAT(problems_of(rigid),
               HasSubstr("no errors are given; add [[clearance]] tables for joint clearances"));
