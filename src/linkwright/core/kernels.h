@@ -29,6 +29,12 @@ NamedKernel<Kernel> widest(const KernelSet<Kernel>& set) {
   if (set.avx2 && has_avx2()) return {set.avx2, "avx2"};
   return {set.baseline, "baseline"};
 }
+/// The same of the set that a function gives, chosen once: `widest_of<path_kernels>().run(...)`.
+template <auto kernels>
+const auto& widest_of() {
+  static const auto chosen = widest(kernels());
+  return chosen;
+}
 /// All that it can run, narrowest first.
 template <class Kernel>
 std::vector<NamedKernel<Kernel>> runnable(const KernelSet<Kernel>& set) {
@@ -37,6 +43,7 @@ std::vector<NamedKernel<Kernel>> runnable(const KernelSet<Kernel>& set) {
   if (set.avx512 && has_avx512()) out.push_back({set.avx512, "avx512"});
   return out;
 }
+
 }  // namespace linkwright
 
 /// The set of `name`_baseline, `name`_avx2 and `name`_avx512.

@@ -12,8 +12,8 @@ HubMotion SpinUp::operator()(double time) const {
   LINKWRIGHT_REQUIRE(duration > 0, "a spin-up of {} s", duration);
   if (time >= duration) return {rate * (time - duration / 2), rate, 0};
   if (time <= 0) return {};
-  const double circle = 2 * pi, phase = circle * time / duration;
-  const double slope = rate / duration, period = duration / circle;
+  const double phase = full_turn * time / duration;
+  const double slope = rate / duration, period = duration / full_turn;
   return {slope * (time * time / 2 + period * period * (std::cos(phase) - 1)),
           slope * (time - period * std::sin(phase)), slope * (1 - std::cos(phase))};
 }

@@ -50,8 +50,9 @@ double largest_moment(const Scene& scene) {
 }
 
 double arc_turn(double share) {
-  constexpr double turn = 2 * pi;
-  return share == 0 ? 0 : std::copysign(turn / 12 + turn * 3 / 4 * std::min(1.0, std::abs(share)), share);
+  return share == 0
+             ? 0
+             : std::copysign(full_turn / 12 + full_turn * 3 / 4 * std::min(1.0, std::abs(share)), share);
 }
 
 ArrowScale arrow_scale(const Scene& scene, Scene::Quantity quantity) {

@@ -14,7 +14,6 @@
 namespace linkwright::flexible {
 namespace {
 
-constexpr double circle = 2 * pi;
 /// Cells of the comparison are at most these.
 constexpr std::size_t most_cells = 2000;
 /// Steps in a period of the first vibration below which they are too few to follow it.
@@ -51,7 +50,7 @@ void add_modes(Table& table, const std::string& prefix, const std::string& where
   std::vector<double> rate, hertz;
   for (const Mode& m : found) {
     rate.push_back(m.frequency);
-    hertz.push_back(m.frequency / circle);
+    hertz.push_back(m.frequency / full_turn);
   }
   table.add(prefix + "frequency_rad_per_s", "frequency" + where + " (rad/s)", rate);
   table.add(prefix + "frequency_Hz", "frequency" + where + " (Hz)", hertz);
@@ -182,7 +181,7 @@ std::optional<double> quiet_from(const ChainStudy& s) {
 std::string hertz_of(const std::vector<Mode>& found) {
   std::vector<std::string> out;
   for (const Mode& m : found)
-    if (m.frequency > 0) out.push_back(fmt::format("{:.4g}", m.frequency / circle));
+    if (m.frequency > 0) out.push_back(fmt::format("{:.4g}", m.frequency / full_turn));
   return fmt::format("{} Hz", fmt::join(out, ", "));
 }
 
@@ -241,7 +240,7 @@ ChainRun run_chain(const ChainStudy& s, RunContext& context) {
   ShapedMode shaped_mode;
   if (s.shaping) {
     const auto mode = static_cast<std::size_t>(s.shaping->mode - 1);
-    shaped_mode = {s.shaping->frequency ? circle * *s.shaping->frequency
+    shaped_mode = {s.shaping->frequency ? full_turn * *s.shaping->frequency
                                         : vibrations(chain, last, s.shaping->mode)[mode].frequency,
                    s.shaping->damping};
     impulses = flexible::impulses(s.shaping->shaper, shaped_mode);
@@ -271,7 +270,7 @@ ChainRun run_chain(const ChainStudy& s, RunContext& context) {
          vibration_after(s, result.tables[0], *drives_end + (impulses.empty() ? 0 : impulses.back().time)));
   if (!impulses.empty()) {
     fact("shaped for",
-         fmt::format("{:.4g} Hz by {}: the drive takes {:.4g} s longer", shaped_mode.frequency / circle,
+         fmt::format("{:.4g} Hz by {}: the drive takes {:.4g} s longer", shaped_mode.frequency / full_turn,
                      name_of(s.shaping->shaper), impulses.back().time));
     const Simulation plain = simulate(s, chain, start, {}, true, context);
     Table other = s.table(out.arm, plain);
@@ -290,7 +289,7 @@ ChainRun run_chain(const ChainStudy& s, RunContext& context) {
            millimetres(difference(s, s.table(fine, finer), result.tables[0])));
   }
   if (!found.empty() && found[0].frequency > 0 && !s.simulation.tolerance) {
-    const double period = circle / found[0].frequency;
+    const double period = full_turn / found[0].frequency;
     if (fewest_steps * s.simulation.step > period)
       warn("simulation.step",
            fmt::format("of {:.4g} s is long: the first vibration of {:.4g} Hz has a period of {:.4g} s",

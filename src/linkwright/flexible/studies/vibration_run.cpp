@@ -17,11 +17,10 @@
 namespace linkwright::flexible {
 namespace {
 
-constexpr double turn_of = 2 * pi;
 /// Share of a frequency by which twice the divisions, or the continuum, may change it before it is reported.
 constexpr double poor_frequency = 0.01;
 
-std::string hertz(double rate) { return fmt::format("{:.4g} Hz", rate / turn_of); }
+std::string hertz(double rate) { return fmt::format("{:.4g} Hz", rate / full_turn); }
 
 class Analyst {
  public:
@@ -86,7 +85,7 @@ class Analyst {
       continuum.push_back(exact[k]);
       by_twice.push_back(w > 0 ? finer[k].frequency / w - 1 : 0);
       by_continuum.push_back(w > 0 && exact[k] > 0 ? w / exact[k] - 1 : 0);
-      text += fmt::format("{}{:.4g}", text.empty() ? "" : ", ", w / turn_of);
+      text += fmt::format("{}{:.4g}", text.empty() ? "" : ", ", w / full_turn);
     }
     const auto largest = [](const std::vector<double>& v) {
       double out = 0;
@@ -108,7 +107,7 @@ class Analyst {
           break;
         }
     const auto in_hertz = [](std::vector<double> v) {
-      for (double& x : v) x /= turn_of;
+      for (double& x : v) x /= full_turn;
       return v;
     };
     table.add("mode", "mode", number);
@@ -167,7 +166,7 @@ class Analyst {
     const double scale = beam().length / 7 / std::max(reach, 1e-9);
     std::vector<study::Scene::Point> link(nodes);
     for (int i = 0; i < samples; ++i) {
-      const double phase = turn_of * i / (samples - 1), by = scale * std::cos(phase);
+      const double phase = full_turn * i / (samples - 1), by = scale * std::cos(phase);
       scene.input.push_back(phase);
       const double c = std::cos(by * mode.hub_angle), s = std::sin(by * mode.hub_angle);
       for (std::size_t j = 0; j < nodes; ++j) {

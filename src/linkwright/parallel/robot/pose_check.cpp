@@ -12,11 +12,6 @@ namespace linkwright::parallel {
 
 namespace {
 
-const NamedKernel<PoseCheckKernel>& widest_pose_check() {
-  static const NamedKernel<PoseCheckKernel> chosen = widest(pose_check_kernels());
-  return chosen;
-}
-
 constexpr std::size_t line = 8;     // lanes of the widest register
 constexpr std::size_t block = 256;  // poses that go to the kernel at once; their rows stay in the cache
 
@@ -92,7 +87,7 @@ void run_blocks(PoseCheckTask task, std::size_t count, bool turns, const PoseFin
       for (std::size_t i = 0; i < here; ++i) input[r][i] = load(r, first + i);
       std::fill(input[r] + here, input[r] + task.count, input[r][here - 1]);
     }
-    widest_pose_check().run(task);
+    widest_of<pose_check_kernels>().run(task);
     if (!out.criterion.empty())
       for (std::size_t i = 0; i < here; ++i)
         out.criterion[first + i] = static_cast<Criterion>(static_cast<int>(criterion[i]));
@@ -169,6 +164,6 @@ Criterion check_pose(const PoseConditions& conditions, const Pose& pose) {
   return out;
 }
 
-const char* pose_check_kernel_name() { return widest_pose_check().name; }
+const char* pose_check_kernel_name() { return widest_of<pose_check_kernels>().name; }
 
 }  // namespace linkwright::parallel

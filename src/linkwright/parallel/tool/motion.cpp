@@ -54,7 +54,6 @@ Vector3<T> angular_velocity(const Vector3<T>& r, const Vector3<T>& v) {
 // The rotation vectors of a table, each the one of its rotation that is nearest to that before it: a turn may
 // go on beyond half a turn.
 std::vector<Vec3> unwound(const std::vector<Coordinates>& rotations) {
-  constexpr double whole = 2 * pi;
   std::vector<Vec3> out;
   for (const Coordinates& c : rotations) {
     Vec3 r{c[0], c[1], c[2]};
@@ -63,7 +62,7 @@ std::vector<Vec3> unwound(const std::vector<Coordinates>& rotations) {
       const double size = norm(r), size_before = norm(before);
       if (size > 1e-12 || size_before > 1e-12) {
         const Vec3 axis = size > 1e-12 ? (1 / size) * r : (1 / size_before) * before;
-        r = r + whole * std::round((dot(before, axis) - dot(r, axis)) / whole) * axis;
+        r = r + full_turn * std::round((dot(before, axis) - dot(r, axis)) / full_turn) * axis;
       }
     }
     out.push_back(r);

@@ -9,11 +9,6 @@
 namespace linkwright::planar {
 namespace {
 
-const NamedKernel<FourBarSweepKernel>& widest_four_bar_sweep() {
-  static const NamedKernel<FourBarSweepKernel> chosen = widest(four_bar_sweep_kernels());
-  return chosen;
-}
-
 constexpr std::size_t line = 8;  // doubles of a cache line, and lanes of the widest register
 constexpr std::size_t row_index(FourBarRow row) { return static_cast<std::size_t>(row); }
 
@@ -137,7 +132,7 @@ void FourBarSweep::Memory::prepare(std::span<const FourBarMachine> machines, boo
 
 void FourBarSweep::Memory::run(std::span<const FourBarMachine> machines, const SweepInput& crank) {
   std::fill(status.begin(), status.end(), Status::done);
-  if (widest_four_bar_sweep().run(task)) return;
+  if (widest_of<four_bar_sweep_kernels>().run(task)) return;
   // What the kernel could not settle, one by one: the plain functions name the reason and keep the good part.
   for (std::size_t i = 0; i < task.angles; ++i)
     for (std::size_t k = 0; k < samples; ++k) {
@@ -186,6 +181,6 @@ std::span<const Status> FourBarSweep::status(std::size_t angle) const {
   return {memory_->status.data() + angle * memory_->task.lanes, memory_->samples};
 }
 
-const char* four_bar_sweep_kernel_name() { return widest_four_bar_sweep().name; }
+const char* four_bar_sweep_kernel_name() { return widest_of<four_bar_sweep_kernels>().name; }
 
 }  // namespace linkwright::planar

@@ -12,11 +12,6 @@
 namespace linkwright::planar {
 namespace {
 
-const NamedKernel<SweepKernel>& widest_sweep() {
-  static const NamedKernel<SweepKernel> chosen = widest(sweep_kernels());
-  return chosen;
-}
-
 constexpr std::size_t line = 8;  // doubles of a cache line, and lanes of the widest register
 
 bool all_in_registers(const Linkage& l, const LinkagePlan& plan, bool forces) {
@@ -217,7 +212,7 @@ void LinkageSweep::run(std::span<const SweepInput> inputs, std::span<const doubl
       for (std::size_t r = 0; r < 2; ++r)
         std::fill_n(&m.number(m.task.groups + 2 * k + r, 0), m.task.count, 1.0);
   m.task.modes = m.motion.modes.data();
-  const bool all_good = widest_sweep().run(m.task);
+  const bool all_good = widest_of<sweep_kernels>().run(m.task);
   std::fill(m.status.begin(), m.status.end(), Status::done);
   if (all_good) return;
   for (std::size_t i = 0; i < n; ++i)
@@ -257,6 +252,6 @@ std::span<const double> LinkageSweep::shaking(ShakingRow row) const {
 }
 
 bool LinkageSweep::batched() const { return memory_->batched; }
-const char* sweep_kernel_name() { return widest_sweep().name; }
+const char* sweep_kernel_name() { return widest_of<sweep_kernels>().name; }
 
 }  // namespace linkwright::planar

@@ -5,15 +5,14 @@
 namespace linkwright::planar {
 
 PathProblem eighteen_points() {
-  constexpr double turn = 2 * pi;
   PathProblem p;
   p.x = {0.50, 0.40, 0.30, 0.20, 0.10, 0.05, 0.02, 0.00, 0.00,
          0.03, 0.10, 0.15, 0.20, 0.30, 0.40, 0.50, 0.60, 0.60};
   p.y = {1.10, 1.10, 1.10, 1.00, 0.90, 0.75, 0.60, 0.50, 0.40,
          0.30, 0.25, 0.20, 0.30, 0.40, 0.50, 0.70, 0.90, 1.00};
   p.timing = Timing::equal_steps;
-  p.step = turn / 18;
-  const Range link{0, 50}, point{-50, 50}, angle{0, turn};
+  p.step = full_turn / 18;
+  const Range link{0, 50}, point{-50, 50}, angle{0, full_turn};
   p.bounds = {link, link, link, link, point, point, point, point, angle, angle};
   return p;
 }

@@ -8,15 +8,6 @@
 #include "linkwright/planar/path/targets.h"
 
 namespace linkwright::planar {
-namespace {
-
-const NamedKernel<PathKernel>& widest_evaluate_path() {
-  static const NamedKernel<PathKernel> chosen = widest(path_kernels());
-  return chosen;
-}
-
-}  // namespace
-
 KernelSet<PathKernel> path_kernels() { return LINKWRIGHT_KERNEL_SET(evaluate_path); }
 
 PathObjective path_objective(const PathProblem& problem, Branch branch, double sense) {
@@ -72,9 +63,9 @@ void evaluate(const PathObjective& objective, const optimise::PopulationView& ca
   LINKWRIGHT_REQUIRE(cost.size() >= candidates.size && violation.size() >= candidates.size,
                      "{} candidates, but room for {} costs and {} violations", candidates.size, cost.size(),
                      violation.size());
-  widest_evaluate_path().run(objective, candidates, cost.data(), violation.data());
+  widest_of<path_kernels>().run(objective, candidates, cost.data(), violation.data());
 }
 
-const char* kernel_name() { return widest_evaluate_path().name; }
+const char* kernel_name() { return widest_of<path_kernels>().name; }
 
 }  // namespace linkwright::planar

@@ -7,15 +7,6 @@
 #include "linkwright/core/numbers.h"
 
 namespace linkwright::planar {
-namespace {
-
-const NamedKernel<SliderPathKernel>& widest_evaluate_slider_path() {
-  static const NamedKernel<SliderPathKernel> chosen = widest(slider_path_kernels());
-  return chosen;
-}
-
-}  // namespace
-
 KernelSet<SliderPathKernel> slider_path_kernels() { return LINKWRIGHT_KERNEL_SET(evaluate_slider_path); }
 
 SliderPathObjective slider_path_objective(const SliderPathProblem& problem, SliderSide side, double sense) {
@@ -53,9 +44,9 @@ void evaluate(const SliderPathObjective& objective, const optimise::PopulationVi
   LINKWRIGHT_REQUIRE(cost.size() >= costs && violation.size() >= candidates.size,
                      "{} candidates, but room for {} costs and {} violations", candidates.size, cost.size(),
                      violation.size());
-  widest_evaluate_slider_path().run(objective, candidates, cost.data(), violation.data());
+  widest_of<slider_path_kernels>().run(objective, candidates, cost.data(), violation.data());
 }
 
-const char* slider_path_kernel_name() { return widest_evaluate_slider_path().name; }
+const char* slider_path_kernel_name() { return widest_of<slider_path_kernels>().name; }
 
 }  // namespace linkwright::planar
