@@ -117,6 +117,7 @@ export interface View {
   study_toml: string;
   status: string;
   headline: string;
+  verdict: "passed" | "doubtful" | "incomplete" | "failed";
   facts: { label: string; text: string; verdict: "plain" | "good" | "bad" }[];
   parameters: Parameter[][]; // one list a solution
   solution_scenes: string[];

@@ -14,15 +14,14 @@ import { targetErrors } from "./view";
 const failed = result.checks.filter((c) => !c.passed).length;
 
 export function Banner() {
-  const good = failed === 0 && (view.status === "done" || view.status === "at_rest");
   return (
     <header>
       <p class="kicker">Linkwright report</p>
       <h1>{view.title}</h1>
       {view.source && <p class="source">{view.source}</p>}
-      <div class={`verdict ${good ? "good" : "bad"}`} role="status">
+      <div class={`verdict ${view.verdict}`} role="status">
         <strong>{view.headline}</strong>
-        <span><b class="mark" aria-hidden="true">{good ? "✓" : "!"}</b>status {view.status.replace(/_/g, " ")}
+        <span><b class="mark" aria-hidden="true">{view.verdict === "passed" ? "✓" : "!"}</b>status {view.status.replace(/_/g, " ")}
           {result.checks.length > 0 && ` · ${result.checks.length - failed} of ${result.checks.length} checks passed`}</span>
       </div>
       {view.facts.length > 0 && (

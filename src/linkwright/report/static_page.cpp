@@ -18,6 +18,7 @@
 #include "linkwright/report/plot_svg.h"
 #include "linkwright/report/svg.h"
 #include "linkwright/report/units.h"
+#include "linkwright/study/answer.h"
 
 namespace linkwright::report {
 namespace {
@@ -54,9 +55,9 @@ void write_banner(std::string& out, const ReportInput& input) {
       std::count_if(result.checks.begin(), result.checks.end(), [](const auto& c) { return !c.passed; });
   put(out, "<header><p class=\"kicker\">Linkwright report</p><h1>{}</h1>", escape(input.title));
   if (!input.source.empty()) put(out, "<p class=\"source\">{}</p>", escape(input.source));
-  const bool good = failed == 0 && (result.status == Status::done || result.status == Status::at_rest);
-  put(out, "<div class=\"verdict {}\"><strong>{}</strong><span>status {}", good ? "good" : "bad",
-      escape(result.headline), to_string(result.status));
+  put(out, "<div class=\"verdict {}\"><strong>{}</strong><span>status {}",
+      linkwright::name_of(study::answer_of(result).verdict), escape(result.headline),
+      to_string(result.status));
   if (!result.checks.empty())
     put(out, " · {} of {} checks passed", result.checks.size() - static_cast<std::size_t>(failed),
         result.checks.size());

@@ -8,6 +8,7 @@
 
 #include "linkwright/core/status.h"
 #include "linkwright/report/arrows.h"
+#include "linkwright/study/answer.h"
 
 namespace linkwright::report {
 namespace {
@@ -185,6 +186,7 @@ Value view_data(const ReportInput& input) {
   out["study_toml"] = input.study_toml;
   out["status"] = to_string(result.status);
   out["headline"] = result.headline;
+  out["verdict"] = linkwright::name_of(study::answer_of(result).verdict);
   out["facts"] = list(result.facts, [](Value& o, const study::Fact& f) {
     o["label"] = f.label;
     o["text"] = f.text;
