@@ -12,7 +12,7 @@
 #include "linkwright/planar/balancing/measures.h"
 #include "linkwright/planar/balancing/search.h"
 #include "linkwright/planar/balancing/serial_arm.h"
-#include "linkwright/planar/four_bar/branch.h"
+#include "linkwright/planar/four_bar/as_linkage.h"
 #include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/four_bar/cognates.h"
 #include "linkwright/planar/four_bar/four_bar.h"

@@ -239,6 +239,7 @@ int renamed(bool json) {
       one["before"] = r.before;
       one["now"] = r.now;
       if (!r.mechanism.empty()) one["mechanism"] = std::string(r.mechanism) + "*";
+      if (!r.kinds.empty()) one["kinds"] = r.kinds;
       all.push_back(std::move(one));
     }
     fmt::print("{}", study::to_json_readable(Value(std::move(all))));
@@ -246,7 +247,9 @@ int renamed(bool json) {
   }
   for (const study::Renamed& r : study::renamed())
     fmt::print("{:<10} {:<24} is now {:<24}{}\n", name_of(r.of), r.before, r.now,
-               r.mechanism.empty() ? std::string() : fmt::format(" in {}*", r.mechanism));
+               r.mechanism.empty()
+                   ? std::string()
+                   : fmt::format(" in {}{}{}*", r.kinds, r.kinds.empty() ? "" : " of ", r.mechanism));
   return 0;
 }
 

@@ -1,7 +1,6 @@
 #include "linkwright/planar/studies.h"
 
 #include "linkwright/planar/studies/balancing.h"
-#include "linkwright/planar/studies/four_bar.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/path.h"
 #include "linkwright/planar/studies/serial_arm.h"
@@ -14,12 +13,14 @@ namespace linkwright::planar {
 std::vector<study::Kind> studies() {
   std::vector<study::Kind> kinds = {path_kind(),
                                     slider_path_kind(),
-                                    reactions_kind(),
+                                    four_bar_kind(),
                                     linkage_kind(),
                                     slider_crank_kind(),
                                     linkage_simulation_kind(),
+                                    four_bar_simulation_kind(),
                                     slider_crank_simulation_kind(),
                                     linkage_speed_fluctuation_kind(),
+                                    four_bar_speed_fluctuation_kind(),
                                     slider_crank_speed_fluctuation_kind(),
                                     serial_arm_kind()};
   for (study::Kind& kind : balancing_kinds()) kinds.push_back(std::move(kind));

@@ -11,13 +11,27 @@ namespace linkwright::study {
 namespace {
 
 constexpr std::string_view suspension = "suspension.", clearance = "clearance.", planar = "planar.",
-                           parallel = "parallel.";
+                           parallel = "parallel.", four_bar = "planar.four_bar",
+                           of_rows = "analysis balancing";
 
 constexpr std::array all_renamed{
     Renamed{NameOf::kind, "regulation", "speed_fluctuation", planar},
     Renamed{NameOf::key, "regulation", "speed_fluctuation", planar},
     Renamed{NameOf::column, "regulated_speed", "speed_with_flywheel", planar},
     Renamed{NameOf::column, "_way", "_displacement"},
+    Renamed{NameOf::word, "drive_torque", "drive", four_bar, of_rows},
+    Renamed{NameOf::column, "drive_torque", "O1_drive_torque", four_bar, of_rows},
+    Renamed{NameOf::column, "transmission_angle", "coupler_rocker_transmission_angle", four_bar, of_rows},
+    Renamed{NameOf::column, "O2_x_m", "coupler_x_m", four_bar, of_rows},
+    Renamed{NameOf::column, "O2_y_m", "coupler_y_m", four_bar, of_rows},
+    Renamed{NameOf::column, "O3_x_m", "coupler_O3_x_m", four_bar, of_rows},
+    Renamed{NameOf::column, "O3_y_m", "coupler_O3_y_m", four_bar, of_rows},
+    Renamed{NameOf::column, "C_x", "coupler_C_x", four_bar, of_rows},
+    Renamed{NameOf::column, "C_y", "coupler_C_y", four_bar, of_rows},
+    Renamed{NameOf::column, "C_speed_x", "coupler_C_speed_x", four_bar, of_rows},
+    Renamed{NameOf::column, "C_speed_y", "coupler_C_speed_y", four_bar, of_rows},
+    Renamed{NameOf::column, "C_acceleration_x", "coupler_C_acceleration_x", four_bar, of_rows},
+    Renamed{NameOf::column, "C_acceleration_y", "coupler_C_acceleration_y", four_bar, of_rows},
     Renamed{NameOf::key, "parts", "aspects", parallel},
     Renamed{NameOf::mechanism, "suspension.wheel_guide", "suspension.corner"},
     Renamed{NameOf::link, "KS", "US", suspension},
@@ -62,6 +76,7 @@ class Reader {
     if (const Value* mechanism = document.find("mechanism"))
       if (const Value* type = mechanism->find("type"); type && type->is_string())
         mechanism_ = type->as_string();
+    if (const Value* kind = document.find("kind"); kind && kind->is_string()) kind_ = kind->as_string();
   }
 
   void read(Value& document) {
@@ -72,7 +87,9 @@ class Reader {
  private:
   const Renamed* find(NameOf of, std::string_view name) const {
     for (const Renamed& r : all_renamed)
-      if (r.of == of && mechanism_.starts_with(r.mechanism) && place_in(name, r) != std::string_view::npos)
+      if (r.of == of && mechanism_.starts_with(r.mechanism) &&
+          (r.kinds.empty() || (!kind_.empty() && r.kinds.find(kind_) != std::string_view::npos)) &&
+          place_in(name, r) != std::string_view::npos)
         return &r;
     return nullptr;
   }
@@ -126,8 +143,13 @@ class Reader {
     bool any = false;
     for (std::size_t from = 0; from <= text.size();) {
       const std::size_t end = std::min(text.find('.', from), text.size());
-      const auto [base, unit] = base_and_unit(text.substr(from, end - from));
-      const Renamed* r = find(NameOf::column, base);
+      const std::string_view column = text.substr(from, end - from);
+      auto [base, unit] = base_and_unit(column);
+      const Renamed* r = find(NameOf::column, column);
+      if (r)
+        base = column, unit = {};
+      else
+        r = find(NameOf::column, base);
       out += (r ? changed(base, *r) : std::string(base)) + std::string(unit);
       any = any || r;
       if (end < text.size()) out += '.';
@@ -157,7 +179,7 @@ class Reader {
       if (member.key == (of_link ? "type" : "sample")) links(member.value, at);
       if (member.key == "quantity" || member.key == "parameter") quantity(member.value, at);
       if (member.key == "quantities" && member.value.is_array())
-        for (Value& one : member.value.as_array()) quantity(one, at);
+        for (Value& one : member.value.as_array()) text(one, NameOf::word, at);
       below(member.value, at);
       // Keys of [[check]].at are columns, those of other tables keys.
       const bool of_check = path.starts_with("check[") && path.ends_with(".at");
@@ -177,7 +199,7 @@ class Reader {
         below(value.as_array()[i], fmt::format("{}[{}]", path, i));
   }
 
-  std::string file_, mechanism_;
+  std::string file_, mechanism_, kind_;
   Diagnostics& diagnostics_;
 };
 

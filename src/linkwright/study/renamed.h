@@ -27,9 +27,10 @@ constexpr std::array<EnumName<NameOf>, 7> names(NameOf) {
 
 struct Renamed {
   NameOf of;
-  std::string_view before;  ///< of a column: may begin with "_", the end of its name
+  std::string_view before;  ///< of a column: may begin with "_", the end of its name; or hold its unit
   std::string_view now;
   std::string_view mechanism = {};  ///< in studies of mechanisms whose type begins so; empty = in all
+  std::string_view kinds = {};      ///< in studies of the kinds that it lists; empty = in all
 };
 
 /// All of them: what `linkwright catalogue --renamed` lists.

@@ -44,7 +44,7 @@ std::vector<OpenLink> published_bounds() {  // Table 2.4
 }
 
 std::string column(const std::string& published) {
-  if (published == "M_1") return "drive_torque_N_m";
+  if (published == "M_1") return "O1_drive_torque_N_m";
   if (published == "F_shx") return "shaking_force_x_N";
   if (published == "F_shy") return "shaking_force_y_N";
   if (published == "M_sh") return "shaking_moment_with_drive_N_m";
@@ -136,7 +136,7 @@ MassBalancing shaking(Measure kind, ForceCost cost) {
           .links = published_bounds(),
           .objectives = {{.quantity = "shaking_force_N", .measure = kind},
                          {.quantity = "O1_N", .measure = kind},
-                         {.quantity = "drive_torque_N_m", .measure = kind}},
+                         {.quantity = "O1_drive_torque_N_m", .measure = kind}},
           .cost = cost};
 }
 double cost_of(const MassBalancing& b, const BalancedMasses& r, const std::vector<BaseParameters>& links) {
@@ -335,7 +335,7 @@ TEST(MassBalancing, CounterweightsAreChargedTheirInertia) {
   RunContext context;
   MassBalancing b{.forces = original_turn(),
                   .counterweights = {{"weight", 2, {0, 5}, {0.05, 0.3}, pi}},
-                  .objectives = {{.quantity = "shaking_force_N"}, {.quantity = "drive_torque_N_m"}}};
+                  .objectives = {{.quantity = "shaking_force_N"}, {.quantity = "O1_drive_torque_N_m"}}};
   const BalancedMasses r = balance(b, context);
   ASSERT_TRUE(r.global()) << ::testing::PrintToString(r.broken);
   EXPECT_LT(r.cost, 2);

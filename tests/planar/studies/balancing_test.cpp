@@ -35,7 +35,7 @@ TEST(BalancingStudyRead, ProblemsTellWhereAndHow) {
   EXPECT_THAT(problems_of(replaced(test::linkage_weights, "initial = 0.1 }", "begin = 0.1 }")),
               HasSubstr("the design variable lacks `initial`"));
   EXPECT_THAT(problems_of(replaced(test::four_bar_masses, "ground_m  = 0.6", "ground_m  = 0.9")),
-              HasSubstr("the initial design has no answer everywhere: no_assembly at crank_angle_rad"));
+              HasSubstr("the initial design has no answer everywhere: no_assembly at O1_angle_rad = "));
   EXPECT_THAT(problems_of(test::linkage_weights + "[[constraint]]\nquantity = \"O_N\"\nmeasure = \"rms\"\n"),
               HasSubstr("the constraint has no limit; add at_least or at_most"));
   EXPECT_THAT(problems_of(test::linkage_weights + "[optimiser]\nmethod = \"jade\"\ncombine = \"all\"\n"),
@@ -144,7 +144,7 @@ TEST(BalancingStudyRun, LengthsOfAFourBarGoThroughTheFastAndTheGeneralWay) {
       "[optimiser]\nmethod = \"gradient\"\ncandidates = 64\nstarts = 2\nconfirmations = 0\n";
   const study::Result fast = run_text(text + optimiser);
   const study::Result general = run_text(
-      text + "[[constraint]]\nquantity = \"drive_torque_N_m\"\nmeasure = \"max_abs\"\nat_most = 1e6\n" +
+      text + "[[constraint]]\nquantity = \"O1_drive_torque_N_m\"\nmeasure = \"max_abs\"\nat_most = 1e6\n" +
       optimiser);
   const double a = fast.solutions[0].objectives.find("cost")->as_number(),
                b = general.solutions[0].objectives.find("cost")->as_number();
@@ -157,7 +157,7 @@ TEST(BalancingStudyRun, LooksBetweenCandidates) {
   const std::string text = replaced(test::four_bar_masses, "crank_m   = 0.1",
                                     "crank_m   = { min = 0.08, max = 0.12, initial = 0.1 }"),
                     // With a constraint that never binds the general way is taken.
-      general = "[[constraint]]\nquantity = \"drive_torque_N_m\"\nmeasure = \"max_abs\"\nat_most = 1e6\n";
+      general = "[[constraint]]\nquantity = \"O1_drive_torque_N_m\"\nmeasure = \"max_abs\"\nat_most = 1e6\n";
   for (const std::string& way : {std::string(), general}) {
     const LooksAllowed looks(20);
     const study::Result r = run_text(text + way + "[optimiser]\nmethod = \"gradient\"\n");

@@ -64,9 +64,9 @@ TEST(BalancingFourBar, WhatItDoesNotKnowIsLeftToTheGeneralWay) {
   EXPECT_FALSE(known(replaced(with_lengths(), "\"rms\"", "\"range\"")));
   EXPECT_FALSE(known(
       replaced(with_lengths(), "speed_rpm = 300.0", "speed_rpm = { min = 100, max = 300, initial = 200 }")));
-  EXPECT_FALSE(known(
-      with_lengths() +
-      "[[constraint]]\nquantity = \"transmission_angle_rad\"\nmeasure = \"minimum\"\nat_least = 0.5\n"));
+  EXPECT_FALSE(known(with_lengths() +
+                     "[[constraint]]\nquantity = \"coupler_rocker_transmission_angle_rad\"\nmeasure "
+                     "= \"minimum\"\nat_least = 0.5\n"));
 }
 
 }  // namespace

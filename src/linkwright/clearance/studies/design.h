@@ -11,7 +11,7 @@
 #include "linkwright/clearance/path_synthesis.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/optimise/population_methods.h"
-#include "linkwright/planar/studies/four_bar.h"
+#include "linkwright/planar/studies/environment.h"
 #include "linkwright/planar/studies/path_points.h"
 #include "linkwright/study/run_seeds.h"
 

@@ -375,7 +375,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   ClearanceStudy s;
   s.quantities = planar::chosen_quantities(common.output.quantities);
   s.scene_samples = common.output.samples;
-  auto description = planar::read_linkage(document, planar::LinkageType::linkage, true);
+  auto description = planar::read_linkage(document, planar::LinkageType::linkage, true, common.units);
   auto simulation = document.table(Field{.key = "simulation", .summary = {}, .required = true});
   if (simulation) {
     simulation->read(s);
@@ -384,7 +384,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
                         {});
   }
   if (!description) {
-    for (study::ObjectReader& drive : document.tables("drive")) drive.members();
+    for (study::ObjectReader& drive : planar::drive_tables(document)) drive.members();
     for (study::ObjectReader& table : document.tables("clearance")) table.members();
     return prepared;
   }

@@ -74,7 +74,7 @@ constexpr std::array<EnumName<FourBarComponent>, 13> names(FourBarComponent) {
            {C::O3_y, "O3_y"},
            {C::O4_x, "O4_x", "of ground on rocker"},
            {C::O4_y, "O4_y"},
-           {C::drive_torque, "drive_torque"},
+           {C::drive_torque, "O1_drive_torque"},
            {C::shaking_force_x, "shaking_force_x", "on the ground, weight included"},
            {C::shaking_force_y, "shaking_force_y"},
            {C::shaking_moment, "shaking_moment", "on the ground about O1 by the joint forces alone"},

@@ -106,7 +106,7 @@ LinearForces linear_forces(const FourBarMachine& machine, double gravity, const 
                       .links = {"crank", "coupler", "rocker"},
                       .initial = {machine.masses.crank, machine.masses.coupler, machine.masses.rocker}};
   set_names(forces, {"O1_x_N", "O1_y_N", "O2_x_N", "O2_y_N", "O3_x_N", "O3_y_N", "O4_x_N", "O4_y_N",
-                     "drive_torque_N_m", "shaking_force_x_N", "shaking_force_y_N", "shaking_moment_N_m",
+                     "O1_drive_torque_N_m", "shaking_force_x_N", "shaking_force_y_N", "shaking_moment_N_m",
                      "shaking_moment_with_drive_N_m"});
   FourBarSweep sweep({.directions = false, .rates = false});
   const double length = machine.linkage.ground;

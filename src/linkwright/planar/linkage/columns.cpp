@@ -37,6 +37,14 @@ LinkageQuantities chosen_quantities(const std::vector<std::string>& listed) {
           .power = has("power")};
 }
 
+double value_of(const LinkageColumn& column, const LinkageInstant& instant) {
+  using Needs = LinkageColumn::Needs;
+  const Status status = instant.motion->status;
+  const bool known = column.needs == Needs::nothing || status == Status::done ||
+                     (column.needs == Needs::pose && status == Status::singular);
+  return known ? column.value(instant) : nan;
+}
+
 std::string identifier(std::string_view name) {
   std::string out;
   for (char c : name)
@@ -50,6 +58,13 @@ std::string input_key(const Linkage& l, const LinkagePlan& plan, std::size_t inp
 std::string input_label(const Linkage& l, const LinkagePlan& plan, std::size_t input) {
   return fmt::format("{} {}", input_joint(l, input).name,
                      plan.rotary[input] ? "angle (rad)" : "displacement (m)");
+}
+
+std::string moment_centre_name(const Linkage& l) {
+  if (l.moment_centre == std::complex<double>()) return "the origin";
+  for (const LinkagePoint& p : l.bodies[0].points)
+    if (p.at == l.moment_centre) return p.name;
+  return fmt::format("({:.6g}, {:.6g}) m", l.moment_centre.real(), l.moment_centre.imag());
 }
 
 std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& plan,
@@ -111,6 +126,7 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
           [&plan, b, p](const LinkageInstant& i) { return point_motion(plan, *i.motion, b, p).position.y; });
     });
   }
+  for (LinkageColumn& c : out) c.needs = LinkageColumn::Needs::pose;
   if (q.rates) {
     moving([&](int b, const std::string& key, const std::string& name) {
       add(key + "_speed_rad_per_s", name + " speed (rad/s)",
@@ -174,9 +190,10 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
         [](const LinkageInstant& i) { return i.forces->shaking_force.y; });
     add("shaking_force_N", "shaking force (N)",
         [](const LinkageInstant& i) { return norm(i.forces->shaking_force); });
-    add("shaking_moment_N_m", "shaking moment about the origin, without drive torques (N m)",
+    const std::string about = "shaking moment about " + moment_centre_name(l);
+    add("shaking_moment_N_m", about + ", without drive torques (N m)",
         [](const LinkageInstant& i) { return i.forces->shaking_moment; });
-    add("shaking_moment_with_drive_N_m", "shaking moment about the origin, with the drives (N m)",
+    add("shaking_moment_with_drive_N_m", about + ", with the drives (N m)",
         [](const LinkageInstant& i) { return i.forces->shaking_moment_with_drive; });
   }
   if (q.transmission_angle)

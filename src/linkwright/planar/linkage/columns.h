@@ -31,8 +31,12 @@ struct LinkageInstant {
 struct LinkageColumn {
   std::string key, label;
   std::function<double(const LinkageInstant&)> value;
-  bool angle = false;  ///< to be unwrapped
+  bool angle = false;                                                ///< to be unwrapped
+  enum class Needs { nothing, pose, motion } needs = Needs::motion;  ///< at dead points there is no motion
 };
+
+/// The value of a column, NaN where the status of the motion leaves it unknown.
+double value_of(const LinkageColumn& column, const LinkageInstant& instant);
 
 /// A name as part of a column key: what is no letter or digit becomes '_'.
 std::string identifier(std::string_view name);
@@ -44,6 +48,9 @@ std::string group_key(std::string name);
 const LinkageJoint& input_joint(const Linkage& linkage, std::size_t input);
 std::string input_key(const Linkage& linkage, const LinkagePlan& plan, std::size_t input);
 std::string input_label(const Linkage& linkage, const LinkagePlan& plan, std::size_t input);
+
+/// What shaking moments are about, in words: "the origin", or the point of the ground that is there.
+std::string moment_centre_name(const Linkage& linkage);
 
 /// The columns of the quantities, in their order; those of the inputs are not among them. Linkage and plan
 /// must outlive them.

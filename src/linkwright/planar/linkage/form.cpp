@@ -91,6 +91,7 @@ LinkageBody body_of(const BodyForm& form, bool drawn) {
 Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) {
   Linkage l;
   for (const BodyForm& b : form.bodies) l.bodies.push_back(body_of(b, form.drawn));
+  l.moment_centre = number(form.moment_centre);
   Names names(l, problems);
   if (l.bodies.empty()) {
     names.problem("body", "the linkage has no bodies",
@@ -156,6 +157,7 @@ Linkage linkage_of(const LinkageForm& form, std::vector<FormProblem>& problems) 
 
 LinkageForm form_of(const Linkage& l) {
   LinkageForm form;
+  form.moment_centre = place(l.moment_centre);
   const auto body = [&](int b) { return l.bodies[static_cast<std::size_t>(b)].name; };
   const auto point = [&](const BodyPoint& p) {
     return body(p.body) + "." +

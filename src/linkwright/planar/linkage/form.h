@@ -73,6 +73,7 @@ struct LinkageForm {
   /// The points of all bodies are given where they are in one drawn position, in the global frame: body
   /// frames coincide with it there, and the drawing gives the assembly modes.
   bool drawn = false;
+  Place moment_centre{};
   std::vector<BodyForm> bodies;
   std::vector<JointForm> joints;
   std::vector<AssemblyForm> assembly;
@@ -256,6 +257,8 @@ template <class Visitor>
 void fields(Visitor&& visit, LinkageForm& l) {
   visit(Field{.key = "drawn", .summary = "points are given in one drawn position, in the global frame"},
         l.drawn);
+  visit(linkage_fields::place("moment_centre", "shaking moments are about this place of the ground"),
+        l.moment_centre);
   visit(Field{.key = "body", .summary = "the bodies; the first is the ground"}, l.bodies);
   visit(Field{.key = "joint", .summary = "the joints"}, l.joints);
   visit(Field{.key = "assembly", .summary = "which way pairs of bodies are assembled"}, l.assembly);

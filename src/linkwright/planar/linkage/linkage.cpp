@@ -26,6 +26,7 @@ class Checker {
     drives();
     loads();
     if (!finite(l_.gravity)) error("environment.gravity", "is not finite", {});
+    if (!finite(l_.moment_centre)) error("moment_centre", "is not finite", {});
     if (found_.empty()) zero_lengths();
     return std::move(found_);
   }

@@ -174,6 +174,7 @@ struct Linkage {
   std::vector<PointForce> forces;
   std::vector<BodyTorque> torques;
   std::complex<double> gravity{0, -9.81};  ///< m/s2, acceleration of free fall
+  std::complex<double> moment_centre;      ///< shaking moments are about this place, global (m)
 };
 
 /// Index by name; -1 when there is none.

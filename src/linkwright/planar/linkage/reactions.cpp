@@ -288,7 +288,7 @@ void solve_forces(const Linkage& l, const LinkagePlan& plan, const LinkageMotion
     if (f.status != Status::done) return nothing(f);
   }
   f.shaking_force = -f.needed[0].force;
-  f.shaking_moment_with_drive = -f.needed[0].moment;
+  f.shaking_moment_with_drive = -f.needed[0].moment - cross(vec(l.moment_centre), f.shaking_force);
   f.shaking_moment = f.shaking_moment_with_drive;
   for (std::size_t i = 0; i < l.driven.size(); ++i) {
     const LinkageJoint& j = l.joints[at(l.driven[i])];

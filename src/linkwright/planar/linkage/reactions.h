@@ -34,7 +34,7 @@ struct LinkageForces {
   std::vector<AppliedLoad> loads;  ///< springs, forces, torques, friction as they acted; no weight
   Vec<double> shaking_force{
       0, 0};  ///< of the mechanism, and of what is welded to the ground, on the ground, weight included
-  /// The moment on the ground about the global origin, with everything that acts on it ...
+  /// The moment on the ground about Linkage::moment_centre, with everything that acts on it ...
   double shaking_moment_with_drive = 0;
   /// ... and without the torques of drives that stand on the ground.
   double shaking_moment = 0;

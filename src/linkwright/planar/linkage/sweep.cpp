@@ -137,6 +137,7 @@ LinkageSweep::LinkageSweep(Linkage linkage, LinkagePlan plan, const SweepWanted&
   SweepTask& t = m.task;
   t.plan = &m.plan;
   t.gravity = vec(m.linkage.gravity);
+  t.moment_centre = vec(m.linkage.moment_centre);
   t.rates = wanted.rates;
   t.forces = wanted.forces;
   t.part_rows = wanted.rates ? 10 : 4;

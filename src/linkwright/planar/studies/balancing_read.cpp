@@ -7,7 +7,6 @@
 
 #include "linkwright/core/check.h"
 #include "linkwright/planar/studies/balancing.h"
-#include "linkwright/planar/studies/four_bar.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/serial_arm.h"
 #include "linkwright/planar/studies/templates.h"
@@ -55,15 +54,9 @@ Table linkage_columns_of(study::ObjectReader& document, const study::Common& com
 }
 
 constexpr std::array<BalancedMechanism, 4> mechanisms = {{
-    {"planar.four_bar", templates::balancing_four_bar, reactions_kind,
-     [](study::ObjectReader& document, const study::Common& common, std::span<const std::string>) {
-       const ReactionsStudy s = read_reactions_study(document, common);
-       if (document.document().has_errors()) return Table();
-       Table table = reactions_table(s);
-       add_gyration(table, "crank", s.mechanism.masses->crank);
-       add_gyration(table, "coupler", s.mechanism.masses->coupler);
-       add_gyration(table, "rocker", s.mechanism.masses->rocker);
-       return table;
+    {"planar.four_bar", templates::balancing_four_bar, four_bar_kind,
+     [](study::ObjectReader& document, const study::Common& common, std::span<const std::string> columns) {
+       return linkage_columns_of(document, common, LinkageType::four_bar, columns);
      }},
     {"planar.linkage", templates::balancing_linkage, linkage_kind,
      [](study::ObjectReader& document, const study::Common& common, std::span<const std::string> columns) {

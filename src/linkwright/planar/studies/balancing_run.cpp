@@ -409,7 +409,7 @@ class Report {
   // weight alone.
   std::string complete_balance() const {
     if (s_.mechanism->type != std::string_view("planar.four_bar")) return {};
-    const ReactionsMechanism m = four_bar_of(s_, designs_.front().x);
+    const FourBarMechanism m = four_bar_of(s_, designs_.front().x);
     const Counterweights w =
         balancing_counterweights(m.linkage, *m.masses, m.linkage.crank, m.linkage.rocker);
     const auto text = [](const PointMass& p) {

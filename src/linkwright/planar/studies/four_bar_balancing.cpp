@@ -4,6 +4,7 @@
 #include <array>
 
 #include "linkwright/planar/balancing/four_bar.h"
+#include "linkwright/planar/studies/linkage.h"
 
 namespace linkwright::planar {
 namespace {
@@ -40,13 +41,18 @@ std::optional<FourBarComponent> component_of(const std::string& quantity) {
 
 }  // namespace
 
-ReactionsMechanism four_bar_of(const BalancingStudy& s, std::span<const double> x) {
+std::optional<double> weight_along_y(const Linkage& l) {
+  if (l.gravity.real() != 0 || l.gravity.imag() > 0) return std::nullopt;
+  return -l.gravity.imag();
+}
+
+FourBarMechanism four_bar_of(const BalancingStudy& s, std::span<const double> x) {
   Value tables = s.designed.tables;
   study::put(tables, s.designed.numbers, x);
   Diagnostics problems;
   study::DocumentReader reader(tables, {}, problems);
   study::ObjectReader root = reader.root();
-  return read_reactions_study(root, {}).mechanism;
+  return *read_linkage_study(root, {}, LinkageType::four_bar, nullptr)->four_bar;
 }
 
 std::optional<optimise::SmoothProblem> four_bar_problem(const BalancingStudy& s, const BalancingProblem& p) {
@@ -62,24 +68,26 @@ std::optional<optimise::SmoothProblem> four_bar_problem(const BalancingStudy& s,
   Diagnostics problems;
   study::DocumentReader reader(s.designed.tables, {}, problems);
   study::ObjectReader root = reader.root();
-  const ReactionsStudy initial = read_reactions_study(root, {});
-  const CrankSamples& angles = std::get<CrankGrid>(initial.sweep.type).crank_angle;
-  const FourBar& l = initial.mechanism.linkage;
-  if (!(angles.from < angles.to) || l.frame_angle != 0) return std::nullopt;
+  const auto initial = read_linkage_study(root, {}, LinkageType::four_bar, nullptr);
+  if (!initial || !std::holds_alternative<InputGrid>(initial->sweep)) return std::nullopt;
+  const InputSamples& angles = std::get<InputGrid>(initial->sweep).inputs[0];
+  const FourBar& l = initial->four_bar->linkage;
+  const auto gravity = weight_along_y(initial->linkage);
+  if (!(angles.from < angles.to) || l.frame_angle != 0 || !gravity) return std::nullopt;
   b.branch = l.branch;
   b.crank_from = angles.from;
   b.crank_to = angles.to;
   b.samples = angles.samples;
-  b.crank_speed = initial.drive.speed;
-  b.crank_acceleration = initial.drive.acceleration;
-  b.gravity = initial.environment.gravity;
+  b.crank_speed = initial->drives[0].rate;
+  b.crank_acceleration = initial->drives[0].acceleration;
+  b.gravity = *gravity;
 
   struct Designed {
     std::size_t number;
     const Unit* unit;
   };
   std::vector<Designed> designed;
-  const FourBarNumbers fixed = four_bar_numbers({l, *initial.mechanism.masses});
+  const FourBarNumbers fixed = four_bar_numbers({l, *initial->four_bar->masses});
   for (std::size_t j = 0; j < fixed.size(); ++j) b.bounds[j] = {fixed[j], fixed[j]};
   for (const study::DesignVariable& n : s.designed.numbers) {
     const auto number = number_at(study::steps_to(s.designed.tables, n.place));

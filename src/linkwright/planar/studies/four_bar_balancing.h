@@ -4,13 +4,16 @@
 #include <span>
 
 #include "linkwright/optimise/smooth_problem.h"
+#include "linkwright/planar/four_bar/as_linkage.h"
 #include "linkwright/planar/studies/balancing.h"
-#include "linkwright/planar/studies/four_bar.h"
 
 namespace linkwright::planar {
 
+/// Acceleration of free fall (m/s2) along -y, as closed forms have it; nothing when it points elsewhere.
+std::optional<double> weight_along_y(const Linkage& linkage);
+
 /// The machine of one design.
-ReactionsMechanism four_bar_of(const BalancingStudy& study, std::span<const double> x);
+FourBarMechanism four_bar_of(const BalancingStudy& study, std::span<const double> x);
 
 /// The problem of a study of a four-bar with designed lengths and masses, evaluated many machines at a time
 /// (balancing_values) in the place of the general way. Nothing when the study asks for more than that knows:

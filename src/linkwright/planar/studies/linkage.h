@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "linkwright/planar/four_bar/as_linkage.h"
 #include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/linkage/form.h"
@@ -16,7 +17,7 @@
 #include "linkwright/study/kind.h"
 
 // The analysis of any planar linkage over its inputs or over time: what its file holds, how it is read, run
-// and reported. `planar.slider_crank` is a shorthand that is written out as a linkage.
+// and reported. `planar.four_bar` and `planar.slider_crank` are shorthands: linkages by a few parameters.
 namespace linkwright::planar {
 
 /// How a driven joint moves: over a grid its rate and acceleration, over time its law.
@@ -56,13 +57,16 @@ struct LinkageStudy {
   std::vector<BodyPoint> traces;
   LinkageQuality quality;
   LinkageQuantities quantities;
+  std::optional<FourBarMechanism> four_bar;  ///< that it was written as
+  study::DisplayUnits units;                 ///< of its messages
 };
 
-/// "analysis" of "planar.linkage" and of "planar.slider_crank".
+/// "analysis" of "planar.linkage" and of its shorthands.
 study::Kind linkage_kind();
+study::Kind four_bar_kind();
 study::Kind slider_crank_kind();
 
-enum class LinkageType { linkage, slider_crank };
+enum class LinkageType { linkage, four_bar, slider_crank };
 /// Reads the tables of the study and writes them into the canonical one unless that is null; nothing when
 /// there are problems, which go to the reader.
 std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, const study::Common& common,
@@ -97,12 +101,14 @@ struct LinkageDescription {
   Linkage linkage;
   LinkagePlan plan;
   std::vector<BodyPoint> traces;
-  std::string sample;               ///< its name when the mechanism is a canned one
-  std::vector<double> sample_from;  ///< and the inputs where its motion begins
+  Value shorthand;                           ///< `[mechanism]` as it is written; null of planar.linkage
+  std::optional<FourBarMechanism> four_bar;  ///< that it was written as
+  std::string sample;                        ///< its name when the mechanism is a canned one
+  std::vector<double> sample_from;           ///< and the inputs where its motion begins
 };
-/// Reads and plans; nothing when there are problems, which go to the reader.
+/// Reads and plans; nothing when there are problems, which go to the reader in the given units.
 std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
-                                               bool needs_masses);
+                                               bool needs_masses, const study::DisplayUnits& units);
 /// Whether every body has its mass; says which do not.
 bool require_masses(study::ObjectReader& document, LinkageType type, const LinkagePlan& plan);
 /// The tables of `read_linkage` as a canonical study holds them.
@@ -111,6 +117,11 @@ void describe_linkage(study::SchemaWriter& document, LinkageType type);
 /// The same with `[[drive]]` and `[sweep]`, as `read_linkage_study` reads them; `at_change_point` only for
 /// those who follow branches.
 void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bool at_change_point);
+
+/// The tables `[[drive]]`; a single `[drive]` is one, too.
+std::vector<study::ObjectReader> drive_tables(study::ObjectReader& document);
+/// Describes `drive`, tables or a single one that hold what `one` describes.
+void describe_drives(study::SchemaWriter& document, std::string_view summary, study::SchemaWriter one);
 
 /// A key of a driven joint: an angle or a length, or its derivative of that order by time.
 Field drive_field(bool rotary, int order, std::string_view key, std::string_view summary,

@@ -32,6 +32,23 @@ void fields(Visitor&& visit, LinkageEnvironment& e) {
   visit(linkage_fields::angle("gravity_direction", "where it points, from the x axis"), e.direction);
 }
 
+// Lengths so small or so far apart that the mechanics would leave the range of a double are no design.
+void check_lengths(study::ObjectReader& mechanism, FourBar l, const study::DisplayUnits& units) {
+  constexpr double least = 1e-9;
+  auto parameters = mechanism.table("parameters");
+  if (!parameters) return;
+  fields(
+      [&](const Field& field, double& length) {
+        if (field.exclusive_minimum && length < least)
+          parameters->error(
+              field.key,
+              fmt::format("is {}, a link must be at least {} long", units.text(length, Dimension::length),
+                          units.text(least, Dimension::length)),
+              "check the unit");
+      },
+      l);
+}
+
 // Problems of the model as the plan tells them, put where the file has their cause: "joint.A" is the entry of
 // [[mechanism.joint]] with that name.
 void report(study::ObjectReader& document, study::ObjectReader& mechanism, const Diagnostics& problems) {
@@ -104,13 +121,13 @@ bool require_own_columns(study::ObjectReader& mechanism, const Linkage& l, const
 }  // namespace
 
 std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, LinkageType type,
-                                               bool needs_masses) {
+                                               bool needs_masses, const study::DisplayUnits& units) {
   LinkageDescription out;
   auto mechanism = document.table(Field{.key = "mechanism", .summary = {}, .required = true});
   LinkageEnvironment environment;
   auto surroundings = document.table("environment");
   if (surroundings) surroundings->read(environment);
-  auto drives = document.tables("drive");
+  auto drives = drive_tables(document);
   auto traces = document.tables("trace");
   if (!mechanism) return std::nullopt;
   bool good = true;
@@ -119,9 +136,22 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
     SliderCrankMechanism m;
     mechanism->read(m);
     l = slider_crank(m);
+    out.shorthand = study::write_fields(m);
     // The point of the rod is of interest when it is given.
     if (traces.empty() && point_index(l.bodies[2], "C") >= 0) out.traces = points_named(l, {"rod.C"});
     if (document.document().has_errors()) return std::nullopt;
+  } else if (type == LinkageType::four_bar) {
+    FourBarMechanism m;
+    mechanism->read(m);
+    check_lengths(*mechanism, m.linkage, units);
+    if (document.document().has_errors()) return std::nullopt;
+    l = linkage_of(m);
+    out.shorthand = study::write_fields(m);
+    if (traces.empty()) {
+      out.traces = points_named(l, {"coupler.O3"});
+      if (point_index(l.bodies[2], "C") >= 0) out.traces.push_back(point_named(l, "coupler.C"));
+    }
+    out.four_bar = std::move(m);
   } else if (mechanism->has(sample_field)) {
     auto sample = sample_named(*mechanism);
     if (!sample) return std::nullopt;
@@ -203,19 +233,21 @@ bool require_masses(study::ObjectReader& document, LinkageType type, const Linka
   if (plan.has_masses) return true;
   std::string bodies;
   for (const std::string& b : plan.massless) bodies += (bodies.empty() ? "'" : ", '") + b + "'";
-  const char* key = type == LinkageType::slider_crank ? "mass" : "body";
+  const char* key = type == LinkageType::linkage ? "body" : "mass";
   auto mechanism = document.table("mechanism");
   (mechanism ? *mechanism : document)
-      .error(key,
-             fmt::format("forces and torques need the mass of every body: {} {} none", bodies,
-                         plan.massless.size() == 1 ? "has" : "have"),
-             "give mass_kg, or list quantities that need no masses: output.quantities = [\"position\", "
-             "\"rates\", \"transmission_angle\"]");
+      .error(
+          key,
+          fmt::format("forces and torques need the mass of every body: {} {} none", bodies,
+                      plan.massless.size() == 1 ? "has" : "have"),
+          fmt::format("{}, or list quantities that need no masses: output.quantities = [\"position\", "
+                      "\"rates\", \"transmission_angle\"]",
+                      type == LinkageType::linkage ? "give mass_kg" : "give the masses of its links there"));
   return false;
 }
 
 void write_linkage(const LinkageDescription& d, Value& canonical) {
-  canonical["mechanism"] = study::write_fields(form_of(d.linkage));
+  canonical["mechanism"] = d.shorthand.is_null() ? study::write_fields(form_of(d.linkage)) : d.shorthand;
   LinkageEnvironment environment;
   environment.gravity = std::abs(d.linkage.gravity);
   if (environment.gravity > 0) environment.direction = std::arg(d.linkage.gravity);
@@ -234,6 +266,9 @@ void describe_linkage(study::SchemaWriter& document, LinkageType type) {
   if (type == LinkageType::slider_crank) {
     document.property(Field{.key = "mechanism", .summary = "the slider-crank", .required = true},
                       study::schema_fields<SliderCrankMechanism>());
+  } else if (type == LinkageType::four_bar) {
+    document.property(Field{.key = "mechanism", .summary = "the four-bar", .required = true},
+                      study::schema_fields<FourBarMechanism>());
   } else {
     study::SchemaWriter mechanism;
     LinkageForm form;
@@ -251,6 +286,18 @@ void describe_linkage(study::SchemaWriter& document, LinkageType type) {
       std::string());
   document.property(Field{.key = "trace", .summary = "points to report and draw"},
                     study::schema_array(std::move(trace).finish()));
+}
+
+std::vector<study::ObjectReader> drive_tables(study::ObjectReader& document) {
+  const Value* drive = document.value().find("drive");
+  if (!drive || !drive->is_object()) return document.tables("drive");
+  auto table = document.table("drive");
+  return table ? std::vector{*table} : std::vector<study::ObjectReader>();
+}
+void describe_drives(study::SchemaWriter& document, std::string_view summary, study::SchemaWriter one) {
+  Value table = std::move(one).finish();
+  document.property(Field{.key = "drive", .summary = summary},
+                    study::schema_any_of({study::schema_array(table), table}));
 }
 
 Field drive_field(bool rotary, int order, std::string_view key, std::string_view summary, bool required) {

@@ -37,20 +37,33 @@ constexpr std::array<EnumName<SweepType>, 2> names(SweepType) {
 constexpr Field change_point_field{
     .key = "at_change_point",
     .summary = "grid over one input: how the linkage goes on where assembly modes meet"};
+constexpr Field crank_angle_field{.key = "crank_angle",
+                                  .summary = "the axis of a four-bar: crank angles from the ground link"};
 constexpr double most_rows = 1e6;
 
+/// The link that the drive of a four-bar turns.
+enum class DriveInput { crank };
+constexpr std::array<EnumName<DriveInput>, 1> names(DriveInput) {
+  return {{{DriveInput::crank, "crank", "the crank O1-O2: joint O1"}}};
+}
+constexpr Field input_field{.key = "input", .summary = "link of a four-bar that is driven"};
+
 // The kinds of a sweep share the reading of drives: rates over a grid, laws over time.
-void read_drives(study::ObjectReader& document, const Linkage& l, bool over_time, LinkageStudy& s,
-                 Value::Array& canonical) {
+void read_drives(study::ObjectReader& document, const Linkage& l, LinkageType type, bool over_time,
+                 LinkageStudy& s, Value::Array& canonical) {
   s.drives.resize(l.driven.size());
   canonical.assign(l.driven.size(), Value::object());
   for (std::size_t i = 0; i < l.driven.size(); ++i) {
     s.drives[i].joint = input_joint(l, i).name;
     canonical[i]["joint"] = s.drives[i].joint;
   }
-  for (study::ObjectReader& drive : document.tables("drive")) {
+  // Without a speed the table of a four-bar is that of a machine at rest, which nobody asks for by silence.
+  if (type == LinkageType::four_bar && !document.has("drive"))
+    document.table(Field{.key = "drive", .summary = {}, .required = true});
+  for (study::ObjectReader& drive : drive_tables(document)) {
     const auto input = input_of(drive, l);
     if (!input) continue;
+    if (DriveInput link{}; type == LinkageType::four_bar) drive(input_field, link);
     const bool rotary = input_joint(l, *input).type == JointType::revolute;
     LinkageDrive& d = s.drives[*input];
     if (!over_time) {
@@ -72,12 +85,21 @@ void read_drives(study::ObjectReader& document, const Linkage& l, bool over_time
   }
 }
 
-void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageStudy& s, Value& canonical) {
+// The axes of a grid; of a four-bar its only one by the name that it has there.
+std::vector<study::ObjectReader> axes_of(study::ObjectReader& sweep, LinkageType type) {
+  if (type != LinkageType::four_bar || sweep.has("input"))
+    return sweep.tables(Field{.key = "input", .summary = {}, .required = true});
+  auto axis = sweep.table(Field{.key = crank_angle_field.key, .summary = {}, .required = true});
+  return axis ? std::vector{*axis} : std::vector<study::ObjectReader>();
+}
+
+void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageType type,
+               const study::DisplayUnits& units, LinkageStudy& s, Value& canonical) {
   InputGrid grid;
   grid.inputs.resize(l.driven.size());
   Value::Array axes(l.driven.size(), Value::object());
   double rows = 1;
-  for (study::ObjectReader& axis : sweep.tables(Field{.key = "input", .summary = {}, .required = true})) {
+  for (study::ObjectReader& axis : axes_of(sweep, type)) {
     const auto input = input_of(axis, l);
     if (!input) continue;
     const bool rotary = input_joint(l, *input).type == JointType::revolute;
@@ -86,7 +108,9 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageStudy& s, Va
     joint_fields(axis, rotary, a);
     rows *= std::max(a.samples, 1);
     if (a.samples >= 2 && a.from == a.to)
-      axis.error("to", "the sweep ends where it begins",
+      axis.error("to",
+                 fmt::format("the sweep ends where it begins, at {}",
+                             units.text(a.to, rotary ? Dimension::angle : Dimension::length, 6)),
                  rotary ? "for a full turn write from_deg = 0, to_deg = 360" : "give another end");
   }
   for (std::size_t i = 0; i < grid.inputs.size(); ++i) {
@@ -132,7 +156,8 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
                                                LinkageType type, Value* canonical) {
   LinkageStudy s;
   s.quantities = chosen_quantities(common.output.quantities);
-  auto description = read_linkage(document, type, s.quantities.dynamic());
+  s.units = common.units;
+  auto description = read_linkage(document, type, s.quantities.dynamic(), common.units);
   auto sweep = document.table("sweep");
   // Known keys, so that a bad mechanism does not make all others look unknown.
   SweepType how = sweep && sweep->has("time") ? SweepType::time : SweepType::grid;
@@ -140,7 +165,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
   if (!description) {
     if (sweep) sweep->members();
     if (auto quality = document.table("quality")) quality->members();
-    for (study::ObjectReader& drive : document.tables("drive")) drive.members();
+    for (study::ObjectReader& drive : drive_tables(document)) drive.members();
     return std::nullopt;
   }
   const Linkage& l = description->linkage;
@@ -167,7 +192,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
       document.error("sweep", fmt::format("the sample '{}' has {} inputs", sample.name, grid.inputs.size()),
                      "add [sweep] with a [[sweep.input]] for each");
     s.sweep = std::move(grid);
-    read_drives(document, l, false, s, drives);
+    read_drives(document, l, type, false, s, drives);
     if (!document.has("drive"))
       for (std::size_t i = 0; i < l.driven.size(); ++i) {
         s.drives[i].rate = i == 0 ? sample.speed : 0.0;
@@ -175,8 +200,8 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
         joint_fields(writer, description->plan.rotary[i], s.drives[i]);
       }
   } else if (how == SweepType::grid) {
-    read_grid(*sweep, l, s, canonical_sweep);
-    read_drives(document, l, false, s, drives);
+    read_grid(*sweep, l, type, common.units, s, canonical_sweep);
+    read_drives(document, l, type, false, s, drives);
   } else {
     study::TimeSamples times;
     if (auto table = sweep->table(Field{.key = "time", .summary = {}, .required = true})) {
@@ -187,7 +212,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
     canonical_sweep["type"] = "time";
     canonical_sweep["time"] = study::write_fields(times);
     s.sweep = times;
-    read_drives(document, l, true, s, drives);
+    read_drives(document, l, type, true, s, drives);
   }
   read_quality(document, l, s.quality);
   if (canonical) {
@@ -196,6 +221,7 @@ std::optional<LinkageStudy> read_linkage_study(study::ObjectReader& document, co
     (*canonical)["drive"] = Value(std::move(drives));
     (*canonical)["sweep"] = std::move(canonical_sweep);
   }
+  s.four_bar = std::move(description->four_bar);
   s.linkage = std::move(description->linkage);
   s.plan = std::move(description->plan);
   s.traces = std::move(description->traces);
@@ -219,8 +245,8 @@ void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bo
   drive(Field{.key = "joint", .summary = "driven joint"}, std::string());
   drive(Field{.key = "law", .summary = "motion law, for a sweep over time"}, std::optional<study::AnyLaw>());
   describe_joint_fields<LinkageDrive>(drive);
-  document.property(Field{.key = "drive", .summary = "how driven joints move"},
-                    study::schema_array(std::move(drive).finish()));
+  if (type == LinkageType::four_bar) drive(input_field, std::optional<DriveInput>());
+  describe_drives(document, "how driven joints move", std::move(drive));
   study::SchemaWriter axis;
   axis(Field{.key = "joint", .summary = "driven joint"}, std::string());
   describe_joint_fields<InputSamples>(axis);
@@ -228,6 +254,12 @@ void describe_linkage_motion(study::SchemaWriter& document, LinkageType type, bo
   sweep(Field{.key = "type", .summary = "how rows are placed"}, SweepType::grid);
   sweep.property(Field{.key = "input", .summary = "axes of a grid"},
                  study::schema_array(std::move(axis).finish()));
+  if (type == LinkageType::four_bar) {
+    study::SchemaWriter crank_angle;
+    InputSamples defaults;
+    joint_fields(crank_angle, true, defaults);
+    sweep.property(crank_angle_field, std::move(crank_angle).finish());
+  }
   if (at_change_point) sweep(change_point_field, AtChangePoint::smooth);
   sweep.property(Field{.key = "time", .summary = "times of the rows"},
                  study::schema_fields<study::TimeSamples>());
@@ -260,6 +292,14 @@ study::Kind linkage_kind() {
   kind.mechanism = "planar.linkage";
   kind.summary = "motion, joint reactions, drive torque and shaking force of any planar linkage";
   kind.example = templates::analysis_linkage();
+  return kind;
+}
+
+study::Kind four_bar_kind() {
+  study::Kind kind = kind_of(LinkageType::four_bar);
+  kind.mechanism = "planar.four_bar";
+  kind.summary = "motion, joint reactions, drive torque and shaking force of a four-bar over its crank angle";
+  kind.example = templates::analysis_four_bar();
   return kind;
 }
 

@@ -6,6 +6,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/planar/four_bar/classify.h"
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/columns.h"
@@ -30,6 +31,7 @@ std::vector<LinkageColumn> columns_of(const LinkageStudy& s) {
   for (std::size_t k = 0; k < s.plan.inputs(); ++k)
     out.push_back({input_key(s.linkage, s.plan, k), input_label(s.linkage, s.plan, k),
                    [k](const LinkageInstant& i) { return i.inputs[k].value; }});
+  for (LinkageColumn& c : out) c.needs = LinkageColumn::Needs::nothing;
   for (LinkageColumn& c : linkage_columns(s.linkage, s.plan, s.quantities, s.traces))
     out.push_back(std::move(c));
   return out;
@@ -175,10 +177,7 @@ class Runner {
                             : passed && kink              ? Status::singular
                             : dynamic                     ? forces.status
                                                           : Status::done;
-      for (std::size_t c = 0; c < columns_.size(); ++c) {
-        const bool input = c < s_.plan.inputs() + (over_time() ? 1 : 0);
-        values_[c].push_back(input || motion.status == Status::done ? columns_[c].value(now) : nan);
-      }
+      for (std::size_t c = 0; c < columns_.size(); ++c) values_[c].push_back(value_of(columns_[c], now));
       statuses_.push_back(status);
       if (r < shown_rows())
         recorded_.push_back(record_of(s_.linkage, s_.plan, motion, dynamic ? &forces : nullptr,
@@ -300,7 +299,7 @@ class Runner {
     }
     if (q.shaking) {
       plot("shaking-force", "Shaking force", {"shaking_force_x_N", "shaking_force_y_N", "shaking_force_N"});
-      plot("shaking-moment", "Shaking moment about the origin",
+      plot("shaking-moment", "Shaking moment about " + moment_centre_name(s_.linkage),
            {"shaking_moment_N_m", "shaking_moment_with_drive_N_m"});
       if (linked)
         plot("shaking-polar", "Shaking force, polar", {"shaking_force_x_N", "shaking_force_y_N"},
@@ -362,6 +361,9 @@ class Runner {
   void facts() {
     using Verdict = study::Fact::Verdict;
     const study::AddFact fact{result_.facts};
+    if (s_.four_bar)
+      fact("type", fmt::format("{}, {}", in_words(classify(s_.four_bar->linkage).type),
+                               name_of(s_.four_bar->linkage.branch)));
     fact("degrees of freedom", fmt::format("{}, {} driven", mobility(s_.linkage), s_.plan.inputs()));
     std::string order;
     for (const Group& g : s_.plan.groups)
@@ -379,6 +381,7 @@ class Runner {
                          input_joint(s_.linkage, k).name),
              fmt::format("{:.5g} {} at {}", drives_[k].value, s_.plan.rotary[k] ? "N m" : "N",
                          where(drives_[k].row)));
+    facts_of_turn(fact);
     if (s_.quantities.reactions && strongest() < joints_.size())
       fact("largest joint force",
            fmt::format("{:.5g} N at {}, {}", joints_[strongest()].value, s_.linkage.joints[strongest()].name,
@@ -394,6 +397,33 @@ class Runner {
     if (s_.quantities.dynamic() && power_.any && power_.value > 0)
       fact("power balance",
            fmt::format("within {:.2g} of the largest power", std::abs(balance_.value / power_.value)));
+  }
+
+  // Of one drive over whole turns of its joint: mean square of the torque, and its work, which is 0 at
+  // constant speed without friction and losses.
+  void facts_of_turn(const study::AddFact& fact) const {
+    if (!s_.quantities.drive || over_time() || s_.plan.inputs() != 1 || !s_.plan.rotary[0]) return;
+    const InputSamples& axis = std::get<InputGrid>(s_.sweep).inputs[0];
+    const double turns = (axis.to - axis.from) / full_turn;
+    const Column* torque =
+        result_.tables[0].find(identifier(input_joint(s_.linkage, 0).name) + "_drive_torque_N_m");
+    if (!torque || std::abs(turns) < 0.5 || std::abs(turns - std::round(turns)) > 1e-9 ||
+        result_.status != Status::done)
+      return;
+    const double step = (axis.to - axis.from) / (axis.samples - 1);
+    double squares = 0, work = 0, moved = 0;
+    for (std::size_t i = 1; i < torque->values.size(); ++i) {
+      const double a = torque->values[i - 1], b = torque->values[i];
+      if (std::isnan(a) || std::isnan(b)) return;
+      squares += b * b;
+      work += (a + b) / 2 * step;
+      moved += (std::abs(a) + std::abs(b)) / 2 * std::abs(step);
+    }
+    const double rms = std::sqrt(squares / static_cast<double>(torque->values.size() - 1));
+    fact("drive torque, root mean square", fmt::format("{:.5g} N m", rms));
+    if (s_.drives[0].acceleration == 0)
+      fact("work of the drive over the turn",
+           fmt::format("{:.2g} J of {:.4g} J back and forth", work, moved));
   }
 
   void warnings() {
@@ -419,9 +449,8 @@ class Runner {
              {});
       else if (s == Status::no_assembly)
         warn(gap_.any && gap_.value > 0
-                 ? fmt::format(
-                       "{} do not assemble: {} would have to be longer, or shorter, by up to {:.4g} mm",
-                       place, group, gap_.value * 1e3)
+                 ? fmt::format("{} do not assemble: {} would have to be longer, or shorter, by up to {}",
+                               place, group, s_.units.text(gap_.value, Dimension::length))
                  : fmt::format("{} do not assemble", place),
              assembled_ranges());
       else if (s == Status::self_locking)
@@ -445,6 +474,13 @@ class Runner {
   std::string assembled_ranges() const {
     return limits_ ? "it " + assembly_range_text(*limits_, modes_) : std::string();
   }
+  // Whether the rows come to that input, of an angle in any of its turns.
+  bool passes(double value) const {
+    const InputSamples& axis = std::get<InputGrid>(s_.sweep).inputs[0];
+    const double low = std::min(axis.from, axis.to) - 1e-6, high = std::max(axis.from, axis.to) + 1e-6;
+    if (!limits_->rotary) return low <= value && value <= high;
+    return value + full_turn * std::ceil((low - value) / full_turn) <= high;
+  }
   // Positions where the branch is a choice.
   void change_points(const study::AddWarning& warn) const {
     if (!branch_) return;
@@ -460,6 +496,7 @@ class Runner {
     std::vector<double> told;
     for (const RangeEnd& end : branch_->change_points) {
       const double value = limits_->rotary ? math::wrap_angle(end.value) : end.value;
+      if (!passes(value)) continue;
       if (std::any_of(told.begin(), told.end(), [&](double t) { return std::abs(t - value) < 1e-6; }))
         continue;
       told.push_back(value);
@@ -547,8 +584,7 @@ Table linkage_table(const LinkageStudy& s, std::span<const std::string> wanted) 
       solve_forces(s.linkage, s.plan, motion, now.time, now.inputs[0].value, forces);
     const Status status =
         s.quantities.dynamic() && motion.status == Status::done ? forces.status : motion.status;
-    if (motion.status == Status::done)
-      for (std::size_t c = 0; c < columns.size(); ++c) table.columns[c].values[r] = columns[c].value(now);
+    for (std::size_t c = 0; c < columns.size(); ++c) table.columns[c].values[r] = value_of(columns[c], now);
     table.status.emplace_back(to_string(status));
   }
   for (std::size_t c = 0; c < columns.size(); ++c)

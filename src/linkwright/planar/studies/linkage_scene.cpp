@@ -177,10 +177,16 @@ class Artist {
           {s.name, {point(s.first), point(s.second)}, s.stiffness > 0 ? Style::spring : Style::damper});
   }
 
-  // Counterweights and payloads.
+  // Mass centres, counterweights and payloads, as large as steel discs of these masses.
   void masses() {
     for (int b = 1; b < static_cast<int>(l_.bodies.size()); ++b) {
       const LinkageBody& body = l_.bodies[at(b)];
+      if (body.mass && body.mass->mass > 0 && moves(b)) {
+        const std::complex<double> centre = body.mass->centre;
+        const std::complex<double> rim = centre + drawn_radius(body.mass->mass);
+        scene_.circles.push_back({fmt::format("mass centre of {}, {:.4g} kg", body.name, body.mass->mass),
+                                  add_point("", b, centre), add_point("", b, rim)});
+      }
       for (const AttachedMass& m : body.attached) {
         if (!(m.mass > 0)) continue;
         const std::string name =
@@ -243,6 +249,7 @@ class Artist {
       }
       scene_.vectors.push_back(std::move(v));
     }
+    shaking_force();
     for (std::size_t k = 0; k < l_.driven.size(); ++k) {
       const LinkageJoint& joint = l_.joints[at(l_.driven[k])];
       if (joint.type != JointType::revolute) continue;
@@ -258,6 +265,26 @@ class Artist {
       if (!(largest > 1e-9 * force * plan_.size)) continue;
       scene_.moments.push_back(std::move(m));
     }
+  }
+
+  // In the middle of the joints of the ground: where its line of action lies the shaking moment says.
+  void shaking_force() {
+    std::complex<double> sum;
+    double count = 0;
+    for (const LinkageJoint& j : l_.joints)
+      for (const BodyPoint& p : {j.first, j.second})
+        if (p.body == 0 && j.type != JointType::gear) sum += l_.bodies[0].points[at(p.point)].at, ++count;
+    if (count == 0) return;
+    study::Scene::Vector v{.name = "shaking force on the ground",
+                           .quantity = study::Scene::Quantity::force,
+                           .unit = "N",
+                           .point = add_point("frame", 0, sum / count),
+                           .symbol = "F shaking"};
+    for (const LinkageRecord& r : records_) {
+      v.x.push_back(r.joints.empty() ? nan : r.shaking_force.x);
+      v.y.push_back(r.joints.empty() ? nan : r.shaking_force.y);
+    }
+    scene_.vectors.push_back(std::move(v));
   }
 
   const Linkage& l_;
@@ -278,6 +305,7 @@ LinkageRecord record_of(const Linkage& linkage, const LinkagePlan& plan, const L
   if (forces && forces->status == Status::done) {
     r.joints = forces->joints;
     r.drives = forces->drives;
+    r.shaking_force = forces->shaking_force;
   }
   return r;
 }

@@ -15,6 +15,7 @@ struct LinkageRecord {
   std::vector<PartState<double>> bodies;  ///< one a body; empty when not assembled
   std::vector<JointReaction> joints;      ///< empty without forces
   std::vector<double> drives;
+  Vec<double> shaking_force{0, 0};  ///< only with forces
 };
 /// `forces` may be null.
 LinkageRecord record_of(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,

@@ -10,7 +10,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/balancing/mass_redistribution.h"
-#include "linkwright/planar/studies/four_bar.h"
+#include "linkwright/planar/studies/four_bar_balancing.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/serial_arm.h"
 
@@ -132,7 +132,7 @@ class Maker {
     study::ObjectReader root = reader.root();
     bool good = true;
     if (s_.mechanism->type == std::string_view("planar.four_bar"))
-      four_bar(read_reactions_study(root, {}));
+      good = four_bar(root);
     else if (s_.mechanism->type == std::string_view("planar.serial_arm"))
       good = arm(read_serial_arm_study(root, {}));
     else
@@ -165,19 +165,28 @@ class Maker {
         h.designed[static_cast<std::size_t>(found_[j].part)] = j;
   }
 
-  void four_bar(const ReactionsStudy& s) {
-    const CrankSamples& c = std::get<CrankGrid>(s.sweep.type).crank_angle;
-    std::vector<double> angles;
-    for (int i = 0; i < c.samples; ++i) angles.push_back(c.from + (c.to - c.from) * i / (c.samples - 1));
-    out_->forces =
-        linear_forces({s.mechanism.linkage, *s.mechanism.masses}, s.environment.gravity,
-                      {.value = angles, .rate{&s.drive.speed, 1}, .acceleration{&s.drive.acceleration, 1}});
-    const FourBarMasses& m = *s.mechanism.masses;
+  bool four_bar(study::ObjectReader& root) {
+    const auto study = read_linkage_study(root, {}, LinkageType::four_bar, nullptr);
+    const auto gravity = study ? weight_along_y(study->linkage) : std::nullopt;
+    if (!gravity) {
+      why_ = study ? "the weight does not act along -y" : "the mechanism cannot be read";
+      return false;
+    }
+    std::vector<double> angles, speeds, accelerations;
+    for (const auto& row : rows_of(*study).inputs) {
+      angles.push_back(row[0].value);
+      speeds.push_back(row[0].rate);
+      accelerations.push_back(row[0].acceleration);
+    }
+    const FourBarMasses& m = *study->four_bar->masses;
+    out_->forces = linear_forces({study->four_bar->linkage, m}, *gravity,
+                                 {.value = angles, .rate = speeds, .acceleration = accelerations});
     const std::array<std::pair<const char*, const LinkMass*>, 3> own = {
         {{"crank", &m.crank}, {"coupler", &m.coupler}, {"rocker", &m.rocker}}};
     for (std::size_t k = 0; k < own.size(); ++k)
       bind(add(k, own[k].first, *own[k].second), std::nullopt,
            [&](const Found& f) { return f.owner_key == own[k].first; });
+    return true;
   }
 
   bool arm(const SerialArmStudy& s) {

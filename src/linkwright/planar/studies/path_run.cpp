@@ -14,8 +14,8 @@
 #include "linkwright/planar/path/defects.h"
 #include "linkwright/planar/path/eighteen_points.h"
 #include "linkwright/planar/path/usability.h"
-#include "linkwright/planar/studies/four_bar_scene.h"
 #include "linkwright/planar/studies/path.h"
+#include "linkwright/planar/studies/path_scene.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 

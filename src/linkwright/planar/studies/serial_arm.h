@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "linkwright/planar/serial_arm/serial_arm.h"
-#include "linkwright/planar/studies/four_bar.h"
+#include "linkwright/planar/studies/environment.h"
 #include "linkwright/study/driven_law.h"
 #include "linkwright/study/kind.h"
 

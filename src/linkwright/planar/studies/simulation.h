@@ -39,8 +39,9 @@ struct LinkageSimulationStudy {
   int scene_samples = 361;                 ///< of drawings of elastic bodies, at most about
 };
 
-/// "simulation" of "planar.linkage" and of "planar.slider_crank".
+/// "simulation" of "planar.linkage" and of its shorthands.
 study::Kind linkage_simulation_kind();
+study::Kind four_bar_simulation_kind();
 study::Kind slider_crank_simulation_kind();
 
 /// Integrates and reports. Rows up to where the motion ends are kept, whatever ends it.

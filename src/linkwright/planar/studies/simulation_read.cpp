@@ -91,7 +91,7 @@ std::vector<InputDrive> read_input_drives(study::ObjectReader& document, const L
     canonical[i]["joint"] = input_joint(l, i).name;
     if (i < d.sample_from.size()) drives[i].value = d.sample_from[i];
   }
-  for (study::ObjectReader& drive : document.tables("drive")) {
+  for (study::ObjectReader& drive : drive_tables(document)) {
     std::string joint = l.driven.size() == 1 ? input_joint(l, 0).name : std::string();
     drive(Field{.key = "joint", .summary = {}}, joint);
     std::size_t i = 0;
@@ -128,8 +128,7 @@ void describe_input_drives(study::SchemaWriter& document) {
   describe_joint_fields<InputDrive>(drive);
   drive(Field{.key = "law", .summary = "motion law of a joint that is not free"},
         std::optional<study::AnyLaw>());
-  document.property(Field{.key = "drive", .summary = "joints that are free, or move as a law says"},
-                    study::schema_array(std::move(drive).finish()));
+  describe_drives(document, "joints that are free, or move as a law says", std::move(drive));
 }
 
 namespace {
@@ -159,7 +158,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   s.scene_samples = common.output.samples;
   const bool elastic = !document.tables("elastic").empty();
   // A beam brings its own mass.
-  auto description = read_linkage(document, type, !elastic);
+  auto description = read_linkage(document, type, !elastic, common.units);
   if (auto table = document.table(Field{.key = "simulation", .summary = {}, .required = true})) {
     table->read(s);
     if (!(s.to > s.from) && !document.document().has_errors())
@@ -174,7 +173,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
     document.error("simulation", "all_coordinates are projected after every step, which adams does not allow",
                    "take another method");
   if (!description) {
-    for (study::ObjectReader& drive : document.tables("drive")) drive.members();
+    for (study::ObjectReader& drive : drive_tables(document)) drive.members();
     for (study::ObjectReader& entry : document.tables("elastic")) entry.members();
     return prepared;
   }
@@ -251,6 +250,14 @@ study::Kind linkage_simulation_kind() {
   kind.summary =
       "motion of any planar linkage under weight, springs, forces and motors, with an energy audit";
   kind.example = templates::simulation_linkage();
+  return kind;
+}
+
+study::Kind four_bar_simulation_kind() {
+  study::Kind kind = kind_of(LinkageType::four_bar);
+  kind.mechanism = "planar.four_bar";
+  kind.summary = "motion of a four-bar under its weight, with an energy audit";
+  kind.example = templates::simulation_four_bar();
   return kind;
 }
 

@@ -16,8 +16,9 @@ struct SpeedFluctuationStudy {
   bool has_motor = false;  ///< a torque goes by speed
 };
 
-/// "speed_fluctuation" of "planar.linkage" and of "planar.slider_crank".
+/// "speed_fluctuation" of "planar.linkage" and of its shorthands.
 study::Kind linkage_speed_fluctuation_kind();
+study::Kind four_bar_speed_fluctuation_kind();
 study::Kind slider_crank_speed_fluctuation_kind();
 
 /// Reduced inertia and torque over the cycle, the flywheel, and with a motor the steady cycle.

@@ -31,10 +31,10 @@ void fields(Visitor&& visit, SpeedFluctuationSetup& s) {
 
 namespace {
 
-study::Prepared prepare(study::ObjectReader& document, LinkageType type) {
+study::Prepared prepare(study::ObjectReader& document, const study::Common& common, LinkageType type) {
   study::Prepared prepared;
   SpeedFluctuationStudy s;
-  auto description = read_linkage(document, type, true);
+  auto description = read_linkage(document, type, true, common.units);
   if (auto table = document.table(Field{.key = "speed_fluctuation", .summary = {}, .required = true})) {
     table->read(s.setup);
     if (s.setup.mean_speed == 0)
@@ -76,15 +76,14 @@ study::Kind kind_of(LinkageType type) {
     describe_linkage(document, type);
     study::SchemaWriter drive;
     drive(Field{.key = "joint", .summary = "joint of the input"}, std::string());
-    document.property(Field{.key = "drive", .summary = "the input that turns"},
-                      study::schema_array(std::move(drive).finish()));
+    describe_drives(document, "the input that turns", std::move(drive));
     document.property(Field{.key = "speed_fluctuation",
                             .summary = "the cycle and the coefficient of speed fluctuation that it may have",
                             .required = true},
                       study::schema_fields<SpeedFluctuationSetup>());
   };
-  kind.prepare = [type](study::ObjectReader& document, const study::Common&) {
-    return prepare(document, type);
+  kind.prepare = [type](study::ObjectReader& document, const study::Common& common) {
+    return prepare(document, common, type);
   };
   return kind;
 }
@@ -98,6 +97,14 @@ study::Kind linkage_speed_fluctuation_kind() {
       "speed fluctuation of a planar linkage whose input rotates fully: reduced inertia, flywheel, cycle "
       "with a motor";
   kind.example = templates::speed_fluctuation_linkage();
+  return kind;
+}
+
+study::Kind four_bar_speed_fluctuation_kind() {
+  study::Kind kind = kind_of(LinkageType::four_bar);
+  kind.mechanism = "planar.four_bar";
+  kind.summary = "speed fluctuation of a four-bar whose crank rotates fully: reduced inertia and flywheel";
+  kind.example = templates::speed_fluctuation_four_bar();
   return kind;
 }
 

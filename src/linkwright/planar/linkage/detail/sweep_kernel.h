@@ -102,8 +102,10 @@ LINKWRIGHT_KERNEL void sweep_forces(const SweepTask& task, SweepBlock<Batch>& bl
         });
   }
   for (std::size_t b = 0; b < sweep_together; ++b) {
-    block.rows(b).store(task.shaking, -block.registers[b].needed[0].force);
-    block.rows(b).store(task.shaking + 2, -block.registers[b].needed[0].moment);
+    const Wrench<Batch>& on_linkage = block.registers[b].needed[0];
+    const Vec<Batch> centre{Batch(task.moment_centre.x), Batch(task.moment_centre.y)};
+    block.rows(b).store(task.shaking, -on_linkage.force);
+    block.rows(b).store(task.shaking + 2, cross(centre, on_linkage.force) - on_linkage.moment);
   }
 }
 
