@@ -87,8 +87,8 @@ TEST(MapSvg, NeighboursOfOneClassAreOneRectangle) {
   EXPECT_NEAR(found[3].y, found[0].y - 2 * cell, 0.4);  // y upwards
   EXPECT_NEAR(found[4].x, found[0].x, 0.01);
   EXPECT_THAT(picture, HasSubstr(">no value</text>"));
-  EXPECT_THAT(picture, HasSubstr(">x (mm)</text>"));
-  EXPECT_THAT(picture, HasSubstr(">y (mm)</text>"));
+  EXPECT_THAT(picture, HasSubstr("text-anchor=\"middle\">x (mm)</text>"));
+  EXPECT_THAT(picture, HasSubstr("text-anchor=\"middle\">y (mm)</text>"));
   EXPECT_THAT(picture, HasSubstr(">transmission index</text>"));
   EXPECT_THAT(plot_svg(plot(), grid({0, 0, 0, 0, 1, 1, 1, 1})), Not(HasSubstr(">no value</text>")));
 }

@@ -72,7 +72,7 @@ TEST(ClearanceDesignStudy, LengthsAreThoseOfTheLeastSquares) {
   EXPECT_NEAR(r.changes[0].before, 3.929349e-4, 1e-10);
   EXPECT_EQ(values(r, "design", "reference")[0], 0.2027109);
   EXPECT_THAT(r.headline, HasSubstr("if the clearance link leads the crank by 10°"));
-  EXPECT_THAT(fact(r, "crank rotates fully wherever the pin lies"), HasSubstr("yes"));
+  EXPECT_EQ(fact(r, "crank rotates fully wherever the pin lies"), "yes");
   ASSERT_EQ(r.diagnostics.size(), 1u);
   EXPECT_THAT(to_string(r.diagnostics[0]), HasSubstr("a constant phase of 10° is impossible"));
   expect_plots_have_columns(r);
@@ -312,7 +312,8 @@ TEST(ClearanceDesignStudy, NamesWhatIsWrong) {
   EXPECT_THAT(
       problems(lengths, "[optimiser]", "[reference]\n[reference.parameters]\ncrank_mm = 1.0\n[optimiser]"),
       HasSubstr("there is no ground; all nine are needed"));
-  EXPECT_THAT(problems(lengths, "[optimiser]", "[drive]\nspeed_rpm = 1.0\n[optimiser]"), HasSubstr("drive"));
+  EXPECT_THAT(problems(lengths, "[optimiser]", "[drive]\nspeed_rpm = 1.0\n[optimiser]"),
+              HasSubstr(": drive: unknown key; allowed here: "));
 }
 
 }  // namespace

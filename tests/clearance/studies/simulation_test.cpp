@@ -151,7 +151,9 @@ TEST(ClearanceStudy, ContinuousContactKeepsToTheReference) {
 TEST(ClearanceStudy, WarnsWhereContinuousContactFails) {
   const study::Result r = run_text(example("clearance-four-bar-design-1"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
-  EXPECT_THAT(fact(r, "contact of A"), HasSubstr("lost at"));
+  EXPECT_THAT(fact(r, "contact of A"),
+              ::testing::MatchesRegex(
+                  "lost at [0-9.]+ s; without contact [0-9.]+ % of the time, least tension -[0-9.]+ N"));
   EXPECT_TRUE(std::any_of(r.facts.begin(), r.facts.end(), [](const study::Fact& f) {
     return f.label == "contact of A" && f.verdict == study::Fact::Verdict::bad;
   }));
@@ -373,7 +375,8 @@ TEST(ClearanceStudy, NamesWhatRegimesCannotDo) {
               HasSubstr("no drive repeats itself"));
   EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodik\""),
               HasSubstr("did you mean 'periodic'?"));
-  EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nto_s = 1.0"), HasSubstr("to_s"));
+  EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nto_s = 1.0"),
+              HasSubstr("simulation.to_s: unknown key; allowed here: "));
   EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nmax_turns = 1"),
               HasSubstr("must be at least 2"));
   EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nsamples = 100001\nmax_turns = 1000"),
@@ -389,8 +392,9 @@ TEST(ClearanceStudy, NamesWhatRegimesCannotDo) {
                          "0.0]\nagainst = \"time\"\nargument = [0.0, 1.0]\nfactor = [0.0, 1.0]\n"),
       HasSubstr("load 'push' depends on the time, so the motion has no period"));
   EXPECT_THAT(problems("model          = \"contact\"", "model = \"automatic\"\nstart_mm = [0.0, 0.0]"),
-              HasSubstr("start_mm"));
-  EXPECT_THAT(problems("bush_radius_mm = 10.0", ""), HasSubstr("bush_radius"));
+              HasSubstr("clearance[0].start_mm: unknown key; allowed here: "));
+  EXPECT_THAT(problems("bush_radius_mm = 10.0", ""),
+              HasSubstr("clearance[0].bush_radius_m: this key is missing"));
   EXPECT_THAT(problems("modulus_GPa    = 207.0", "modulus_GPa = 0.0"), HasSubstr("must be more than 0"));
 }
 
@@ -424,7 +428,8 @@ TEST(ClearanceStudy, StepsAreFewAtOneMicrometreAndAtTenTurnsAMinute) {
   EXPECT_LT(steps(slow), 50000);
   // A thousand turns of it are out of reach: reported after 20000 steps, not after all that are allowed.
   const study::Result hopeless = run_text(replaced(slow, "to_s = 6.0", "to_s = 6000.0\nmax_steps = 100000"));
-  EXPECT_THAT(fact(hopeless, "integration"), ::testing::StartsWith("20000 steps"));
+  EXPECT_THAT(fact(hopeless, "integration"),
+              ::testing::MatchesRegex("20000 steps, [0-9]+ evaluations of the equations of motion"));
   EXPECT_THAT(messages(hopeless),
               HasSubstr("after 20000 steps: at this pace 6000 s would take about 2.6e+07"));
 }

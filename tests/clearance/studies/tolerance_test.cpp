@@ -354,7 +354,8 @@ TEST(ToleranceStudy, NamesWhatIsWrong) {
               HasSubstr("'coupler.B' is not traced; add it as a [[trace]]"));
   EXPECT_THAT(problem("point    = \"coupler.P\"", "joint = \"A\""),
               HasSubstr("the coordinate of joint 'A' is not watched; add it to watch.coordinates"));
-  EXPECT_THAT(problem("error_mm = 0.15", "error_deg = 0.15"), HasSubstr("error_deg"));
+  EXPECT_THAT(problem("error_mm = 0.15", "error_deg = 0.15"),
+              HasSubstr("limit[0].error_deg: is a length, but 'deg' is not a unit of it"));
   EXPECT_THAT(problem("type = \"grid\"", "type = \"grid\"\nat_change_point = \"smooth\""),
               HasSubstr("a linkage whose lengths deviate has no change points"));
   EXPECT_THAT(problem("[monte_carlo]", "[quality]\noutput_joint = \"B0\"\n[monte_carlo]"),

@@ -79,7 +79,7 @@ TEST(VibrationStudy, CampbellDiagramOfThePublishedBeam) {
     EXPECT_NEAR(rate[i], order[i] * speed[i], 1e-12);
     EXPECT_NEAR(modes(discretise(beam, 4), k, {.speed = speed[i]})[0].frequency, rate[i], 1e-9);
   }
-  EXPECT_THAT(fact(result, "resonant speeds"), HasSubstr("(mode 1 by 1 x)"));
+  EXPECT_THAT(fact(result, "resonant speeds"), HasSubstr(" rad/s (mode 1 by 1 x), "));
   EXPECT_EQ(column(result, "campbell", "order_2_5_rad_per_s").back() /
                 column(result, "campbell", "speed_rad_per_s").back(),
             2.5);
@@ -107,7 +107,7 @@ TEST(VibrationStudy, FrequenciesAgainstTheContinuum) {
       HasSubstr("vibration.divisions: mode 1 is 1.1 % off the continuum, 0.4686 Hz against 0.4633 Hz"));
   // Shapes and their scenes: the weld stays, the largest deflection is 1 m in the table.
   EXPECT_EQ(result.scenes.size(), 2u);
-  EXPECT_THAT(result.scenes[0].title, HasSubstr("mode 1, 0.463"));
+  EXPECT_THAT(result.scenes[0].title, ::testing::MatchesRegex("mode 1, 0.463[0-9]? Hz"));
   const auto& eta = column(result, "shapes", "mode_2_eta_m");
   EXPECT_EQ(eta.front(), 0);
   double largest = 0;
@@ -167,7 +167,7 @@ TEST(VibrationStudy, LargeDeflection) {
       1e-6);
   EXPECT_NEAR(std::hypot(column(result, "sections", "axial_N")[4], column(result, "sections", "shear_N")[4]),
               2 * beam.bending_stiffness() / 64, 1e-9);
-  EXPECT_THAT(fact(result, "change of the tip with 8 divisions"), HasSubstr("mm"));
+  EXPECT_THAT(fact(result, "change of the tip with 8 divisions"), ::testing::MatchesRegex("[0-9.e-]+ mm"));
   EXPECT_THAT(result.headline, HasSubstr("Under the load the tip moves by"));
   // Along the link: Euler's load is pi^2 E I / (4 L^2), and beyond it the straight link has buckled.
   const auto buckled = run(bare + "[load]\nforce_N = [-30, 0]\n");
@@ -182,7 +182,7 @@ TEST(VibrationStudy, GravityAndSpeedHoldTheLink) {
   const Beam beam = spin_up_beam();
   const double linear = beam.density * beam.area * std::pow(8, 4) / (8 * beam.bending_stiffness());
   EXPECT_NEAR(column(result, "deflection", "eta_m").back(), -linear, 0.01 * linear);
-  EXPECT_THAT(fact(result, "left out of the frequencies"), HasSubstr("gravity"));
+  EXPECT_EQ(fact(result, "left out of the frequencies"), "gravity");
   const auto turning = run(heavy + "[load]\nspeed_rad_per_s = 4\n");
   EXPECT_LT(std::abs(column(turning, "deflection", "eta_m").back()),
             0.8 * std::abs(column(result, "deflection", "eta_m").back()));
@@ -230,7 +230,8 @@ TEST(VibrationStudy, NamesWhatIsWrong) {
       HasSubstr("vibration.modes: a link of 2 divisions has 8 modes, 20 are asked for; take more divisions"));
   EXPECT_THAT(problems(bare + "[campbell]\nfrom_rpm = 10\nto_rpm = 10\n"),
               HasSubstr("campbell.to_rpm: the speeds end at 10 rpm, where they begin or before"));
-  EXPECT_THAT(problems(bare + "[campbell]\nsamples = 10\n"), HasSubstr("campbell.to"));
+  EXPECT_THAT(problems(bare + "[campbell]\nsamples = 10\n"),
+              HasSubstr("campbell.to_rad_per_s: this key is missing"));
   EXPECT_THAT(problems(bare + "[campbell]\nto_rpm = 10\norders = [0]\n"), HasSubstr("must be more than 0"));
   EXPECT_THAT(problems(replaced(bare, "divisions = 4", "divisions = 4\nkinematics = \"source_linearised\"") +
                        "[load]\nforce_N = [0, 1]\n"),
@@ -240,7 +241,8 @@ TEST(VibrationStudy, NamesWhatIsWrong) {
                                 "divisions = 4", "divisions = 4\nhub = \"free\"") +
                        "[campbell]\nto_rpm = 10\n"),
               HasSubstr("the frequencies of an extensible link on a free hub that turns are not known"));
-  EXPECT_THAT(problems(replaced(bare, "length_m = 8", "length_m = -8")), HasSubstr("length_m"));
+  EXPECT_THAT(problems(replaced(bare, "length_m = 8", "length_m = -8")),
+              HasSubstr("mechanism.length_m: is -8 m, must be at least "));
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ TEST(ToolPath, FilesAreToldWhatIsWrong) {
   };
   EXPECT_THAT(message("law = \"s_curve\"\nstep = []\n"),
               HasSubstr("law: is 's_curve', must be one of: double_s, polynomial_345, cycloidal"));
-  EXPECT_THAT(message("blend = true\n"), HasSubstr("step"));
+  EXPECT_THAT(message("blend = true\n"), HasSubstr("step: this key is missing"));
   EXPECT_THAT(
       message("[[step]]\ntype = \"lien\"\nto_m = [0, 0, 0]\n"),
       HasSubstr("is 'lien', must be one of: line, arc, circle, pick_and_place, dwell, table; did you mean "

@@ -190,7 +190,7 @@ TEST(FourBarSweep, RejectsWhatThePlainFunctionsReject) {
   EXPECT_THAT(run(crank_rocker, {bad, {}, {}}), HasSubstr("of 3 samples must be finite"));
   FourBarMachine m = crank_rocker;
   m.masses.coupler.mass = -1;
-  EXPECT_THAT(run(m, {angle, {}, {}}), HasSubstr("mass -1"));
+  EXPECT_THAT(run(m, {angle, {}, {}}), HasSubstr("base_parameters: mass -1, inertia "));
   m = crank_rocker;
   m.linkage.coupler = 0;
   EXPECT_THAT(run(m, {angle, {}, {}}), HasSubstr("link lengths must be positive"));

@@ -51,7 +51,7 @@ TEST(BalancingStudyRead, ProblemsTellWhereAndHow) {
                    "mass_kg = 0.1");
   EXPECT_THAT(problems_of(fixed), HasSubstr("there is no design variable: every number is fixed"));
   EXPECT_THAT(problems_of(replaced(test::arm_weights, "reference = 1.0", "reference = 0.0")),
-              HasSubstr("reference"));
+              HasSubstr("objective[0].reference: is 0, must be more than 0"));
 }
 
 TEST(BalancingStudyRun, CounterweightsOfTheArmUnloadItsFirstJoint) {

@@ -48,7 +48,7 @@ TEST(Assemblies, ASeedDecidesEverything) {
       [&] {
         assemblies(plan, Driver::wheel_centre_z, {0, 0}, 7, 0);
       },
-      ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("0 starts")));
+      ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("assemblies: 0 starts")));
 }
 
 }  // namespace

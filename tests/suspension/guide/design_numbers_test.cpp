@@ -54,8 +54,9 @@ TEST(DesignNumbers, ThatAGuideDoesNotHaveAreRefused) {
   EXPECT_NE(message({DesignKind::length, 1}).find("the suspension has no number length, index 1"),
             std::string::npos);
   EXPECT_NE(message({DesignKind::body, 5}).find("no number body, index 5"), std::string::npos);
-  EXPECT_NE(message({DesignKind::body, 0, 1}).find("point 1"), std::string::npos);
-  EXPECT_NE(message({DesignKind::carrier, 0, 0, 3}).find("axis 3"), std::string::npos);
+  EXPECT_NE(message({DesignKind::body, 0, 1}).find("no number body, index 0, point 1"), std::string::npos);
+  EXPECT_NE(message({DesignKind::carrier, 0, 0, 3}).find("no number carrier, index 0, point 0, axis 3"),
+            std::string::npos);
   EXPECT_NE(message({DesignKind::coupler_point, 0}).find("coupler_point"), std::string::npos);
 }
 

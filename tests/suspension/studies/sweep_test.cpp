@@ -73,7 +73,8 @@ TEST(SweepStudy, ToldLimitsAreWhereRowsEnd) {
   EXPECT_TRUE(std::isnan(column(result, "toe_rad").at(2)));
   ASSERT_EQ(result.diagnostics.size(), 1U);
   EXPECT_THAT(to_string(result.diagnostics[0]),
-              AllOf(HasSubstr("no_assembly"), HasSubstr("cannot pass"), HasSubstr("1.000 mm short of")));
+              AllOf(HasSubstr("rack 0 mm: no_assembly: the height of the wheel centre "),
+                    HasSubstr("cannot pass"), HasSubstr("1.000 mm short of")));
 }
 
 TEST(SweepStudy, LaysAnotherGuideBehindTheCurves) {
