@@ -18,6 +18,7 @@ namespace linkwright::report {
 namespace {
 
 using study::Plot;
+using test::count;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -41,12 +42,6 @@ std::vector<Rectangle> rectangles(const std::string& picture) {
     }
   }
   return out;
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
 }
 
 Plot plot() {

@@ -12,14 +12,9 @@
 namespace linkwright::report {
 namespace {
 
+using test::count;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
 
 TEST(Svg, DrawsEveryPartOfTheScene) {
   const auto result = test::sample_result();

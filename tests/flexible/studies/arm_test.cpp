@@ -13,17 +13,12 @@ using test::kinds;
 using test::problems;
 using test::run;
 
+using linkwright::test::column;
 using linkwright::test::fact;
 using linkwright::test::replaced;
 using ::testing::HasSubstr;
 
 const std::string& example() { return kinds()[0].example; }
-const std::vector<double>& column(const study::Result& result, std::string_view key) {
-  const Column* found = result.tables.at(0).find(key);
-  EXPECT_NE(found, nullptr) << key;
-  static const std::vector<double> none;
-  return found ? found->values : none;
-}
 
 std::string link(const std::string& more, const std::string& length = "0.9",
                  const std::string& modulus = "6.9e10") {

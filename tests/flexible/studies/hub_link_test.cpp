@@ -15,17 +15,11 @@ using test::kinds;
 using test::problems;
 using test::run;
 
+using linkwright::test::column;
 using linkwright::test::fact;
 using linkwright::test::replaced;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-const std::vector<double>& column(const study::Result& result, std::string_view key) {
-  const Column* found = result.tables.at(0).find(key);
-  EXPECT_NE(found, nullptr) << key;
-  static const std::vector<double> none;
-  return found ? found->values : none;
-}
 
 // Table 3.1 of Boskovic 2018, spun up to 4 rad/s.
 const std::string spin_up =

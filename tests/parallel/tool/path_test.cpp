@@ -11,6 +11,7 @@
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/read.h"
+#include "support/message.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -25,7 +26,7 @@ T read(const std::string& text, std::string& messages) {
   T out;
   reader.root().read(out);
   reader.finish();
-  for (const Diagnostic& d : diagnostics) messages += to_string(d) + "\n";
+  messages += test::lines_of(diagnostics);
   return out;
 }
 

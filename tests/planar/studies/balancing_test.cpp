@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "linkwright/core/looks.h"
 #include "planar/balancing_studies.h"
@@ -206,11 +205,7 @@ TEST(BalancingStudyRun, ExamplesPassTheirChecks) {
   // The longer ones are run by hand.
   for (const char* name :
        {"balance-arm-counterweights", "balance-four-bar-case-3-masses", "balance-engine"}) {
-    const auto file =
-        std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples/studies" / (std::string(name) + ".toml");
-    Diagnostics diagnostics;
-    const auto prepared = study::prepare(study::read_file(file, diagnostics), file.string(),
-                                         file.parent_path(), studies(), diagnostics);
+    const auto prepared = test::prepare_example(test::kinds(), std::string(name) + ".toml");
     ASSERT_TRUE(prepared) << name;
     RunContext context;
     const study::Result r = study::run_study(*prepared, context);

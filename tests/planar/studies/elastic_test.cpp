@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -14,7 +13,9 @@
 namespace linkwright::planar {
 namespace {
 
+using test::column;
 using test::fact;
+using test::largest;
 using test::prepare;
 using test::problems_of;
 using test::replaced;
@@ -87,19 +88,6 @@ point = "rod.M"
 std::string with_rod(std::string_view what = {}, std::string_view by = {}) {
   const std::string text = slider_crank + rod;
   return what.empty() ? text : replaced(text, std::string(what), std::string(by));
-}
-const std::vector<double>& column(const study::Result& r, std::string_view table, std::string_view key) {
-  for (const Table& t : r.tables)
-    if (t.name == table)
-      if (const Column* c = t.find(key)) return c->values;
-  ADD_FAILURE() << table << " has no " << key;
-  static const std::vector<double> none{0};
-  return none;
-}
-double largest(const std::vector<double>& values) {
-  double out = 0;
-  for (const double v : values) out = std::max(out, std::abs(v));
-  return out;
 }
 
 TEST(LinkageElasticStudy, ReportsBendingBesideTheRigidLinkage) {

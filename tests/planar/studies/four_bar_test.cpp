@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@ namespace linkwright::planar {
 namespace {
 
 using test::fact;
+using test::keys;
 using test::prepare;
 using test::problems_of;
 using test::run_text;
@@ -37,10 +37,7 @@ std::string study_text(const std::map<std::string, std::string>& changed = {}) {
        "rocker = { mass_kg = 1.046, inertia_kg_m2 = 9.85e-3, centre_distance_m = 0.16 }\n"},
       {"5 drive", "[drive]\ninput = \"crank\"\nspeed_rpm = 300.0\n"},
       {"6 sweep", "[sweep]\ntype = \"grid\"\ncrank_angle = { from_deg = 0, to_deg = 360, samples = 9 }\n"}};
-  for (const auto& [name, text] : changed) parts[name] = text;
-  std::string all;
-  for (const auto& [name, text] : parts) all += text;
-  return all;
+  return test::text_of(std::move(parts), changed);
 }
 
 std::string problems(const std::map<std::string, std::string>& changed) {
@@ -49,12 +46,6 @@ std::string problems(const std::map<std::string, std::string>& changed) {
 
 study::Result run(const std::map<std::string, std::string>& changed = {}) {
   return run_text(study_text(changed));
-}
-
-std::vector<std::string> keys(const Table& table) {
-  std::vector<std::string> out;
-  for (const Column& column : table.columns) out.push_back(column.key);
-  return out;
 }
 
 // Where the crank points along the ground 450 mm of links are to span 500: reported in the unit of the study.
@@ -156,8 +147,7 @@ TEST(ReactionsStudyRun, AParallelogramHasAllItsRows) {
     EXPECT_FALSE(std::isnan(t.find("drive_torque_N_m")->values[i])) << i;
     EXPECT_NEAR(r.scenes[0].points[3].y[i], 0.1 * std::sin(t.find("crank_angle_rad")->values[i]), 1e-7) << i;
   }
-  std::string messages;
-  for (const Diagnostic& d : r.diagnostics) messages += to_string(d) + "\n";
+  const std::string messages = test::lines_of(r.diagnostics);
   EXPECT_THAT(messages, HasSubstr("at a crank angle of 0° the joint forces grow without bound: the row holds "
                                   "what stays finite"));
   EXPECT_THAT(messages, HasSubstr("at a crank angle of 180° both branches meet and cross: which way the "
@@ -201,14 +191,8 @@ TEST(ReactionsStudyRun, AKiteHasAllItsRows) {
 }
 
 TEST(ReactionsStudyRun, OfThePublishedMechanismPassesItsCheck) {
-  const std::filesystem::path file =
-      std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples/studies/fourbar-reactions.toml";
-  const std::vector<study::Kind> kinds = studies();
-  Diagnostics diagnostics;
-  const auto study = study::prepare(study::read_file(file, diagnostics), file.string(), file.parent_path(),
-                                    kinds, diagnostics);
+  const auto study = test::prepare_example(test::kinds(), "fourbar-reactions.toml");
   ASSERT_TRUE(study);
-  EXPECT_THAT(diagnostics, IsEmpty());
   RunContext context;
   const study::Result result = study::run_study(*study, context);
   EXPECT_EQ(result.status, Status::done);

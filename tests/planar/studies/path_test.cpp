@@ -182,8 +182,7 @@ TEST(PathStudyRun, PopulationMethodsReportWhatTheyReach) {
 // 0.00908: 200 seeds of an independent implementation gave best 0.203 and median 2.77. The median of 60 seeds
 // scatters by about a quarter.
 TEST(PathStudyRun, GreyWolfAsPublishedDoesNotReachThePublishedError) {
-  const std::filesystem::path file =
-      std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples/studies/fourbar-18-points-grey-wolf.toml";
+  const std::filesystem::path file = test::example_path("fourbar-18-points-grey-wolf.toml");
   Diagnostics diagnostics;
   Value document = study::read_file(file, diagnostics);
   document["optimiser"]["seeds"]["count"] = 60;

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <filesystem>
 #include <string>
 
 #include "linkwright/core/memory.h"
@@ -151,13 +150,7 @@ samples = 201
 TEST(LinkageSimulationStudy, ExamplesPassTheirChecks) {
   for (const char* name : {"andrews-squeezer", "four-bar-chain-2", "four-bar-chain-40", "double-pendulum"}) {
     SCOPED_TRACE(name);
-    const std::filesystem::path file =
-        std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples/studies" / (std::string(name) + ".toml");
-    const std::vector<study::Kind> kinds = studies();
-    Diagnostics diagnostics;
-    const auto study = study::prepare(study::read_file(file, diagnostics), file.string(), file.parent_path(),
-                                      kinds, diagnostics);
-    EXPECT_THAT(diagnostics, IsEmpty());
+    const auto study = test::prepare_example(test::kinds(), std::string(name) + ".toml");
     ASSERT_TRUE(study);
     RunContext context;
     const study::Result result = study::run_study(*study, context);

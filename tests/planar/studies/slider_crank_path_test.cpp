@@ -336,8 +336,7 @@ TEST(SliderPathStudyRun, BothSidesOfAFixedGuide) {
 
 // The published setting never comes near the published 0.00994.
 TEST(SliderPathStudyRun, GreyWolfAsPublishedDoesNotReachThePublishedError) {
-  const std::filesystem::path file =
-      std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples/studies/slider-crank-18-points-grey-wolf.toml";
+  const std::filesystem::path file = test::example_path("slider-crank-18-points-grey-wolf.toml");
   Diagnostics diagnostics;
   Value document = study::read_file(file, diagnostics);
   document["optimiser"]["seeds"]["count"] = 60;

@@ -17,11 +17,6 @@ namespace {
 using test::at;
 using test::number_at;
 
-GuidePosition solve(const GuidePlan& plan, double travel, double rack = 0,
-                    Driver driver = Driver::wheel_centre_z) {
-  return solve_position(plan, driver, {travel, rack}, reference_position(plan));
-}
-
 double apart(const Mat3& a, const Mat3& b) {
   double out = 0;
   for (int i = 0; i < 3; ++i) out = std::max(out, norm(a.row[i] - b.row[i]));

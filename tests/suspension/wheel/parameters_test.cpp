@@ -16,10 +16,6 @@ namespace {
 using test::at;
 using test::number_at;
 
-GuidePosition solve(const GuidePlan& plan, double travel, double rack = 0) {
-  return solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan));
-}
-
 // The acceptance of the reference is 1e-9 m and rad, and 1e-7 relative for rates; both sides are exact
 // formulas, so what is left is rounding times the condition of the equations.
 constexpr double close_value = 1e-11;

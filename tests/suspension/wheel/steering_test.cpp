@@ -15,10 +15,6 @@ namespace {
 
 constexpr std::array steered{"2RS-US", "RS-SP-US", "RS-3US", "SP-3US", "5US"};
 
-GuidePosition solve(const GuidePlan& plan, double travel, double rack) {
-  return solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan));
-}
-
 // Lever arms by the moment about the screw axis: turning times the moment of the force about the axis, pitch
 // times its share along it.
 TEST(Steering, LeverArmsByTheScrewAxis) {
