@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "linkwright/core/check.h"
 #include "linkwright/study/bind_schema.h"

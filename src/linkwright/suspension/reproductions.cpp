@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
 
 #include "linkwright/clearance/studies/design.h"
 #include "linkwright/clearance/studies/simulation.h"

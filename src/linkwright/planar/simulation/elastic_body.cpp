@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <string>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/planar/studies/four_bar.h"
 #include "linkwright/planar/studies/templates.h"

@@ -1,6 +1,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/planar/studies/elastic.h"
 #include "linkwright/planar/studies/templates.h"

@@ -1,6 +1,7 @@
 #include "linkwright/planar/studies/slider_crank_path_scene.h"
 
 #include <cmath>
+#include <span>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"

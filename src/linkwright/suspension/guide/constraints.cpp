@@ -1,6 +1,7 @@
 #include "linkwright/suspension/guide/constraints.h"
 
 #include <cmath>
+#include <string>
 
 #include "linkwright/core/check.h"
 #include "linkwright/suspension/guide/detail/constraints_kernel.h"

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <array>
+
 #include "linkwright/core/check.h"
 #include "linkwright/math/dual.h"
 

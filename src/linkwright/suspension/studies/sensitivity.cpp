@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 
 #include "linkwright/core/units.h"
 #include "linkwright/study/design_variables.h"
