@@ -161,7 +161,7 @@ TEST(FourBarBranch, LeavesOthersAsTheyAre) {
 TEST(FourBarBranch, AsALinkageItIsTheSame) {
   const FourBar l = lengths(0.6, 0.1, 0.4, 0.32);
   const Linkage linkage = linkage_of(l, &masses, 9.81);
-  const PlanResult planned = plan(linkage);
+  const PlanResult planned = plan_linkage(linkage);
   ASSERT_TRUE(planned.problems.empty());
   LinkageMotion motion(planned.plan);
   LinkageForces forces;

@@ -67,7 +67,7 @@ constexpr Vec3 coupler_on_blade{0.22040104155562712, 0.591838870380279, -0.00553
 // limit.
 TEST(IndirectSynthesisCarrierPitch, CouplerInsideItsBoxIsFoundFromEverySeed) {
   const WheelGuide& guide = guide_sample("interconnected").guide;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   CarrierTargets targets{.wheel = guide.wheel};
   for (int i = -5; i <= 5; ++i) {
     if (i == 0) continue;

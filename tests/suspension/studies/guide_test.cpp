@@ -158,7 +158,7 @@ TEST(GuideStudyRead, WhatIsFixedToARodOffItsLineIsKept) {
   EXPECT_EQ(result.status, Status::done);
   WheelGuide same = guide;
   same.spring->link = 0;
-  const GuidePlan plan = prepare(same);
+  const GuidePlan plan = prepare_guide(same);
   EXPECT_NEAR(column(result, "motion_ratio").at(4),
               wheel_parameters(
                   plan, solve_position(plan, Driver::wheel_centre_z, {0.08, 0}, reference_position(plan)))

@@ -76,7 +76,7 @@ TEST(IndirectStudy, ListsEveryRodThroughSevenPositions) {
 TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
   // Positions of a suspension with a wishbone (RS), and rods that are asked for.
   const WheelGuide& guide = guide_sample("RS-3US").guide;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   std::string text = "schema = 1\nkind = \"synthesis\"\n[mechanism]\ntype = \"suspension.corner\"\n";
   text += fmt::format(
       "[mechanism.wheel]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\ntyre_diameter_m = {}\n",

@@ -43,7 +43,7 @@ FourBarBranch::FourBarBranch(const FourBar& four_bar, std::optional<FourBarMasse
       gravity_(gravity),
       at_change_point_(at_change_point),
       linkage_(linkage_of(four_bar, masses_ ? &*masses_ : nullptr, gravity)) {
-  PlanResult planned = plan(linkage_);
+  PlanResult planned = plan_linkage(linkage_);
   if (!planned.problems.empty()) return;
   plan_ = std::move(planned.plan);
   modes_ = LinkageMotion(plan_).modes;

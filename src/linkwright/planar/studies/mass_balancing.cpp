@@ -267,7 +267,7 @@ class Maker {
         }
       }
     }
-    PlanResult planned = plan(l);
+    PlanResult planned = plan_linkage(l);
     const LinkageRows rows = rows_of(*study);
     std::vector<InputMotion> inputs;
     for (const auto& row : rows.inputs) inputs.insert(inputs.end(), row.begin(), row.end());

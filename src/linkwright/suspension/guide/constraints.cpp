@@ -17,7 +17,7 @@ void require_spring(const GuidePlan& plan, Driver driver) {
 
 }  // namespace
 
-GuidePlan prepare(const WheelGuide& guide) {
+GuidePlan prepare_guide(const WheelGuide& guide) {
   const Diagnostics problems = check(guide);
   LINKWRIGHT_REQUIRE(problems.empty(), "{} problems, the first: {}", problems.size(),
                      to_string(problems.front()));
