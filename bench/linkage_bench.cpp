@@ -19,7 +19,8 @@ enum Task { position, rates, forces };
 void sweep(benchmark::State& state, const char* name, PlanRoute route, Task task) {
   constexpr int count = 360;
   const LinkageSample& sample = linkage_sample(name);
-  const LinkagePlan along = plan(sample.linkage).plan, asked = plan(sample.linkage, route).plan;
+  const LinkagePlan along = plan_linkage(sample.linkage).plan,
+                    asked = plan_linkage(sample.linkage, route).plan;
   LinkageMotion motion(asked), start(along);
   LinkageForces found;
   std::vector<InputMotion> inputs{{sample.from[0], sample.speed, 0}};
@@ -67,7 +68,7 @@ BENCHMARK(linkage_triad_forces);
 void linkage_sweep(benchmark::State& state, const char* name, const SweepWanted& wanted) {
   const auto n = static_cast<std::size_t>(state.range(0));
   const LinkageSample& sample = linkage_sample(name);
-  LinkageSweep sweep(sample.linkage, plan(sample.linkage).plan, wanted);
+  LinkageSweep sweep(sample.linkage, plan_linkage(sample.linkage).plan, wanted);
   std::vector<double> value(n);
   for (std::size_t i = 0; i < n; ++i)
     value[i] =
@@ -93,7 +94,7 @@ BENCHMARK_CAPTURE(linkage_sweep, jansen_forces, "jansen_leg", forces_too)->Arg(3
 // Limits, change points and circuits over a full turn, in all modes.
 void linkage_limits(benchmark::State& state, const char* name) {
   const LinkageSample& sample = linkage_sample(name);
-  const LinkagePlan p = plan(sample.linkage).plan;
+  const LinkagePlan p = plan_linkage(sample.linkage).plan;
   for (auto _ : state) {
     const InputLimits limits = input_limits(p, sample.from, 0, 0, 2 * pi);
     benchmark::DoNotOptimize(limits.circuits);

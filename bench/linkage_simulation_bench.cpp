@@ -17,7 +17,7 @@ namespace {
 // The equations of motion at one instant.
 void linkage_dynamics_andrews(benchmark::State& state) {
   const LinkageSample s = andrews_squeezer_sample();
-  const LinkagePlan p = plan(s.linkage).plan;
+  const LinkagePlan p = plan_linkage(s.linkage).plan;
   LinkageDynamics dynamics(s.linkage, p, {true});
   InputMotion crank{s.from[0], 1000, 0};
   for (auto _ : state) {
@@ -69,7 +69,7 @@ BENCHMARK(linkage_dynamics_elastic_rod_forces)->Arg(2)->Arg(3)->Arg(4)->Arg(8)->
 // `digits` against the published angle of the crank.
 void andrews(benchmark::State& state, decltype(&simulate) route, math::OdeMethod method) {
   const LinkageSample s = andrews_squeezer_sample();
-  const LinkagePlan p = plan(s.linkage).plan;
+  const LinkagePlan p = plan_linkage(s.linkage).plan;
   const InputDrive drive{{}, s.from[0], 0};
   const std::array<double, 2> times{0, 0.03};
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
@@ -103,7 +103,7 @@ BENCHMARK(linkage_simulate_andrews_all)->Arg(7)->Unit(benchmark::kMillisecond);
 // Forty four-bars through twenty change points in 20 s; `drift` of the energy in J of 4855.
 void linkage_simulate_chain(benchmark::State& state) {
   const Linkage l = four_bar_chain_sample(40).linkage;
-  const LinkagePlan p = plan(l).plan;
+  const LinkagePlan p = plan_linkage(l).plan;
   const InputDrive drive{{}, pi / 2, -1};
   const std::array<double, 2> times{0, 20};
   SimulationReport report;

@@ -16,7 +16,7 @@ enum Task { position, rates, parameters };
 // Travel from -80 to +80 mm in steps of 5 mm at some racks, each position from the one before.
 void sweep(benchmark::State& state, const char* name, Task task) {
   constexpr int count = 33;
-  const GuidePlan plan = prepare(guide_sample(name).guide);
+  const GuidePlan plan = prepare_guide(guide_sample(name).guide);
   const GuidePosition reference = reference_position(plan);
   std::int64_t done = 0;
   for (auto _ : state)
@@ -49,7 +49,7 @@ BENCHMARK(guide_trapezoidal_parameters)->Unit(benchmark::kMicrosecond);
 
 // Both limits of travel to 1e-11 m.
 void guide_5US_limits(benchmark::State& state) {
-  const GuidePlan plan = prepare(guide_sample("5US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   const GuidePosition reference = reference_position(plan);
   for (auto _ : state) benchmark::DoNotOptimize(travel_limits(plan, Driver::wheel_centre_z, 0, reference));
 }
@@ -60,7 +60,7 @@ BENCHMARK(guide_5US_limits)->Unit(benchmark::kMicrosecond);
 enum Elastic { rubber, rods };
 void compliance(benchmark::State& state, const char* name, Elastic elastic, bool preloaded) {
   const WheelGuide& guide = guide_sample(name).guide;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuidePosition at =
       solve_position(plan, Driver::wheel_centre_z, {0.03, 0.01}, reference_position(plan));
   GuideElasticity elasticity{.spring = 3e4};
@@ -92,7 +92,7 @@ BENCHMARK(compliance_double_wishbone_rubber)->Unit(benchmark::kMicrosecond);
 
 void forces_5US(benchmark::State& state) {
   const WheelGuide& guide = guide_sample("5US").guide;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuidePosition at = reference_position(plan);
   const WheelLoad load = load_at(plan.wheel.centre, plan.contact, {-1000, 2000, 4000});
   for (auto _ : state) benchmark::DoNotOptimize(solve_forces(guide, plan, at, load, Support::spring));

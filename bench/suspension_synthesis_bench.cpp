@@ -24,7 +24,7 @@ struct Example {
 Example example(const char* name, double travel, double step, double rack) {
   Example e{.guide = guide_sample(name).guide};
   e.targets.wheel = e.guide.wheel;
-  const GuidePlan plan = prepare(e.guide);
+  const GuidePlan plan = prepare_guide(e.guide);
   const GuidePosition start = reference_position(plan);
   const auto add = [&](double z, double q) {
     const GuidePosition at = solve_position(plan, Driver::wheel_centre_z, {z, q}, start);

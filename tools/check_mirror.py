@@ -21,6 +21,7 @@ NO_TEST = {
     "suspension/guide/detail/constraints_kernel.h": "part of constraints, compiled for numbers and for dual numbers; both are tested",
     "parallel/dexterity/detail/kernel.h": "part of dexterity, compiled for numbers and for registers, compared by its test",
     "parallel/dexterity/detail/synthesis_search.h": "part of dexterity_synthesis, tested in dexterity_synthesis_test.cpp",
+    "planar/studies/environment.h": "one number, tested with the studies that hold it",
     "parallel/pi_joint/kernel.h": "part of pi_joint, compiled for numbers and for dual numbers; both are tested",
     "parallel/robot/detail/pose_check_kernel.h": "part of pose_check, compiled once per instruction set and compared by its test",
     "parallel/robot/detail/legs_kernel.h": "part of position, compiled for numbers and for batches; both are tested",

@@ -20,7 +20,7 @@ int main() {
   planar::set_uniform(engine, "rod", 0.5);
   planar::set_uniform(engine, "piston", 0.4);
 
-  const planar::PlanResult planned = planar::plan(engine);
+  const planar::PlanResult planned = planar::plan_linkage(engine);
   for (const Diagnostic& problem : planned.problems) std::printf("%s\n", to_string(problem).c_str());
   planar::LinkageMotion motion(planned.plan);
   planar::LinkageForces forces;

@@ -7,7 +7,7 @@
 int main() {
   using namespace linkwright;
   const suspension::GuideSample& sample = suspension::guide_samples().front();
-  const suspension::GuidePlan plan = suspension::prepare(sample.guide);
+  const suspension::GuidePlan plan = suspension::prepare_guide(sample.guide);
   const suspension::GuidePosition reference = suspension::reference_position(plan);
   if (reference.status != Status::done) return 1;
   std::printf("%s\n travel     toe  camber  roll centre\n", sample.summary.c_str());

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "clearance/clearance_linkages.h"
 #include "clearance/published_four_bar.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
@@ -35,11 +36,6 @@ Trajectory simulated(const ClearanceFourBar& model, double speed, const LinkStat
                                });
   return out;
 }
-std::vector<double> evenly(double from, double to, int samples) {
-  std::vector<double> out;
-  for (int k = 0; k < samples; ++k) out.push_back(from + (to - from) * k / (samples - 1));
-  return out;
-}
 
 class PublishedDesign2 : public ::testing::TestWithParam<const char*> {};
 
@@ -64,7 +60,7 @@ TEST_P(PublishedDesign2, FollowsTheReferenceThroughATurn) {
 
   // Ranges of the reference are those of its own samples, which pass by the extremes.
   const Value& turned = test::at(computed(id), "one_rev");
-  const Trajectory fine = simulated(model, speed, start, evenly(0, full_turn, 3601));
+  const Trajectory fine = simulated(model, speed, start, evenly_spaced(0, full_turn, 3601));
   const auto [least, most] = std::minmax_element(fine.phase.begin(), fine.phase.end());
   EXPECT_NEAR(*least / degree, test::number_at(turned, "psi_min_deg"), 0.02);
   EXPECT_NEAR(*most / degree, test::number_at(turned, "psi_max_deg"), 0.02);
@@ -106,7 +102,7 @@ TEST_P(PublishedDesign2, DoesNoWorkOverAPeriod) {
   const ClearanceFourBar model = published_four_bar(id);
   const double speed = crank_speed(id);
   const ClearanceOrbit orbit = find_orbit(model, {0, speed}, 0.15, -0.3);
-  const Trajectory t = simulated(model, speed, orbit.start({0, speed}), evenly(0, full_turn, 2001));
+  const Trajectory t = simulated(model, speed, orbit.start({0, speed}), evenly_spaced(0, full_turn, 2001));
   double moment = 0, size = 0;  // trapezium rule of a periodic function: exact to rounding
   for (std::size_t k = 0; k + 1 < t.phase.size(); ++k) {
     moment += t.tension[k] * std::sin(t.phase[k]);
@@ -174,7 +170,7 @@ TEST(FourBarClearanceMotion, Design1LosesContact) {
 
 TEST(FourBarClearanceMotion, WithoutWeightSpeedIsOnlyATimeScale) {
   const ClearanceFourBar model = published_four_bar("gamma-design2-table3-g0-w10");
-  const auto angles = evenly(0, full_turn, 13);
+  const auto angles = evenly_spaced(0, full_turn, 13);
   const Trajectory slow = simulated(model, 10, {0.2, 10}, angles),
                    fast = simulated(model, 250, {0.2, 250}, angles);
   for (std::size_t k = 0; k < angles.size(); ++k) {
@@ -189,7 +185,7 @@ TEST(FourBarClearanceMotion, SwingsAsOftenAsThePendulumDoes) {
   ClearanceFourBar model = published_four_bar("gamma-design1-table2-g0-w10");
   model.coupler = {1, 0, {0, 0}};
   model.rocker = {0, 0, {0, 0}};
-  const Trajectory t = simulated(model, 10, {1e-3, 10}, evenly(0, full_turn, 2001));
+  const Trajectory t = simulated(model, 10, {1e-3, 10}, evenly_spaced(0, full_turn, 2001));
   int changes = 0;
   for (std::size_t k = 1; k < t.phase.size(); ++k) changes += (t.phase[k] > 0) != (t.phase[k - 1] > 0);
   EXPECT_EQ(changes, 20);
@@ -206,8 +202,8 @@ TEST(FourBarClearanceMotion, TheForceOfTheIdealJointIsTheLimit) {
     const ClearanceOrbit orbit = find_orbit(model, {0, 50}, direction, 0);
     ASSERT_EQ(orbit.status, Status::done) << orbit.message;
     double worst = 0;
-    simulate_clearance(model, math::ConstantSpeed{0, 50}, orbit.start({0, 50}), evenly(0, full_turn / 50, 73),
-                       {}, [&](const ClearanceRow& row) {
+    simulate_clearance(model, math::ConstantSpeed{0, 50}, orbit.start({0, 50}),
+                       evenly_spaced(0, full_turn / 50, 73), {}, [&](const ClearanceRow& row) {
                          const double limit = force_direction(model, row.crank.value, 50, 0);
                          worst = std::max(worst, std::abs(math::angle_difference(row.link.angle, limit)));
                          return true;
@@ -232,7 +228,7 @@ TEST(FourBarClearanceMotion, SettlesWithDamping) {
   ASSERT_EQ(orbit.status, Status::done) << orbit.message;
   EXPECT_NEAR(math::angle_difference(settled.phase, orbit.phase), 0, 1e-7);
   EXPECT_LT(std::abs(orbit.multipliers[0]), 0.999);
-  const Trajectory t = simulated(model, 10, orbit.start(crank), evenly(0, full_turn, 721));
+  const Trajectory t = simulated(model, 10, orbit.start(crank), evenly_spaced(0, full_turn, 721));
   double mean = 0;
   for (std::size_t k = 0; k + 1 < t.phase.size(); ++k) mean += t.phase[k] / 720;
   EXPECT_LT(mean, -1e-3);

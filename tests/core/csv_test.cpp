@@ -4,15 +4,15 @@
 
 #include <cmath>
 
+#include "support/message.h"
+
 namespace linkwright {
 namespace {
 
 std::string problems(std::string_view text) {
   Diagnostics diagnostics;
   EXPECT_FALSE(read_csv(text, "path.csv", diagnostics));
-  std::string out;
-  for (const Diagnostic& d : diagnostics) out += to_string(d) + "\n";
-  return out;
+  return test::lines_of(diagnostics);
 }
 
 TEST(ReadCsv, ReadsNamesOfRows) {

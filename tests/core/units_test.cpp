@@ -56,7 +56,7 @@ TEST(Units, KeysTakeTheLongestSuffix) {
 // A key must mean one unit: split_unit looks at its end alone.
 TEST(Units, EveryDimensionHasUnitsAndWordsOfItsOwn) {
   std::set<std::string_view> suffixes, words;
-  for (const Dimension dimension : dimensions()) {
+  for (const Dimension dimension : all_dimensions()) {
     EXPECT_TRUE(words.insert(describe(dimension)).second) << describe(dimension);
     ASSERT_FALSE(units(dimension).empty()) << describe(dimension);
     EXPECT_EQ(units(dimension).front().to_si(1), 1) << describe(dimension);

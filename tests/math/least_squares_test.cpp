@@ -294,7 +294,7 @@ TEST(LeastSquares, SaysWhatIsWrongWithACall) {
   EXPECT_THAT(message([&] { minimise_least_squares(rosenbrock, 0, x, {}, workspace); }),
               ::testing::HasSubstr("needs residuals and variables, got 0 and 2"));
   EXPECT_THAT(message([&] { minimise_least_squares(rosenbrock, 2, x, {.lambda0 = 0}, workspace); }),
-              ::testing::HasSubstr("lambda0 0"));
+              ::testing::HasSubstr("minimise_least_squares: lambda0 0, factors 0.2 and 4"));
 }
 
 }  // namespace

@@ -7,28 +7,16 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/ode.h"
+#include "math/oscillator.h"
 
 namespace linkwright::math {
 namespace {
 
+using test::ode_methods;
+using test::ode_options;
+using test::oscillator;
 using ::testing::ElementsAre;
 using Span = std::span<const double>;
-
-constexpr std::array event_methods = {OdeMethod::explicit_runge_kutta_5, OdeMethod::explicit_runge_kutta_8,
-                                      OdeMethod::adams, OdeMethod::bdf};
-
-bool event_oscillator(double, Span y, std::span<double> rate) {
-  rate[0] = y[1];
-  rate[1] = -y[0];
-  return true;
-}
-
-OdeOptions event_options(OdeMethod method, double tolerance) {
-  OdeOptions o;
-  o.method = method;
-  o.relative_tolerance = o.absolute_tolerance = tolerance;
-  return o;
-}
 
 struct Impact {
   double t, speed;
@@ -55,7 +43,7 @@ TEST(OdeEvents, BouncingBallMeetsTheFloorEveryTime) {
   };
   const auto expected = impacts(g, 40);
   OdeWorkspace workspace;
-  for (const OdeMethod method : event_methods)
+  for (const OdeMethod method : ode_methods)
     // With output every 0.1 s, every 1 ms, and none.
     for (const int outputs : {0, 40, 4000}) {
       std::vector<double> times;
@@ -76,7 +64,7 @@ TEST(OdeEvents, BouncingBallMeetsTheFloorEveryTime) {
       };
       std::array y = {1.0, 0.0};
       // BDF and Adams need small steps to follow even a parabola.
-      const auto report = integrate(ball, y, 0, 10, event_options(method, 1e-12), hooks, workspace);
+      const auto report = integrate(ball, y, 0, 10, ode_options(method, 1e-12), hooks, workspace);
       EXPECT_EQ(report.status, Status::done) << report.message;
       EXPECT_EQ(report.end, OdeEnd::event) << name_of(method);
       EXPECT_EQ(report.event, 0u);
@@ -108,14 +96,14 @@ std::vector<double> crossings(OdeMethod method, OdeCrossing crossing, double lev
     return OdeAction::go_on;
   };
   std::array y = {std::cos(from), -std::sin(from)};
-  EXPECT_EQ(integrate(event_oscillator, y, from, to, event_options(method, 1e-11), hooks, workspace).status,
+  EXPECT_EQ(integrate(oscillator, y, from, to, ode_options(method, 1e-11), hooks, workspace).status,
             Status::done);
   return found;
 }
 
 TEST(OdeEvents, DirectionsAreThoseOfTheIntegration) {
   using ::testing::DoubleNear;
-  for (const OdeMethod method : event_methods) {
+  for (const OdeMethod method : ode_methods) {
     const auto at = [](double t) { return DoubleNear(t, 1e-8); };
     EXPECT_THAT(crossings(method, OdeCrossing::falling, 0, 10), ElementsAre(at(pi / 2), at(5 * pi / 2)));
     EXPECT_THAT(crossings(method, OdeCrossing::rising, 0, 10), ElementsAre(at(3 * pi / 2)));
@@ -128,7 +116,7 @@ TEST(OdeEvents, DirectionsAreThoseOfTheIntegration) {
 }
 
 TEST(OdeEvents, GrazingIsSeenBothWays) {
-  for (const OdeMethod method : event_methods)
+  for (const OdeMethod method : ode_methods)
     for (const double depth : {1e-1, 1e-3, 1e-5, 1e-7}) {
       // -cos t > 1 - depth within acos(1 - depth) of pi: both crossings within one step of the pair of
       // order 8.
@@ -145,7 +133,7 @@ TEST(OdeEvents, GrazingIsSeenBothWays) {
 
 TEST(OdeEvents, SimultaneousEventsComeTogether) {
   OdeWorkspace workspace;
-  for (const OdeMethod method : event_methods) {
+  for (const OdeMethod method : ode_methods) {
     const std::array<OdeEvent, 4> events = {};
     std::vector<std::vector<std::size_t>> found;
     OdeHooks hooks;
@@ -161,13 +149,13 @@ TEST(OdeEvents, SimultaneousEventsComeTogether) {
       return OdeAction::go_on;
     };
     std::array y = {1.0, -1e-3};  // so that the last one is not zero at the start
-    integrate(event_oscillator, y, 0, 2, event_options(method, 1e-10), hooks, workspace);
+    integrate(oscillator, y, 0, 2, ode_options(method, 1e-10), hooks, workspace);
     EXPECT_THAT(found, ElementsAre(ElementsAre(1u), ElementsAre(0u, 2u, 3u))) << name_of(method);
   }
 }
 
 TEST(OdeEvents, NothingHappensAtTheStart) {
-  for (const OdeMethod method : event_methods) {
+  for (const OdeMethod method : ode_methods) {
     // cos t - 1 starts at zero without slope, sin t with one.
     EXPECT_THAT(crossings(method, OdeCrossing::falling, 0, 1, -pi / 2), ::testing::IsEmpty());
     EXPECT_THAT(crossings(method, OdeCrossing::either, 0, pi, pi / 2), ::testing::IsEmpty());
@@ -179,7 +167,7 @@ TEST(OdeEvents, NothingHappensAtTheStart) {
 
 TEST(OdeEvents, TerminalEventsEnd) {
   OdeWorkspace workspace;
-  for (const OdeMethod method : event_methods) {
+  for (const OdeMethod method : ode_methods) {
     const std::array events = {OdeEvent{.terminal = false}, OdeEvent{.terminal = true}};
     OdeHooks hooks;
     hooks.events = events;
@@ -192,7 +180,7 @@ TEST(OdeEvents, TerminalEventsEnd) {
     hooks.output_times = outputs;
     hooks.output = [&](double t, Span) { return told.push_back(t), true; };
     std::array y = {1.0, 0.0};
-    const auto report = integrate(event_oscillator, y, 0, 10, event_options(method, 1e-10), hooks, workspace);
+    const auto report = integrate(oscillator, y, 0, 10, ode_options(method, 1e-10), hooks, workspace);
     EXPECT_EQ(report.status, Status::done);
     EXPECT_EQ(report.end, OdeEnd::event);
     EXPECT_EQ(report.event, 1u);
@@ -213,7 +201,7 @@ TEST(OdeEvents, MaxStepGuardsShortPulses) {
   hooks.event_values = [](double t, Span, std::span<double> values) {
     values[0] = std::abs(t - 3.21) < 0.01 ? -1 : 1;
   };
-  OdeOptions o = event_options(OdeMethod::explicit_runge_kutta_8, 1e-6);
+  OdeOptions o = ode_options(OdeMethod::explicit_runge_kutta_8, 1e-6);
   o.max_step = 0.1;
   std::array y = {1.0, 0.0};
   std::vector<double> found;
@@ -221,7 +209,7 @@ TEST(OdeEvents, MaxStepGuardsShortPulses) {
     found.push_back(t);
     return OdeAction::go_on;
   };
-  integrate(event_oscillator, y, 0, 10, o, hooks, workspace);
+  integrate(oscillator, y, 0, 10, o, hooks, workspace);
   EXPECT_THAT(found, ElementsAre(::testing::DoubleNear(3.2, 1e-11), ::testing::DoubleNear(3.22, 1e-11)));
 }
 
@@ -238,7 +226,7 @@ TEST(OdeEvents, AccumulatingImpactsDoNotHang) {
     y[1] *= -0.5;
     return OdeAction::restart;
   };
-  OdeOptions o = event_options(OdeMethod::explicit_runge_kutta_5, 1e-9);
+  OdeOptions o = ode_options(OdeMethod::explicit_runge_kutta_5, 1e-9);
   o.max_steps = 2000;
   std::array y = {1.0, 0.0};
   const auto fall = [](double, Span at, std::span<double> rate) {

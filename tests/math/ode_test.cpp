@@ -9,31 +9,18 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
+#include "math/oscillator.h"
 #include "support/published.h"
 
 namespace linkwright::math {
 namespace {
 
+using test::ode_methods;
+using test::ode_options;
+using test::oscillator;
+using test::oscillator_error;
 using ::testing::ElementsAre;
 using Span = std::span<const double>;
-
-constexpr std::array ode_methods = {OdeMethod::explicit_runge_kutta_5, OdeMethod::explicit_runge_kutta_8,
-                                    OdeMethod::adams, OdeMethod::bdf};
-
-bool ode_oscillator(double, Span y, std::span<double> rate) {
-  rate[0] = y[1];
-  rate[1] = -y[0];
-  return true;
-}
-
-double ode_oscillator_error(double t, Span y) { return std::hypot(y[0] - std::cos(t), y[1] + std::sin(t)); }
-
-OdeOptions ode_options(OdeMethod method, double tolerance) {
-  OdeOptions o;
-  o.method = method;
-  o.relative_tolerance = o.absolute_tolerance = tolerance;
-  return o;
-}
 
 TEST(Ode, EveryMethodFollowsTheTolerance) {
   OdeWorkspace workspace;
@@ -41,11 +28,11 @@ TEST(Ode, EveryMethodFollowsTheTolerance) {
     double previous = 1;
     for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
       std::array y = {1.0, 0.0};
-      const auto report = integrate(ode_oscillator, y, 0, 20, ode_options(method, tolerance), workspace);
+      const auto report = integrate(oscillator, y, 0, 20, ode_options(method, tolerance), workspace);
       EXPECT_EQ(report.status, Status::done) << name_of(method);
       EXPECT_EQ(report.t, 20);
       EXPECT_GT(report.evaluations, report.steps);
-      const double error = ode_oscillator_error(20, y);
+      const double error = oscillator_error(20, y);
       // Some tens (order 8) to thousands (BDF) of steps, each within the tolerance, on a circle that keeps
       // errors.
       EXPECT_LT(error, 1000 * tolerance) << name_of(method) << ' ' << tolerance;
@@ -65,9 +52,9 @@ TEST(Ode, RungeKuttaPairsHaveTheirOrders) {
       OdeOptions o = ode_options(method, 1e3);
       o.initial_step = o.max_step = i == 0 ? step : step / 2;
       std::array y = {1.0, 0.0};
-      const auto report = integrate(ode_oscillator, y, 0, 10, o, workspace);
+      const auto report = integrate(oscillator, y, 0, 10, o, workspace);
       EXPECT_NEAR(static_cast<double>(report.steps), 10 / o.max_step, 1);
-      errors[static_cast<std::size_t>(i)] = ode_oscillator_error(10, y);
+      errors[static_cast<std::size_t>(i)] = oscillator_error(10, y);
     }
     EXPECT_NEAR(std::log2(errors[0] / errors[1]), order, 0.3) << name_of(method) << ' ' << errors[0];
   }
@@ -96,11 +83,11 @@ TEST(Ode, KeepsTheEnergyOfAnOscillator) {
     worst = std::max(worst, std::abs(at[0] * at[0] + at[1] * at[1] - 1));
     return true;
   };
-  const auto report = integrate(ode_oscillator, y, 0, 200 * pi,
+  const auto report = integrate(oscillator, y, 0, 200 * pi,
                                 ode_options(OdeMethod::explicit_runge_kutta_8, 1e-11), hooks, workspace);
   EXPECT_EQ(report.status, Status::done);
   EXPECT_LT(worst, 1e-8);  // 100 turns of some 30 steps, each within 1e-11 and mostly in phase
-  EXPECT_LT(ode_oscillator_error(200 * pi, y), 1e-8);
+  EXPECT_LT(oscillator_error(200 * pi, y), 1e-8);
 }
 
 TEST(Ode, GoesBackTheWayItCame) {
@@ -113,12 +100,12 @@ TEST(Ode, GoesBackTheWayItCame) {
     hooks.output_times = outputs;
     hooks.output = [&](double t, Span at) {
       times.push_back(t);
-      EXPECT_LT(ode_oscillator_error(t, at), 2e-6) << name_of(method);
+      EXPECT_LT(oscillator_error(t, at), 2e-6) << name_of(method);
       return true;
     };
-    integrate(ode_oscillator, y, 0, 7, ode_options(method, 1e-9), workspace);
-    integrate(ode_oscillator, y, 7, -3, ode_options(method, 1e-9), hooks, workspace);
-    EXPECT_LT(ode_oscillator_error(-3, y), 2e-6) << name_of(method);
+    integrate(oscillator, y, 0, 7, ode_options(method, 1e-9), workspace);
+    integrate(oscillator, y, 7, -3, ode_options(method, 1e-9), hooks, workspace);
+    EXPECT_LT(oscillator_error(-3, y), 2e-6) << name_of(method);
     EXPECT_THAT(times, ElementsAre(5.0, 2.0, -3.0));
   }
 }
@@ -132,7 +119,7 @@ TEST(Ode, AnEmptyIntervalIsDone) {
     OdeHooks hooks;
     hooks.output_times = outputs;
     hooks.output = [&](double, Span) { return ++told, true; };
-    const auto report = integrate(ode_oscillator, y, 2, 2, ode_options(method, 1e-9), hooks, workspace);
+    const auto report = integrate(oscillator, y, 2, 2, ode_options(method, 1e-9), hooks, workspace);
     EXPECT_EQ(report.status, Status::done);
     EXPECT_EQ(report.end, OdeEnd::time);
     EXPECT_EQ(report.steps, 0);
@@ -153,16 +140,15 @@ TEST(Ode, OutputsAreAsAccurateAsSteps) {
       OdeHooks hooks;
       hooks.output_times = outputs;
       hooks.output = [&](double t, Span y) {
-        at_outputs = std::max(at_outputs, ode_oscillator_error(t, y));
+        at_outputs = std::max(at_outputs, oscillator_error(t, y));
         return true;
       };
       hooks.step = [&](double t, Span y) {
-        at_steps = std::max(at_steps, ode_oscillator_error(t, y));
+        at_steps = std::max(at_steps, oscillator_error(t, y));
         return true;
       };
       std::array y = {1.0, 0.0};
-      const auto report =
-          integrate(ode_oscillator, y, 0, 30, ode_options(method, tolerance), hooks, workspace);
+      const auto report = integrate(oscillator, y, 0, 30, ode_options(method, tolerance), hooks, workspace);
       EXPECT_EQ(report.status, Status::done);
       EXPECT_LT(at_outputs, 1.5 * at_steps + tolerance) << name_of(method) << ' ' << tolerance;
     }
@@ -181,7 +167,7 @@ TEST(Ode, StepsDoNotDependOnOutputs) {
         hooks.output = [](double, Span) { return true; };
       }
       ends[run] = {1.0, 0.0};
-      integrate(ode_oscillator, ends[run], 0, 10, ode_options(method, 1e-7), hooks, workspace);
+      integrate(oscillator, ends[run], 0, 10, ode_options(method, 1e-7), hooks, workspace);
     }
     EXPECT_EQ(ends[0], ends[1]) << name_of(method);
   }
@@ -194,22 +180,22 @@ TEST(Ode, HooksEndIt) {
   hooks.output_times = outputs;
   hooks.output = [](double t, Span) { return t < 2; };
   std::array y = {1.0, 0.0};
-  auto report = integrate(ode_oscillator, y, 0, 3, ode_options(OdeMethod::explicit_runge_kutta_8, 1e-9),
-                          hooks, workspace);
+  auto report =
+      integrate(oscillator, y, 0, 3, ode_options(OdeMethod::explicit_runge_kutta_8, 1e-9), hooks, workspace);
   EXPECT_EQ(report.status, Status::done);
   EXPECT_EQ(report.end, OdeEnd::hook);
   EXPECT_EQ(report.t, 2);
-  EXPECT_LT(ode_oscillator_error(2, y), 1e-7);
+  EXPECT_LT(oscillator_error(2, y), 1e-7);
 
   hooks = {};
   hooks.step = [](double t, Span) { return t < 1; };
   y = {1, 0};
-  report = integrate(ode_oscillator, y, 0, 3, ode_options(OdeMethod::explicit_runge_kutta_8, 1e-9), hooks,
-                     workspace);
+  report =
+      integrate(oscillator, y, 0, 3, ode_options(OdeMethod::explicit_runge_kutta_8, 1e-9), hooks, workspace);
   EXPECT_EQ(report.end, OdeEnd::hook);
   EXPECT_GE(report.t, 1);
   EXPECT_LT(report.t, 3);
-  EXPECT_LT(ode_oscillator_error(report.t, y), 1e-7);
+  EXPECT_LT(oscillator_error(report.t, y), 1e-7);
 }
 
 // IFToMM benchmark A01: a pendulum of 1 m, let go horizontally; the published data start at x = -1 m.

@@ -217,7 +217,10 @@ TEST(Combine, SaysWhatIsWrong) {
   EXPECT_THAT(weights({0, 0}), HasSubstr("all weights are 0"));
   EXPECT_THAT(message([] { largest(plain(), std::vector<double>{1}); }),
               HasSubstr("1 caps for 2 objectives"));
-  EXPECT_THAT(message([] { largest(plain(), std::vector<double>{1, NAN}); }), HasSubstr("cap 1: nan"));
+  EXPECT_THAT(message([] {
+                largest(plain(), std::vector<double>{1, NAN});
+              }),
+              HasSubstr("combine: cap 1: nan"));
 }
 
 }  // namespace

@@ -136,4 +136,12 @@ inline Problem binh_korn() {
   return problem;
 }
 
+/// Keys of the fields of options.
+template <class Options>
+std::vector<std::string> keys(Options options) {
+  std::vector<std::string> found;
+  fields([&](const Field& field, auto&) { found.emplace_back(field.key); }, options);
+  return found;
+}
+
 }  // namespace linkwright::optimise::test

@@ -16,11 +16,7 @@ namespace {
 using linkwright::test::message;
 using ::testing::HasSubstr;
 
-std::vector<std::string> keys(OptimiserOptions options) {
-  std::vector<std::string> found;
-  fields([&](const Field& field, auto&) { found.emplace_back(field.key); }, options);
-  return found;
-}
+std::vector<std::string> keys(const OptimiserOptions& options) { return test::keys(options); }
 
 TEST(Methods, NamesAreFullAndJdeIsAnAlias) {
   EXPECT_EQ(name_of(Method::differential_evolution), "differential_evolution");

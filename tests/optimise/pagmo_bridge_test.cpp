@@ -330,11 +330,7 @@ TEST(PagmoBridge, SaysWhatItCannotDo) {
 }
 
 TEST(PagmoBridge, FieldsAreThoseOfTheChosenMethod) {
-  const auto keys = [](PagmoOptions options) {
-    std::vector<std::string> found;
-    fields([&](const Field& field, auto&) { found.emplace_back(field.key); }, options);
-    return found;
-  };
+  const auto keys = [](const PagmoOptions& options) { return test::keys(options); };
   EXPECT_EQ(keys({.method = PagmoMethod::nsga2}),
             (std::vector<std::string>{"method", "population", "generations", "crossover", "crossover_index",
                                       "mutation", "mutation_index"}));

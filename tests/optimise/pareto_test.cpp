@@ -160,7 +160,7 @@ TEST(ParetoArchive, SaysWhatIsWrong) {
   const std::vector<double> one = {1}, two = {1, NAN};
   EXPECT_THAT(message([&] { archive.tell(one, one); }),
               HasSubstr("1 values for 1 variables, 1 costs for 2 objectives"));
-  EXPECT_THAT(message([&] { archive.tell(one, two); }), HasSubstr("cost 1: nan"));
+  EXPECT_THAT(message([&] { archive.tell(one, two); }), HasSubstr("tell: cost 1: nan"));
 }
 
 }  // namespace

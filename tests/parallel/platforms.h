@@ -3,6 +3,7 @@
 #include "linkwright/core/random.h"
 #include "linkwright/math/vector3.h"
 #include "linkwright/parallel/assembly_modes/platform_paths.h"
+#include "parallel/random_vector.h"
 
 /// Platforms on six legs for tests of their polynomials.
 namespace linkwright::parallel {
@@ -30,16 +31,13 @@ struct PlacedPlatform {
 inline PlacedPlatform placed_platform(std::uint32_t number) {
   using math::Vec3;
   RandomStream random({4713, number});
-  const auto vector = [&](double size) {
-    const double x = random.uniform(-size, size), y = random.uniform(-size, size);
-    return Vec3{x, y, random.uniform(-size, size)};
-  };
-  const Vec3 turn = vector(1), p = vector(1);
+  const Vec3 turn = random_vector(random, 1), p = random_vector(random, 1);
   const auto rotation = math::turn_about(turn);
   PlacedPlatform out;
   double first = 0;
   for (int i = 0; i < 6; ++i) {
-    const Vec3 a = i == 0 ? Vec3{} : vector(1), b = i == 0 ? Vec3{} : vector(0.5);
+    const Vec3 a = i == 0 ? Vec3{} : random_vector(random, 1),
+               b = i == 0 ? Vec3{} : random_vector(random, 0.5);
     const double base[] = {a.x, a.y, a.z}, platform[] = {b.x, b.y, b.z};
     for (int k = 0; k < 3; ++k) {
       out.legs.base[k].re[i] = base[k];

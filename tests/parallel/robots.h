@@ -72,6 +72,9 @@ inline Drives mirrored_drives() {
 inline const Value& computed(std::string_view id) {
   return test::at(test::published_case("pi-joint-parallel-robots.json", id), "computed");
 }
+inline double computed_number(std::string_view id, std::string_view key) {
+  return test::number_at(computed(id), key);
+}
 inline const Value& inputs(std::string_view id) {
   return test::at(test::published_case("pi-joint-parallel-robots.json", id), "inputs");
 }

@@ -26,23 +26,6 @@ inline study::Result run_text(const std::string& text, const std::filesystem::pa
   return linkwright::test::run_text(kinds(), text, folder);
 }
 
-/// The table of this name; a failure and an empty one if there is none.
-inline const Table& table(const study::Result& result, std::string_view name) {
-  for (const Table& t : result.tables)
-    if (t.name == name) return t;
-  ADD_FAILURE() << "no table " << name;
-  static const Table none;
-  return none;
-}
-/// A column of a table; a failure and an empty one if there is none.
-inline const std::vector<double>& column(const study::Result& result, std::string_view name,
-                                         std::string_view key) {
-  const Column* found = table(result, name).find(key);
-  EXPECT_NE(found, nullptr) << key;
-  static const std::vector<double> none;
-  return found ? found->values : none;
-}
-
 /// The example of a kind: "analysis/parallel.delta".
 inline const std::string& example(std::string_view name) {
   for (const study::Kind& kind : kinds())

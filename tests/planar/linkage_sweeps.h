@@ -184,7 +184,7 @@ inline double apart(const std::vector<PartState<double>>& a, const std::vector<P
 /// Sweeps one linkage over 12 rows, in an order of its own, and compares. `starts`: random starts at rows
 /// that have no place.
 inline void compare_sweep(const SweptLinkage& s, std::uint64_t number, int starts, SweepFindings& out) {
-  const PlanResult planned = plan(s.linkage);
+  const PlanResult planned = plan_linkage(s.linkage);
   const LinkagePlan& p = planned.plan;
   constexpr int rows = 12;
   const bool general = !p.closed_form();

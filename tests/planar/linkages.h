@@ -20,7 +20,7 @@ constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// The plan of a linkage that must have one.
 inline LinkagePlan planned(const Linkage& l, PlanRoute route = PlanRoute::along_groups) {
-  PlanResult r = plan(l, route);
+  PlanResult r = plan_linkage(l, route);
   for (const Diagnostic& d : r.problems) ADD_FAILURE() << to_string(d);
   return std::move(r.plan);
 }

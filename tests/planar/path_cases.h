@@ -1,8 +1,12 @@
 #pragma once
 
+#include <bit>
+#include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "linkwright/core/checkpoint.h"
 #include "linkwright/planar/path/problem.h"
 #include "support/published.h"
 
@@ -56,6 +60,41 @@ inline PathProblem printed_eighteen_points() {
   problem.step = number_at(path_case("T4.1-Boskovic2018"), "inputs.theta2_step_rad");
   set_bounds(problem, 0, 50, 50);
   return problem;
+}
+
+/// For comparisons of bits, not of values.
+inline std::vector<std::uint64_t> bits(const std::vector<double>& values) {
+  std::vector<std::uint64_t> out;
+  for (const double v : values) out.push_back(std::bit_cast<std::uint64_t>(v));
+  return out;
+}
+
+inline double sum_of_squares(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v * v;
+  return sum;
+}
+
+/// What restored() says about a seed's kept value after a change; "none" when it takes it.
+template <class Problem, class Change>
+std::string refusal(Value kept, const Problem& problem, Change&& change) {
+  change(kept);
+  try {
+    restored(kept, problem, "seed 3");
+  } catch (const CheckpointError& error) {
+    return error.what();
+  }
+  return "none";
+}
+/// The same with one number of its first design changed.
+template <class Problem>
+std::string refusal_of_number(const Value& kept, const Problem& problem, std::size_t index, double number) {
+  return refusal(kept, problem, [&](Value& v) {
+    Value& design = v["designs"].as_array()[0];
+    std::vector<double> numbers = unpack_numbers(design, "test");
+    numbers[index] = number;
+    design = pack_numbers(numbers);
+  });
 }
 
 }  // namespace linkwright::planar::test

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "linkwright/planar/studies.h"
@@ -26,6 +28,22 @@ inline std::string problems_of(const std::string& text, const std::filesystem::p
 }
 inline study::Result run_text(const std::string& text, const std::filesystem::path& folder = ".") {
   return linkwright::test::run_text(kinds(), text, folder);
+}
+
+/// A study of named parts in the order of their names, with some replaced or added.
+inline std::string text_of(std::map<std::string, std::string> parts,
+                           const std::map<std::string, std::string>& changed) {
+  for (const auto& [name, text] : changed) parts[name] = text;
+  std::string all;
+  for (const auto& [name, text] : parts) all += text;
+  return all;
+}
+
+/// Keys of all columns.
+inline std::vector<std::string> keys(const Table& table) {
+  std::vector<std::string> out;
+  for (const Column& column : table.columns) out.push_back(column.key);
+  return out;
 }
 
 }  // namespace linkwright::planar::test

@@ -20,7 +20,7 @@ TEST(Dxf, LayersCanBeLeftOut) {
   options.layers = {.ground = false, .links = true, .joints = false, .trace = false, .targets = false};
   const std::string text = dxf(result.scenes[0], options);
   const std::string entities = text.substr(text.find("ENTITIES"));
-  EXPECT_THAT(entities, HasSubstr("LINKS"));
+  EXPECT_THAT(entities, HasSubstr("POLYLINE\n  8\nLINKS\n"));
   for (const char* layer : {"GROUND", "JOINTS", "TRACE", "TARGETS"})
     EXPECT_THAT(entities, Not(HasSubstr(layer)));
 }
@@ -29,13 +29,13 @@ TEST(Dxf, MissingPointsAreLeftOutAndTracesBroken) {
   const auto result = test::sample_result();
   const std::string text = dxf(result.scenes[2]);
   EXPECT_THAT(text, Not(HasSubstr("nan")));
-  EXPECT_THAT(text, HasSubstr("TRACE"));
+  EXPECT_THAT(text, HasSubstr("POLYLINE\n  8\nTRACE\n"));
 }
 
 TEST(Dxf, NamesCannotAddLines) {
   auto result = test::sample_result();
   result.scenes[0].joints[0].name = "O\n  0\nEOF ö";
-  EXPECT_THAT(dxf(result.scenes[0]), HasSubstr("O?  0?EOF ??\n"));
+  EXPECT_THAT(dxf(result.scenes[0]), HasSubstr("\n  1\nO?  0?EOF ??\n"));
 }
 
 TEST(Dxf, SpringsGuidesAndCirclesAreDrawnAndArrowsAreNot) {
@@ -51,8 +51,7 @@ TEST(Dxf, SpringsGuidesAndCirclesAreDrawnAndArrowsAreNot) {
   scene.bodies[0].style = study::Scene::BodyStyle::guide;
   EXPECT_THAT(dxf(scene), HasSubstr("POLYLINE\n  8\nGROUND"));
   scene.circles = {{"wheel", 0, 1}};
-  EXPECT_THAT(dxf(scene), HasSubstr("CIRCLE\n  8\nLINKS"));
-  EXPECT_THAT(dxf(scene), HasSubstr(" 40\n250\n"));
+  EXPECT_THAT(dxf(scene), HasSubstr("CIRCLE\n  8\nLINKS\n 10\n0\n 20\n0\n 30\n0\n 40\n250\n"));
 }
 
 TEST(Dxf, SpatialScenesAreDrawnInSpace) {

@@ -18,6 +18,7 @@ namespace linkwright::report {
 namespace {
 
 using study::Plot;
+using test::count;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -41,12 +42,6 @@ std::vector<Rectangle> rectangles(const std::string& picture) {
     }
   }
   return out;
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
 }
 
 Plot plot() {
@@ -87,8 +82,8 @@ TEST(MapSvg, NeighboursOfOneClassAreOneRectangle) {
   EXPECT_NEAR(found[3].y, found[0].y - 2 * cell, 0.4);  // y upwards
   EXPECT_NEAR(found[4].x, found[0].x, 0.01);
   EXPECT_THAT(picture, HasSubstr(">no value</text>"));
-  EXPECT_THAT(picture, HasSubstr(">x (mm)</text>"));
-  EXPECT_THAT(picture, HasSubstr(">y (mm)</text>"));
+  EXPECT_THAT(picture, HasSubstr("text-anchor=\"middle\">x (mm)</text>"));
+  EXPECT_THAT(picture, HasSubstr("text-anchor=\"middle\">y (mm)</text>"));
   EXPECT_THAT(picture, HasSubstr(">transmission index</text>"));
   EXPECT_THAT(plot_svg(plot(), grid({0, 0, 0, 0, 1, 1, 1, 1})), Not(HasSubstr(">no value</text>")));
 }

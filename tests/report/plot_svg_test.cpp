@@ -17,14 +17,9 @@ namespace linkwright::report {
 namespace {
 
 using study::Plot;
+using test::count;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
 
 // A force that rotates fully a circle of 300 N about (100 N, 0), once.
 Table turning() {
@@ -67,7 +62,7 @@ TEST(PlotSvg, PolarDiagramsHaveEqualAxesAndTheirOrigin) {
   EXPECT_EQ(test::fault_of_xml(picture), "");
   EXPECT_THAT(picture, HasSubstr("class=\"origin\""));
   EXPECT_THAT(picture, HasSubstr(">O1, ground on crank</text>"));
-  EXPECT_THAT(picture, HasSubstr(">x (N)</text>"));
+  EXPECT_THAT(picture, HasSubstr("text-anchor=\"middle\" font-size=\"12\">x (N)</text>"));
   const auto points = corners(picture);
   ASSERT_EQ(points.size(), 37u);
   // A circle in the picture, too; coordinates are rounded to a tenth of a pixel.
@@ -100,7 +95,7 @@ TEST(PlotSvg, LogarithmicAxesCountDecades) {
   const auto points = corners(picture);
   ASSERT_EQ(points.size(), 3u);  // 0 has no logarithm
   EXPECT_NEAR(points[0].second - points[1].second, points[1].second - points[2].second, 0.15);
-  EXPECT_THAT(picture, HasSubstr(">10000</text>"));
+  EXPECT_THAT(picture, HasSubstr("text-anchor=\"end\">10000</text>"));
 }
 
 // Costs of problems that are solved exactly: squares of rounding errors.
@@ -136,10 +131,13 @@ TEST(PlotSvg, AnglesAndShortLengthsAreShownAsInTheViewer) {
   const std::string two = plot_svg(plot(Plot::Style::line, {"lag_rad", "crank_angle_rad"}), table);
   for (const char* text : {">(°)</text>", ">lag (°)</text>", ">-100</text>"})
     EXPECT_THAT(two, HasSubstr(text));
-  EXPECT_THAT(plot_svg(plot(Plot::Style::histogram, {"lag_rad"}), table), HasSubstr(">lag (°)</text>"));
-  EXPECT_THAT(plot_svg(plot(Plot::Style::polar, {"way_m", "way_m"}), table), HasSubstr(">x (mm)</text>"));
+  EXPECT_THAT(plot_svg(plot(Plot::Style::histogram, {"lag_rad"}), table),
+              HasSubstr("text-anchor=\"middle\" font-size=\"12\">lag (°)</text>"));
+  EXPECT_THAT(plot_svg(plot(Plot::Style::polar, {"way_m", "way_m"}), table),
+              HasSubstr("text-anchor=\"middle\" font-size=\"12\">x (mm)</text>"));
   table.add("share_x", "share x", way);
-  EXPECT_THAT(plot_svg(plot(Plot::Style::polar, {"share_x", "share_x"}), table), HasSubstr(">x</text>"));
+  EXPECT_THAT(plot_svg(plot(Plot::Style::polar, {"share_x", "share_x"}), table),
+              HasSubstr("text-anchor=\"middle\" font-size=\"12\">x</text>"));
 }
 
 TEST(PlotSvg, CurvesWithALegendDifferInColourOrDash) {
@@ -238,7 +236,7 @@ TEST(PlotSvg, GroupsAreOneCurveEach) {
   ASSERT_NE(first, std::string::npos);
   ASSERT_NE(second, std::string::npos);
   EXPECT_LT(first, second);
-  EXPECT_THAT(picture, HasSubstr(">toe (°)</text>"));
+  EXPECT_THAT(picture, HasSubstr("text-anchor=\"middle\" font-size=\"12\">toe (°)</text>"));
   study::Plot two = grouped();
   two.y.push_back("low_deg");
   EXPECT_THAT(plot_svg(two, grid()), HasSubstr(">toe (°), rack -30 mm</text>"));
@@ -278,7 +276,7 @@ TEST(PlotSvg, BandsAndBaselinesLieBehind) {
   EXPECT_LT(picture.find("class=\"baseline\""), picture.find("class=\"curve\""));
   // The axis reaches to the baseline; the last row of the band has no upper edge, so that it has two corners
   // on each side.
-  EXPECT_THAT(picture, HasSubstr(">20</text>"));
+  EXPECT_THAT(picture, HasSubstr("text-anchor=\"end\">20</text>"));
   const std::size_t at = picture.find("class=\"band\" d=\"");
   const std::string path = picture.substr(at, picture.find('Z', at) - at);
   EXPECT_EQ(count(path, "L"), 3u);

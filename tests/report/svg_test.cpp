@@ -12,14 +12,9 @@
 namespace linkwright::report {
 namespace {
 
+using test::count;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
 
 TEST(Svg, DrawsEveryPartOfTheScene) {
   const auto result = test::sample_result();
@@ -71,7 +66,7 @@ TEST(Svg, DrawsForcesWithTheirScale) {
   // The arrow and the one of the key.
   EXPECT_EQ(count(picture, "class=\"arrow force\""), 2u);
   EXPECT_THAT(picture, HasSubstr("<title>push: 500 N</title>"));
-  EXPECT_THAT(picture, HasSubstr(">F1</text>"));
+  EXPECT_THAT(picture, HasSubstr("text-anchor=\"start\">F1</text>"));
   EXPECT_THAT(picture, HasSubstr(">force 500 N</text>"));
   EXPECT_THAT(picture, HasSubstr("<title>drive torque: 2 N m</title>"));
   EXPECT_THAT(picture, HasSubstr(">full arc 2 N m</text>"));
@@ -148,7 +143,7 @@ TEST(Svg, SpatialNumbersGrowToTheLeft) {
   ASSERT_NE(near, std::string::npos);
   ASSERT_NE(far, std::string::npos);
   EXPECT_LT(far, near);  // written from left to right
-  EXPECT_THAT(picture, HasSubstr(">y (mm)</text>"));
+  EXPECT_THAT(picture, HasSubstr("text-anchor=\"end\">y (mm)</text>"));
 }
 
 TEST(Svg, SecondInputsAreDrawnWithTheirSample) {

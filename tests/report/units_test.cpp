@@ -32,7 +32,7 @@ TEST(Units, EveryUnitOfKeysIsShown) {
   EXPECT_EQ(display_unit("inertia_kg_mm2").symbol, "kg mm²");
   EXPECT_EQ(display_unit("strokes_per_min").symbol, "1/min");
   EXPECT_EQ(display_unit("wear_um").symbol, "µm");
-  for (const Dimension dimension : dimensions())
+  for (const Dimension dimension : all_dimensions())
     for (const Unit& unit : units(dimension))
       EXPECT_FALSE(display_unit("a_" + std::string(unit.suffix)).symbol.empty()) << unit.suffix;
 }

@@ -36,4 +36,11 @@ inline std::string fault_of_xml(const std::string& text) {
   return open.empty() ? "" : "never closed: " + open.back();
 }
 
+/// How often a part stands in a text.
+inline std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
 }  // namespace linkwright::report::test

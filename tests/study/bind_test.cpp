@@ -6,6 +6,7 @@
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/read.h"
+#include "support/message.h"
 
 namespace linkwright::study {
 namespace bind_sample {
@@ -113,7 +114,7 @@ Reading read_sample(std::string_view text, Syntax syntax = Syntax::toml) {
   DocumentReader reader(document, "s.toml", diagnostics);
   reader.root().read(reading.sample);
   reader.finish();
-  for (const Diagnostic& d : diagnostics) reading.messages += to_string(d) + "\n";
+  reading.messages = test::lines_of(diagnostics);
   return reading;
 }
 
@@ -328,9 +329,7 @@ std::string read_and_refer(std::string_view text, bool with_schema = true) {
     all.property(Field{.key = "limit", .summary = {}}, std::move(limits).finish());
     return std::move(all).finish();
   });
-  std::string out;
-  for (const Diagnostic& d : diagnostics) out += to_string(d) + "\n";
-  return out;
+  return test::lines_of(diagnostics);
 }
 
 TEST(Bind, OneMistakeGivesOneMessage) {
@@ -359,8 +358,7 @@ TEST(Bind, PathsHaveNoEmptyKeys) {
   root.table("a")->error("", "is of no use");
   root.error("", "nothing is asked for");
   reader.finish();
-  std::string out;
-  for (const Diagnostic& d : diagnostics) out += to_string(d) + "\n";
+  const std::string out = test::lines_of(diagnostics);
   EXPECT_THAT(out, HasSubstr("error: a: is of no use"));
   EXPECT_THAT(out, HasSubstr("error: nothing is asked for"));
   EXPECT_THAT(out, HasSubstr("error: '': unknown key"));

@@ -6,6 +6,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/study/read.h"
+#include "support/message.h"
 
 namespace linkwright::study {
 namespace {
@@ -123,9 +124,7 @@ TEST(Checks, ReadingRefusesLimitsThatDoNotFit) {
     ObjectReader root = reader.root();
     read_checks(root);
     reader.finish();
-    std::string all;
-    for (const Diagnostic& d : diagnostics) all += to_string(d) + "\n";
-    return all;
+    return test::lines_of(diagnostics);
   };
   EXPECT_EQ(messages("[[check]]\nquantity = 'a.b'\nat_most = 1\nat = { travel_mm = 50.0 }\n"), "");
   EXPECT_THAT(messages("[[check]]\nquantity = 'a.b'\n"),

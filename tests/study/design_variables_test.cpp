@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "linkwright/study/read.h"
+#include "support/message.h"
 
 namespace linkwright::study {
 namespace {
@@ -25,7 +26,7 @@ Taken take(const std::string& text) {
   ObjectReader root = reader.root();
   out.designed = take_designed(root, keys);
   reader.finish();
-  for (const Diagnostic& d : diagnostics) out.messages += to_string(d) + "\n";
+  out.messages = test::lines_of(diagnostics);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
+#include "support/message.h"
 
 namespace linkwright::study {
 namespace {
@@ -76,9 +77,7 @@ std::string read(std::string_view text, OutputUnits& units) {
   DocumentReader reader(value, "s.toml", diagnostics);
   reader.root()(Field{.key = "units", .summary = {}}, units);
   reader.finish();
-  std::string out;
-  for (const Diagnostic& d : diagnostics) out += to_string(d) + "\n";
-  return out;
+  return test::lines_of(diagnostics);
 }
 
 TEST(OutputUnits, ReadsWordsAndLists) {

@@ -9,6 +9,7 @@
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/read.h"
+#include "support/message.h"
 
 namespace linkwright::study {
 namespace {
@@ -39,7 +40,7 @@ Entry read(const std::string& text, std::string& messages) {
   Entry entry;
   reader.root().read(entry);
   reader.finish();
-  for (const Diagnostic& d : diagnostics) messages += to_string(d) + "\n";
+  messages += test::lines_of(diagnostics);
   return entry;
 }
 

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <string>
 
+#include "support/message.h"
+
 namespace linkwright::study {
 namespace {
 namespace fs = std::filesystem;
@@ -16,9 +18,7 @@ std::string messages(std::string_view text, Syntax syntax = Syntax::toml) {
   Diagnostics diagnostics;
   const Value value = read_text(text, syntax, "s.toml", diagnostics);
   EXPECT_EQ(value.is_null(), has_errors(diagnostics));
-  std::string all;
-  for (const Diagnostic& d : diagnostics) all += to_string(d) + "\n";
-  return all;
+  return test::lines_of(diagnostics);
 }
 
 Value read_good(std::string_view text, Syntax syntax) {

@@ -7,6 +7,7 @@
 #include "linkwright/core/memory.h"
 #include "linkwright/study/read.h"
 #include "linkwright/study/write.h"
+#include "support/message.h"
 #include "tests/study/sample_kind.h"
 
 namespace linkwright::study {
@@ -24,7 +25,7 @@ struct Prepare {
   explicit Prepare(std::string_view text) {
     const Value document = read_text(text, Syntax::toml, "s.toml", diagnostics);
     study = prepare(document, "s.toml", ".", kinds, diagnostics);
-    for (const Diagnostic& d : diagnostics) messages += to_string(d) + "\n";
+    messages = test::lines_of(diagnostics);
     EXPECT_EQ(study.has_value(), !has_errors(diagnostics)) << messages;
   }
 };

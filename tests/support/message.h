@@ -3,6 +3,7 @@
 #include <string>
 
 #include "linkwright/core/check.h"
+#include "linkwright/core/diagnostic.h"
 
 namespace linkwright::test {
 
@@ -15,6 +16,13 @@ std::string message(Call&& call) {
     return error.what();
   }
   return "no error";
+}
+
+/// Diagnostics as a user sees them, one a line.
+inline std::string lines_of(const Diagnostics& diagnostics) {
+  std::string out;
+  for (const Diagnostic& d : diagnostics) out += to_string(d) + "\n";
+  return out;
 }
 
 }  // namespace linkwright::test

@@ -9,6 +9,7 @@
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/table.h"
 #include "support/memory_checkpoint.h"
+#include "support/message.h"
 #include "support/study_text.h"
 
 // Studies that go on from a checkpoint.
@@ -33,8 +34,7 @@ inline std::string all_of(const study::Result& r) {
       for (const std::string& word : *words) out += word + " ";
   }
   for (const study::Change& c : r.changes) out += c.label + " ", number(c.before), number(c.after);
-  for (const Diagnostic& d : r.diagnostics) out += to_string(d) + "\n";
-  return out;
+  return out + lines_of(r.diagnostics);
 }
 
 /// Runs a study that keeps its seeds "seed 1", ..., "seed N"; then again from all that it has kept, and from

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "linkwright/suspension/guide/position.h"
 #include "linkwright/suspension/guide/suspension.h"
 #include "support/published.h"
 
@@ -48,6 +49,12 @@ inline WheelGuide guide_from(const Value& mechanism) {
                   to == "carrier" ? -1 : std::stoi(to.substr(5))};
   }
   return out;
+}
+
+/// The position at a travel, continued from the reference.
+inline GuidePosition solve(const GuidePlan& plan, double travel, double rack = 0,
+                           Driver driver = Driver::wheel_centre_z) {
+  return solve_position(plan, driver, {travel, rack}, reference_position(plan));
 }
 
 inline double distance(const Vec3& a, const Vec3& b) { return norm(a - b); }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -31,13 +33,6 @@ inline study::Result run_text(const std::string& text, const std::filesystem::pa
   return linkwright::test::run_text(kinds(), text, folder);
 }
 
-/// The table of this name; a failure and the first one if there is none.
-inline const Table& table(const study::Result& result, std::string_view name) {
-  for (const Table& t : result.tables)
-    if (t.name == name) return t;
-  ADD_FAILURE() << "no table " << name;
-  return result.tables.front();
-}
 /// A value of a table by the name of its row; NaN and a failure if there is none.
 inline double named(const Table& table, std::string_view row, std::string_view column) {
   const Column* found = table.find(column);
@@ -45,13 +40,6 @@ inline double named(const Table& table, std::string_view row, std::string_view c
     if (table.names[i] == row) return found->values.at(i);
   ADD_FAILURE() << row << ", " << column;
   return std::nan("");
-}
-/// A column of the first table; none and a failure if it is not there.
-inline const std::vector<double>& column(const study::Result& result, std::string_view key) {
-  const Column* found = result.tables.at(0).find(key);
-  EXPECT_NE(found, nullptr) << key;
-  static const std::vector<double> none;
-  return found ? found->values : none;
 }
 
 /// The beginning of a study of a wheel suspension, one of a sample, and sweeps to go on with.
@@ -62,6 +50,9 @@ inline std::string sample(const std::string& name, const std::string& rest) {
 }
 inline const std::string sweep = "[sweep.travel]\nfrom_mm = -80\nto_mm = 80\nstep_mm = 40\n";
 inline const std::string racks = "[sweep.rack]\nvalues_mm = [-30, 0, 30]\n";
+
+/// A point as study files write it.
+inline std::string written(const Vec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); }
 
 /// The example of the kind with this target.
 inline const std::string& example(std::string_view target) {

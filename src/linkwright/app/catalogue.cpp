@@ -4,6 +4,7 @@
 
 #include <initializer_list>
 #include <iterator>
+#include <string>
 #include <utility>
 
 #include "linkwright/clearance/reproductions.h"

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/app/sha256.h"

@@ -1,5 +1,7 @@
 #include "linkwright/app/result_schema.h"
 
+#include <string_view>
+
 #include "linkwright/core/check.h"
 #include "linkwright/core/status.h"
 #include "linkwright/study/answer.h"

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/app/overrides.h"

@@ -211,7 +211,7 @@ ClearedLinkage with_clearance(const Linkage& linkage, std::span<const JointClear
                               std::span<const double> inputs) {
   require_free_pins(linkage, clearances);
   ClearedLinkage out;
-  const planar::PlanResult ideal = planar::plan(linkage);
+  const planar::PlanResult ideal = planar::plan_linkage(linkage);
   if (!ideal.problems.empty()) {
     out.status = Status::infeasible;
     out.message = ideal.problems.front().message;
@@ -263,7 +263,7 @@ ClearedLinkage with_clearance(const Linkage& linkage, std::span<const JointClear
           {.name = pin.name + " clearance", .first = 0, .second = bar.body, .damping = c.damping});
     out.bars.push_back(bar);
   }
-  planar::PlanResult planned = planar::plan(l);
+  planar::PlanResult planned = planar::plan_linkage(l);
   if (!planned.problems.empty()) {
     out.status = Status::infeasible;
     out.message = planned.problems.front().message;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <variant>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"

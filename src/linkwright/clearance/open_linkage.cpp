@@ -116,7 +116,7 @@ std::optional<LinkagePlan> choose_drives(Linkage& l, int count, std::string& pro
     l.driven = before;
     for (std::size_t k = 0; k < candidates.size(); ++k)
       if (chosen[k]) l.driven.push_back(candidates[k]);
-    planar::PlanResult result = planar::plan(l);
+    planar::PlanResult result = planar::plan_linkage(l);
     if (!result.problems.empty()) problem = result.problems.front().message;
     if (result.problems.empty()) {
       int score = 0;
@@ -154,7 +154,7 @@ OpenLinkage open_linkage(const Linkage& linkage, std::span<const int> joints,
   LINKWRIGHT_REQUIRE(inputs.size() == linkage.driven.size(), "the linkage has {} inputs, got {}",
                      linkage.driven.size(), inputs.size());
   OpenLinkage out;
-  const planar::PlanResult whole = planar::plan(linkage);
+  const planar::PlanResult whole = planar::plan_linkage(linkage);
   if (!whole.problems.empty()) {
     out.status = Status::infeasible;
     out.message = whole.problems.front().message;

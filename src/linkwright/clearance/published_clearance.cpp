@@ -1,6 +1,8 @@
 #include "linkwright/clearance/published_clearance.h"
 
 #include <cmath>
+#include <complex>
+#include <span>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"

@@ -1,6 +1,7 @@
 #include "linkwright/clearance/reproductions.h"
 
 #include <cmath>
+#include <string>
 
 #include "linkwright/clearance/published_clearance.h"
 #include "linkwright/core/numbers.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
@@ -84,7 +85,7 @@ class Solver {
   Solver(const Linkage& l, const ToleranceOutputs& o, std::span<const InputMotion> samples,
          std::span<const double> times, const RunContext* context)
       : outputs_(o), samples_(samples), times_(times), forces_wanted_(!o.forces.empty() || o.drives) {
-    planar::PlanResult result = planar::plan(l);
+    planar::PlanResult result = planar::plan_linkage(l);
     LINKWRIGHT_REQUIRE(result.problems.empty(), "the linkage cannot be planned: {}",
                        result.problems.front().message);
     plan_ = std::move(result.plan);
@@ -123,7 +124,7 @@ class Solver {
   std::vector<std::vector<double>> of(const Linkage& l, std::size_t first, std::size_t last,
                                       const RunContext* context = nullptr) const {
     constexpr std::size_t between_looks = 64;
-    const planar::PlanResult other = planar::plan(l);
+    const planar::PlanResult other = planar::plan_linkage(l);
     std::vector<std::vector<double>> out(last - first);
     if (!other.problems.empty()) return out;
     LinkageMotion motion(other.plan);

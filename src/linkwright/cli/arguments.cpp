@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <sstream>
+#include <string_view>
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/core/diagnostic.h"

@@ -12,6 +12,9 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/app/catalogue.h"
 #include "linkwright/app/checkpoint_file.h"

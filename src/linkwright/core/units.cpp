@@ -69,7 +69,7 @@ static_assert([] {
 
 }  // namespace
 
-std::span<const Dimension> dimensions() { return with_units; }
+std::span<const Dimension> all_dimensions() { return with_units; }
 
 std::span<const Unit> units(Dimension dimension) {
   const std::span<const Unit> all = row_of(dimension).units;
@@ -91,7 +91,7 @@ std::string si_key(std::string_view base, Dimension dimension) {
 
 std::optional<UnitKey> split_unit(std::string_view key) {
   std::optional<UnitKey> longest;
-  for (const Dimension dimension : dimensions()) {
+  for (const Dimension dimension : all_dimensions()) {
     for (const Unit& unit : units(dimension)) {
       const std::size_t n = unit.suffix.size();
       if (key.size() < n + 2 || !key.ends_with(unit.suffix) || key[key.size() - n - 1] != '_') continue;

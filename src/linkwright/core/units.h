@@ -21,7 +21,7 @@ struct Unit {
 };
 
 /// All dimensions but Dimension::none.
-std::span<const Dimension> dimensions();
+std::span<const Dimension> all_dimensions();
 
 /// The units that keys of a dimension may carry, the SI unit first; empty for Dimension::none.
 std::span<const Unit> units(Dimension dimension);

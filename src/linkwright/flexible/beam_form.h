@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "linkwright/core/field.h"
 #include "linkwright/flexible/beam.h"
 

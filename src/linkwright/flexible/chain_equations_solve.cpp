@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/flexible/modes.h"

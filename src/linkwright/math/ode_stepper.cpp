@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <new>
+#include <string_view>
 
 #include "linkwright/math/detail/ode_pairs.h"
 #include "linkwright/math/detail/ode_vectors.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/detail/differential_evolution_base.h"

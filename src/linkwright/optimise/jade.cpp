@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 #include "linkwright/core/random.h"
 #include "linkwright/optimise/detail/differential_evolution_base.h"

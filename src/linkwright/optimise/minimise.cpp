@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <string_view>
 
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/interruption.h"

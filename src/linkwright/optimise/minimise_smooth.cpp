@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/checkpoint.h"

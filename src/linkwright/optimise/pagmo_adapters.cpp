@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <pagmo/population.hpp>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>

@@ -14,6 +14,7 @@
 #include <pagmo/population.hpp>
 #include <pagmo/problem.hpp>
 #include <pagmo/utils/hypervolume.hpp>
+#include <string_view>
 #include <utility>
 
 #include "linkwright/core/checkpoint.h"

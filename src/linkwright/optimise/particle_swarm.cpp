@@ -1,6 +1,7 @@
 #include "linkwright/optimise/particle_swarm.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "linkwright/core/random.h"
 

@@ -1,6 +1,7 @@
 #include "linkwright/optimise/self_adaptive_differential_evolution.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "linkwright/optimise/detail/differential_evolution_base.h"
 

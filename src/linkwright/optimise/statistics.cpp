@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <string>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"

@@ -1,3 +1,5 @@
+#include <span>
+
 #include "linkwright/core/check.h"
 #include "linkwright/optimise/nlopt_bridge.h"
 

@@ -1,3 +1,6 @@
+#include <span>
+#include <string>
+
 #include "linkwright/core/check.h"
 #include "linkwright/optimise/cma_es.h"
 #include "linkwright/optimise/pagmo_bridge.h"

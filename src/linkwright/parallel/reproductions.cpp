@@ -1,6 +1,7 @@
 #include "linkwright/parallel/reproductions.h"
 
 #include <cmath>
+#include <string>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"

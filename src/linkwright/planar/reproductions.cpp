@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/optimise/minimise.h"

@@ -1,6 +1,7 @@
 #include "linkwright/report/html.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "linkwright/report/markup.h"
 #include "linkwright/report/static_page.h"

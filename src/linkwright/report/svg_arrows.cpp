@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/report/detail/canvas.h"

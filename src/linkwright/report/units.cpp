@@ -28,7 +28,7 @@ std::string symbol_of(std::string_view suffix) {
 std::vector<SuffixUnit> all_suffixes() {
   // Quantities of results that no key of a study has.
   std::vector<SuffixUnit> out{{"_m3", 1, "m³"}, {"_rad_per_m2", degree, "°/m²"}};
-  for (const Dimension dimension : dimensions()) {
+  for (const Dimension dimension : all_dimensions()) {
     const bool in_degrees = dimension == Dimension::angle || dimension == Dimension::angle_by_length;
     for (const Unit& unit : units(dimension)) {
       const bool radians = in_degrees && unit.suffix.starts_with("rad");

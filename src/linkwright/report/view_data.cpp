@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "linkwright/core/status.h"
 #include "linkwright/report/arrows.h"

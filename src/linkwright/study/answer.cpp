@@ -105,7 +105,7 @@ std::optional<FactValue> value_of(const Fact& fact) {
   if (unit.front() != ' ' || unit.size() < 2) return std::nullopt;
   unit.erase(0, 1);
   if (unit == "%") return FactValue{value, unit};
-  for (const Dimension dimension : dimensions())
+  for (const Dimension dimension : all_dimensions())
     for (const Unit& known : units(dimension))
       if (readable_unit(known.suffix) == unit) return FactValue{value, unit};
   return std::nullopt;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "linkwright/core/check.h"
 #include "linkwright/study/bind_schema.h"
@@ -41,14 +42,14 @@ void count(const Value& value, std::vector<Count>& counts) {
 /// Every unit suffix that a list may name.
 std::vector<std::string_view> all_suffixes() {
   std::vector<std::string_view> all;
-  for (const Dimension dimension : dimensions())
+  for (const Dimension dimension : all_dimensions())
     for (const Unit& unit : units(dimension))
       if (std::find(all.begin(), all.end(), unit.suffix) == all.end()) all.push_back(unit.suffix);
   return all;
 }
 
 std::optional<UnitKey> unit_called(std::string_view suffix) {
-  for (const Dimension dimension : dimensions())
+  for (const Dimension dimension : all_dimensions())
     if (const Unit* unit = find_unit(dimension, suffix)) return UnitKey{{}, unit, dimension};
   return std::nullopt;
 }

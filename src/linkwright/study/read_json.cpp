@@ -2,7 +2,10 @@
 
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
 #include <unordered_set>
+#include <vector>
 
 #include "linkwright/study/read_syntax.h"
 

@@ -7,6 +7,8 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 
 #include "linkwright/study/read_syntax.h"
 

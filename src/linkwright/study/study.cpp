@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/interruption.h"

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
@@ -39,8 +42,8 @@ std::array<double, 5> found_at(const GuidePlan& plan, const PublishedPosition& r
 
 // Every number of the table of positions.
 void add_positions(study::Comparisons& rows, const PublishedGuide& published) {
-  const GuidePlan plan = prepare(guide_sample(published.sample).guide);
-  const GuidePlan as_printed = published.example == 2 ? prepare(strut_as_printed()) : plan;
+  const GuidePlan plan = prepare_guide(guide_sample(published.sample).guide);
+  const GuidePlan as_printed = published.example == 2 ? prepare_guide(strut_as_printed()) : plan;
   for (std::size_t i = 0; i < published.positions.size(); ++i) {
     const PublishedPosition& row = published.positions[i];
     const std::array printed{row.x, row.y, row.toe, row.camber, row.carrier_pitch};

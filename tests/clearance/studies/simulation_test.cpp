@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "clearance/studies.h"
@@ -16,29 +14,21 @@
 namespace linkwright::clearance {
 namespace {
 
+using test::column;
+using test::example_text;
 using test::fact;
+using test::largest;
+using test::lines_of;
 using test::prepare;
 using test::problems_of;
 using test::replaced;
 using test::run_text;
 using test::table;
-using test::values;
 using ::testing::AllOf;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-std::string messages(const study::Result& r) {
-  std::string out;
-  for (const Diagnostic& d : r.diagnostics) out += to_string(d) + "\n";
-  return out;
-}
-double largest(const std::vector<double>& v) {
-  double out = 0;
-  for (const double x : v) out = std::max(out, std::abs(x));
-  return out;
-}
 
 std::string slider_crank() { return clearance_kind().example; }
 // One turn in place of three, without friction: the reference figures are those of the first contacts.
@@ -49,37 +39,28 @@ std::string one_turn() {
       "friction       = 0.03", "");
 }
 
-// Text of an example: the two designs of Varedi et al. 2014 in continuous contact.
-std::string example(const std::string& name) {
-  std::ifstream file(LINKWRIGHT_SOURCE_DIR "/examples/studies/" + name + ".toml");
-  std::ostringstream text;
-  text << file.rdbuf();
-  EXPECT_FALSE(text.str().empty()) << name;
-  return text.str();
-}
-
 TEST(ClearanceStudy, ReportsContactsMotionAndTheEnergyAudit) {
   const study::Result r = run_text(one_turn());
   ASSERT_EQ(r.status, Status::done) << r.headline;
   for (const char* key : {"time_s", "O_angle_rad", "rod_angle_rad", "slider_B_x_m", "slider_B_ideal_x_m",
                           "guide_displacement_m", "A_N", "B_N", "O_drive_torque_N_m", "energy_drift_J"})
-    EXPECT_EQ(values(r, "motion", key).size(), 1201u) << key;
+    EXPECT_EQ(column(r, "motion", key).size(), 1201u) << key;
   for (const char* key : {"B_eccentricity_x_m", "B_depth_m", "B_contact_N", "B_friction_N", "B_touches"})
-    EXPECT_EQ(values(r, "pins", key).size(), 1201u) << key;
+    EXPECT_EQ(column(r, "pins", key).size(), 1201u) << key;
   EXPECT_THAT(table(r, "motion").status, Each("done"));
   // The published first contacts (five digits, the motion is chaotic later).
-  const std::vector<double>& start = values(r, "contacts", "start_s");
+  const std::vector<double>& start = column(r, "contacts", "start_s");
   ASSERT_GE(start.size(), 3u);
   EXPECT_NEAR(start[0], 2.2728603e-4, 2e-9);
   EXPECT_NEAR(start[1], 6.3705643e-4, 6e-9);
-  EXPECT_NEAR(values(r, "contacts", "approach_m_per_s")[0], 4.3857831, 4e-5);
-  EXPECT_NEAR(values(r, "contacts", "force_N")[0], 45872.2, 0.5);
+  EXPECT_NEAR(column(r, "contacts", "approach_m_per_s")[0], 4.3857831, 4e-5);
+  EXPECT_NEAR(column(r, "contacts", "force_N")[0], 45872.2, 0.5);
   EXPECT_EQ(table(r, "contacts").names[0], "B");
   // No more displacement than clearance and depth.
-  const std::vector<double>&x = values(r, "pins", "B_eccentricity_x_m"),
-        &y = values(r, "pins", "B_eccentricity_y_m"), &depth = values(r, "pins", "B_depth_m");
+  const std::vector<double>&x = column(r, "pins", "B_eccentricity_x_m"),
+        &y = column(r, "pins", "B_eccentricity_y_m"), &depth = column(r, "pins", "B_depth_m");
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(std::hypot(x[i], y[i]), 5e-4 + depth[i], 1e-12) << i;
-  EXPECT_LT(largest(values(r, "motion", "slider_B_place_error_m")), 6.5e-4);
+  EXPECT_LT(largest(column(r, "motion", "slider_B_place_error_m")), 6.5e-4);
   EXPECT_THAT(fact(r, "contacts of B"), HasSubstr("of the time in contact"));
   EXPECT_THAT(fact(r, "energy balance"), HasSubstr("of the peak energy"));
   EXPECT_THAT(r.diagnostics, IsEmpty());
@@ -92,22 +73,22 @@ TEST(ClearanceStudy, ReportsContactsMotionAndTheEnergyAudit) {
 // work.
 TEST(ClearanceStudy, ForcesAreThoseOfTheContact) {
   const study::Result r = run_text(one_turn());
-  const std::vector<double>&force = values(r, "motion", "B_x_N"),
-        &acceleration = values(r, "motion", "slider_B_acceleration_x_m_per_s2"),
-        &size = values(r, "motion", "B_N"), &contact = values(r, "pins", "B_contact_N");
+  const std::vector<double>&force = column(r, "motion", "B_x_N"),
+        &acceleration = column(r, "motion", "slider_B_acceleration_x_m_per_s2"),
+        &size = column(r, "motion", "B_N"), &contact = column(r, "pins", "B_contact_N");
   for (std::size_t i = 0; i < force.size(); ++i) {
     EXPECT_NEAR(force[i], 0.14 * acceleration[i], 1e-9 * (1 + std::abs(force[i]))) << i;
     EXPECT_NEAR(size[i], contact[i], 1e-9 * (1 + contact[i])) << i;
   }
   const study::Result rubbing =
       run_text(replaced(one_turn(), "poisson        = 0.3", "poisson = 0.3\nfriction = 0.03"));
-  EXPECT_GT(largest(values(rubbing, "pins", "B_friction_N")), 1);
+  EXPECT_GT(largest(column(rubbing, "pins", "B_friction_N")), 1);
 }
 
 // A pin that stands on the ground, where a rocker has clearance: the shaking force is that of all masses.
 TEST(ClearanceStudy, TheGroundFeelsItsContacts) {
-  std::string text =
-      replaced(example("clearance-four-bar-design-2"), "joint                = \"A\"", "joint = \"O4\"");
+  std::string text = replaced(example_text("clearance-four-bar-design-2.toml"),
+                              "joint                = \"A\"", "joint = \"O4\"");
   const auto from = text.find("model                = \"continuous\"");
   ASSERT_NE(from, std::string::npos) << text;
   const auto to = text.find("[", text.find("start_rate_rad_per_s", from));
@@ -117,12 +98,12 @@ TEST(ClearanceStudy, TheGroundFeelsItsContacts) {
   text.erase(text.find("[[check]]"));
   const study::Result r = run_text(text);
   ASSERT_EQ(r.status, Status::done) << r.headline;
-  EXPECT_GT(largest(values(r, "pins", "O4_contact_N")), 0);
+  EXPECT_GT(largest(column(r, "pins", "O4_contact_N")), 0);
   // Sum of mass times acceleration of the mass centres, against the sum of joint forces and contacts. Frames
   // of both bodies begin at their points O and A.
-  const auto &fx = values(r, "motion", "shaking_force_x_N"), &x2 = values(r, "motion", "O2_x_N"),
-             &x4 = values(r, "motion", "O4_x_N"), &fy = values(r, "motion", "shaking_force_y_N"),
-             &y2 = values(r, "motion", "O2_y_N"), &y4 = values(r, "motion", "O4_y_N");
+  const auto &fx = column(r, "motion", "shaking_force_x_N"), &x2 = column(r, "motion", "O2_x_N"),
+             &x4 = column(r, "motion", "O4_x_N"), &fy = column(r, "motion", "shaking_force_y_N"),
+             &y2 = column(r, "motion", "O2_y_N"), &y4 = column(r, "motion", "O4_y_N");
   for (std::size_t i = 0; i < fx.size(); ++i) {
     EXPECT_NEAR(fx[i], -x2[i] - x4[i], 1e-9 * (1 + std::abs(fx[i]))) << i;
     EXPECT_NEAR(fy[i], -y2[i] - y4[i], 1e-9 * (1 + std::abs(fy[i]))) << i;
@@ -130,18 +111,18 @@ TEST(ClearanceStudy, TheGroundFeelsItsContacts) {
 }
 
 TEST(ClearanceStudy, ContinuousContactKeepsToTheReference) {
-  const study::Result r = run_text(example("clearance-four-bar-design-2"));
+  const study::Result r = run_text(example_text("clearance-four-bar-design-2.toml"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   for (const study::Check& check : r.checks)
     EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
   // Every 30 degrees, 1e-6 rad: the reference figures.
-  const std::vector<double>& angle = values(r, "pins", "A_link_angle_rad");
+  const std::vector<double>& angle = column(r, "pins", "A_link_angle_rad");
   ASSERT_EQ(angle.size(), 721u);
   EXPECT_NEAR(angle[60], 0.75008386, 1e-6);
   EXPECT_NEAR(angle[180], 1.32027769, 1e-6);
   EXPECT_NEAR(angle[360], 3.39678675, 1e-6);
   // The pin carries the tension and nothing across it.
-  const std::vector<double>&tension = values(r, "pins", "A_tension_N"), &force = values(r, "motion", "A_N");
+  const std::vector<double>&tension = column(r, "pins", "A_tension_N"), &force = column(r, "motion", "A_N");
   for (std::size_t i = 0; i < force.size(); ++i) EXPECT_NEAR(force[i], tension[i], 1e-6) << i;
   EXPECT_THAT(fact(r, "contact of A"), HasSubstr("kept: least tension 0.63"));
   EXPECT_THAT(r.headline, HasSubstr("Pin and bush stay in contact"));
@@ -149,9 +130,11 @@ TEST(ClearanceStudy, ContinuousContactKeepsToTheReference) {
 }
 
 TEST(ClearanceStudy, WarnsWhereContinuousContactFails) {
-  const study::Result r = run_text(example("clearance-four-bar-design-1"));
+  const study::Result r = run_text(example_text("clearance-four-bar-design-1.toml"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
-  EXPECT_THAT(fact(r, "contact of A"), HasSubstr("lost at"));
+  EXPECT_THAT(fact(r, "contact of A"),
+              ::testing::MatchesRegex(
+                  "lost at [0-9.]+ s; without contact [0-9.]+ % of the time, least tension -[0-9.]+ N"));
   EXPECT_TRUE(std::any_of(r.facts.begin(), r.facts.end(), [](const study::Fact& f) {
     return f.label == "contact of A" && f.verdict == study::Fact::Verdict::bad;
   }));
@@ -164,7 +147,7 @@ TEST(ClearanceStudy, WarnsWhereContinuousContactFails) {
 // Without start the link begins where the ideal joint presses it, and settles about there: smaller swings
 // than from any other direction.
 TEST(ClearanceStudy, ContinuousContactStartsWhereTheJointPresses) {
-  const std::string given = example("clearance-four-bar-design-2");
+  const std::string given = example_text("clearance-four-bar-design-2.toml");
   const auto without = [](std::string text, const std::string& key) {
     const auto from = text.find(key);
     EXPECT_NE(from, std::string::npos) << text;
@@ -173,19 +156,19 @@ TEST(ClearanceStudy, ContinuousContactStartsWhereTheJointPresses) {
   const study::Result r = run_text(without(without(given, "start_angle_deg"), "start_rate_rad_per_s"));
   ASSERT_EQ(r.status, Status::done);
   // The ideal joint's force at the start, from the table of the ideal linkage.
-  const double presses = std::atan2(-values(r, "ideal", "A_y_N")[0], -values(r, "ideal", "A_x_N")[0]);
-  EXPECT_NEAR(values(r, "pins", "A_link_angle_rad")[0], presses, 1e-9);
+  const double presses = std::atan2(-column(r, "ideal", "A_y_N")[0], -column(r, "ideal", "A_x_N")[0]);
+  EXPECT_NEAR(column(r, "pins", "A_link_angle_rad")[0], presses, 1e-9);
 }
 
 TEST(ClearanceStudy, SectionsAndSpectraOfEvenDrives) {
-  const study::Result r =
-      run_text(replaced(example("clearance-four-bar-design-2"), "to_s    = 0.628318530717959", "to_s = 2.6"));
-  const std::vector<double>& turn = values(r, "section", "turn");
+  const study::Result r = run_text(replaced(example_text("clearance-four-bar-design-2.toml"),
+                                            "to_s    = 0.628318530717959", "to_s = 2.6"));
+  const std::vector<double>& turn = column(r, "section", "turn");
   ASSERT_EQ(turn.size(), 5u);  // 4.138 turns and the start
-  EXPECT_NEAR(values(r, "section", "A_link_angle_rad")[1], 6.44656628 - 2 * 3.14159265358979, 1e-6);
-  EXPECT_EQ(values(r, "pins", "time_s").size(), 721u) << "sections are no rows";
-  const std::vector<double>&frequency = values(r, "spectrum", "frequency_Hz"),
-        &amplitude = values(r, "spectrum", "A_amplitude_N");
+  EXPECT_NEAR(column(r, "section", "A_link_angle_rad")[1], 6.44656628 - 2 * 3.14159265358979, 1e-6);
+  EXPECT_EQ(column(r, "pins", "time_s").size(), 721u) << "sections are no rows";
+  const std::vector<double>&frequency = column(r, "spectrum", "frequency_Hz"),
+        &amplitude = column(r, "spectrum", "A_amplitude_N");
   ASSERT_EQ(frequency.size(), amplitude.size());
   EXPECT_EQ(frequency[0], 0);
   EXPECT_GT(amplitude[0], 0.6) << "the mean tension";
@@ -205,7 +188,7 @@ TEST(ClearanceStudy, DrawsThePlayEnlarged) {
   for (const study::Scene::Joint& j : scene.joints)
     if (j.name == "B" && j.style == study::Scene::JointStyle::pivot) pin = j.point;
   ASSERT_GE(pin, 0);
-  const std::vector<double>&time = values(r, "pins", "time_s"), &x = values(r, "pins", "B_eccentricity_x_m");
+  const std::vector<double>&time = column(r, "pins", "time_s"), &x = column(r, "pins", "B_eccentricity_x_m");
   for (std::size_t i = 0; i < scene.samples(); ++i) {
     EXPECT_NEAR(std::hypot(rim.x[i] - centre.x[i], rim.y[i] - centre.y[i]), 10 * 5e-4, 1e-12);
     const auto row = std::size_t(std::find(time.begin(), time.end(), scene.input[i]) - time.begin());
@@ -219,18 +202,18 @@ TEST(ClearanceStudy, KeepsWhatItHasWhenTheMotionEnds) {
   const study::Result stopped =
       run_text(replaced(one_turn(), "samples = 1201", "samples = 1201\nmax_steps = 300"));
   EXPECT_EQ(stopped.status, Status::not_converged);
-  const std::vector<double>& time = values(stopped, "motion", "time_s");
+  const std::vector<double>& time = column(stopped, "motion", "time_s");
   ASSERT_FALSE(time.empty());
   EXPECT_LT(time.size(), 1201u);
-  EXPECT_EQ(values(stopped, "motion", "slider_B_x_m").back(),
-            values(r, "motion", "slider_B_x_m")[time.size() - 1]);
+  EXPECT_EQ(column(stopped, "motion", "slider_B_x_m").back(),
+            column(r, "motion", "slider_B_x_m")[time.size() - 1]);
   EXPECT_THAT(stopped.headline, HasSubstr("It ends at"));
   // All steps, not those of the last stretch.
   EXPECT_THAT(to_string(stopped.diagnostics.at(0)), HasSubstr("300 steps used up"));
 }
 
 TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
-  const study::Result r = run_text(example("clearance-four-bar-automatic"));
+  const study::Result r = run_text(example_text("clearance-four-bar-automatic.toml"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   for (const study::Check& check : r.checks)
     EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
@@ -239,9 +222,9 @@ TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
   EXPECT_THAT(r.headline, HasSubstr("Pin A separates from its bush at 0.1538 s, O2 at 88.15 deg, and"));
   EXPECT_THAT(r.diagnostics, IsEmpty());
   // One motion: all rows, without a jump of the pin where the models meet (10 mm/s for 0.44 ms).
-  const std::vector<double>&time = values(r, "motion", "time_s"),
-        &x = values(r, "pins", "A_eccentricity_x_m"), &y = values(r, "pins", "A_eccentricity_y_m"),
-        &touches = values(r, "pins", "A_touches"), &force = values(r, "pins", "A_contact_N");
+  const std::vector<double>&time = column(r, "motion", "time_s"),
+        &x = column(r, "pins", "A_eccentricity_x_m"), &y = column(r, "pins", "A_eccentricity_y_m"),
+        &touches = column(r, "pins", "A_touches"), &force = column(r, "pins", "A_contact_N");
   ASSERT_EQ(time.size(), 1441u);
   for (std::size_t i = 0; i < time.size(); ++i) {
     if (time[i] < 0.153847) {
@@ -254,9 +237,9 @@ TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
     }
   }
   EXPECT_EQ(std::count(touches.begin(), touches.end(), 0) > 0, true);
-  EXPECT_LT(largest(values(r, "motion", "energy_drift_J")), 1e-7);
+  EXPECT_LT(largest(column(r, "motion", "energy_drift_J")), 1e-7);
   // Peaks of the table of contacts are in the map, too.
-  EXPECT_EQ(largest(values(r, "contact_map", "A_force_N")), largest(values(r, "contacts", "force_N")));
+  EXPECT_EQ(largest(column(r, "contact_map", "A_force_N")), largest(column(r, "contacts", "force_N")));
   // What a map draws has the unit of what it shows: newtons, and a share of the time.
   for (const auto& [name, of, x_key, y_key] :
        {std::array{"contact-map", "A_force_N", "A_force_x_N", "A_force_y_N"},
@@ -265,8 +248,8 @@ TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
         std::find_if(r.plots.begin(), r.plots.end(), [&](const study::Plot& p) { return p.name == name; });
     ASSERT_NE(plot, r.plots.end()) << name;
     EXPECT_EQ(plot->y, (std::vector<std::string>{x_key, y_key}));
-    const std::vector<double>&size = values(r, "contact_map", of), &u = values(r, "contact_map", x_key),
-          &v = values(r, "contact_map", y_key), &angle = values(r, "contact_map", "bush_angle_rad");
+    const std::vector<double>&size = column(r, "contact_map", of), &u = column(r, "contact_map", x_key),
+          &v = column(r, "contact_map", y_key), &angle = column(r, "contact_map", "bush_angle_rad");
     EXPECT_GT(largest(size), 0);
     for (std::size_t i = 0; i < size.size(); ++i) {
       EXPECT_NEAR(u[i], size[i] * std::cos(angle[i]), 1e-12 * largest(size));
@@ -276,7 +259,7 @@ TEST(ClearanceStudy, SwitchesWhereContactIsLostAndSaysSo) {
 }
 
 TEST(ClearanceStudy, AutomaticContactIsContinuousWhereThatHolds) {
-  const std::string text = example("clearance-four-bar-design-2");
+  const std::string text = example_text("clearance-four-bar-design-2.toml");
   const study::Result continuous = run_text(text);
   std::string other =
       replaced(text, "model                = \"continuous\"", "model = \"automatic\"\nbush_radius_mm = 10.0");
@@ -286,14 +269,14 @@ TEST(ClearanceStudy, AutomaticContactIsContinuousWhereThatHolds) {
   EXPECT_EQ(fact(automatic, "model"), "continuous contact holds throughout");
   EXPECT_EQ(fact(automatic, "contact of A"), fact(continuous, "contact of A"));
   EXPECT_EQ(automatic.headline, continuous.headline);
-  EXPECT_EQ(values(automatic, "pins", "A_contact_N"), values(continuous, "pins", "A_tension_N"));
+  EXPECT_EQ(column(automatic, "pins", "A_contact_N"), column(continuous, "pins", "A_tension_N"));
   for (const char* key : {"A_x_N", "O2_drive_torque_N_m", "coupler_P_x_m",
                           "coupler_P_acceleration_x_m_per_s2", "kinetic_energy_J", "work_J"})
-    EXPECT_EQ(values(automatic, "motion", key), values(continuous, "motion", key)) << key;
+    EXPECT_EQ(column(automatic, "motion", key), column(continuous, "motion", key)) << key;
 }
 
 TEST(ClearanceStudy, FindsThePeriodicRegimeByShooting) {
-  const study::Result r = run_text(example("clearance-four-bar-regime"));
+  const study::Result r = run_text(example_text("clearance-four-bar-regime.toml"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   for (const study::Check& check : r.checks)
     EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
@@ -302,8 +285,8 @@ TEST(ClearanceStudy, FindsThePeriodicRegimeByShooting) {
   EXPECT_THAT(fact(r, "stability"), HasSubstr("Floquet multipliers 0.87793"));
   EXPECT_EQ(table(r, "orbit").names, std::vector<std::string>{"A"});
   // It does repeat: everything at the end is what it is at the start.
-  const std::vector<double>&phase = values(r, "pins", "A_phase_rad"),
-        &tension = values(r, "pins", "A_tension_N"), &torque = values(r, "motion", "O2_drive_torque_N_m");
+  const std::vector<double>&phase = column(r, "pins", "A_phase_rad"),
+        &tension = column(r, "pins", "A_tension_N"), &torque = column(r, "motion", "O2_drive_torque_N_m");
   EXPECT_NEAR(phase.front(), 0.17282458, 1e-7);
   EXPECT_NEAR(phase.back(), phase.front(), 1e-9);
   EXPECT_NEAR(tension.back(), tension.front(), 1e-9);
@@ -316,20 +299,20 @@ std::string regime_of(std::string text, const std::string& run) {
                       "[simulation]\nregime = \"periodic\"\n" + run + "\n\n");
 }
 TEST(ClearanceStudy, GoesOnUntilContactsRepeat) {
-  const study::Result r =
-      run_text(replaced(example("clearance-slider-crank-regime"), "samples = 721", "samples = 361"));
+  const study::Result r = run_text(
+      replaced(example_text("clearance-slider-crank-regime.toml"), "samples = 721", "samples = 361"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
   EXPECT_THAT(r.headline, HasSubstr("The motion repeats every turn after"));
   EXPECT_THAT(fact(r, "periodic regime"), HasSubstr("repeats every turn (0.03 s) after"));
   // One turn of it is reported, and what was found to repeat does.
-  const std::vector<double>&time = values(r, "motion", "time_s"),
-        &x = values(r, "pins", "B_eccentricity_x_m"), &y = values(r, "pins", "B_eccentricity_y_m");
+  const std::vector<double>&time = column(r, "motion", "time_s"),
+        &x = column(r, "pins", "B_eccentricity_x_m"), &y = column(r, "pins", "B_eccentricity_y_m");
   ASSERT_EQ(time.size(), 361u);
   EXPECT_NEAR(time.back() - time.front(), 0.03, 1e-12);
   EXPECT_NEAR(std::hypot(x.back() - x.front(), y.back() - y.front()), 0, 1e-5 * 5e-4 * 1.5);
-  const std::vector<double>& turns = values(r, "section", "turn");
+  const std::vector<double>& turns = column(r, "section", "turn");
   EXPECT_NEAR(turns.back() * 0.03, time.back(), 1e-9);
-  for (const double end : values(r, "contacts", "end_s")) {
+  for (const double end : column(r, "contacts", "end_s")) {
     if (!std::isnan(end)) {
       EXPECT_GT(end, time.front());
     }
@@ -345,15 +328,15 @@ TEST(ClearanceStudy, SaysWhenTheMotionDoesNotBecomePeriodic) {
               HasSubstr("the motion did not become periodic within 5 turns: the last one changed it by"));
   EXPECT_THAT(fact(r, "periodic regime"), HasSubstr("not found within 5 turns"));
   // The section of all turns, the last turn, and all contacts are there.
-  EXPECT_EQ(values(r, "section", "turn").size(), 6u);
-  EXPECT_EQ(values(r, "motion", "time_s").size(), 101u);
-  EXPECT_NEAR(values(r, "contacts", "start_s").front(), 2.2e-4, 1e-4);
+  EXPECT_EQ(column(r, "section", "turn").size(), 6u);
+  EXPECT_EQ(column(r, "motion", "time_s").size(), 101u);
+  EXPECT_NEAR(column(r, "contacts", "start_s").front(), 2.2e-4, 1e-4);
   EXPECT_EQ(r.scenes.size(), 1u);
 }
 
 // Of design 1 continuous contact has no motion that keeps it: it goes over to real contact turn after turn.
 TEST(ClearanceStudy, AutomaticRegimesGoOnWhereContactIsLost) {
-  const study::Result r = run_text(regime_of(example("clearance-four-bar-automatic"),
+  const study::Result r = run_text(regime_of(example_text("clearance-four-bar-automatic.toml"),
                                              "samples = 181\nmax_turns = 2\nregime_tolerance = 1e-9"));
   EXPECT_EQ(r.status, Status::not_converged) << r.headline;
   EXPECT_THAT(fact(r, "model"), HasSubstr("pin A separated from its bush at 0.153847 s"));
@@ -373,7 +356,8 @@ TEST(ClearanceStudy, NamesWhatRegimesCannotDo) {
               HasSubstr("no drive repeats itself"));
   EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodik\""),
               HasSubstr("did you mean 'periodic'?"));
-  EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nto_s = 1.0"), HasSubstr("to_s"));
+  EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nto_s = 1.0"),
+              HasSubstr("simulation.to_s: unknown key; allowed here: "));
   EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nmax_turns = 1"),
               HasSubstr("must be at least 2"));
   EXPECT_THAT(problems("regime = \"periodic\"", "regime = \"periodic\"\nsamples = 100001\nmax_turns = 1000"),
@@ -389,15 +373,16 @@ TEST(ClearanceStudy, NamesWhatRegimesCannotDo) {
                          "0.0]\nagainst = \"time\"\nargument = [0.0, 1.0]\nfactor = [0.0, 1.0]\n"),
       HasSubstr("load 'push' depends on the time, so the motion has no period"));
   EXPECT_THAT(problems("model          = \"contact\"", "model = \"automatic\"\nstart_mm = [0.0, 0.0]"),
-              HasSubstr("start_mm"));
-  EXPECT_THAT(problems("bush_radius_mm = 10.0", ""), HasSubstr("bush_radius"));
+              HasSubstr("clearance[0].start_mm: unknown key; allowed here: "));
+  EXPECT_THAT(problems("bush_radius_mm = 10.0", ""),
+              HasSubstr("clearance[0].bush_radius_m: this key is missing"));
   EXPECT_THAT(problems("modulus_GPa    = 207.0", "modulus_GPa = 0.0"), HasSubstr("must be more than 0"));
 }
 
 TEST(ClearanceStudy, WritesWhatItReads) {
   for (const std::string& text :
-       {slider_crank(), example("clearance-four-bar-design-2"), example("clearance-four-bar-automatic"),
-        example("clearance-four-bar-regime")}) {
+       {slider_crank(), example_text("clearance-four-bar-design-2.toml"),
+        example_text("clearance-four-bar-automatic.toml"), example_text("clearance-four-bar-regime.toml")}) {
     std::string messages;
     const auto first = prepare(text, messages);
     ASSERT_TRUE(first) << messages;
@@ -424,8 +409,9 @@ TEST(ClearanceStudy, StepsAreFewAtOneMicrometreAndAtTenTurnsAMinute) {
   EXPECT_LT(steps(slow), 50000);
   // A thousand turns of it are out of reach: reported after 20000 steps, not after all that are allowed.
   const study::Result hopeless = run_text(replaced(slow, "to_s = 6.0", "to_s = 6000.0\nmax_steps = 100000"));
-  EXPECT_THAT(fact(hopeless, "integration"), ::testing::StartsWith("20000 steps"));
-  EXPECT_THAT(messages(hopeless),
+  EXPECT_THAT(fact(hopeless, "integration"),
+              ::testing::MatchesRegex("20000 steps, [0-9]+ evaluations of the equations of motion"));
+  EXPECT_THAT(lines_of(hopeless.diagnostics),
               HasSubstr("after 20000 steps: at this pace 6000 s would take about 2.6e+07"));
 }
 
@@ -442,18 +428,18 @@ TEST(ClearanceStudy, WarnsOfDepthsThatNoBushHas) {
   const study::Result r =
       run_text(replaced(one_turn(), "modulus_GPa    = 207.0", "stiffness_N_per_m1_5 = 1e6"));
   EXPECT_THAT(fact(r, "depth in the bush of B"), HasSubstr("% of the radius of the pin of 9.5 mm"));
-  EXPECT_THAT(messages(r), HasSubstr("the pin of 'B', 9.5 mm in radius, is pressed "));
-  EXPECT_THAT(messages(r), HasSubstr("the law of contact holds for depths of a few per cent"));
+  EXPECT_THAT(lines_of(r.diagnostics), HasSubstr("the pin of 'B', 9.5 mm in radius, is pressed "));
+  EXPECT_THAT(lines_of(r.diagnostics), HasSubstr("the law of contact holds for depths of a few per cent"));
 }
 
 TEST(ClearanceStudy, WarnsOfALawThatDoesNotGiveItsRestitution) {
   const std::string text = replaced(one_turn(), "\"lankarani_nikravesh\"", "\"flores_2011\"");
   const study::Result poor = run_text(replaced(text, "restitution    = 0.9", "restitution = 0.05"));
-  EXPECT_THAT(messages(poor),
+  EXPECT_THAT(lines_of(poor.diagnostics),
               HasSubstr("restitution = 0.05 of 'B': by flores_2011 an impact gives back 0.0"));
-  EXPECT_THAT(messages(poor), HasSubstr("times the force and"));
-  EXPECT_THAT(messages(poor), HasSubstr("on the law is within 25 % of the given value"));
-  EXPECT_THAT(messages(run_text(text)), Not(HasSubstr("restitution")));
+  EXPECT_THAT(lines_of(poor.diagnostics), HasSubstr("times the force and"));
+  EXPECT_THAT(lines_of(poor.diagnostics), HasSubstr("on the law is within 25 % of the given value"));
+  EXPECT_THAT(lines_of(run_text(text).diagnostics), Not(HasSubstr("restitution")));
 }
 
 TEST(ClearanceStudy, NamesWhatIsWrong) {

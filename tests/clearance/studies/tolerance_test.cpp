@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "clearance/studies.h"
@@ -17,43 +15,32 @@
 namespace linkwright::clearance {
 namespace {
 
+using test::column;
+using test::example_text;
 using test::fact;
+using test::largest;
+using test::lines_of;
 using test::prepare;
 using test::problems_of;
 using test::replaced;
 using test::run_text;
 using test::table;
-using test::values;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-double largest(const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); }
-std::string messages(const study::Result& r) {
-  std::string out;
-  for (const Diagnostic& d : r.diagnostics) out += to_string(d) + "\n";
-  return out;
-}
-
 std::string four_bar() { return tolerance_kind().example; }
-std::string tolerance_example(const std::string& name) {
-  std::ifstream file(LINKWRIGHT_SOURCE_DIR "/examples/studies/" + name + ".toml");
-  std::ostringstream text;
-  text << file.rdbuf();
-  EXPECT_FALSE(text.str().empty()) << name;
-  return text.str();
-}
 
 // Errors of rod and pins reach the slider by one over the cosine of the rod's angle, those of the crank along
 // the rod; the drive stays.
 TEST(ToleranceStudy, WayOfASliderInClosedForm) {
-  const study::Result r = run_text(tolerance_example("tolerances-slider-crank"));
+  const study::Result r = run_text(example_text("tolerances-slider-crank.toml"));
   ASSERT_EQ(r.status, Status::done) << r.headline;
-  const std::vector<double>&crank = values(r, "errors", "O_angle_rad"),
-        &worst = values(r, "errors", "guide_displacement_worst_m"),
-        &rms = values(r, "errors", "guide_displacement_rms_m"),
-        &drawn = values(r, "errors", "guide_displacement_drawn_m");
+  const std::vector<double>&crank = column(r, "errors", "O_angle_rad"),
+        &worst = column(r, "errors", "guide_displacement_worst_m"),
+        &rms = column(r, "errors", "guide_displacement_rms_m"),
+        &drawn = column(r, "errors", "guide_displacement_drawn_m");
   for (std::size_t i = 0; i < crank.size(); ++i) {
     const double rod = -std::asin(50 * std::sin(crank[i]) / 150),  // its angle
         by_rod = 1 / std::cos(rod), by_crank = std::abs(std::cos(crank[i] - rod) / std::cos(rod));
@@ -68,13 +55,13 @@ TEST(ToleranceStudy, WayOfASliderInClosedForm) {
     EXPECT_GT(drawn[i], worst[i] * 0.7) << i;
   }
   // Half of the nominal stroke beyond the crank pivot at 90 degrees and the like: values and their bands.
-  const std::vector<double>&way = values(r, "values", "guide_displacement_m"),
-        &upper = values(r, "values", "guide_displacement_upper_m");
+  const std::vector<double>&way = column(r, "values", "guide_displacement_m"),
+        &upper = column(r, "values", "guide_displacement_upper_m");
   EXPECT_NEAR(way[0], 0.2, 1e-15);
   EXPECT_NEAR(upper[0], 0.20013, 1e-12);
   EXPECT_THAT(fact(r, "error of force at A"), HasSubstr("of the largest there is, 1.38e+03 N"));
   EXPECT_THAT(table(r, "errors").status, Each("done"));
-  EXPECT_THAT(r.diagnostics, IsEmpty()) << messages(r);
+  EXPECT_THAT(r.diagnostics, IsEmpty()) << lines_of(r.diagnostics);
   for (const study::Check& check : r.checks)
     EXPECT_TRUE(check.passed) << check.quantity << " " << check.value;
   for (const study::Plot& p : r.plots)
@@ -87,11 +74,11 @@ TEST(ToleranceStudy, BudgetsAddUpAndTellWhatToTighten) {
   EXPECT_THAT(budget.names, ElementsAre("pin A", "pin B", "length A-B of coupler"));
   double parts = 0, shares = 0, squares = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    parts += values(r, "budget_coupler_P", "worst_m")[k];
-    shares += values(r, "budget_coupler_P", "worst_share")[k];
-    squares += values(r, "budget_coupler_P", "mean_square_share")[k];
+    parts += column(r, "budget_coupler_P", "worst_m")[k];
+    shares += column(r, "budget_coupler_P", "worst_share")[k];
+    squares += column(r, "budget_coupler_P", "mean_square_share")[k];
   }
-  EXPECT_NEAR(parts, largest(values(r, "errors", "coupler_P_worst_m")), 1e-15);
+  EXPECT_NEAR(parts, largest(column(r, "errors", "coupler_P_worst_m")), 1e-15);
   EXPECT_NEAR(shares, 1, 1e-12);
   EXPECT_NEAR(squares, 1, 1e-12);
   EXPECT_NEAR(r.statistics.find("coupler_P_worst_m")->as_number(), parts, 1e-15);
@@ -112,10 +99,10 @@ TEST(ToleranceStudy, BudgetsAddUpAndTellWhatToTighten) {
 // Every displacement of the point within the band that is reported.
 TEST(ToleranceStudy, BandOfAPath) {
   const study::Result r = run_text(four_bar());
-  const std::vector<double>&x = values(r, "band", "coupler_P_x_m"), &y = values(r, "band", "coupler_P_y_m"),
-        &left_x = values(r, "band", "coupler_P_left_x_m"), &left_y = values(r, "band", "coupler_P_left_y_m"),
-        &across = values(r, "errors", "coupler_P_across_m"),
-        &worst = values(r, "errors", "coupler_P_worst_m");
+  const std::vector<double>&x = column(r, "band", "coupler_P_x_m"), &y = column(r, "band", "coupler_P_y_m"),
+        &left_x = column(r, "band", "coupler_P_left_x_m"), &left_y = column(r, "band", "coupler_P_left_y_m"),
+        &across = column(r, "errors", "coupler_P_across_m"),
+        &worst = column(r, "errors", "coupler_P_worst_m");
   ASSERT_EQ(r.scenes.size(), 1u);
   EXPECT_THAT(r.scenes[0].title, "motion; clearances and bands drawn 50 x");
   EXPECT_EQ(r.scenes[0].traces.size(), 3u);
@@ -137,7 +124,7 @@ TEST(ToleranceStudy, BandOfAPath) {
 TEST(ToleranceStudy, YieldOfALimit) {
   const study::Result r = run_text(
       replaced(four_bar(), "point    = \"coupler.P\"\nerror_mm = 0.15", "joint = \"B0\"\nerror_deg = 0.07"));
-  const std::vector<double>& all = values(r, "draws", "B0_angle_rad");
+  const std::vector<double>& all = column(r, "draws", "B0_angle_rad");
   ASSERT_EQ(all.size(), 2000u);
   const double limit = 0.07 * pi / 180;
   const auto within =
@@ -155,13 +142,13 @@ TEST(ToleranceStudy, YieldOfALimit) {
                         "as large the worst case would, too"));
   EXPECT_THAT(r.headline, HasSubstr("% keep angle of B0 within 0.07°."));
   // The same seed, the same numbers; another one, others.
-  EXPECT_EQ(values(run_text(four_bar()), "draws", "B0_angle_rad"), all);
-  EXPECT_NE(values(run_text(replaced(four_bar(), "seed  = 1", "seed  = 2")), "draws", "B0_angle_rad"), all);
+  EXPECT_EQ(column(run_text(four_bar()), "draws", "B0_angle_rad"), all);
+  EXPECT_NE(column(run_text(replaced(four_bar(), "seed  = 1", "seed  = 2")), "draws", "B0_angle_rad"), all);
 }
 
 // Over time, with forces that loads make then.
 TEST(ToleranceStudy, OverTimeWithForces) {
-  std::string text = tolerance_example("tolerances-slider-crank");
+  std::string text = example_text("tolerances-slider-crank.toml");
   text = replaced(text, "speed_rpm = 1500.0", "law = \"constant_speed\"\nspeed_rpm = 1500.0");
   text = replaced(text,
                   "type = \"grid\"\n\n[[sweep.input]]\njoint    = \"O\"\nfrom_deg = 0.0\nto_deg   = "
@@ -172,13 +159,13 @@ TEST(ToleranceStudy, OverTimeWithForces) {
                   "= \"time\"\nargument = [0.0, "
                   "0.04]\nfactor = [0.0, 1.0]\n\n[[mechanism.assembly]]");
   text.erase(text.find("# In the dead centres"));
-  const study::Result grid = run_text(tolerance_example("tolerances-slider-crank")), r = run_text(text);
+  const study::Result grid = run_text(example_text("tolerances-slider-crank.toml")), r = run_text(text);
   ASSERT_EQ(r.status, Status::done) << r.headline;
-  EXPECT_EQ(values(r, "errors", "time_s").back(), 0.04);
+  EXPECT_EQ(column(r, "errors", "time_s").back(), 0.04);
   // At 0.02 s, half a turn, the load is 500 N: it goes through the rod.
-  EXPECT_NEAR(values(r, "values", "A_force_x_N")[90] - values(grid, "values", "A_force_x_N")[90], 500, 1e-9);
-  EXPECT_NEAR(values(r, "errors", "guide_displacement_worst_m")[90],
-              values(grid, "errors", "guide_displacement_worst_m")[90], 1e-13);
+  EXPECT_NEAR(column(r, "values", "A_force_x_N")[90] - column(grid, "values", "A_force_x_N")[90], 500, 1e-9);
+  EXPECT_NEAR(column(r, "errors", "guide_displacement_worst_m")[90],
+              column(grid, "errors", "guide_displacement_worst_m")[90], 1e-13);
   EXPECT_THAT(r.headline, HasSubstr("(worst case, at 0.01"));
 }
 
@@ -198,21 +185,21 @@ TEST(ToleranceStudy, WarnsNearDeadPoints) {
   };
   const study::Result r = run_text(swing(dead + 0.02));
   EXPECT_EQ(r.status, Status::done) << r.headline;
-  EXPECT_THAT(messages(r), HasSubstr("the transmission angle of crank + coupler falls to"));
-  EXPECT_THAT(messages(r), HasSubstr("of 2000 random linkages do not assemble everywhere; at "));
-  EXPECT_THAT(messages(r),
+  EXPECT_THAT(lines_of(r.diagnostics), HasSubstr("the transmission angle of crank + coupler falls to"));
+  EXPECT_THAT(lines_of(r.diagnostics), HasSubstr("of 2000 random linkages do not assemble everywhere; at "));
+  EXPECT_THAT(lines_of(r.diagnostics),
               HasSubstr("coupler.P: the errors of the random linkages differ from the linear theory at "));
-  EXPECT_LT(values(r, "errors", "assembled").back(), 2000);
-  EXPECT_EQ(values(r, "errors", "assembled").front(), 2000);
+  EXPECT_LT(column(r, "errors", "assembled").back(), 2000);
+  EXPECT_EQ(column(r, "errors", "assembled").front(), 2000);
   // Those that do not assemble everywhere are beyond every limit, and no share of 99 % is reported.
   EXPECT_THAT(r.headline, ::testing::Not(HasSubstr("99 %")));
   EXPECT_EQ(r.statistics.find("coupler_P_99_percent_m"), nullptr);
   // Beyond it there is nothing, and the rest is kept.
   const study::Result beyond = run_text(swing(dead - 2));
   EXPECT_EQ(beyond.status, Status::no_assembly);
-  EXPECT_THAT(messages(beyond), HasSubstr("have no answer: the linkage does not assemble there"));
-  EXPECT_TRUE(std::isnan(values(beyond, "errors", "coupler_P_worst_m").back()));
-  EXPECT_FALSE(std::isnan(values(beyond, "errors", "coupler_P_worst_m").front()));
+  EXPECT_THAT(lines_of(beyond.diagnostics), HasSubstr("have no answer: the linkage does not assemble there"));
+  EXPECT_TRUE(std::isnan(column(beyond, "errors", "coupler_P_worst_m").back()));
+  EXPECT_FALSE(std::isnan(column(beyond, "errors", "coupler_P_worst_m").front()));
   EXPECT_EQ(table(beyond, "errors").status.back(), "no_assembly");
 }
 
@@ -224,11 +211,11 @@ TEST(ToleranceStudy, KeepsTheLinearTheoryWhenItIsStopped) {
   context.cancel();
   const study::Result r = study::run_study(*prepared, context);
   EXPECT_EQ(r.status, Status::cancelled);
-  EXPECT_THAT(messages(r), HasSubstr("only 0 of 2000 random linkages were drawn (cancelled)"));
+  EXPECT_THAT(lines_of(r.diagnostics), HasSubstr("only 0 of 2000 random linkages were drawn (cancelled)"));
   EXPECT_THAT(r.headline,
               "coupler.P deviates by at most 0.143 mm (worst case, at 0°); 46 % of the worst case comes from "
               "pin A.");
-  EXPECT_TRUE(std::isnan(values(r, "errors", "coupler_P_drawn_m")[0]));
+  EXPECT_TRUE(std::isnan(column(r, "errors", "coupler_P_drawn_m")[0]));
 }
 
 TEST(ToleranceStudy, InterruptedTellsTheSamplesSoFar) {
@@ -238,7 +225,7 @@ TEST(ToleranceStudy, InterruptedTellsTheSamplesSoFar) {
   const Table& errors = table(r, "errors");
   EXPECT_GT(errors.rows(), 100U);
   EXPECT_LE(errors.rows(), 2048U);
-  EXPECT_TRUE(std::isfinite(values(r, "errors", "coupler_P_worst_m").back()));
+  EXPECT_TRUE(std::isfinite(column(r, "errors", "coupler_P_worst_m").back()));
   EXPECT_EQ(table(r, "band").rows(), errors.rows());
 }
 
@@ -272,7 +259,7 @@ clearance_mm = 0.1
 [monte_carlo]
 draws = 100
 )");
-  EXPECT_EQ(r.status, Status::done) << messages(r);
+  EXPECT_EQ(r.status, Status::done) << lines_of(r.diagnostics);
   EXPECT_EQ(table(r, "errors").rows(), 4u);
   const study::Result arm = run_text(R"(schema = 1
 kind = "analysis"
@@ -298,7 +285,7 @@ clearance_mm = 0.1
 [monte_carlo]
 draws = 100
 )");
-  EXPECT_EQ(arm.status, Status::done) << messages(arm);
+  EXPECT_EQ(arm.status, Status::done) << lines_of(arm.diagnostics);
   EXPECT_EQ(table(arm, "errors").rows(), 12u);
   EXPECT_EQ(arm.scenes[0].input.size(), 4u);
   // A clearance at the elbow shifts the hand by as much.
@@ -306,7 +293,7 @@ draws = 100
 }
 
 TEST(ToleranceStudy, WritesWhatItReads) {
-  for (const std::string& text : {four_bar(), tolerance_example("tolerances-slider-crank")}) {
+  for (const std::string& text : {four_bar(), example_text("tolerances-slider-crank.toml")}) {
     std::string problems;
     const auto first = prepare(text, problems);
     ASSERT_TRUE(first) << problems;
@@ -354,12 +341,13 @@ TEST(ToleranceStudy, NamesWhatIsWrong) {
               HasSubstr("'coupler.B' is not traced; add it as a [[trace]]"));
   EXPECT_THAT(problem("point    = \"coupler.P\"", "joint = \"A\""),
               HasSubstr("the coordinate of joint 'A' is not watched; add it to watch.coordinates"));
-  EXPECT_THAT(problem("error_mm = 0.15", "error_deg = 0.15"), HasSubstr("error_deg"));
+  EXPECT_THAT(problem("error_mm = 0.15", "error_deg = 0.15"),
+              HasSubstr("limit[0].error_deg: is a length, but 'deg' is not a unit of it"));
   EXPECT_THAT(problem("type = \"grid\"", "type = \"grid\"\nat_change_point = \"smooth\""),
               HasSubstr("a linkage whose lengths deviate has no change points"));
   EXPECT_THAT(problem("[monte_carlo]", "[quality]\noutput_joint = \"B0\"\n[monte_carlo]"),
               HasSubstr("quality: belongs to the analysis of planar.linkage"));
-  const std::string slider = tolerance_example("tolerances-slider-crank");
+  const std::string slider = example_text("tolerances-slider-crank.toml");
   EXPECT_THAT(problems_of(replaced(slider, "joint        = \"B\"", "joint = \"guide\"")),
               HasSubstr("joint 'guide' is prismatic; only revolute joints have clearance"));
   // Nothing deviates, nothing is looked at.

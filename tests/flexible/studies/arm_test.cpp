@@ -13,17 +13,12 @@ using test::kinds;
 using test::problems;
 using test::run;
 
+using linkwright::test::column;
 using linkwright::test::fact;
 using linkwright::test::replaced;
 using ::testing::HasSubstr;
 
 const std::string& example() { return kinds()[0].example; }
-const std::vector<double>& column(const study::Result& result, std::string_view key) {
-  const Column* found = result.tables.at(0).find(key);
-  EXPECT_NE(found, nullptr) << key;
-  static const std::vector<double> none;
-  return found ? found->values : none;
-}
 
 std::string link(const std::string& more, const std::string& length = "0.9",
                  const std::string& modulus = "6.9e10") {
@@ -109,7 +104,7 @@ TEST(ArmStudy, StiffLinksNeedTheTorquesOfRigidOnes) {
     const double joint_mass = 0.2 * -l1 * (a1 * std::sin(q1) + w1 * w1 * std::cos(q1));
     EXPECT_NEAR(column(result, "link2_force_x_N")[i], fx + joint_mass, 5e-4) << i;
   }
-  EXPECT_THAT(fact(result, "largest torque in the hinge of link2"), HasSubstr("N m"));
+  EXPECT_THAT(fact(result, "largest torque in the hinge of link2"), ::testing::MatchesRegex("[0-9.e-]+ N m"));
   EXPECT_NE(result.scenes.at(0).title.find("bending drawn"), std::string::npos);
 }
 
@@ -133,8 +128,10 @@ TEST(ArmStudy, ReportsBendingTorquesAndVibration) {
   ASSERT_EQ(result.status, Status::done) << result.headline;
   EXPECT_THAT(result.headline, HasSubstr("The tip leaves that of the rigid arm by up to"));
   EXPECT_THAT(fact(result, "largest bending stress of upper"), HasSubstr("MPa, at its root, at"));
-  EXPECT_THAT(fact(result, "change of the tip with twice the divisions"), HasSubstr("mm"));
-  EXPECT_THAT(fact(result, "frequencies at the end"), HasSubstr("Hz"));
+  EXPECT_THAT(fact(result, "change of the tip with twice the divisions"),
+              ::testing::MatchesRegex("[0-9.e-]+ mm"));
+  EXPECT_THAT(fact(result, "frequencies at the end"),
+              ::testing::MatchesRegex("[0-9.e-]+, [0-9.e-]+, [0-9.e-]+ Hz"));
   const double shaped = std::stod(fact(result, "vibration of the tip after the drive")),
                plain = std::stod(fact(result, "the same without shaping"));
   EXPECT_LT(shaped, 0.25 * plain);
@@ -157,19 +154,19 @@ TEST(ArmStudy, KeepsWhatWasReached) {
   const auto result =
       run(replaced(example(), "elastic_modulus_GPa = 70.0\nfibre", "elastic_modulus_kPa = 70.0\nfibre"));
   EXPECT_NE(result.status, Status::done);
-  EXPECT_THAT(result.headline, HasSubstr("Ended at"));
+  EXPECT_THAT(result.headline, HasSubstr(" s: the chain folded."));
   EXPECT_GE(result.tables.at(0).rows(), 1u);
 }
 
 TEST(ArmStudy, TellsWhatIsWrong) {
   const std::string two = head + link("") + link("");
-  EXPECT_THAT(problems(head + pulse + times), HasSubstr("link"));
+  EXPECT_THAT(problems(head + pulse + times), HasSubstr("mechanism.link: this key is missing"));
   EXPECT_THAT(problems(head + "link = []\n" + pulse + times), HasSubstr("an arm has at least one link"));
   EXPECT_THAT(problems(replaced(example(), "elastic_modulus_GPa = 70.0", "elastic_modulus_GPa = 0")),
               HasSubstr("mechanism.link[0].elastic_modulus_GPa: is 0 GPa, must be at least 1e-09 GPa"));
   EXPECT_THAT(problems(replaced(example(), "mass_kg             = 0.5", "damping_N_m_s_per_rad = -1")),
               HasSubstr("mechanism.link[1].hinge.damping_N_m_s_per_rad: is -1"));
-  EXPECT_THAT(problems(two + times), HasSubstr("drive"));
+  EXPECT_THAT(problems(two + times), HasSubstr(": drive: this key is missing"));
   // All at once.
   const std::string many = problems(two + pulse + pulse + replaced(times, "0.005", "9"));
   EXPECT_THAT(many, HasSubstr("drive[1].link: 'link1' has a drive already"));
@@ -190,7 +187,7 @@ TEST(ArmStudy, TellsWhatIsWrong) {
   EXPECT_THAT(problems(replaced(example(), "step_s = 0.005", "step_s = 50")),
               HasSubstr("is 50 s, longer than the 2 s of the motion"));
   EXPECT_THAT(problems(replaced(example(), "to_deg     = 60.0\nduration_s = 1.0", "to_deg = 60.0")),
-              HasSubstr("duration"));
+              HasSubstr("drive[0].duration_s: this key is missing"));
   EXPECT_THAT(problems(replaced(example(), "tip_mass_kg", "theory = \"timoshenko\"\ntip_mass_kg")),
               HasSubstr("a Timoshenko beam needs a positive one"));
 }

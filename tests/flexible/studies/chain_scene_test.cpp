@@ -28,7 +28,7 @@ TEST(ChainScene, DrawsBendingToScaleWhereItIsSeen) {
   const ArmChain arm = arm_chain(links);
   const std::string names[] = {"upper", "fore"};
   const study::Scene plain = chain_scene(arm, names, bent_run(arm, 0.05), {});
-  EXPECT_NE(plain.title.find("to scale"), std::string::npos) << plain.title;
+  EXPECT_NE(plain.title.find("bending to scale"), std::string::npos) << plain.title;
   const ChainShape at = shape(arm.chain, bent_run(arm, 0.05).states[0].q);
   const Vec2 tip = turned({std::cos(0.5), std::sin(0.5)}, at.node.back());
   const study::Scene::Point& drawn = plain.points[arm.chain.cells.size() + 1];

@@ -15,17 +15,11 @@ using test::kinds;
 using test::problems;
 using test::run;
 
+using linkwright::test::column;
 using linkwright::test::fact;
 using linkwright::test::replaced;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-const std::vector<double>& column(const study::Result& result, std::string_view key) {
-  const Column* found = result.tables.at(0).find(key);
-  EXPECT_NE(found, nullptr) << key;
-  static const std::vector<double> none;
-  return found ? found->values : none;
-}
 
 // Table 3.1 of Boskovic 2018, spun up to 4 rad/s.
 const std::string spin_up =
@@ -47,13 +41,15 @@ TEST(HubLinkStudy, SpinsUpAsComputedElsewhere) {
   for (std::size_t i = 0; i < tip.size(); ++i) EXPECT_NEAR(tip[i], expected[i], 2e-5) << i;
   const auto& balance = column(result, "energy_balance_J");
   EXPECT_NEAR(balance.back(), balance.front(), 1e-3);
-  EXPECT_THAT(fact(result, "frequencies at rest"), HasSubstr("0.4209, "));
+  EXPECT_THAT(fact(result, "frequencies at rest"),
+              ::testing::MatchesRegex("0.4209, [0-9.e-]+, [0-9.e-]+ Hz"));
 }
 
 TEST(HubLinkStudy, TellsWhatTheDivisionsChange) {
   const auto result =
       run(replaced(replaced(spin_up, "compare_divisions = false\n", ""), "divisions = 4", "divisions = 2"));
-  EXPECT_THAT(fact(result, "change of the tip with twice the divisions"), HasSubstr("mm"));
+  EXPECT_THAT(fact(result, "change of the tip with twice the divisions"),
+              ::testing::MatchesRegex("[0-9.e-]+ mm"));
 }
 
 TEST(HubLinkStudy, TellsWhatThePrintedVelocitiesMiss) {
@@ -117,7 +113,8 @@ TEST(HubLinkStudy, SwingsFreelyUnderGravity) {
   for (std::size_t i = 1; i < time.size() && crossing == 0; ++i)
     if (angle[i - 1] > -M_PI / 2 && angle[i] <= -M_PI / 2) crossing = time[i];
   EXPECT_NEAR(4 * crossing, 1.657 * 1.002, 0.03);
-  EXPECT_THAT(fact(result, "drift of the energy audit"), HasSubstr("e-"));
+  EXPECT_THAT(fact(result, "drift of the energy audit"),
+              ::testing::MatchesRegex("[0-9.]+e-[0-9]+ J .[0-9.]+e-[0-9]+ of the peak."));
 }
 
 TEST(HubLinkStudy, RefusesMoreCellsAndSamplesThanThereIsMemoryFor) {
@@ -132,11 +129,11 @@ TEST(HubLinkStudy, RefusesMoreCellsAndSamplesThanThereIsMemoryFor) {
 
 TEST(HubLinkStudy, TellsWhatIsWrong) {
   EXPECT_THAT(problems(replaced(spin_up, "elastic_modulus_Pa = 6.8952e10", "elastic_modulus_Pa = 0")),
-              HasSubstr("elastic_modulus_Pa"));
+              HasSubstr("mechanism.elastic_modulus_Pa: is 0 Pa, must be at least 1 Pa"));
   EXPECT_THAT(problems(replaced(spin_up, "length_m = 8", "length_m = -8")),
               HasSubstr("length_m: is -8 m, must be at least 1e-06 m"));
   EXPECT_THAT(problems(replaced(spin_up, "tip_mass_kg", "theory = \"timoshenko\"\ntip_mass_kg")),
-              HasSubstr("shear"));
+              HasSubstr("shear modulus = 0 Pa: a Timoshenko beam needs a positive one"));
   EXPECT_THAT(problems(replaced(spin_up, "[simulation]", "[simulation]\nstep_s = 1e-7")),
               HasSubstr("at most 1e7 are allowed"));
   EXPECT_THAT(problems(replaced(replaced(spin_up, "tip_mass_kg", "gravity_m_per_s2 = 9\ntip_mass_kg"),

@@ -19,24 +19,12 @@ using test::kinds;
 using test::problems;
 using test::run;
 
+using linkwright::test::column;
 using linkwright::test::fact;
+using linkwright::test::lines_of;
 using linkwright::test::replaced;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-const std::vector<double>& column(const study::Result& result, std::string_view table, std::string_view key) {
-  for (const Table& t : result.tables)
-    if (t.name == table)
-      if (const Column* found = t.find(key)) return found->values;
-  ADD_FAILURE() << "no column " << table << "." << key;
-  static const std::vector<double> none{0};
-  return none;
-}
-std::string warnings(const study::Result& result) {
-  std::string out;
-  for (const Diagnostic& d : result.diagnostics) out += to_string(d) + "\n";
-  return out;
-}
 
 // Table 3.1 of Boskovic 2018 without tip mass, whose frequencies are known over the speed.
 const std::string bare =
@@ -53,8 +41,8 @@ double scale() {
 TEST(VibrationStudy, CampbellDiagramOfThePublishedBeam) {
   const auto result = run(bare + "[campbell]\nto_rad_per_s = " + std::to_string(8 * scale()) +
                           "\nsamples = 9\norders = [1, 2.5]\n");
-  ASSERT_EQ(result.status, Status::done) << warnings(result);
-  EXPECT_THAT(warnings(result), IsEmpty());
+  ASSERT_EQ(result.status, Status::done) << lines_of(result.diagnostics);
+  EXPECT_THAT(lines_of(result.diagnostics), IsEmpty());
   const auto& first = column(result, "campbell", "mode_1_rad_per_s");
   ASSERT_EQ(first.size(), 9u);
   int compared = 0;
@@ -79,7 +67,7 @@ TEST(VibrationStudy, CampbellDiagramOfThePublishedBeam) {
     EXPECT_NEAR(rate[i], order[i] * speed[i], 1e-12);
     EXPECT_NEAR(modes(discretise(beam, 4), k, {.speed = speed[i]})[0].frequency, rate[i], 1e-9);
   }
-  EXPECT_THAT(fact(result, "resonant speeds"), HasSubstr("(mode 1 by 1 x)"));
+  EXPECT_THAT(fact(result, "resonant speeds"), HasSubstr(" rad/s (mode 1 by 1 x), "));
   EXPECT_EQ(column(result, "campbell", "order_2_5_rad_per_s").back() /
                 column(result, "campbell", "speed_rad_per_s").back(),
             2.5);
@@ -103,11 +91,11 @@ TEST(VibrationStudy, FrequenciesAgainstTheContinuum) {
   const auto coarse =
       run(replaced(replaced(bare, "divisions = 4", "divisions = 1"), "modes = 2", "modes = 3"));
   EXPECT_THAT(
-      warnings(coarse),
+      lines_of(coarse.diagnostics),
       HasSubstr("vibration.divisions: mode 1 is 1.1 % off the continuum, 0.4686 Hz against 0.4633 Hz"));
   // Shapes and their scenes: the weld stays, the largest deflection is 1 m in the table.
   EXPECT_EQ(result.scenes.size(), 2u);
-  EXPECT_THAT(result.scenes[0].title, HasSubstr("mode 1, 0.463"));
+  EXPECT_THAT(result.scenes[0].title, ::testing::MatchesRegex("mode 1, 0.463[0-9]? Hz"));
   const auto& eta = column(result, "shapes", "mode_2_eta_m");
   EXPECT_EQ(eta.front(), 0);
   double largest = 0;
@@ -131,9 +119,11 @@ TEST(VibrationStudy, WarnsWhereTheChainLosesItsStability) {
                             "[campbell]\nto_rad_per_s = 20\n");
   EXPECT_EQ(result.status, Status::singular);
   EXPECT_EQ(with_tip.status, Status::singular);
-  EXPECT_THAT(warnings(with_tip), HasSubstr("campbell.to: the straight chain loses its stability at " +
-                                            fmt::format("{:.5g}", known) + " rad/s"));
-  EXPECT_THAT(warnings(with_tip), HasSubstr("take kinematics = \"chord_consistent\", or more divisions"));
+  EXPECT_THAT(lines_of(with_tip.diagnostics),
+              HasSubstr("campbell.to: the straight chain loses its stability at " +
+                        fmt::format("{:.5g}", known) + " rad/s"));
+  EXPECT_THAT(lines_of(with_tip.diagnostics),
+              HasSubstr("take kinematics = \"chord_consistent\", or more divisions"));
   EXPECT_TRUE(std::isnan(column(with_tip, "campbell", "mode_1_rad_per_s").back()));
   EXPECT_FALSE(std::isnan(column(with_tip, "campbell", "mode_1_rad_per_s").front()));
   EXPECT_THAT(with_tip.headline, HasSubstr("The chain loses its stability at"));
@@ -167,11 +157,11 @@ TEST(VibrationStudy, LargeDeflection) {
       1e-6);
   EXPECT_NEAR(std::hypot(column(result, "sections", "axial_N")[4], column(result, "sections", "shear_N")[4]),
               2 * beam.bending_stiffness() / 64, 1e-9);
-  EXPECT_THAT(fact(result, "change of the tip with 8 divisions"), HasSubstr("mm"));
+  EXPECT_THAT(fact(result, "change of the tip with 8 divisions"), ::testing::MatchesRegex("[0-9.e-]+ mm"));
   EXPECT_THAT(result.headline, HasSubstr("Under the load the tip moves by"));
   // Along the link: Euler's load is pi^2 E I / (4 L^2), and beyond it the straight link has buckled.
   const auto buckled = run(bare + "[load]\nforce_N = [-30, 0]\n");
-  EXPECT_THAT(warnings(buckled), HasSubstr("it has buckled"));
+  EXPECT_THAT(lines_of(buckled.diagnostics), HasSubstr("it has buckled"));
 }
 
 TEST(VibrationStudy, GravityAndSpeedHoldTheLink) {
@@ -182,7 +172,7 @@ TEST(VibrationStudy, GravityAndSpeedHoldTheLink) {
   const Beam beam = spin_up_beam();
   const double linear = beam.density * beam.area * std::pow(8, 4) / (8 * beam.bending_stiffness());
   EXPECT_NEAR(column(result, "deflection", "eta_m").back(), -linear, 0.01 * linear);
-  EXPECT_THAT(fact(result, "left out of the frequencies"), HasSubstr("gravity"));
+  EXPECT_EQ(fact(result, "left out of the frequencies"), "gravity");
   const auto turning = run(heavy + "[load]\nspeed_rad_per_s = 4\n");
   EXPECT_LT(std::abs(column(turning, "deflection", "eta_m").back()),
             0.8 * std::abs(column(result, "deflection", "eta_m").back()));
@@ -200,7 +190,7 @@ TEST(VibrationStudy, FreeHubsAndLinksThatStretch) {
   EXPECT_NEAR(column(result, "frequencies", "continuum_error").back(), 0, 1e-3);
   EXPECT_EQ(column(result, "frequencies", "hub_angle_rad").front(), 1);
   EXPECT_EQ(result.scenes[0].title, "mode 1: turns freely");
-  EXPECT_THAT(warnings(result), IsEmpty());
+  EXPECT_THAT(lines_of(result.diagnostics), IsEmpty());
   // A short thick link stretches at a frequency among its first ones.
   const auto thick =
       run("schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"flexible.hub_link\"\nlength_m = "
@@ -208,7 +198,7 @@ TEST(VibrationStudy, FreeHubsAndLinksThatStretch) {
           "= 7800\narea_m2 = 0.01\nsecond_moment_m4 = 3.3333e-5\nelastic_modulus_Pa = 2.1e11\ntip_mass_kg = "
           "20\nextensible "
           "= true\n[vibration]\nmodes = 3\ndivisions = 16\n");
-  EXPECT_THAT(warnings(thick), IsEmpty());
+  EXPECT_THAT(lines_of(thick.diagnostics), IsEmpty());
   EXPECT_NEAR(column(thick, "frequencies", "continuum_error").back(), 0, 0.01);
 }
 
@@ -230,7 +220,8 @@ TEST(VibrationStudy, NamesWhatIsWrong) {
       HasSubstr("vibration.modes: a link of 2 divisions has 8 modes, 20 are asked for; take more divisions"));
   EXPECT_THAT(problems(bare + "[campbell]\nfrom_rpm = 10\nto_rpm = 10\n"),
               HasSubstr("campbell.to_rpm: the speeds end at 10 rpm, where they begin or before"));
-  EXPECT_THAT(problems(bare + "[campbell]\nsamples = 10\n"), HasSubstr("campbell.to"));
+  EXPECT_THAT(problems(bare + "[campbell]\nsamples = 10\n"),
+              HasSubstr("campbell.to_rad_per_s: this key is missing"));
   EXPECT_THAT(problems(bare + "[campbell]\nto_rpm = 10\norders = [0]\n"), HasSubstr("must be more than 0"));
   EXPECT_THAT(problems(replaced(bare, "divisions = 4", "divisions = 4\nkinematics = \"source_linearised\"") +
                        "[load]\nforce_N = [0, 1]\n"),
@@ -240,7 +231,8 @@ TEST(VibrationStudy, NamesWhatIsWrong) {
                                 "divisions = 4", "divisions = 4\nhub = \"free\"") +
                        "[campbell]\nto_rpm = 10\n"),
               HasSubstr("the frequencies of an extensible link on a free hub that turns are not known"));
-  EXPECT_THAT(problems(replaced(bare, "length_m = 8", "length_m = -8")), HasSubstr("length_m"));
+  EXPECT_THAT(problems(replaced(bare, "length_m = 8", "length_m = -8")),
+              HasSubstr("mechanism.length_m: is -8 m, must be at least "));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "linkwright/core/check.h"
 #include "linkwright/core/random.h"
 #include "linkwright/parallel/robot/position.h"
+#include "parallel/random_vector.h"
 #include "parallel/robots.h"
 
 namespace linkwright::parallel {
@@ -15,12 +16,8 @@ namespace {
 
 Pose random_pose(std::uint32_t number) {
   RandomStream random({99, number});
-  const auto vector = [&](double size) {
-    const double x = random.uniform(-size, size), y = random.uniform(-size, size);
-    return Vec3{x, y, random.uniform(-size, size)};
-  };
-  const Vec3 shift = vector(0.1);
-  return {Vec3{0, 0, -0.5} + shift, math::turn_about(vector(0.5))};
+  const Vec3 shift = random_vector(random, 0.1);
+  return {Vec3{0, 0, -0.5} + shift, math::turn_about(random_vector(random, 0.5))};
 }
 
 // m, rad

@@ -8,21 +8,12 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/dexterity/synthesis_samples.h"
+#include "parallel/dexterity_cases.h"
 #include "parallel/robots.h"
 #include "support/message.h"
 
 namespace linkwright::parallel {
 namespace {
-
-double published_region(std::string_view id, std::string_view key) {
-  return test::number_at(computed(id), key);
-}
-
-const DexterityStand* stand_of_limit(const DexterityDesign& design, DexterityLimit limit) {
-  for (const DexterityStand& stand : design.limits)
-    if (stand.limit == limit) return &stand;
-  return nullptr;
-}
 
 TEST(DexteritySynthesis, IsTheSameForAnyNumberOfThreads) {
   const auto run = [](int threads) {
@@ -58,7 +49,7 @@ TEST(DexteritySynthesis, LooksBetweenTheNodes) {
 // same: B3 and its Pi-joints of the reference. With less they find a smaller robot.
 TEST(DexteritySynthesis, DesignsRobotAndPiJointsTogether) {
   const Value& joint = test::at(computed("synth-B3"), "pi_joint");
-  const double sequential = published_region("synth-B3", "best_La_plus_Lf_m");
+  const double sequential = computed_number("synth-B3", "best_La_plus_Lf_m");
   RunContext context;
   const DexteritySynthesis same =
       synthesise(dexterity_benchmark_with_pi_joints(test::number_at(joint, "mu_min_rad")), {}, 1, context);
@@ -79,8 +70,8 @@ TEST(DexteritySynthesis, DesignsRobotAndPiJointsTogether) {
       synthesise(dexterity_benchmark_with_pi_joints(math::radians(6)), {}, 1, context);
   EXPECT_EQ(smaller.status, Status::done);
   EXPECT_LT(smaller.best.size, 0.975 * sequential);
-  EXPECT_TRUE(stand_of_limit(smaller.best, DexterityLimit::telescoping)->active);
-  EXPECT_TRUE(stand_of_limit(smaller.best, DexterityLimit::pi_transmission)->active);
+  EXPECT_TRUE(stand_of(smaller.best, DexterityLimit::telescoping)->active);
+  EXPECT_TRUE(stand_of(smaller.best, DexterityLimit::pi_transmission)->active);
 }
 
 // The mirror image of a joint serves as well: theta runs the other way round.
@@ -111,7 +102,7 @@ TEST(DexteritySynthesis, RefusesDesignsWhosePlatformTurns) {
       const DexterityDesign found = assess(task, test::numbers(test::at(former, "x_R_La_Lf_zt")));
       EXPECT_EQ(found.status, Status::infeasible);
       EXPECT_NE(found.reason.find("constraint is -0."), std::string::npos) << found.reason;
-      const DexterityStand* stand = stand_of_limit(found, DexterityLimit::constraint);
+      const DexterityStand* stand = stand_of(found, DexterityLimit::constraint);
       ASSERT_NE(stand, nullptr);
       EXPECT_NEAR(stand->value, test::number_at(former, "index_signed_min_on_E"), 1e-7) << id;
       EXPECT_FALSE(prove_region(task, found).proven);
@@ -134,7 +125,7 @@ TEST(DexteritySynthesis, TheLeastIndexCostsDexterity) {
       const DexteritySynthesis found = synthesise(task, {}, 1, context);
       ASSERT_EQ(found.status, Status::done) << found.reason;
       EXPECT_NEAR(found.best.objective, best, 2e-8) << id << asked;
-      EXPECT_TRUE(stand_of_limit(found.best, DexterityLimit::constraint)->active);
+      EXPECT_TRUE(stand_of(found.best, DexterityLimit::constraint)->active);
     }
 }
 

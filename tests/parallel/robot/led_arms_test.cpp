@@ -8,6 +8,7 @@
 #include "linkwright/core/random.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/robot/path_trouble.h"
+#include "parallel/random_vector.h"
 #include "parallel/robots.h"
 #include "support/allocations.h"
 
@@ -28,10 +29,7 @@ TEST(LedArms, ComeToThePoseThatTheirAnglesBelongTo) {
   RandomStream random({.seed = 4});
   int looked = 0;
   while (looked < 60) {
-    const auto draw = [&](double size) {
-      return Vec3{random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
-    };
-    const Pose to{home.position + draw(0.08), math::turn_about(draw(0.35))};
+    const Pose to{home.position + random_vector(random, 0.08), math::turn_about(random_vector(random, 0.35))};
     if (inverse(robot, to).status != Status::done || first_trouble(*task, home, to)) continue;
     ++looked;
     const LedPose found = led(robot, inverse(robot, to).angle);

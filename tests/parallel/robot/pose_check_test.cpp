@@ -242,8 +242,10 @@ TEST(PoseCheck, EveryInstructionSetAgrees) {
     task.leg[i] = {.leg = robot.leg[i], .least_elbow_part = -2, .most_elbow_part = 2, .most_swing_part = 2};
   for (int i = 0; i < 3; ++i) task.rods_scale /= robot.leg[i].rod;
   task.count = 8;
-  const double x[8] = {0, 0.1, 0.2, 0.3, -0.1, -0.2, 0, 2}, y[8] = {0, 0, 0.1, -0.1, 0.2, -0.2, 0.3, 0},
-               z[8] = {-0.8, -0.7, -0.6, -0.8, -0.9, -0.7, -0.8, -0.8};
+  // Seven poses within reach, and one far out of it.
+  const double x[8] = {0, 0.1, 0.2, 0.3, -0.1, -0.2, 0, 2};
+  const double y[8] = {0, 0, 0.1, -0.1, 0.2, -0.2, 0.3, 0};
+  const double z[8] = {-0.8, -0.7, -0.6, -0.8, -0.9, -0.7, -0.8, -0.8};
   task.position = {x, y, z};
   double criterion[8], rods[8], conditioning[8];
   task.criterion = criterion;

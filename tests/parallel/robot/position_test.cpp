@@ -8,6 +8,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
 #include "linkwright/parallel/robot/jacobians.h"
+#include "parallel/random_vector.h"
 #include "parallel/robots.h"
 #include "support/allocations.h"
 #include "support/message.h"
@@ -167,14 +168,13 @@ TEST(Position, NewtonNeverReturnsAPoseThatDoesNotFit) {
   // 10 mm and 0.03 rad away takes at most four iterations.
   RandomStream random({.seed = 3});
   for (int trial = 0; trial < 1000; ++trial) {
-    const auto within = [&](double size) {
-      return Vec3{random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
-    };
-    const Pose pose{Vec3{0, 0, -0.5} + within(0.05), math::turn_about(within(0.1))};
+    const Pose pose{Vec3{0, 0, -0.5} + random_vector(random, 0.05),
+                    math::turn_about(random_vector(random, 0.1))};
     const ArmAngles angles = inverse(robot, pose);
     ASSERT_EQ(angles.status, Status::done);
-    const Placed back = direct_near(
-        robot, angles.angle, {pose.position + within(0.01), math::turn_about(within(0.03)) * pose.rotation});
+    const Placed back = direct_near(robot, angles.angle,
+                                    {pose.position + random_vector(random, 0.01),
+                                     math::turn_about(random_vector(random, 0.03)) * pose.rotation});
     EXPECT_EQ(back.status, Status::done);
     EXPECT_LE(back.iterations, 5);
     EXPECT_LT(norm(back.pose.position - pose.position), 1e-13);

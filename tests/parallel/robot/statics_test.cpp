@@ -6,6 +6,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/random.h"
+#include "parallel/random_vector.h"
 #include "parallel/robots.h"
 #include "support/allocations.h"
 
@@ -72,19 +73,16 @@ TEST(Statics, OfTheReferenceHexa) {
 
 TEST(Statics, VirtualWorkAndTheRodsAgree) {
   RandomStream random({.seed = 11});
-  const auto draw = [&](double size) {
-    return Vec3{random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
-  };
   for (StaticsCase c : statics_cases)
     for (int trial = 0; trial < 200; ++trial) {
       const bool plane = c.robot.freedom == Freedom::plane_translation;
       StaticsCase moved = c;
-      const Vec3 shift = draw(0.04);
+      const Vec3 shift = random_vector(random, 0.04);
       moved.pose.position += {shift.x, shift.y, plane ? 0 : shift.z};
       if (c.robot.freedom == Freedom::space)
-        moved.pose.rotation = math::turn_about(draw(0.1)) * moved.pose.rotation;
+        moved.pose.rotation = math::turn_about(random_vector(random, 0.1)) * moved.pose.rotation;
       const Jacobians at = moved.at();
-      const Wrench load{draw(50), draw(5)};
+      const Wrench load{random_vector(random, 50), random_vector(random, 5)};
       const StaticLoads loads = static_loads(c.robot, at, moved.drives_state(), load);
       ASSERT_EQ(loads.status, Status::done);
       // tau = -J^T W, without the rods.

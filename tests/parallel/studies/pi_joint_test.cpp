@@ -64,10 +64,11 @@ TEST(PiJointStudy, SaysWhichRequirementsClash) {
 TEST(PiJointStudy, TellsWhatIsWrong) {
   EXPECT_THAT(problems_of(replaced(analysis, "to_deg   = 60.0", "to_deg   = 95.0")),
               HasSubstr("the angle goes from above -90 deg"));
-  EXPECT_THAT(problems_of(replaced(analysis, "ratio  = 0.4", "ratio  = 0")), HasSubstr("ratio"));
+  EXPECT_THAT(problems_of(replaced(analysis, "ratio  = 0.4", "ratio  = 0")),
+              HasSubstr("mechanism.ratio: is 0, must be more than 0"));
   EXPECT_THAT(problems_of("schema = 1\nkind = \"synthesis\"\n[mechanism]\ntype = "
                           "\"parallel.pi_joint\"\n[target]\ntype = \"requirements\"\nhalf_travel_deg = 60\n"),
-              HasSubstr("half_travel"));
+              HasSubstr("target.half_travel_deg: neither a torque with a force limit nor "));
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(RobotStudy, TellsWhatIsWrongWithTheRobot) {
                   pose),
       HasSubstr("'rod' is missing"));
   EXPECT_THAT(problems_of(replaced(delta, "rod_mm = 800", "rod_mm = 0") + pose),
-              HasSubstr("leg 1: rod = 0 m"));
+              HasSubstr("leg 1: rod = 0 m; lengths must be above 0"));
   EXPECT_THAT(
       problems_of(replaced(five_bar, "rod_mm = 350\n", "rod_mm = 350\nplatform_mm = [1, 0]\n") + pose),
       HasSubstr("the rods of a five-bar meet in the platform point"));
@@ -80,7 +80,8 @@ TEST(RobotStudy, TellsWhatIsWrongWithTheRobot) {
                           pose),
               HasSubstr("a planar robot has 2 legs, here are 1"));
   EXPECT_THAT(problems_of(delta), HasSubstr("nothing is asked for"));
-  EXPECT_THAT(problems_of(delta + "[mechanism.drive]\nlaed_mm = 3\n" + pose), HasSubstr("lead"));
+  EXPECT_THAT(problems_of(delta + "[mechanism.drive]\nlaed_mm = 3\n" + pose),
+              HasSubstr("mechanism.drive.laed_mm: unknown key; did you mean 'lead_mm'?"));
 }
 
 TEST(RobotStudy, DrivesAreOfOneTypeOrTheOther) {

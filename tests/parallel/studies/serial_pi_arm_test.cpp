@@ -66,7 +66,7 @@ TEST(SerialArmStudy, TellsWhatIsWrongWithTheArm) {
   EXPECT_THAT(problems_of(replaced(serial_mechanism, "mode = -1", "mode = 0") + pose),
               HasSubstr("must be 1 or -1"));
   EXPECT_THAT(problems_of(replaced(serial_mechanism, "arms_mm = [300, 250]\n", "") + pose),
-              HasSubstr("arms"));
+              HasSubstr("mechanism.arms_m: this key is missing"));
   EXPECT_THAT(problems_of(replaced(serial_mechanism, "[300, 250]", "[300, 0]") + pose),
               HasSubstr("more than 0"));
   EXPECT_THAT(problems_of(serial_mechanism + "[[mechanism.drive]]\n" + pose),
@@ -80,7 +80,8 @@ TEST(SerialArmStudy, TellsWhatIsWrongWithMasses) {
   const std::string arm = serial_mechanism + serial_drives;
   EXPECT_THAT(problems_of(arm + pose + "[masses]\n[[masses.joint]]\n"),
               HasSubstr("masses of 1 joints, the arm has 2"));
-  EXPECT_THAT(problems_of(arm + pose + "[masses]\npayload_kg = 1\n"), HasSubstr("joint"));
+  EXPECT_THAT(problems_of(arm + pose + "[masses]\npayload_kg = 1\n"),
+              HasSubstr("masses.joint: this key is missing"));
   EXPECT_THAT(problems_of(arm + pose + serial_masses + "[masses.joint.pi_joint]\narm_mass_kg = 1\n"),
               HasSubstr("keep [masses.joint.pi_joint], or the masses of arms and coupler"));
   const std::string pi =

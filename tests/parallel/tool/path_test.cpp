@@ -11,6 +11,7 @@
 #include "linkwright/study/bind_schema.h"
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/read.h"
+#include "support/message.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -25,7 +26,7 @@ T read(const std::string& text, std::string& messages) {
   T out;
   reader.root().read(out);
   reader.finish();
-  for (const Diagnostic& d : diagnostics) messages += to_string(d) + "\n";
+  messages += test::lines_of(diagnostics);
   return out;
 }
 
@@ -126,7 +127,7 @@ TEST(ToolPath, FilesAreToldWhatIsWrong) {
   };
   EXPECT_THAT(message("law = \"s_curve\"\nstep = []\n"),
               HasSubstr("law: is 's_curve', must be one of: double_s, polynomial_345, cycloidal"));
-  EXPECT_THAT(message("blend = true\n"), HasSubstr("step"));
+  EXPECT_THAT(message("blend = true\n"), HasSubstr("step: this key is missing"));
   EXPECT_THAT(
       message("[[step]]\ntype = \"lien\"\nto_m = [0, 0, 0]\n"),
       HasSubstr("is 'lien', must be one of: line, arc, circle, pick_and_place, dwell, table; did you mean "

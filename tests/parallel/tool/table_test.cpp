@@ -7,6 +7,7 @@
 #include <string>
 
 #include "linkwright/core/numbers.h"
+#include "support/message.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -16,9 +17,7 @@ using ::testing::HasSubstr;
 std::string problems(const std::string& text) {
   Diagnostics diagnostics;
   EXPECT_FALSE(read_tool_table(text, "way.csv", diagnostics)) << text;
-  std::string out;
-  for (const Diagnostic& d : diagnostics) out += to_string(d) + "\n";
-  return out;
+  return test::lines_of(diagnostics);
 }
 ToolTable table(const std::string& text) {
   Diagnostics diagnostics;

@@ -61,7 +61,8 @@ TEST(ForceBalance, NeedsNoWeightWhereNothingIsToBeChanged) {
 TEST(ForceBalance, RejectsBadRadii) {
   EXPECT_THAT(test::message([] { counterweight(1, 0); }), HasSubstr("radius must be more than 0, got 0"));
   EXPECT_THAT(test::message([] { counterweight({NAN, 0}, 1); }), HasSubstr("must be finite"));
-  EXPECT_THAT(test::message([] { force_balance({.coupler = -1}, {}); }), HasSubstr("-1"));
+  EXPECT_THAT(test::message([] { force_balance({.coupler = -1}, {}); }),
+              HasSubstr("got ground 1, crank 1, coupler -1, rocker 1"));
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ RC_GTEST_PROP(LinearForcesProperty, OfAnArmEqualItsReactions, ()) {
 // Any linkage with springs, loads, welded bodies and attached masses: the same as solving for the forces of
 // the masses themselves.
 void expect_linkage(const Linkage& linkage, const std::vector<int>& bodies, std::vector<InputMotion> inputs) {
-  const PlanResult planned = plan(linkage);
+  const PlanResult planned = plan_linkage(linkage);
   ASSERT_TRUE(planned.problems.empty());
   const LinearForces forces = linear_forces(linkage, planned.plan, bodies, inputs);
   ASSERT_EQ(forces.status, Status::done);
@@ -103,7 +103,7 @@ void expect_linkage(const Linkage& linkage, const std::vector<int>& bodies, std:
     other.bodies[static_cast<std::size_t>(bodies[k])].mass =
         BodyMass{m.mass, m.inertia, std::polar(m.centre_distance, m.centre_angle)};
   }
-  const LinkagePlan with = plan(other).plan;
+  const LinkagePlan with = plan_linkage(other).plan;
   LinkageMotion motion(with);
   LinkageForces f;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -169,7 +169,7 @@ TEST(LinearForces, TellWhatIsWrong) {
               HasSubstr("there is no quantity 'O5_x_N'; there are O1_x_N, O1_y_N"));
   EXPECT_THAT(message([&] { values(forces, "O1_N", {}); }), HasSubstr("0 base parameters for 3 links"));
   Linkage linkage = linkage_sample("slider_crank").linkage;
-  const LinkagePlan p = plan(linkage).plan;
+  const LinkagePlan p = plan_linkage(linkage).plan;
   const InputMotion input[] = {{0.1, 1, 0}};
   const int ground[] = {0}, twice[] = {1, 1};
   EXPECT_THAT(message([&] { linear_forces(linkage, p, ground, input); }),

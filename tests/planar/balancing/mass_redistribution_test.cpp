@@ -369,7 +369,7 @@ TEST(MassBalancing, MaterialStaysInsideItsEnvelope) {
 
 TEST(MassBalancing, OfAnyLinkage) {
   const LinkageSample& sample = linkage_sample("slider_crank");
-  const LinkagePlan p = plan(sample.linkage).plan;
+  const LinkagePlan p = plan_linkage(sample.linkage).plan;
   std::vector<InputMotion> inputs;
   for (int i = 0; i < 120; ++i) inputs.push_back({2 * pi * i / 120, 40, 0});
   const int crank = body_index(sample.linkage, "crank");
@@ -386,7 +386,7 @@ TEST(MassBalancing, OfAnyLinkage) {
   Linkage balanced = sample.linkage;
   balanced.bodies[static_cast<std::size_t>(crank)].mass = BodyMass{
       r.links[0].mass, r.links[0].inertia, std::polar(r.links[0].centre_distance, r.links[0].centre_angle)};
-  const LinearForces again = linear_forces(balanced, plan(balanced).plan, open, inputs);
+  const LinearForces again = linear_forces(balanced, plan_linkage(balanced).plan, open, inputs);
   EXPECT_NEAR(rms(values(again, "shaking_force_N", std::vector{base_parameters(again.initial[0])})),
               r.after[0], 1e-9 * r.before[0]);
   EXPECT_NEAR(std::abs(r.links[0].centre_angle - pi), 0, 1e-3);  // opposite to the crank pin

@@ -41,7 +41,7 @@ OnBothBranches smooth_at(const FourBar& four_bar, const FourBarMasses& of, doubl
                          double angle, double speed, double acceleration) {
   Linkage l = linkage_of({four_bar, of});
   l.gravity = {0, -gravity};
-  const LinkagePlan planned = plan(l).plan;
+  const LinkagePlan planned = plan_linkage(l).plan;
   OnBothBranches out{LinkageMotion(planned), {}};
   const double inputs[] = {from};
   const BranchPath path =
@@ -132,7 +132,7 @@ TEST(FourBarAsLinkage, IsTheSameAsInClosedForm) {
   for (const Branch branch : {Branch::open, Branch::crossed}) {
     l.branch = branch;
     const Linkage linkage = linkage_of({l, masses});
-    const PlanResult planned = plan(linkage);
+    const PlanResult planned = plan_linkage(linkage);
     ASSERT_TRUE(planned.problems.empty());
     LinkageMotion motion(planned.plan);
     LinkageForces forces;

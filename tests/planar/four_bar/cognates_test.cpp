@@ -121,7 +121,8 @@ TEST(Cognates, OfATracingPointOnAPin) {
 }
 
 TEST(Cognates, RejectWhatIsNoLinkage) {
-  EXPECT_THAT([] { cognates({.rocker = -2}, 0); }, ThrowsMessage<ContractError>(HasSubstr("rocker -2")));
+  EXPECT_THAT([] { cognates({.rocker = -2}, 0); },
+              ThrowsMessage<ContractError>(HasSubstr("got ground 1, crank 1, coupler 1, rocker -2")));
 }
 
 RC_GTEST_PROP(Cognates, AnswerAnyInput, ()) {

@@ -138,13 +138,19 @@ TEST(FourBarSweep, KeepsWhatIsWantedWithTheSameBits) {
               HasSubstr("row 7 is not wanted of this sweep"));
 }
 
+// The rows of `four_bar_constants` of a crank-rocker: ground direction, lengths, branch; base parameters of
+// crank, coupler and rocker.
+constexpr double crank_rocker_rows[] = {1,    0,     0.6,  0.1,  0.4, 0.32, 1,  //
+                                        0.36, 0.018, 0,    1e-3,                //
+                                        1.3,  0.26,  0.02, 0.07,                //
+                                        1,    -0.17, 0.02, 0.04};
+static_assert(std::size(crank_rocker_rows) == four_bar_constants);
+
 TEST(FourBarSweep, EveryInstructionSetGivesTheSameUpToRounding) {
   // The chosen kernel is compared above; the baseline runs everywhere.
-  const double constants[] = {1,    0,   0.6,  0.1,  0.4,  0.32, 1,     0.36, 0.018, 0,
-                              1e-3, 1.3, 0.26, 0.02, 0.07, 1,    -0.17, 0.02, 0.04};
   std::vector<double> rows(four_bar_constants * 8), angle(8), ones(8, 31.4), zeros(8, 0.0), good(8);
   std::vector<double> data(four_bar_row_count * 8), other(four_bar_row_count * 8);
-  for (std::size_t i = 0; i < four_bar_constants; ++i) rows[8 * i] = constants[i];
+  for (std::size_t i = 0; i < four_bar_constants; ++i) rows[8 * i] = crank_rocker_rows[i];
   for (std::size_t i = 0; i < 8; ++i) angle[i] = 0.7 * static_cast<double>(i);
   FourBarSweepTask task{.gravity = 9.81, .constants = rows.data(), .lanes = 8, .angles = 1};
   task.angle = angle.data(), task.rate = ones.data(), task.acceleration = zeros.data();
@@ -190,7 +196,7 @@ TEST(FourBarSweep, RejectsWhatThePlainFunctionsReject) {
   EXPECT_THAT(run(crank_rocker, {bad, {}, {}}), HasSubstr("of 3 samples must be finite"));
   FourBarMachine m = crank_rocker;
   m.masses.coupler.mass = -1;
-  EXPECT_THAT(run(m, {angle, {}, {}}), HasSubstr("mass -1"));
+  EXPECT_THAT(run(m, {angle, {}, {}}), HasSubstr("base_parameters: mass -1, inertia "));
   m = crank_rocker;
   m.linkage.coupler = 0;
   EXPECT_THAT(run(m, {angle, {}, {}}), HasSubstr("link lengths must be positive"));

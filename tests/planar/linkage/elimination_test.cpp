@@ -72,7 +72,7 @@ TEST(LinkageElimination, AgreesOnEveryKindOfJoint) {
     set_uniform_all(l, 1);
     for (std::size_t b = 1; b < l.bodies.size(); ++b)
       if (l.bodies[b].points.size() == 1 && l.joints.size() > 1) l.bodies[b].mass = BodyMass{0.4, 0, 0};
-    const LinkagePlan p = plan(l).plan;
+    const LinkagePlan p = plan_linkage(l).plan;
     if (!LinkageElimination::takes(p) || !p.has_masses || p.inputs() == 0) continue;
     std::vector<InputMotion> inputs;
     for (const double value : s.from) inputs.push_back({value + 0.1, 1.5, 0});
@@ -106,7 +106,7 @@ TEST(LinkageElimination, IsTakenWhereItIsCheaper) {
   add_gear(geared, "mesh", "one", "two", -2, 0);
   add_drive(geared, "O");
   set_uniform_all(geared, 1);
-  const LinkagePlan p = plan(geared).plan;
+  const LinkagePlan p = plan_linkage(geared).plan;
   EXPECT_EQ(cheaper_route(geared, p, 12), AccelerationRoute::mass_matrix);
   EXPECT_THAT(message([&] { LinkageElimination(p, {true}); }), HasSubstr("the linkage has gears"));
 }
@@ -117,7 +117,7 @@ TEST(LinkageElimination, TellsFreeInputsThatMoveNoMass) {
   add_pin(l, "O", "ground.O", "arm.O");
   add_drive(l, "O");
   l.bodies[1].mass = BodyMass{0, 0, 0};
-  const LinkagePlan p = plan(l).plan;
+  const LinkagePlan p = plan_linkage(l).plan;
   std::vector<InputMotion> inputs{{0.3, 1, 0}};
   LinkageDynamics dynamics(l, p, {true}, AccelerationRoute::joint_forces);
   EXPECT_EQ(dynamics.solve(0, inputs), Status::singular);

@@ -60,7 +60,7 @@ TEST(LinkageForm, TakesTheModeFromADrawing) {
   Linkage l = linkage_of(form, problems);
   ASSERT_THAT(problems, IsEmpty());
   l.driven = {0};
-  const PlanResult planned = plan(l);
+  const PlanResult planned = plan_linkage(l);
   ASSERT_THAT(planned.problems, IsEmpty());
   LinkageMotion motion(planned.plan);
   solve_position(planned.plan, std::vector<InputMotion>{{0, 0, 0}}, motion);  // as drawn

@@ -15,7 +15,7 @@ using namespace linkwright::planar::test;
 
 // A dyad between two points of the ground, the first named "first" and "second".
 std::vector<PartState<double>> placed(const Linkage& l, double mode, GroupType type) {
-  const PlanResult r = plan(l);
+  const PlanResult r = plan_linkage(l);
   for (const Diagnostic& d : r.problems) ADD_FAILURE() << to_string(d);
   EXPECT_EQ(r.plan.groups.at(0).type, type);
   std::vector<PartState<double>> parts(r.plan.parts.size());

@@ -19,7 +19,8 @@ using ::testing::IsEmpty;
 
 std::vector<std::string> problems_told(const Linkage& l) {
   std::vector<std::string> out;
-  for (const Diagnostic& d : plan(l).problems) out.push_back(d.key + ": " + d.message + "; " + d.hint);
+  for (const Diagnostic& d : plan_linkage(l).problems)
+    out.push_back(d.key + ": " + d.message + "; " + d.hint);
   return out;
 }
 Linkage four_bar() { return four_bar_sample().linkage; }
@@ -358,8 +359,9 @@ TEST(LinkagePlanProblems, NamePairsWithoutModes) {
                           "this linkage has no such pair"));
 }
 TEST(LinkagePlanProblems, NoGearsAllAtOnce) {
-  EXPECT_THAT(test::message([] { plan(linkage_sample("geared_five_bar").linkage, PlanRoute::all_at_once); }),
-              HasSubstr("a linkage with 1 gear(s) cannot be solved all at once"));
+  EXPECT_THAT(
+      test::message([] { plan_linkage(linkage_sample("geared_five_bar").linkage, PlanRoute::all_at_once); }),
+      HasSubstr("a linkage with 1 gear(s) cannot be solved all at once"));
 }
 TEST(LinkageMobility, Counts) {
   Linkage l = four_bar();

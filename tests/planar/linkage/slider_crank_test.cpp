@@ -25,7 +25,7 @@ TEST(SliderCrank, IsTheSourcesMechanismOnBothSides) {
   for (const SliderSide side : {SliderSide::forward, SliderSide::backward}) {
     m.branch = side;
     const Linkage l = slider_crank(m);
-    const PlanResult planned = plan(l);
+    const PlanResult planned = plan_linkage(l);
     ASSERT_TRUE(planned.problems.empty());
     LinkageMotion motion(planned.plan);
     for (int i = 0; i < 36; ++i) {

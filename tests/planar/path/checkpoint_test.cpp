@@ -8,6 +8,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/run_context.h"
 #include "linkwright/planar/path/eighteen_points.h"
+#include "planar/path_cases.h"
 
 namespace linkwright::planar {
 namespace {
@@ -68,23 +69,9 @@ TEST(PathCheckpoint, InfeasibleAndEmptySeeds) {
 TEST(PathCheckpoint, RefusesWhatItCannotHaveMade) {
   const PathProblem problem = eighteen_points();
   const Value good = kept(searched(problem));
-  const auto refusal = [&](const auto& change) -> std::string {
-    Value bad = good;
-    change(bad);
-    try {
-      restored(bad, problem, "seed 3");
-    } catch (const CheckpointError& error) {
-      return error.what();
-    }
-    return "none";
-  };
+  const auto refusal = [&](const auto& change) { return test::refusal(good, problem, change); };
   const auto with_number = [&](std::size_t index, double number) {
-    return refusal([&](Value& v) {
-      Value& design = v["designs"].as_array()[0];
-      std::vector<double> numbers = unpack_numbers(design, "test");
-      numbers[index] = number;
-      design = pack_numbers(numbers);
-    });
+    return test::refusal_of_number(good, problem, index, number);
   };
   EXPECT_EQ(with_number(2, 0.25), "none");
   for (const auto& [index, number] : {std::pair<std::size_t, double>{0, 0.5},

@@ -167,11 +167,6 @@ TEST(PathObjective, KernelsAgree) {
 
 TEST(PathObjective, SameBitsForAnySplit) {
   const std::size_t most = 40;
-  const auto bits = [](const std::vector<double>& v) {
-    std::vector<std::uint64_t> out;
-    for (double x : v) out.push_back(std::bit_cast<std::uint64_t>(x));
-    return out;
-  };
   for (const Case& c : cases()) {
     const PathProblem p = problem_of(c);
     const Population x = candidates(p, -1, most, 5);
@@ -190,14 +185,16 @@ TEST(PathObjective, SameBitsForAnySplit) {
         }
         kernel.run(objective, smaller.view(), part.data(), part_violation.data());
         for (std::size_t i = size; i < most; ++i) part[i] = cost[i], part_violation[i] = violation[i];
-        ASSERT_EQ(bits(part), bits(cost)) << kernel.name << ", " << describe(c) << ", size " << size;
-        ASSERT_EQ(bits(part_violation), bits(violation));
+        ASSERT_EQ(test::bits(part), test::bits(cost))
+            << kernel.name << ", " << describe(c) << ", size " << size;
+        ASSERT_EQ(test::bits(part_violation), test::bits(violation));
       }
       for (std::size_t first = 8; first < most; first += 8) {
         std::vector<double> part = cost, part_violation = violation;
         kernel.run(objective, x.view().slice(first, most - first), part.data() + first,
                    part_violation.data() + first);
-        ASSERT_EQ(bits(part), bits(cost)) << kernel.name << ", " << describe(c) << ", from " << first;
+        ASSERT_EQ(test::bits(part), test::bits(cost))
+            << kernel.name << ", " << describe(c) << ", from " << first;
       }
       for (std::size_t i = 0; i < most; ++i) {
         Population single(x.dimension(), 1);

@@ -177,31 +177,35 @@ TEST(PathMeasure, StoredDesignsMeetTheirLimits) {
   }
 }
 
+// Of the eighteen points with free timing and sense -1, by our own search.
+constexpr FourBar opposite_sense_four_bar{.ground = 1.148925167360854,
+                                          .crank = 0.2216908833888305,
+                                          .coupler = 0.9219355617539315,
+                                          .rocker = 0.7998655383485388,
+                                          .coupler_u = 2.896669920131716,
+                                          .coupler_v = -0.0965476846798749,
+                                          .pivot_x = 2.732200382333272,
+                                          .pivot_y = -0.7911047832527812,
+                                          .frame_angle = 1.870250270374195,
+                                          .branch = Branch::open};
+constexpr double opposite_sense_crank_angles[] = {
+    1.985546773176126,  1.599395391179458,   1.277026178185623,   0.8995866094659352,  0.5969796126506708,
+    0.3087405987752598, 0.04380140399869336, -0.1362421111472099, -0.3301766963237567, -0.5809996524467114,
+    -0.946858637263096, -1.164850001259162,  -1.486115861484417,  -1.83946842021984,   -2.134422235183303,
+    -2.604847871134734, -3.215702267017839,  -3.634138536340206};
+
 // The stored best-known values of free timing were for sense +1. With the opposite sense one design beats
 // those of all three limits at once, with a transmission angle far above them.
 TEST(PathMeasure, OppositeSenseBeatsTheStoredFreeTimingDesigns) {
-  const FourBar linkage{.ground = 1.148925167360854,
-                        .crank = 0.2216908833888305,
-                        .coupler = 0.9219355617539315,
-                        .rocker = 0.7998655383485388,
-                        .coupler_u = 2.896669920131716,
-                        .coupler_v = -0.0965476846798749,
-                        .pivot_x = 2.732200382333272,
-                        .pivot_y = -0.7911047832527812,
-                        .frame_angle = 1.870250270374195,
-                        .branch = Branch::open};
-  const std::vector<double> angles = {
-      1.985546773176126,  1.599395391179458,   1.277026178185623,   0.8995866094659352,  0.5969796126506708,
-      0.3087405987752598, 0.04380140399869336, -0.1362421111472099, -0.3301766963237567, -0.5809996524467114,
-      -0.946858637263096, -1.164850001259162,  -1.486115861484417,  -1.83946842021984,   -2.134422235183303,
-      -2.604847871134734, -3.215702267017839,  -3.634138536340206};
   PathProblem problem = printed_eighteen_points();
   problem.timing = Timing::free;
   problem.min_transmission_angle = math::radians(40);
-  const PathDesign found = measure(problem, linkage, -1, angles);
+  const PathDesign found =
+      measure(problem, opposite_sense_four_bar, -1,
+              {std::begin(opposite_sense_crank_angles), std::end(opposite_sense_crank_angles)});
   EXPECT_NEAR(found.error, 0.0030707889, 1e-10);
   EXPECT_THAT(reasons(found), IsEmpty());
-  EXPECT_NEAR(math::degrees(transmission_angles(linkage).minimum), 64.7, 0.05);
+  EXPECT_NEAR(math::degrees(transmission_angles(opposite_sense_four_bar).minimum), 64.7, 0.05);
   for (const char* id :
        {"P18-free-timing-mu-min-20", "P18-free-timing-mu-min-30", "P18-free-timing-mu-min-40"})
     EXPECT_LT(found.error, number_at(path_case(id), "computed.sse_m2"));

@@ -52,12 +52,6 @@ PathProblem link_projection_problem(const LinkProjectionCase& c) {
   return p;
 }
 
-double sum_of_squares(const std::vector<double>& r) {
-  double sum = 0;
-  for (double x : r) sum += x * x;
-  return sum;
-}
-
 // Random ratios that assemble at every point, clear of the toggles; none for kinds that seldom do.
 std::vector<std::vector<double>> usable_ratios(PathProjection& projection, const LinkProjectionCase& c,
                                                std::size_t count, double clearance) {
@@ -85,7 +79,7 @@ TEST(PathProjection, ResidualsAreThoseOfTheRecoveredDesign) {
     std::vector<double> r(projection.residuals());
     for (const auto& q : usable_ratios(projection, c, 20, 0.02)) {
       ASSERT_TRUE(projection.evaluate(q, r, {}));
-      const double projected = sum_of_squares(r);
+      const double projected = test::sum_of_squares(r);
       const PathDesign design = projection.design(p, q);
       EXPECT_EQ(design.linkage.branch, c.branch);
       EXPECT_EQ(design.sense, c.sense);
@@ -141,7 +135,7 @@ TEST(PathProjection, GradientAgreesWithDifferences) {
     std::vector<double> r(m), jacobian(n * m);
     for (const auto& q : usable_ratios(projection, c, 5, 0.2)) {
       ASSERT_TRUE(projection.evaluate(q, r, jacobian));
-      const double f = sum_of_squares(r);
+      const double f = test::sum_of_squares(r);
       std::vector<double> gradient(n), difference(n);
       double largest = 0;
       for (std::size_t i = 0; i < n; ++i) {
@@ -150,7 +144,7 @@ TEST(PathProjection, GradientAgreesWithDifferences) {
       }
       const auto error = [&](std::span<const double> at) {
         std::vector<double> s(m);
-        return projection.evaluate(at, s, {}) ? sum_of_squares(s) : nan;
+        return projection.evaluate(at, s, {}) ? test::sum_of_squares(s) : nan;
       };
       if (math::central_gradient(error, q, difference) != Status::done) continue;
       // Ratios and slacks of the order 1, the toggles 0.2 away: truncation (6e-6 / 0.2)^2 = 1e-9 of the
@@ -175,7 +169,7 @@ TEST(PathProjection, CognatesHaveTheSameError) {
       std::swap(swapped[1], swapped[2]);  // r3 <-> r4, or the slacks A2 and A3 in which they differ
       ASSERT_TRUE(open.evaluate(q, a, {}));
       ASSERT_TRUE(crossed.evaluate(swapped, b, {}));
-      EXPECT_NEAR(sum_of_squares(a) / sum_of_squares(b), 1, 1e-10);
+      EXPECT_NEAR(test::sum_of_squares(a) / test::sum_of_squares(b), 1, 1e-10);
     }
   }
 }

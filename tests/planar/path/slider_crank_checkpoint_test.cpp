@@ -45,23 +45,9 @@ TEST(SliderPathCheckpoint, ASeedComesBackBitForBit) {
 TEST(SliderPathCheckpoint, RefusesWhatItCannotHaveMade) {
   const SliderPathProblem problem = printed_eighteen_slider_points();
   const Value good = kept(searched(problem, false));
-  const auto refusal = [&](const auto& change) -> std::string {
-    Value bad = good;
-    change(bad);
-    try {
-      restored(bad, problem, "seed 3");
-    } catch (const CheckpointError& error) {
-      return error.what();
-    }
-    return "none";
-  };
+  const auto refusal = [&](const auto& change) { return test::refusal(good, problem, change); };
   const auto with_number = [&](std::size_t index, double number) {
-    return refusal([&](Value& v) {
-      Value& design = v["designs"].as_array()[0];
-      std::vector<double> numbers = unpack_numbers(design, "test");
-      numbers[index] = number;
-      design = pack_numbers(numbers);
-    });
+    return test::refusal_of_number(good, problem, index, number);
   };
   EXPECT_EQ(with_number(2, 0.25), "none");
   for (const auto& [index, number] : {std::pair<std::size_t, double>{0, 0.5},

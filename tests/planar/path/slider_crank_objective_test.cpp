@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -153,11 +152,6 @@ TEST(SliderPathObjective, KernelsAgree) {
 
 TEST(SliderPathObjective, SameBitsForAnySplit) {
   const std::size_t most = 19;
-  const auto bits = [](const std::vector<double>& v) {
-    std::vector<std::uint64_t> out;
-    for (double x : v) out.push_back(std::bit_cast<std::uint64_t>(x));
-    return out;
-  };
   for (const ObjectiveCase& c : objective_cases()) {
     const std::size_t each = c.front ? 2 : 1;
     const Population x = candidates(objective_problem(c), -1, most, 5);
@@ -170,8 +164,9 @@ TEST(SliderPathObjective, SameBitsForAnySplit) {
         kernel.run(objective, x.view().slice(0, first), part.data(), part_violation.data());
         kernel.run(objective, x.view().slice(first, most - first), part.data() + each * first,
                    part_violation.data() + first);
-        ASSERT_EQ(bits(part), bits(cost)) << kernel.name << ", " << describe(c) << ", from " << first;
-        ASSERT_EQ(bits(part_violation), bits(violation));
+        ASSERT_EQ(test::bits(part), test::bits(cost))
+            << kernel.name << ", " << describe(c) << ", from " << first;
+        ASSERT_EQ(test::bits(part_violation), test::bits(violation));
       }
     }
   }

@@ -80,7 +80,7 @@ TEST(SliderPathProblem, PosesAreThoseOfTheLinkage) {
     const SliderCrankMechanism m = random_mechanism(r, true);
     const SliderCrankForm& f = m.parameters;
     const Linkage l = planar::slider_crank(m);
-    const PlanResult planned = plan(l);
+    const PlanResult planned = plan_linkage(l);
     ASSERT_TRUE(planned.problems.empty());
     LinkageMotion motion(planned.plan);
     for (int k = 0; k < 12; ++k) {

@@ -48,12 +48,6 @@ SliderPathProblem projection_problem(const ProjectionCase& c) {
   return p;
 }
 
-double squares_of(const std::vector<double>& r) {
-  double sum = 0;
-  for (double x : r) sum += x * x;
-  return sum;
-}
-
 // Limits of the stroke: none, one that holds the crank short, one that holds it long.
 const Range strokes[] = {{0, infinity}, {0, 0.3}, {1.5, 3}};
 
@@ -87,7 +81,7 @@ TEST(SliderPathProjection, ResidualsAreThoseOfTheRecoveredDesign) {
                                   SliderPathProjection& projection, const auto& q, const auto& r) {
         const SliderPathDesign design = projection.design(p, q);
         const SliderCrankForm& f = design.mechanism.parameters;
-        const double projected = squares_of(r);
+        const double projected = test::sum_of_squares(r);
         double steepest = 1;
         for (const double angle : design.angles)
           steepest = std::min(steepest, std::cos(slider_crank_pose(design.mechanism, angle).pressure_angle));
@@ -156,7 +150,7 @@ TEST(SliderPathProjection, GradientAgreesWithDifferences) {
       if (slider_crank_pose(design.mechanism, angle).pressure_angle > 1.4) return;
     std::vector<double> jacobian(n * m), gradient(n), difference(n);
     ASSERT_TRUE(projection.evaluate(q, r, jacobian));
-    const double f = squares_of(r);
+    const double f = test::sum_of_squares(r);
     double largest = 0;
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t k = 0; k < m; ++k) gradient[i] += 2 * jacobian[i * m + k] * r[k];
@@ -164,7 +158,7 @@ TEST(SliderPathProjection, GradientAgreesWithDifferences) {
     }
     const auto error = [&](std::span<const double> at) {
       std::vector<double> s(m);
-      return projection.evaluate(at, s, {}) ? squares_of(s) : nan;
+      return projection.evaluate(at, s, {}) ? test::sum_of_squares(s) : nan;
     };
     if (math::central_gradient(error, q, difference) != Status::done) return;
     for (std::size_t i = 0; i < n; ++i)
@@ -190,7 +184,8 @@ TEST(SliderPathProjection, ClippingReproducesTheStoredFront) {
     for (SliderPathProjection* sense : {&projection, &other}) {
       sense->limit_stroke({0, limit});
       std::vector<double> r(sense->residuals());
-      if (sense->evaluate(sense->unknowns(m.parameters, start), r, {})) best = std::min(best, squares_of(r));
+      if (sense->evaluate(sense->unknowns(m.parameters, start), r, {}))
+        best = std::min(best, test::sum_of_squares(r));
     }
     EXPECT_NEAR(best, number_at(point, "sse_m2"), 1e-9);
     ++clipped;

@@ -220,7 +220,7 @@ TEST(ElasticBody, RodOfASliderCrankKeepsItsAccountOfEnergy) {
 // as the compliance.
 TEST(ElasticBody, GoesToTheRigidLinkageAsItGetsStiff) {
   const Linkage l = slider_crank();
-  const LinkagePlan rigid = plan(l).plan;
+  const LinkagePlan rigid = plan_linkage(l).plan;
   LinkageMotion there(rigid);
   std::vector<double> apart, bent;
   for (const double stiffer : {1.0, 4.0, 16.0}) {
@@ -317,7 +317,7 @@ TEST(ElasticBody, CouplerAndRockerBendTogether) {
 // a beam on two pins under the inertia of the rigid rod, whose acceleration across is linear along it.
 TEST(ElasticBody, SlowRodBearsTheMomentsOfItsInertia) {
   const Linkage l = slider_crank();
-  const LinkagePlan rigid = plan(l).plan;
+  const LinkagePlan rigid = plan_linkage(l).plan;
   LinkageMotion there(rigid);
   ElasticBody rod = strip(2, 5);
   rod.damping = 5e-4;
@@ -426,7 +426,7 @@ TEST(ElasticBody, KeepsWhatIsOnTheBodyInItsPlace) {
   std::vector<InputMotion> inputs{{0.7, 0, 0}};
   for (const InputDrive& c : e.free) inputs.push_back({c.value, c.rate, 0});
   solve_position(e.plan, inputs, bent);
-  const LinkagePlan rigid = plan(l).plan;
+  const LinkagePlan rigid = plan_linkage(l).plan;
   LinkageMotion straight(rigid);
   solve_position(rigid, std::span(inputs).first(1), straight);
   EXPECT_LT(norm(point_motion(e.plan, bent, pieces[3], {0.29, 0.1}).position -

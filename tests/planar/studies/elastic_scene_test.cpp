@@ -59,7 +59,7 @@ TEST(LinkageElasticScene, TakesARoundScaleThatKeepsDeflectionsInThePicture) {
   b.line(0);
   const ElasticRecord record = elastic_record(b.rigid, b.elastic, b.motion, nullptr, 0);
   ASSERT_EQ(record.record.bodies.size(), b.rigid.bodies.size());
-  const LinkagePlan rigid = plan(b.rigid).plan;
+  const LinkagePlan rigid = plan_linkage(b.rigid).plan;
   const BentBody bent = bent_body(b.elastic, b.elastic.pieces[0], b.motion);
   const study::Scene scene = elastic_scene(b.rigid, rigid, b.elastic.pieces, {record, record}, {}, {});
   const double scale = std::stod(scene.title.substr(scene.title.find("drawn ") + 6));
@@ -84,7 +84,7 @@ TEST(LinkageElasticScene, DrawsPointsBesideTheBeam) {
   unknown.record.bodies.clear();
   unknown.away.clear();
   const study::Scene scene =
-      elastic_scene(b.rigid, plan(b.rigid).plan, b.elastic.pieces, {record, unknown}, {{2, 2}}, 1.0);
+      elastic_scene(b.rigid, plan_linkage(b.rigid).plan, b.elastic.pieces, {record, unknown}, {{2, 2}}, 1.0);
   EXPECT_EQ(scene.title, "motion");
   int first = 0;
   for (int k = 0; k < 2; ++k)

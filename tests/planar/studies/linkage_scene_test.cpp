@@ -10,7 +10,7 @@ namespace linkwright::planar {
 namespace {
 
 study::Scene scene_of(const LinkageSample& sample) {
-  const LinkagePlan p = plan(sample.linkage).plan;
+  const LinkagePlan p = plan_linkage(sample.linkage).plan;
   LinkageMotion motion(p);
   LinkageForces forces;
   std::vector<LinkageRecord> records;

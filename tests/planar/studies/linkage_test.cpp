@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <complex>
-#include <fstream>
 #include <iterator>
 #include <string>
 
@@ -337,8 +336,7 @@ struct RearLinkage {
 };
 
 TEST(LinkageStudy, AShockDrivesABicyclesRearLinkage) {
-  std::ifstream file(LINKWRIGHT_SOURCE_DIR "/examples/studies/bicycle-rear-linkage.toml");
-  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const std::string text = test::example_text("bicycle-rear-linkage.toml");
   const RearLinkage by_hand;
   const double drawn = by_hand.at(0).shock, from = 0.2567, to = 0.1967;
   const auto rows_agree = [&](const study::Result& r) {

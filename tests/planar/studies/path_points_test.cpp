@@ -7,6 +7,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/study/read.h"
+#include "support/message.h"
 
 namespace linkwright::planar {
 namespace {
@@ -30,7 +31,7 @@ ReadPoints read(const std::string& text, bool closed, std::optional<double> rota
     out.x = points.x, out.y = points.y;
   }
   reader.finish();
-  for (const Diagnostic& d : diagnostics) out.problems += to_string(d) + "\n";
+  out.problems = test::lines_of(diagnostics);
   return out;
 }
 

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,6 +16,7 @@ namespace linkwright::planar {
 namespace {
 
 using test::fact;
+using test::keys;
 using test::prepare;
 using test::problems_of;
 using test::run_text;
@@ -38,10 +38,7 @@ std::string study_text(const std::map<std::string, std::string>& changed = {}) {
        "[[drive]]\nlink = \"upper\"\nlaw = \"cycloidal\"\nfrom_deg = 0\nto_deg = 90\nduration_s = 2\n"},
       {"6 drive", "[[drive]]\nlink = \"fore\"\nlaw = \"harmonic\"\namplitude_deg = 30\nfrequency_Hz = 0.5\n"},
       {"7 sweep", "[sweep.time]\nto_s = 2\nsamples = 5\n"}};
-  for (const auto& [name, text] : changed) parts[name] = text;
-  std::string all;
-  for (const auto& [name, text] : parts) all += text;
-  return all;
+  return test::text_of(std::move(parts), changed);
 }
 
 std::string problems(const std::map<std::string, std::string>& changed) {
@@ -50,12 +47,6 @@ std::string problems(const std::map<std::string, std::string>& changed) {
 
 study::Result run(const std::map<std::string, std::string>& changed = {}) {
   return run_text(study_text(changed));
-}
-
-std::vector<std::string> keys(const Table& table) {
-  std::vector<std::string> out;
-  for (const Column& column : table.columns) out.push_back(column.key);
-  return out;
 }
 
 TEST(SerialArmStudyRead, NamesWhatIsWrongWithTheLinks) {
@@ -142,14 +133,8 @@ TEST(SerialArmStudyRead, ItsOwnExampleIsGood) {
 }
 
 TEST(SerialArmStudyRun, OfThePublishedArmPassesItsChecks) {
-  const std::filesystem::path file =
-      std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples/studies/arm-pick-and-place.toml";
-  const std::vector<study::Kind> kinds = studies();
-  Diagnostics diagnostics;
-  const auto study = study::prepare(study::read_file(file, diagnostics), file.string(), file.parent_path(),
-                                    kinds, diagnostics);
+  const auto study = test::prepare_example(test::kinds(), "arm-pick-and-place.toml");
   ASSERT_TRUE(study);
-  EXPECT_THAT(diagnostics, IsEmpty());
   RunContext context;
   const study::Result result = study::run_study(*study, context);
   EXPECT_EQ(result.status, Status::done);

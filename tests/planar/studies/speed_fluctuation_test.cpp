@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <filesystem>
 #include <string>
 
 #include "linkwright/core/looks.h"
@@ -80,13 +79,7 @@ TEST(SpeedFluctuationStudy, NamesWhatIsWrong) {
 }
 
 TEST(SpeedFluctuationStudy, ExamplePassesItsChecks) {
-  const std::filesystem::path file =
-      std::filesystem::path(LINKWRIGHT_SOURCE_DIR) / "examples/studies/flywheel-press.toml";
-  const std::vector<study::Kind> kinds = studies();
-  Diagnostics diagnostics;
-  const auto study = study::prepare(study::read_file(file, diagnostics), file.string(), file.parent_path(),
-                                    kinds, diagnostics);
-  EXPECT_THAT(diagnostics, IsEmpty());
+  const auto study = test::prepare_example(test::kinds(), "flywheel-press.toml");
   ASSERT_TRUE(study);
   RunContext context;
   const study::Result result = study::run_study(*study, context);

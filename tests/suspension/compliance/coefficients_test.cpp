@@ -56,7 +56,7 @@ TEST(ComplianceCoefficients, Reference) {
 TEST(ComplianceCoefficients, TorqueTakenByTheBody) {
   const WheelGuide& guide = guide_sample("5US").guide;
   const Compliance found = five_rods(guide);
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuideRates rates = solve_rates(plan, reference_position(plan), Driver::wheel_centre_z);
   const WheelAngles& angles = found.angles;
   for (const Twist& twist : {rates.bump, rates.steer}) {

@@ -29,7 +29,7 @@ Matrix eigen(const Matrix6& from) {
 }
 
 GuidePosition solve(const WheelGuide& guide, double travel, double rack) {
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   return solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan));
 }
 
@@ -176,7 +176,7 @@ TEST(Compliance, RigidJointsGiveStaticsAndKinematics) {
   for (const GuideSample& sample : guide_samples()) {
     SCOPED_TRACE(sample.name);
     const WheelGuide& guide = sample.guide;
-    const GuidePlan plan = prepare(guide);
+    const GuidePlan plan = prepare_guide(guide);
     const GuidePosition here = solve(guide, -0.02, 0.015);
     const GuideRates rates = solve_rates(plan, here, Driver::wheel_centre_z);
     for (Support support :
@@ -233,7 +233,7 @@ TEST(Compliance, TwoBushingsShareTheLoad) {
   EXPECT_NEAR(first, 2 * second, 1e-8);
   // With the links rigid against the same load the sums are the same: the suspension is determinate.
   const GuideForces rigid_forces =
-      solve_forces(guide, prepare(guide), here, {{1000, 0, 0}, {}}, Support::spring_held);
+      solve_forces(guide, prepare_guide(guide), here, {{1000, 0, 0}, {}}, Support::spring_held);
   EXPECT_LT(distance(moved.joints[0].force + moved.joints[1].force, rigid_forces.joints[0].force), 1e-8);
 }
 
@@ -272,7 +272,7 @@ TEST(Compliance, RedundantGuide) {
   guide.links.push_back({.body = {{0.05, 0.4, 0.1}}, .carrier = {{0.02, 0.66, 0.1}}});
   std::vector<double> rods = reference_rods();
   rods.push_back(8e6);
-  EXPECT_THAT(test::message([&] { prepare(guide); }),
+  EXPECT_THAT(test::message([&] { prepare_guide(guide); }),
               ::testing::HasSubstr("the count of constraints leaves 0 freedoms"));
   const GuidePlace here{{guide.wheel.centre, {}}, 0};
   const Compliance found =
@@ -327,7 +327,7 @@ TEST(Compliance, GeometricStiffnessIsThatOfTheWheelRate) {
   for (const GuideSample& sample : guide_samples().first(12)) {
     SCOPED_TRACE(sample.name);
     const WheelGuide& guide = sample.guide;
-    const GuidePlan plan = prepare(guide);
+    const GuidePlan plan = prepare_guide(guide);
     const double travel = 0.03;
     const GuidePosition here = solve(guide, travel, 0);
     const double ratio = wheel_parameters(plan, here).motion_ratio;

@@ -20,7 +20,7 @@ TEST(WheelRate, AgainstForcesOfOtherPositions) {
     for (double travel : {-0.05, 0.0, 0.06}) {
       SCOPED_TRACE(sample.name);
       const WheelGuide& guide = sample.guide;
-      const GuidePlan plan = prepare(guide);
+      const GuidePlan plan = prepare_guide(guide);
       const double rack = 0.01;
       const GuidePosition here =
           solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan));
@@ -76,7 +76,7 @@ TEST(WheelRate, LevelArmUnderAnUprightSpring) {
   WheelGuide guide{.wheel = {{0, 0.8, 0}, 0, 0, 0.6}};
   guide.links.push_back({.type = LinkType::R, .body = {{-0.1, 0.3, 0}, {0.1, 0.3, 0}}});
   guide.spring = {{0, 0.7, 0.4}, {0, 0.7, 0}, -1};
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const WheelRate found = wheel_rate(guide, plan, reference_position(plan), {10000, 3000});
   EXPECT_NEAR(found.motion_ratio, 0.8, 1e-14);  // 0.4 m of 0.5 m
   EXPECT_NEAR(found.wheel_force, 2400, 1e-10);
@@ -87,14 +87,14 @@ TEST(WheelRate, LevelArmUnderAnUprightSpring) {
 
 TEST(WheelRate, Contract) {
   WheelGuide guide = guide_sample("5US").guide;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   EXPECT_THAT(test::message([&] {
                 wheel_rate(guide, plan, reference_position(plan), {-1, 0});
               }),
               ::testing::StartsWith("wheel_rate: stiffness -1 N/m"));
   guide.spring.reset();
   EXPECT_THAT(test::message([&] {
-                const GuidePlan bare = prepare(guide);
+                const GuidePlan bare = prepare_guide(guide);
                 wheel_rate(guide, bare, reference_position(bare), {1, 0});
               }),
               ::testing::StartsWith("wheel_rate: the suspension has no spring"));

@@ -25,7 +25,7 @@ double power(const WheelLoad& load, const Twist& twist) {
 TEST(Statics, RodsAndSpringOfTheReference) {
   const Value& reference = published("5US-compliance-and-rod-forces");
   const WheelGuide& guide = guide_sample("5US").guide;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuidePosition here = reference_position(plan);
   const Vec3 up{0, 0, number_at(reference, "inputs.static_load_N")};
   const GuideForces found =
@@ -47,7 +47,7 @@ TEST(Statics, SpringOffTheLineOfARod) {
   for (const int link : {0, 1, 2}) {
     WheelGuide guide = guide_sample("5US").guide;
     guide.spring->link = link;
-    const GuidePlan plan = prepare(guide);
+    const GuidePlan plan = prepare_guide(guide);
     const GuidePosition here =
         solve_position(plan, Driver::wheel_centre_z, {0.06, 0.02}, reference_position(plan));
     ASSERT_EQ(here.status, Status::done);
@@ -88,7 +88,7 @@ TEST(Statics, CouplerOffTheLineOfARod) {
   const GuideLink& rod = guide.links[coupler.first];
   coupler.begin = rod.body[0] + 0.6 * (rod.carrier[0] - rod.body[0]) + Vec3{0.02, 0.005, -0.03};
   ASSERT_TRUE(check(guide).empty());
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuidePosition here =
       solve_position(plan, Driver::wheel_centre_z, {0.04, 0}, reference_position(plan));
   ASSERT_EQ(here.status, Status::done) << here.reason;
@@ -124,7 +124,7 @@ TEST(Statics, EveryJointOfEveryMechanism) {
   for (const GuideSample& sample : guide_samples()) {
     SCOPED_TRACE(sample.name);
     const WheelGuide& guide = sample.guide;
-    const GuidePlan plan = prepare(guide);
+    const GuidePlan plan = prepare_guide(guide);
     const GuidePosition here =
         solve_position(plan, Driver::wheel_centre_z, {0.03, 0.01}, reference_position(plan));
     const CarrierPose& carrier = here.place.carrier;
@@ -171,7 +171,7 @@ TEST(Statics, VirtualPower) {
   for (const GuideSample& sample : guide_samples().first(12)) {
     SCOPED_TRACE(sample.name);
     const WheelGuide& guide = sample.guide;
-    const GuidePlan plan = prepare(guide);
+    const GuidePlan plan = prepare_guide(guide);
     const GuidePosition here =
         solve_position(plan, Driver::wheel_centre_z, {-0.03, 0.02}, reference_position(plan));
     const GuideForces found = solve_forces(guide, plan, here, some_load, Support::spring_held);
@@ -193,7 +193,7 @@ TEST(Statics, VirtualPower) {
 
 TEST(Statics, AHeldHeightTakesWhatTheSpringWouldTake) {
   const WheelGuide& guide = guide_sample("SP-3US").guide;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuidePosition here = reference_position(plan);
   const GuideForces found = solve_forces(guide, plan, here, some_load, Support::wheel_centre_held);
   EXPECT_NEAR(found.support, -power(some_load, solve_rates(plan, here, Driver::wheel_centre_z).bump), 1e-8);
@@ -205,7 +205,7 @@ TEST(Statics, AHeldHeightTakesWhatTheSpringWouldTake) {
 
 TEST(Statics, ALimitOfTravelHasNoBalance) {
   const WheelGuide& guide = guide_sample("2RS-US").guide;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuidePosition limit =
       solve_position(plan, Driver::wheel_centre_z, {0.5, 0}, reference_position(plan));
   ASSERT_EQ(limit.status, Status::no_assembly);

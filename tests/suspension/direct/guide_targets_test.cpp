@@ -75,7 +75,7 @@ TEST(GuideTargets, DerivativesAgreeWithDifferences) {
   for (std::size_t j = 0; j < designed.size(); ++j) {
     const auto moved = [&](double by) {
       WheelGuide guide = task.guide;
-      at(guide, designed[j]) += by;
+      design_value(guide, designed[j]) += by;
       return answer(guide, task.objectives, positions, {}).deviations;
     };
     const auto a = moved(-h), b = moved(h);

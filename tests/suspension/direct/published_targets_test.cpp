@@ -43,8 +43,8 @@ TEST(PublishedTargets, BoxesHoldTheOptimum) {
   ASSERT_EQ(task.designed.size(), 9U);
   for (const DesignVariable& d : task.designed) {
     EXPECT_NEAR(d.upper - d.lower, 0.150, 1e-15);
-    EXPECT_LT(d.lower, at(task.guide, d.number));
-    EXPECT_GT(d.upper, at(task.guide, d.number));
+    EXPECT_LT(d.lower, design_value(task.guide, d.number));
+    EXPECT_GT(d.upper, design_value(task.guide, d.number));
   }
 }
 

@@ -104,7 +104,7 @@ TEST(DirectSynthesis, TakesBumpSteerOutOfADoubleWishbone) {
   DirectTask task{.guide = guide_sample("2RS-US").guide};
   for (int axis = 0; axis < 3; ++axis) {
     const DesignNumber number{DesignKind::body, 2, 0, axis};
-    const double now = suspension::at(task.guide, number);
+    const double now = suspension::design_value(task.guide, number);
     task.designed.push_back({number, now - 0.03, now + 0.03});
   }
   TargetCurve curve{.quantity = WheelQuantity::toe, .measure = TargetMeasure::change};

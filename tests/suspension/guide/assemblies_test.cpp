@@ -12,7 +12,7 @@ namespace {
 
 TEST(Assemblies, AHingedCarrierStandsAtAHeightInTwoWays) {
   // The wheel centre goes round the hinge on a circle, which passes each height twice.
-  const GuidePlan plan = prepare(guide_sample("R").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("R").guide);
   const std::vector<Assembly> found = assemblies(plan, Driver::wheel_centre_z, {0, 0});
   ASSERT_EQ(found.size(), 2U);
   EXPECT_LT(norm(found[0].place.carrier.centre - plan.wheel.centre), 1e-9);
@@ -24,7 +24,7 @@ TEST(Assemblies, AHingedCarrierStandsAtAHeightInTwoWays) {
 
 TEST(Assemblies, OfAllSamplesFulfilTheEquationsAndBeginWithTheReference) {
   for (const GuideSample& sample : guide_samples()) {
-    const GuidePlan plan = prepare(sample.guide);
+    const GuidePlan plan = prepare_guide(sample.guide);
     const std::vector<Assembly> found = assemblies(plan, Driver::wheel_centre_z, {0.02, 0}, 2, 100);
     const GuidePosition followed =
         solve_position(plan, Driver::wheel_centre_z, {0.02, 0}, reference_position(plan));
@@ -39,7 +39,7 @@ TEST(Assemblies, OfAllSamplesFulfilTheEquationsAndBeginWithTheReference) {
 }
 
 TEST(Assemblies, ASeedDecidesEverything) {
-  const GuidePlan plan = prepare(guide_sample("5US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   const auto first = assemblies(plan, Driver::wheel_centre_z, {0, 0}, 7, 60);
   const auto second = assemblies(plan, Driver::wheel_centre_z, {0, 0}, 7, 60);
   ASSERT_EQ(first.size(), second.size());
@@ -48,7 +48,7 @@ TEST(Assemblies, ASeedDecidesEverything) {
       [&] {
         assemblies(plan, Driver::wheel_centre_z, {0, 0}, 7, 0);
       },
-      ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("0 starts")));
+      ::testing::ThrowsMessage<ContractError>(::testing::HasSubstr("assemblies: 0 starts")));
 }
 
 }  // namespace

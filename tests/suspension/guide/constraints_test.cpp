@@ -11,7 +11,7 @@ namespace {
 
 TEST(GuideConstraints, ReferenceIsAssembled) {
   for (const GuideSample& sample : guide_samples()) {
-    const GuidePlan plan = prepare(sample.guide);
+    const GuidePlan plan = prepare_guide(sample.guide);
     GuideEquations at;
     evaluate(plan, {{sample.guide.wheel.centre, {}}, 0}, 0, Driver::contact_z, 0, at);
     // Rounding of points of about 1 m.
@@ -42,7 +42,7 @@ TEST(GuideConstraints, DerivativesAgainstDifferences) {
         }
         if (driver == Driver::spring && !guide.spring) continue;
         SCOPED_TRACE(sample.name + " " + std::string(name_of(driver)));
-        const GuidePlan plan = prepare(guide);
+        const GuidePlan plan = prepare_guide(guide);
         const Mat3 turned = math::turn_about({0.1, -0.2, 0.15});
         const GuidePlace place{{guide.wheel.centre + Vec3{0.02, -0.01, 0.03}, turned}, 0.2};
         const double rack = 0.013;
@@ -74,7 +74,7 @@ TEST(GuideConstraints, DerivativesAgainstDifferences) {
 }
 
 TEST(GuideConstraints, DriverRateIsTheLastRow) {
-  const GuidePlan plan = prepare(guide_sample("2RS-US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("2RS-US").guide);
   const GuidePlace place{{plan.wheel.centre, math::turn_about({0.02, 0.03, -0.1})}, 0};
   GuideEquations at;
   evaluate(plan, place, 0.01, Driver::spring, 0.002, at);
@@ -89,7 +89,7 @@ TEST(GuideConstraints, WorstMisfitNamesTheLink) {
   WheelGuide guide = guide_sample("5US").guide;
   const auto& rod = guide.links[3];
   guide.links[3].length = norm(rod.carrier[0] - rod.body[0]) - 0.002;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const Misfit worst = worst_misfit(plan, {{plan.wheel.centre, {}}, 0}, 0);
   EXPECT_EQ(worst.link, 3);
   EXPECT_NEAR(worst.gap, 0.002, 1e-15);
@@ -98,15 +98,15 @@ TEST(GuideConstraints, WorstMisfitNamesTheLink) {
 TEST(GuideConstraints, Contract) {
   WheelGuide guide = guide_sample("5US").guide;
   guide.links.pop_back();
-  EXPECT_THAT(test::message([&] { prepare(guide); }),
+  EXPECT_THAT(test::message([&] { prepare_guide(guide); }),
               ::testing::HasSubstr("the count of constraints leaves 2 freedoms"));
   guide = guide_sample("5US").guide;
   guide.wheel.tyre_diameter = -1;
-  EXPECT_THAT(test::message([&] { prepare(guide); }),
+  EXPECT_THAT(test::message([&] { prepare_guide(guide); }),
               ::testing::HasSubstr(
                   "1 problems, the first: error: wheel: tyre diameter -1 m, needs a positive number"));
   guide = guide_sample("interconnected").guide;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   EXPECT_THAT(test::message([&] { driver_value(plan, {}, 0, Driver::spring); }),
               ::testing::HasSubstr("the driver is the spring, and the suspension has none"));
 }

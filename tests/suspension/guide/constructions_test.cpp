@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 
 WheelParameters at(const WheelGuide& guide, double travel = 0, double rack = 0) {
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuidePosition position =
       solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan));
   EXPECT_EQ(position.status, Status::done) << position.reason;

@@ -19,7 +19,7 @@ TEST(DesignNumbers, EveryHardPointOnceAndWithANameOfItsOwn) {
     std::set<const double*> places;
     for (const DesignNumber& number : hard_points(guide)) {
       EXPECT_TRUE(labels.insert(label(guide, number)).second) << label(guide, number);
-      EXPECT_TRUE(places.insert(&at(guide, number)).second);
+      EXPECT_TRUE(places.insert(&design_value(guide, number)).second);
     }
     std::size_t count = 6 + 4 * guide.couplers.size();
     if (!guide.spring) count -= 6;
@@ -37,7 +37,7 @@ TEST(DesignNumbers, AreCalledByLinkPointAndAxis) {
   EXPECT_EQ(label(guide, {DesignKind::body, 2, 0, 1}), "tie rod.body_y");
   EXPECT_EQ(label(guide, {DesignKind::spring_moving, 0, 0, 2}), "spring.moving_z");
   EXPECT_EQ(label(guide, {DesignKind::wheel_toe}), "wheel.toe");
-  at(guide, {DesignKind::body, 2, 0, 1}) = 0.5;
+  design_value(guide, {DesignKind::body, 2, 0, 1}) = 0.5;
   EXPECT_EQ(guide.links[2].body[0].y, 0.5);
 }
 
@@ -45,7 +45,7 @@ TEST(DesignNumbers, ThatAGuideDoesNotHaveAreRefused) {
   const WheelGuide guide = guide_sample("5US").guide;
   const auto message = [&](const DesignNumber& number) -> std::string {
     try {
-      at(guide, number);
+      design_value(guide, number);
     } catch (const ContractError& error) {
       return error.what();
     }
@@ -54,8 +54,9 @@ TEST(DesignNumbers, ThatAGuideDoesNotHaveAreRefused) {
   EXPECT_NE(message({DesignKind::length, 1}).find("the suspension has no number length, index 1"),
             std::string::npos);
   EXPECT_NE(message({DesignKind::body, 5}).find("no number body, index 5"), std::string::npos);
-  EXPECT_NE(message({DesignKind::body, 0, 1}).find("point 1"), std::string::npos);
-  EXPECT_NE(message({DesignKind::carrier, 0, 0, 3}).find("axis 3"), std::string::npos);
+  EXPECT_NE(message({DesignKind::body, 0, 1}).find("no number body, index 0, point 1"), std::string::npos);
+  EXPECT_NE(message({DesignKind::carrier, 0, 0, 3}).find("no number carrier, index 0, point 0, axis 3"),
+            std::string::npos);
   EXPECT_NE(message({DesignKind::coupler_point, 0}).find("coupler_point"), std::string::npos);
 }
 

@@ -5,6 +5,7 @@
 #include "linkwright/suspension/guide/position.h"
 #include "linkwright/suspension/guide/samples.h"
 #include "linkwright/suspension/wheel/parameters.h"
+#include "support/message.h"
 
 namespace linkwright::suspension {
 namespace {
@@ -21,9 +22,7 @@ std::vector<HardPoint> read(std::string_view text, PointUnit unit = PointUnit::m
 std::string problems_of(std::string_view text) {
   Diagnostics problems;
   EXPECT_FALSE(read_hard_points(text, "points.txt", PointUnit::mm, problems));
-  std::string all;
-  for (const Diagnostic& d : problems) all += to_string(d) + "\n";
-  return all;
+  return test::lines_of(problems);
 }
 
 TEST(HardPoints, ReadsListsAsSuspensionProgramsPrintThem) {

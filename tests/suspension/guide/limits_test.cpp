@@ -51,7 +51,7 @@ TEST(GuideLimits, DerivativesAgreeWithDifferences) {
   for (std::size_t j = 0; j < numbers.size(); ++j) {
     const auto moved = [&](double by) {
       WheelGuide other = guide;
-      at(other, numbers[j]) += by;
+      design_value(other, numbers[j]) += by;
       return look(other, all_kinds(), {});
     };
     const Looked a = moved(-h), b = moved(h);
@@ -70,7 +70,7 @@ TEST(GuideLimits, AreWhatAnyPointOfTheLinesSays) {
   GuideLimits limits;
   limits.links = {{0, 1, 0.0}, {2, 3, 0.0}, {3, 4, 0.0}};
   limits.tyres = {{0, {0.4, 0.62, 0.2}, 0.0}};
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const std::vector<GuidePosition> at{
       solve_position(plan, Driver::wheel_centre_z, {0.05, 0}, reference_position(plan))};
   const auto found = limit_answers(guide, limits, at, {}, {});

@@ -4,19 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "linkwright/suspension/guide/samples.h"
+#include "support/message.h"
 #include "tests/suspension/synthesis_cases.h"
 
 namespace linkwright::suspension {
 namespace {
 
+using linkwright::test::lines_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-std::string told(const Diagnostics& found) {
-  std::string out;
-  for (const Diagnostic& d : found) out += to_string(d) + "\n";
-  return out;
-}
 
 /// All lengths of a suspension by a factor.
 WheelGuide enlarged(const WheelGuide& guide, double factor, bool tyre) {
@@ -37,45 +33,46 @@ WheelGuide enlarged(const WheelGuide& guide, double factor, bool tyre) {
 TEST(Plausibility, GuidesThatAreMeantPassInSilence) {
   for (const GuideSample& sample : guide_samples()) {
     if (sample.guide.wheel.centre.y == 0) continue;  // counted from the wheel centre: reported below
-    EXPECT_EQ(told(implausible(sample.guide)), "") << sample.name;
-    EXPECT_EQ(told(implausible(mirrored(sample.guide))), "") << sample.name;
+    EXPECT_EQ(lines_of(implausible(sample.guide)), "") << sample.name;
+    EXPECT_EQ(lines_of(implausible(mirrored(sample.guide))), "") << sample.name;
     // A model car, a lorry.
-    EXPECT_EQ(told(implausible(enlarged(sample.guide, 0.1, true))), "") << sample.name;
-    EXPECT_EQ(told(implausible(enlarged(sample.guide, 3, true))), "") << sample.name;
+    EXPECT_EQ(lines_of(implausible(enlarged(sample.guide, 0.1, true))), "") << sample.name;
+    EXPECT_EQ(lines_of(implausible(enlarged(sample.guide, 3, true))), "") << sample.name;
   }
   for (const char* id : {"ex1-forward", "ex2-forward", "ex3-forward", "ex4-forward"})
-    EXPECT_EQ(told(implausible(test::published_example(id).targets)), "") << id;
+    EXPECT_EQ(lines_of(implausible(test::published_example(id).targets)), "") << id;
 }
 
 TEST(Plausibility, ATyreOfAnotherUnitIsTold) {
   WheelGuide guide = guide_sample("2RS-US").guide;
   guide.wheel.tyre_diameter = 640;  // 640 in tyre_diameter_m: a radius of 210 tracks
-  EXPECT_THAT(told(implausible(guide)),
+  EXPECT_THAT(lines_of(implausible(guide)),
               AllOf(HasSubstr("error: wheel: the tyre's radius is 320 m, the joints lie "),
                     HasSubstr("and the track is 1.52 m; check tyre_diameter")));
   guide.wheel.tyre_diameter = 0.00064;
-  EXPECT_THAT(told(implausible(guide)), HasSubstr("error: wheel: the tyre's radius is 0.32 mm"));
+  EXPECT_THAT(lines_of(implausible(guide)), HasSubstr("error: wheel: the tyre's radius is 0.32 mm"));
   guide.wheel.tyre_diameter = 6.4;  // cm for mm
-  EXPECT_THAT(told(implausible(guide)), HasSubstr("warning: wheel: the tyre's radius is 3.2 m"));
+  EXPECT_THAT(lines_of(implausible(guide)), HasSubstr("warning: wheel: the tyre's radius is 3.2 m"));
 }
 
 TEST(Plausibility, PointsOfAnotherUnitAreTold) {
   const WheelGuide& guide = guide_sample("2RS-US").guide;
-  EXPECT_THAT(told(implausible(enlarged(guide, 1000, true))),
+  EXPECT_THAT(lines_of(implausible(enlarged(guide, 1000, true))),
               AllOf(HasSubstr("error: hard_points: the farthest point of the suspension lies 443"),
                     HasSubstr("are these millimetres in keys of metres?")));
-  EXPECT_THAT(told(implausible(enlarged(guide, 0.001, true))),
+  EXPECT_THAT(lines_of(implausible(enlarged(guide, 0.001, true))),
               AllOf(HasSubstr("error: hard_points: the farthest point of the suspension lies 0.44"),
                     HasSubstr("are these metres in keys of millimetres?")));
   // One point of a list.
   WheelGuide one = guide;
   one.links[2].body[0] = 1000 * one.links[2].body[0];
-  EXPECT_THAT(told(implausible(one)), AllOf(HasSubstr("error: link.tie rod: body point lies 4"),
-                                            HasSubstr("check the unit in the key")));
+  EXPECT_THAT(lines_of(implausible(one)), AllOf(HasSubstr("error: link.tie rod: body point lies 4"),
+                                                HasSubstr("check the unit in the key")));
   one = guide;
   one.links[0].body[1] = 0.001 * one.links[0].body[1];
-  EXPECT_THAT(told(implausible(one)), AllOf(HasSubstr("warning: link.lower wishbone: body point 2 lies 0.4"),
-                                            HasSubstr("from the origin")));
+  EXPECT_THAT(
+      lines_of(implausible(one)),
+      AllOf(HasSubstr("warning: link.lower wishbone: body point 2 lies 0.4"), HasSubstr("from the origin")));
 }
 
 TEST(Plausibility, AxesThatChangePlacesAreTold) {
@@ -86,7 +83,7 @@ TEST(Plausibility, AxesThatChangePlacesAreTold) {
     for (auto* points : {&link.body, &link.carrier})
       for (Vec3& p : *points) p = turned(p);
   EXPECT_THAT(
-      told(implausible(guide)),
+      lines_of(implausible(guide)),
       AllOf(
           HasSubstr("warning: wheel: the wheel centre lies at y = 0 mm, in the middle of the vehicle, but at "
                     "x = 760 mm: do the axes change places?"),
@@ -98,15 +95,17 @@ TEST(Plausibility, AxesThatChangePlacesAreTold) {
     for (auto* points : {&link.body, &link.carrier})
       for (Vec3& p : *points) p = p - Vec3{0, 0.76, 0};
   guide.spring.reset();
-  EXPECT_THAT(told(implausible(guide)), AllOf(HasSubstr("warning: wheel: the wheel centre lies at y = 0 mm"),
-                                              HasSubstr("has no track"), HasSubstr("origin_mm")));
+  EXPECT_THAT(lines_of(implausible(guide)),
+              AllOf(HasSubstr("warning: wheel: the wheel centre lies at y = 0 mm"), HasSubstr("has no track"),
+                    HasSubstr("origin_mm")));
   // Outboard: y counted from somewhere else.
   guide = guide_sample("2RS-US").guide;
   for (GuideLink& link : guide.links)
     for (auto* points : {&link.body, &link.carrier})
       for (Vec3& p : *points) p.y = 2 * 0.76 - p.y;
   guide.spring.reset();
-  EXPECT_THAT(told(implausible(guide)), HasSubstr("the joints at the body lie outboard of the wheel centre"));
+  EXPECT_THAT(lines_of(implausible(guide)),
+              HasSubstr("the joints at the body lie outboard of the wheel centre"));
 }
 
 TEST(Plausibility, PositionsOfAnotherUnitOrAxisAreTold) {
@@ -114,7 +113,7 @@ TEST(Plausibility, PositionsOfAnotherUnitOrAxisAreTold) {
   const auto changed = [&](auto&& change) {
     CarrierTargets targets = e.targets;
     for (CarrierTarget& pose : targets.poses) change(pose);
-    return told(implausible(targets));
+    return lines_of(implausible(targets));
   };
   EXPECT_THAT(changed([](CarrierTarget& p) { p.centre = 1000 * p.centre; }),
               AllOf(HasSubstr("error: pose: position "), HasSubstr("the tyre's diameter is 604 mm")));

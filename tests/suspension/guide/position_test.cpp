@@ -17,11 +17,6 @@ namespace {
 using test::at;
 using test::number_at;
 
-GuidePosition solve(const GuidePlan& plan, double travel, double rack = 0,
-                    Driver driver = Driver::wheel_centre_z) {
-  return solve_position(plan, driver, {travel, rack}, reference_position(plan));
-}
-
 double apart(const Mat3& a, const Mat3& b) {
   double out = 0;
   for (int i = 0; i < 3; ++i) out = std::max(out, norm(a.row[i] - b.row[i]));
@@ -29,7 +24,7 @@ double apart(const Mat3& a, const Mat3& b) {
 }
 
 TEST(GuidePosition, RotationAndAngularVelocityOfTheReferenceStayExact) {
-  const GuidePlan plan = prepare(guide_sample("5US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   const GuidePosition here = reference_position(plan);
   EXPECT_EQ(here.status, Status::done);
   EXPECT_EQ(here.place.carrier.centre, plan.wheel.centre);
@@ -40,7 +35,7 @@ TEST(GuidePosition, EveryMechanismClosesAtTheReferenceStates) {
   for (const GuideSample& sample : guide_samples()) {
     if (sample.name.find('_') != std::string::npos || sample.name == "interconnected") continue;
     SCOPED_TRACE(sample.name);
-    const GuidePlan plan = prepare(sample.guide);
+    const GuidePlan plan = prepare_guide(sample.guide);
     const Value& computed = at(published("mechanism-" + sample.name), "computed");
     int states = 0;
     for (const char* curve : {"wheel_travel", "rack_travel", "combined"}) {
@@ -69,7 +64,7 @@ TEST(GuidePosition, PublishedExamples) {
        {"interconnected", "ex3-forward", 1e-10},
        {"rear_5US", "ex4-forward", 1e-10}}};
   for (const auto& [name, id, close] : cases) {
-    const GuidePlan plan = prepare(guide_sample(name).guide);
+    const GuidePlan plan = prepare_guide(guide_sample(name).guide);
     for (const Value& row : at(published(id), "computed.positions").as_array()) {
       const GuidePosition found = solve(plan, number_at(row, "travel_m"), number_at(row, "rack_m"));
       ASSERT_EQ(found.status, Status::done) << found.reason;
@@ -81,7 +76,7 @@ TEST(GuidePosition, PublishedExamples) {
 TEST(GuidePosition, TravelLimitsAndWhatLiesBeyond) {
   for (const GuideSample& sample : guide_samples().first(12)) {
     SCOPED_TRACE(sample.name);
-    const GuidePlan plan = prepare(sample.guide);
+    const GuidePlan plan = prepare_guide(sample.guide);
     const auto limits = test::numbers(at(published("mechanism-" + sample.name), "computed.travel_limits_m"));
     const TravelLimits found = travel_limits(plan, Driver::wheel_centre_z, 0, reference_position(plan));
     for (int i : {0, 1}) {
@@ -102,7 +97,7 @@ TEST(GuidePosition, TravelLimitsAndWhatLiesBeyond) {
 }
 
 TEST(GuidePosition, ReasonsInWords) {
-  const GuidePlan plan = prepare(guide_sample("5US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   EXPECT_THAT(solve(plan, 0.3).reason,
               ::testing::MatchesRegex(
                   "the height of the wheel centre cannot pass 250.877 mm at rack 0.000 mm, 49.123 "
@@ -119,7 +114,7 @@ TEST(GuidePosition, ReasonsInWords) {
   WheelGuide torn = guide_sample("5US").guide;
   torn.links[2].name = "tie rod";
   torn.links[2].length = 2.0;
-  const GuidePosition found = reference_position(prepare(torn));
+  const GuidePosition found = reference_position(prepare_guide(torn));
   EXPECT_EQ(found.status, Status::no_assembly);
   EXPECT_EQ(found.reason, "the links do not meet near the reference: tie rod is 1714.895 mm too long");
 }
@@ -128,7 +123,7 @@ TEST(GuidePosition, FromALossOfRankThereIsNoWay) {
   WheelGuide guide = guide_sample("5US").guide;
   guide.links[4] = guide.links[3];
   guide.links[4].name = "double";
-  const GuidePosition found = reference_position(prepare(guide));
+  const GuidePosition found = reference_position(prepare_guide(guide));
   EXPECT_EQ(found.status, Status::singular);
   EXPECT_THAT(found.reason, ::testing::StartsWith(
                                 "at height of the wheel centre 0.000 mm and rack 0.000 mm the motion beyond "
@@ -137,7 +132,7 @@ TEST(GuidePosition, FromALossOfRankThereIsNoWay) {
 
 TEST(GuidePosition, ALimitIsSymmetricInItsStart) {
   // From either side of the range, with other steps: the fold is the same to what bisection resolves.
-  const GuidePlan plan = prepare(guide_sample("RR-US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("RR-US").guide);
   const double one = solve(plan, 1).input.value;
   const GuidePosition low = solve(plan, -0.2);
   const double other = solve_position(plan, Driver::wheel_centre_z, {1, 0}, low, {0.003, 1e-11}).input.value;
@@ -149,7 +144,7 @@ TEST(GuidePosition, LongStepsFindTheSameLimits) {
     for (double first : {0.002, 0.05, 0.3})
       for (double far : {-1.0, -0.5, 0.5, 1.0}) {
         SCOPED_TRACE(sample.name + " " + std::to_string(first) + " " + std::to_string(far));
-        const GuidePlan plan = prepare(sample.guide);
+        const GuidePlan plan = prepare_guide(sample.guide);
         const auto limits =
             test::numbers(at(published("mechanism-" + sample.name), "computed.travel_limits_m"));
         const GuidePosition found =
@@ -162,7 +157,7 @@ TEST(GuidePosition, LongStepsFindTheSameLimits) {
 TEST(GuidePosition, PathsMeet) {
   // Rack first and travel then, or both together: the same assembly.
   for (const char* name : {"2RS-US", "RS-SP-US", "RS-3US", "SP-3US", "5US"}) {
-    const GuidePlan plan = prepare(guide_sample(name).guide);
+    const GuidePlan plan = prepare_guide(guide_sample(name).guide);
     const GuidePosition straight = solve(plan, 0.05, -0.04);
     const GuidePosition corner =
         solve_position(plan, Driver::wheel_centre_z, {0.05, -0.04}, solve(plan, 0, -0.04));
@@ -174,7 +169,7 @@ TEST(GuidePosition, PathsMeet) {
 TEST(GuidePosition, DriversAgree) {
   for (const GuideSample& sample : guide_samples().first(12)) {
     SCOPED_TRACE(sample.name);
-    const GuidePlan plan = prepare(sample.guide);
+    const GuidePlan plan = prepare_guide(sample.guide);
     const GuidePosition by_height = solve(plan, 0.06);
     for (Driver driver : {Driver::contact_z, Driver::spring}) {
       const double value = driver_value(plan, by_height.place, 0, driver);
@@ -192,7 +187,7 @@ TEST(GuidePosition, RatesAreDifferencesOfPositions) {
     for (Driver driver : {Driver::wheel_centre_z, Driver::contact_z, Driver::spring}) {
       if (driver == Driver::spring && !sample.guide.spring) continue;
       SCOPED_TRACE(sample.name + " " + std::string(name_of(driver)));
-      const GuidePlan plan = prepare(sample.guide);
+      const GuidePlan plan = prepare_guide(sample.guide);
       const double rack = 0.02;  // moves nothing where no link is on the rack
       const GuidePosition here = solve(plan, driver == Driver::spring ? 0.02 : 0.03, rack, driver);
       const GuideRates rates = solve_rates(plan, here, driver);
@@ -221,7 +216,7 @@ TEST(GuidePosition, RatesAreDifferencesOfPositions) {
 TEST(GuidePosition, RightWheelIsTheMirrorAtTheOppositeRack) {
   for (const char* name : {"2RS-US", "RS-SP-US", "RS-3US", "SP-3US", "5US"}) {
     const WheelGuide& left = guide_sample(name).guide;
-    const GuidePlan plan = prepare(left), other = prepare(mirrored(left));
+    const GuidePlan plan = prepare_guide(left), other = prepare_guide(mirrored(left));
     const GuidePlace a = solve(plan, 0.04, -0.03).place, b = solve(other, 0.04, 0.03).place;
     EXPECT_LT(distance(math::mirrored(a.carrier.centre), b.carrier.centre), 1e-13) << name;
     EXPECT_LT(apart(math::mirrored(a.carrier.rotation), b.carrier.rotation), 1e-13) << name;
@@ -237,7 +232,7 @@ TEST(GuidePosition, TrapezoidalArmWithParallelAndMeetingAxes) {
       guide.links[0].carrier[1] =
           guide.links[0].carrier[0] + 0.7 * (guide.links[0].body[1] - guide.links[0].body[0]);
     EXPECT_TRUE(check_structure(guide).empty());
-    const GuidePlan plan = prepare(guide);
+    const GuidePlan plan = prepare_guide(guide);
     for (double travel : {-0.08, 0.08}) {
       const GuidePosition found = solve(plan, travel);
       ASSERT_EQ(found.status, Status::done) << found.reason;
@@ -257,7 +252,7 @@ TEST(GuidePosition, PrescribedLengthsAreMet) {
     link.length = norm(link.carrier[0] - link.body[0]) + (lengths.size() % 2 == 0 ? 0.004 : -0.003);
     lengths.push_back(*link.length);
   }
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuidePosition found = reference_position(plan);
   ASSERT_EQ(found.status, Status::done);
   EXPECT_EQ(found.place.carrier.centre.z, guide.wheel.centre.z);
@@ -269,7 +264,7 @@ TEST(GuidePosition, PrescribedLengthsAreMet) {
 
 TEST(GuidePosition, RotationsStayRotations) {
   // Twenty thousand positions, each from the one before: errors of rounding must not add up.
-  const GuidePlan plan = prepare(guide_sample("5US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   GuidePosition here = reference_position(plan);
   for (int i = 0; i < 20000; ++i) {
     const double angle = 0.1 * i;
@@ -282,7 +277,7 @@ TEST(GuidePosition, RotationsStayRotations) {
 }
 
 TEST(GuidePosition, AllocatesNothing) {
-  const GuidePlan plan = prepare(guide_sample("5US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   const GuidePosition start = reference_position(plan);
   const auto before = test::allocations();
   const GuidePosition found = solve_position(plan, Driver::wheel_centre_z, {0.08, 0.04}, start);
@@ -292,7 +287,7 @@ TEST(GuidePosition, AllocatesNothing) {
 }
 
 TEST(GuidePosition, Contract) {
-  const GuidePlan plan = prepare(guide_sample("5US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   const GuidePosition failed = solve(plan, 0.3);
   EXPECT_THAT(
       test::message([&] { solve_position(plan, Driver::wheel_centre_z, {}, failed); }),

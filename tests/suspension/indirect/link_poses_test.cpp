@@ -15,7 +15,7 @@ TEST(LinkPoses, TakeTheirPointsAlong) {
   for (const GuideSample& sample : guide_samples()) {
     SCOPED_TRACE(sample.name);
     const WheelGuide& guide = sample.guide;
-    const GuidePlan plan = prepare(guide);
+    const GuidePlan plan = prepare_guide(guide);
     const double rack = 0.02;
     const GuidePosition at =
         solve_position(plan, Driver::wheel_centre_z, {0.05, rack}, reference_position(plan));
@@ -47,7 +47,7 @@ TEST(LinkPoses, AKJointIsTwoHinges) {
     guide.links[2].cross_axis = axis;
     ASSERT_TRUE(guide.links[2].moved_by_rack);
     ASSERT_TRUE(check(guide).empty());
-    const GuidePlan plan = prepare(guide);
+    const GuidePlan plan = prepare_guide(guide);
     for (const GuideInput& input : {GuideInput{0.07, -0.02}, GuideInput{-0.06, 0.03}}) {
       const GuidePosition at = solve_position(plan, Driver::wheel_centre_z, input, reference_position(plan));
       ASSERT_EQ(at.status, Status::done);
@@ -79,7 +79,7 @@ TEST(LinkPoses, ASpringOnARodOfAnotherLengthKeepsItsShare) {
   const Vec3 from = guide.links[0].body[0], to = guide.links[0].carrier[0];
   guide.links[0].length = 1.02 * norm(to - from);
   guide.spring = {{0, 0.5, 0.4}, from + 0.6 * (to - from), 0};
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuidePosition at = reference_position(plan);
   ASSERT_EQ(at.status, Status::done) << at.reason;
   EXPECT_NEAR(norm(spring_end(guide, at.place, 0) - guide.spring->body),

@@ -66,7 +66,7 @@ TEST(PublishedGuides, EvolutionIsThatOfTheReference) {
 TEST(PublishedGuides, TheStrutAsPrintedMissesItsTable) {
   const Value& wanted =
       test::at(published("ex2-forward-printed-points"), "computed.max_abs_difference_to_published");
-  const GuidePlan plan = prepare(strut_as_printed());
+  const GuidePlan plan = prepare_guide(strut_as_printed());
   const GuidePosition start = reference_position(plan);
   std::array<double, 5> largest{};
   for (const PublishedPosition& row : published_guides()[1].positions) {

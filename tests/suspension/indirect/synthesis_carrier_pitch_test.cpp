@@ -52,12 +52,22 @@ TEST(IndirectSynthesisCarrierPitch, RearSuspensionMovesAsPrescribed) {
   }
 }
 
+// Middles of the boxes below, near the points of the sample "interconnected".
+constexpr Vec3 rod_1_body{0.0684051407833874, 0.4981741230589024, 0.025482705159021304};
+constexpr Vec3 rod_1_carrier{-0.05226920072616175, 0.7663248317194175, 0.1513954983602785};
+constexpr Vec3 rod_2_body{-0.08154043978396687, 0.24422046863837166, -0.12010837514823064};
+constexpr Vec3 rod_2_carrier{-0.03897973995387432, 0.7411806025668004, -0.21424256946177916};
+constexpr Vec3 blade_body{0.4106004460436903, 0.7050297730308057, 0.01145181218561988};
+constexpr Vec3 blade_carrier_1{0.1042229344424614, 0.677, -0.11337344288560187};
+constexpr Vec3 blade_carrier_2{0.037566572341331664, 0.777, -0.18961135059107137};
+constexpr Vec3 coupler_on_blade{0.22040104155562712, 0.591838870380279, -0.005531539398248374};
+
 // Links that share a coupler, carrier pitches open: the boxes hold the true linkage, and a search that
 // follows only one start, or creeps along the curved valleys, stays at 1.5e-7 m with the coupler's point at a
 // limit.
 TEST(IndirectSynthesisCarrierPitch, CouplerInsideItsBoxIsFoundFromEverySeed) {
   const WheelGuide& guide = guide_sample("interconnected").guide;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   CarrierTargets targets{.wheel = guide.wheel};
   for (int i = -5; i <= 5; ++i) {
     if (i == 0) continue;
@@ -72,26 +82,23 @@ TEST(IndirectSynthesisCarrierPitch, CouplerInsideItsBoxIsFoundFromEverySeed) {
     if (level) out.lower.y = out.upper.y = middle.y;
     return out;
   };
-  const std::vector<LinkTask> tasks{
-      {.name = "link 1",
-       .type = LinkType::US,
-       .body = {box({0.0684051407833874, 0.4981741230589024, 0.025482705159021304}, false)},
-       .carrier = {box({-0.05226920072616175, 0.7663248317194175, 0.1513954983602785}, false)}},
-      {.name = "link 2",
-       .type = LinkType::US,
-       .body = {box({-0.08154043978396687, 0.24422046863837166, -0.12010837514823064}, false)},
-       .carrier = {box({-0.03897973995387432, 0.7411806025668004, -0.21424256946177916}, false)}},
-      {.name = "link 3",
-       .type = LinkType::SR,
-       .body = {box({0.4106004460436903, 0.7050297730308057, 0.01145181218561988}, false)},
-       .carrier = {box({0.1042229344424614, 0.677, -0.11337344288560187}, true),
-                   box({0.037566572341331664, 0.777, -0.18961135059107137}, true)}}};
-  const std::vector<CouplerTask> couplers{
-      {.name = "coupler",
-       .first = 0,
-       .second = 2,
-       .least_offset = 0.1,
-       .point = box({0.22040104155562712, 0.591838870380279, -0.005531539398248374}, false)}};
+  const std::vector<LinkTask> tasks{{.name = "link 1",
+                                     .type = LinkType::US,
+                                     .body = {box(rod_1_body, false)},
+                                     .carrier = {box(rod_1_carrier, false)}},
+                                    {.name = "link 2",
+                                     .type = LinkType::US,
+                                     .body = {box(rod_2_body, false)},
+                                     .carrier = {box(rod_2_carrier, false)}},
+                                    {.name = "link 3",
+                                     .type = LinkType::SR,
+                                     .body = {box(blade_body, false)},
+                                     .carrier = {box(blade_carrier_1, true), box(blade_carrier_2, true)}}};
+  const std::vector<CouplerTask> couplers{{.name = "coupler",
+                                           .first = 0,
+                                           .second = 2,
+                                           .least_offset = 0.1,
+                                           .point = box(coupler_on_blade, false)}};
   RunContext context;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const CarrierPitchFit fit = fit_with_unknown_carrier_pitch(targets, tasks, {}, seed, context, couplers);

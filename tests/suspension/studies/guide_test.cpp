@@ -121,7 +121,7 @@ TEST(GuideStudyRead, NamesWhatIsWrongWithTheMechanism) {
       HasSubstr("mechanism.link[0].body_m: is a design variable, but this kind of study has none"));
   // One rod leaves the carrier five freedoms.
   EXPECT_THAT(problems_of(wheel + link("US", "body_m = [0, 0.3, 0]\ncarrier_m = [0, 0.7, 0]\n") + sweep),
-              HasSubstr("mechanism"));
+              HasSubstr("mechanism.links: the links take 1 of the carrier's 6 freedoms"));
   EXPECT_THAT(problems_of(wheel + "[mechanism.hard_points]\nx = \"left\"\n" +
                           link("US", "body_m = [0, 0.3, 0]\ncarrier_m = [0, 0.7, 0]\n") + sweep),
               HasSubstr("x and y both lie along left and right"));
@@ -145,20 +145,20 @@ TEST(GuideStudyRead, CanonicalStudiesAreStudiesOfTheSameGuide) {
 TEST(GuideStudyRead, WhatIsFixedToARodOffItsLineIsKept) {
   // The rods of the 5US sample, and its spring on the first of them.
   const WheelGuide& guide = guide_sample("5US").guide;
-  const auto at = [](const Vec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); };
-  std::string text =
-      head + "[mechanism.wheel]\ncentre_m = " + at(guide.wheel.centre) + "\ntyre_diameter_m = 0.63\n";
+  std::string text = head + "[mechanism.wheel]\ncentre_m = " + test::written(guide.wheel.centre) +
+                     "\ntyre_diameter_m = 0.63\n";
   for (const GuideLink& l : guide.links)
     text += fmt::format("[[mechanism.link]]\nname = \"{}\"\ntype = \"US\"\nbody_m = {}\ncarrier_m = {}\n",
-                        l.name, at(l.body[0]), at(l.carrier[0]));
+                        l.name, test::written(l.body[0]), test::written(l.carrier[0]));
   const std::string first = guide.links[0].name;
-  text += "[mechanism.spring]\nbody_m = " + at(guide.spring->body) +
-          "\nmoving_m = " + at(guide.spring->moving) + "\nattached_to = \"" + first + "\"\n" + sweep;
+  text += "[mechanism.spring]\nbody_m = " + test::written(guide.spring->body) +
+          "\nmoving_m = " + test::written(guide.spring->moving) + "\nattached_to = \"" + first + "\"\n" +
+          sweep;
   const study::Result result = run_text(text);
   EXPECT_EQ(result.status, Status::done);
   WheelGuide same = guide;
   same.spring->link = 0;
-  const GuidePlan plan = prepare(same);
+  const GuidePlan plan = prepare_guide(same);
   EXPECT_NEAR(column(result, "motion_ratio").at(4),
               wheel_parameters(
                   plan, solve_position(plan, Driver::wheel_centre_z, {0.08, 0}, reference_position(plan)))

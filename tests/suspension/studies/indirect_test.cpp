@@ -76,21 +76,21 @@ TEST(IndirectStudy, ListsEveryRodThroughSevenPositions) {
 TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
   // Positions of a suspension with a wishbone (RS), and rods that are asked for.
   const WheelGuide& guide = guide_sample("RS-3US").guide;
-  const GuidePlan plan = prepare(guide);
-  const auto at = [](const Vec3& p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); };
+  const GuidePlan plan = prepare_guide(guide);
   std::string text = "schema = 1\nkind = \"synthesis\"\n[mechanism]\ntype = \"suspension.corner\"\n";
-  text +=
-      fmt::format("[mechanism.wheel]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\ntyre_diameter_m = {}\n",
-                  at(guide.wheel.centre), guide.wheel.toe, guide.wheel.camber, guide.wheel.tyre_diameter);
+  text += fmt::format(
+      "[mechanism.wheel]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\ntyre_diameter_m = {}\n",
+      test::written(guide.wheel.centre), guide.wheel.toe, guide.wheel.camber, guide.wheel.tyre_diameter);
   int open = 0;
   for (const GuideLink& l : guide.links) {
     const bool rod = l.type == LinkType::US;
     const std::string ends =
         rod && open++ == 0 ? fmt::format("body_m = {{ near = {}, box_m = 0.1 }}\ncarrier_m = {}\n",
-                                         at(l.body[0]), at(l.carrier[0]))
-        : rod              ? fmt::format("body_m = {}\ncarrier_m = {}\n", at(l.body[0]), at(l.carrier[0]))
-                           : fmt::format("body_m = [{}, {}]\ncarrier_m = {}\n", at(l.body[0]), at(l.body[1]),
-                                         at(l.carrier[0]));
+                                         test::written(l.body[0]), test::written(l.carrier[0]))
+        : rod              ? fmt::format("body_m = {}\ncarrier_m = {}\n", test::written(l.body[0]),
+                                         test::written(l.carrier[0]))
+                           : fmt::format("body_m = [{}, {}]\ncarrier_m = {}\n", test::written(l.body[0]),
+                                         test::written(l.body[1]), test::written(l.carrier[0]));
     text +=
         fmt::format("[[mechanism.link]]\nname = \"{}\"\ntype = \"{}\"\n{}", l.name, name_of(l.type), ends);
   }
@@ -101,7 +101,7 @@ TEST(IndirectStudy, ReportsFamiliesOfRodsAsHingedArms) {
     const WheelAngles a = wheel_angles(Side::left, guide.wheel, p.place.carrier.rotation);
     text +=
         fmt::format("[[target.pose]]\ncentre_m = {}\ntoe_rad = {}\ncamber_rad = {}\ncarrier_pitch_rad = {}\n",
-                    at(p.place.carrier.centre), a.toe, a.camber, a.carrier_pitch);
+                    test::written(p.place.carrier.centre), a.toe, a.camber, a.carrier_pitch);
   }
   const study::Result result = run_text(text);
   const Table& arms = test::table(result, "seven_pose_arms");

@@ -31,7 +31,7 @@ TEST(SweepStudy, TablesAGridAsTheLibrarySolvesIt) {
   const study::Result result = run_text(sample("5US", sweep + racks));
   ASSERT_EQ(result.status, Status::done) << result.headline;
   ASSERT_EQ(result.tables.at(0).rows(), 15U);
-  const GuidePlan plan = prepare(guide_sample("5US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   const GuidePosition reference = reference_position(plan);
   for (std::size_t i = 0; i < 15; ++i) {
     const GuideInput input{column(result, "travel_m")[i], column(result, "rack_m")[i]};
@@ -73,7 +73,8 @@ TEST(SweepStudy, ToldLimitsAreWhereRowsEnd) {
   EXPECT_TRUE(std::isnan(column(result, "toe_rad").at(2)));
   ASSERT_EQ(result.diagnostics.size(), 1U);
   EXPECT_THAT(to_string(result.diagnostics[0]),
-              AllOf(HasSubstr("no_assembly"), HasSubstr("cannot pass"), HasSubstr("1.000 mm short of")));
+              AllOf(HasSubstr("rack 0 mm: no_assembly: the height of the wheel centre "),
+                    HasSubstr("cannot pass"), HasSubstr("1.000 mm short of")));
 }
 
 TEST(SweepStudy, LaysAnotherGuideBehindTheCurves) {
@@ -157,7 +158,7 @@ TEST(SweepStudyRead, NamesWhatIsWrongWithTheSweep) {
 }
 
 TEST(SolveGrid, GoesOutwardsAndStopsWhenCancelled) {
-  const GuidePlan plan = prepare(guide_sample("5US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   const std::vector<double> travels{-0.05, 0, 0.05}, displacements{-0.02, 0.02};
   RunContext context;
   EXPECT_EQ(solve_grid(plan, Driver::wheel_centre_z, travels, displacements, context).positions.size(), 6U);
@@ -167,7 +168,7 @@ TEST(SolveGrid, GoesOutwardsAndStopsWhenCancelled) {
 }
 
 TEST(SolveGrid, LooksWithinALongRowAndKeepsItsMiddle) {
-  const GuidePlan plan = prepare(guide_sample("5US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   std::vector<double> travels;
   for (int i = 0; i < 10000; ++i) travels.push_back(1e-5 * (i - 300));
   RunContext context;
@@ -183,7 +184,7 @@ TEST(SolveGrid, LooksWithinALongRowAndKeepsItsMiddle) {
 }
 
 TEST(SolveGrid, ARackThatWasCutShortDoesNotCountBehindAWholeOne) {
-  const GuidePlan plan = prepare(guide_sample("5US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   std::vector<double> travels;
   for (int i = 0; i < 300; ++i) travels.push_back(1e-5 * i);
   RunContext context;

@@ -17,7 +17,7 @@ using test::number_at;
 using test::numbers;
 
 WheelParameters parameters(const WheelGuide& guide, double travel, double rack = 0) {
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   return wheel_parameters(
       plan, solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan)));
 }
@@ -61,7 +61,7 @@ TEST(Axle, RollCentreOfEqualTravelLiesInTheMiddle) {
 TEST(Axle, RollGains) {
   const WheelGuide& guide = guide_sample("2RS-US").guide;
   for (const WheelGuide& one : {guide, mirrored(guide)}) {
-    const GuidePlan plan = prepare(one);
+    const GuidePlan plan = prepare_guide(one);
     const RollGains found = roll_gains(parameters(one, 0));
     const double roll = 1e-5, rise = std::abs(plan.contact.y) * std::tan(roll);
     const auto angles = [&](double height) {

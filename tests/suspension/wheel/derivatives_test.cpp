@@ -56,7 +56,7 @@ double apart(const WheelParameters& a, const WheelParameters& b, const WheelPara
 constexpr double step = 2e-5, agreement = 1e-7;
 
 WheelParameters solved(const WheelGuide& guide, Driver driver, const GuideInput& input) {
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuidePosition at = solve_position(plan, driver, input, reference_position(plan, driver));
   EXPECT_EQ(at.status, Status::done);
   return wheel_parameters(plan, at);
@@ -87,7 +87,7 @@ void expect_exact(const WheelGuide& guide, const std::string& name, const std::v
         const WheelParameters by = differenced(
             [&](double h) {
               WheelGuide other = guide;
-              suspension::at(other, numbers[j]) += h;
+              suspension::design_value(other, numbers[j]) += h;
               return solved(other, driver, input);
             },
             by_step);

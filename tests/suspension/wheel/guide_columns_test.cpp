@@ -12,7 +12,7 @@ namespace linkwright::suspension {
 namespace {
 
 TEST(GuideColumns, HaveKeysOfTheirOwnAndNumbersOfASteeredGuideWithSpring) {
-  const GuidePlan plan = prepare(guide_sample("2RS-US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("2RS-US").guide);
   const GuidePosition at =
       solve_position(plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan));
   const WheelParameters wheel = wheel_parameters(plan, at);
@@ -37,7 +37,7 @@ TEST(GuideColumns, AreMissingWhereThereIsNoPosition) {
 
 TEST(GuideColumns, AreMissingForAReason) {
   for (const GuideSample& sample : guide_samples()) {
-    const GuidePlan plan = prepare(sample.guide);
+    const GuidePlan plan = prepare_guide(sample.guide);
     const GuidePosition at = reference_position(plan);
     const WheelParameters wheel = wheel_parameters(plan, at);
     const GuideRow row{at, wheel, sample.guide.spring ? Driver::spring : Driver::wheel_centre_z};
@@ -48,12 +48,12 @@ TEST(GuideColumns, AreMissingForAReason) {
 }
 
 TEST(SteeringAxisOf, TakesWhatIsHeld) {
-  const GuidePlan plan = prepare(guide_sample("2RS-US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("2RS-US").guide);
   const WheelParameters wheel = wheel_parameters(plan, reference_position(plan));
   EXPECT_EQ(steering_axis_of(wheel, Driver::spring)->lock, Driver::spring);
   EXPECT_EQ(steering_axis_of(wheel, Driver::wheel_centre_z)->lock, Driver::wheel_centre_z);
   EXPECT_EQ(steering_axis_of(wheel, Driver::contact_z)->lock, Driver::contact_z);
-  const GuidePlan rigid = prepare(guide_sample("R").guide);
+  const GuidePlan rigid = prepare_guide(guide_sample("R").guide);
   EXPECT_EQ(steering_axis_of(wheel_parameters(rigid, reference_position(rigid)), Driver::spring), nullptr);
 }
 

@@ -16,10 +16,6 @@ namespace {
 using test::at;
 using test::number_at;
 
-GuidePosition solve(const GuidePlan& plan, double travel, double rack = 0) {
-  return solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan));
-}
-
 // The acceptance of the reference is 1e-9 m and rad, and 1e-7 relative for rates; both sides are exact
 // formulas, so what is left is rounding times the condition of the equations.
 constexpr double close_value = 1e-11;
@@ -73,7 +69,7 @@ void expect_row(const GuidePlan& plan, const Value& row) {
 TEST(WheelParameters, CurvesOfAllMechanisms) {
   for (const GuideSample& sample : guide_samples().first(12)) {
     SCOPED_TRACE(sample.name);
-    const GuidePlan plan = prepare(sample.guide);
+    const GuidePlan plan = prepare_guide(sample.guide);
     const Value& computed = at(published("mechanism-" + sample.name), "computed");
     for (const char* curve : {"wheel_travel", "rack_travel", "combined"})
       if (const Value* rows = computed.find(curve))
@@ -84,7 +80,7 @@ TEST(WheelParameters, CurvesOfAllMechanisms) {
 TEST(WheelParameters, ExamplesOfTheSource) {
   for (const char* id : {"derived-ex1", "derived-ex2"}) {
     SCOPED_TRACE(id);
-    const GuidePlan plan = prepare(guide_from(at(published(id), "inputs.mechanism")));
+    const GuidePlan plan = prepare_guide(guide_from(at(published(id), "inputs.mechanism")));
     for (const Value& row : at(published(id), "computed.points").as_array()) expect_row(plan, row);
   }
 }
@@ -97,7 +93,7 @@ TEST(WheelParameters, PublishedTables) {
                                    {"ex3-forward", 1e-10},
                                    {"ex4-forward", 1e-10}}) {
     SCOPED_TRACE(id);
-    const GuidePlan plan = prepare(guide_from(at(published(id), "inputs.mechanism")));
+    const GuidePlan plan = prepare_guide(guide_from(at(published(id), "inputs.mechanism")));
     const auto& rows = at(published(id), "published.rows").as_array();
     const auto& positions = at(published(id), "computed.positions").as_array();
     ASSERT_EQ(rows.size(), positions.size());
@@ -141,7 +137,7 @@ TEST(WheelParameters, PositionsWithPrescribedLengths) {
                            .length = lengths[i],
                            .moved_by_rack = i == 2});
   }
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const auto travels = test::numbers(at(in, "dz_m")), racks = test::numbers(at(in, "rack_m"));
   for (std::size_t i = 0; i < travels.size(); ++i) {
     const Value& row = at(computed, "positions").as_array()[i];
@@ -158,7 +154,7 @@ TEST(WheelParameters, PositionsWithPrescribedLengths) {
 TEST(WheelParameters, BothContactVelocities) {
   const Value& reference = published("contact-velocity-definitions");
   const Value& computed = at(reference, "computed");
-  const GuidePlan plan = prepare(guide_sample("front_5US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("front_5US").guide);
   const GuidePosition position =
       solve(plan, number_at(reference, "inputs.travel_m"), number_at(reference, "inputs.rack_m"));
   const WheelParameters found = wheel_parameters(plan, position);
@@ -177,7 +173,7 @@ TEST(WheelParameters, RatesAreDifferencesOfValues) {
   constexpr double h = 1e-5;
   for (const GuideSample& sample : guide_samples().first(12)) {
     SCOPED_TRACE(sample.name);
-    const GuidePlan plan = prepare(sample.guide);
+    const GuidePlan plan = prepare_guide(sample.guide);
     const auto there = [&](double travel) { return wheel_parameters(plan, solve(plan, travel)); };
     const WheelParameters here = there(0.03), more = there(0.03 + h), less = there(0.03 - h);
     // Truncation h^2 times third derivatives of some 100 /m2, rounding 1e-14 / h.
@@ -200,7 +196,7 @@ TEST(WheelParameters, SteeringAxisPassesThroughBothBallJoints) {
       for (double rack : {-0.04, 0.0, 0.05}) {
         SCOPED_TRACE(name);
         const WheelGuide& guide = guide_sample(name).guide;
-        const GuidePlan plan = prepare(guide);
+        const GuidePlan plan = prepare_guide(guide);
         const GuidePosition position = solve(plan, travel, rack);
         const SteeringAxis axis = *wheel_parameters(plan, position).axis_at_spring;
         const Vec3 lower = place(position.place.carrier, guide.links[0].carrier[0], guide.wheel.centre);
@@ -220,7 +216,7 @@ TEST(WheelParameters, SteeringAxisPassesThroughBothBallJoints) {
 // The same motion from equations with the spring as driver, and from those with the height: a second exact
 // route.
 TEST(WheelParameters, SteeringMotionByTwoRoutes) {
-  const GuidePlan plan = prepare(guide_sample("5US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("5US").guide);
   const GuidePosition position = solve(plan, 0.04, 0.03);
   const GuideRates at_height = solve_rates(plan, position, Driver::wheel_centre_z);
   for (Driver lock : {Driver::spring, Driver::contact_z}) {
@@ -233,7 +229,7 @@ TEST(WheelParameters, SteeringMotionByTwoRoutes) {
 
 TEST(WheelParameters, RightWheelHasTheNumbersOfTheLeftAtTheOppositeRack) {
   const WheelGuide& guide = guide_sample("2RS-US").guide;
-  const GuidePlan left = prepare(guide), right = prepare(mirrored(guide));
+  const GuidePlan left = prepare_guide(guide), right = prepare_guide(mirrored(guide));
   const WheelParameters a = wheel_parameters(left, solve(left, 0.05, -0.03));
   const WheelParameters b = wheel_parameters(right, solve(right, 0.05, 0.03));
   const auto same = [](double x, double y) { EXPECT_NEAR(x, y, 1e-13); };
@@ -266,7 +262,7 @@ TEST(WheelParameters, RightWheelHasTheNumbersOfTheLeftAtTheOppositeRack) {
 // By the equations with the contact point's height as driver: another exact route.
 TEST(WheelParameters, SteeringAxisWithTheContactHeld) {
   for (const char* name : {"2RS-US", "5US", "SP-3US"}) {
-    const GuidePlan plan = prepare(guide_sample(name).guide);
+    const GuidePlan plan = prepare_guide(guide_sample(name).guide);
     const GuidePosition position = solve(plan, 0.03, -0.025);
     const WheelParameters found = wheel_parameters(plan, position);
     const SteeringAxis axis = *found.axis_at_contact;
@@ -290,7 +286,7 @@ TEST(WheelParameters, SteeringAxisWithTheContactHeld) {
 // Points of a screw move along it by its pitch times the turning.
 TEST(WheelParameters, PitchOfTheTravelScrew) {
   for (const GuideSample& sample : guide_samples().first(12)) {
-    const GuidePlan plan = prepare(sample.guide);
+    const GuidePlan plan = prepare_guide(sample.guide);
     const GuidePosition position = solve(plan, 0.05);
     const WheelParameters found = wheel_parameters(plan, position);
     const Vec3 w = found.turning;
@@ -302,7 +298,7 @@ TEST(WheelParameters, PitchOfTheTravelScrew) {
 
 // The trace of the wheel's plane in a transverse plane against the vertical.
 TEST(WheelParameters, CamberInTheFrontView) {
-  const GuidePlan plan = prepare(guide_sample("2RS-US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("2RS-US").guide);
   for (double rack : {-0.06, 0.0, 0.06}) {
     const GuidePosition position = solve(plan, -0.05, rack);
     const WheelParameters found = wheel_parameters(plan, position);
@@ -318,7 +314,7 @@ TEST(WheelParameters, CamberInTheFrontView) {
 TEST(WheelParameters, SwingArmsOfATrailingArm) {
   WheelGuide guide{.wheel = {{0, 0.7, 0}, 0, 0, 0.6}};
   guide.links.push_back({.type = LinkType::R, .body = {{0.5, 0.3, 0.1}, {0.5, 0.6, 0.1}}});
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const WheelParameters found = wheel_parameters(plan, reference_position(plan));
   EXPECT_NEAR(found.side_centre[0], 0.5, 1e-15);
   EXPECT_NEAR(found.side_centre[1], 0.1, 1e-15);
@@ -329,7 +325,7 @@ TEST(WheelParameters, SwingArmsOfATrailingArm) {
   EXPECT_NEAR(found.roll_centre_height, 0, 1e-15);
   // With the hinge along x it is the front view that turns.
   guide.links[0].body = {{-0.2, 0.2, 0.05}, {0.2, 0.2, 0.05}};
-  const GuidePlan swing = prepare(guide);
+  const GuidePlan swing = prepare_guide(guide);
   const WheelParameters across = wheel_parameters(swing, reference_position(swing));
   EXPECT_NEAR(across.front_centre[0], 0.2, 1e-15);
   EXPECT_NEAR(across.front_centre[1], 0.05, 1e-15);
@@ -341,7 +337,7 @@ TEST(WheelParameters, SwingArmsOfATrailingArm) {
 TEST(WheelParameters, WithoutSpringOrRackNumbersAreMissing) {
   WheelGuide guide = guide_sample("R").guide;
   guide.spring.reset();
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const WheelParameters found = wheel_parameters(plan, solve(plan, 0.02));
   EXPECT_TRUE(std::isnan(found.motion_ratio));
   EXPECT_TRUE(std::isnan(found.spring_length));
@@ -357,7 +353,7 @@ TEST(WheelParameters, ArmsOfAWheelThatOnlyShiftsAreInfinite) {
        {Vec3{0.1, 0.6, -0.1}, Vec3{-0.1, 0.6, -0.1}, Vec3{0.1, 0.6, 0.2}, Vec3{-0.1, 0.6, 0.2}})
     guide.links.push_back({.type = LinkType::US, .body = {at - Vec3{0, 0.3, 0.01}}, .carrier = {at}});
   guide.links.push_back({.type = LinkType::US, .body = {{-0.5, 0.6, 0}}, .carrier = {{-0.1, 0.6, 0}}});
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const WheelParameters found = wheel_parameters(plan, reference_position(plan));
   ASSERT_EQ(found.status, Status::done);
   EXPECT_GT(found.front_swing_arm, 1e12);

@@ -12,7 +12,7 @@ namespace linkwright::suspension {
 namespace {
 
 TEST(WheelQuantities, EachIsAnotherNumberOfTheParameters) {
-  const GuidePlan plan = prepare(guide_sample("2RS-US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("2RS-US").guide);
   const GuidePosition at =
       solve_position(plan, Driver::wheel_centre_z, {0.03, 0.02}, reference_position(plan));
   const WheelParameters parameters = wheel_parameters(plan, at);
@@ -35,7 +35,7 @@ TEST(WheelQuantities, WhatAPositionShowsByItselfIsKnownWithoutMotions) {
   WheelGuide guide = guide_sample("2RS-US").guide;
   guide.links[1] = guide.links[0];
   guide.links[1].name = "double";
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const WheelParameters parameters = wheel_parameters(plan, {.place = {{plan.wheel.centre, {}}, 0}});
   ASSERT_EQ(parameters.status, Status::singular);
   for (const auto& name : names(WheelQuantity{}))
@@ -44,7 +44,7 @@ TEST(WheelQuantities, WhatAPositionShowsByItselfIsKnownWithoutMotions) {
           << name.name;
     }
   // Constructions are known there as well; only derivatives take their time for them with the motions.
-  const GuidePlan wishbones = prepare(guide_sample("2RS-US").guide);
+  const GuidePlan wishbones = prepare_guide(guide_sample("2RS-US").guide);
   const WheelParameters drawn = wheel_parameters(wishbones, reference_position(wishbones));
   EXPECT_TRUE(std::isfinite(value_of(drawn, WheelQuantity::geometric_caster)));
   EXPECT_EQ(row_of(WheelQuantity::geometric_caster).extent, Extent::all);

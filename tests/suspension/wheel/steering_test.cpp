@@ -15,10 +15,6 @@ namespace {
 
 constexpr std::array steered{"2RS-US", "RS-SP-US", "RS-3US", "SP-3US", "5US"};
 
-GuidePosition solve(const GuidePlan& plan, double travel, double rack) {
-  return solve_position(plan, Driver::wheel_centre_z, {travel, rack}, reference_position(plan));
-}
-
 // Lever arms by the moment about the screw axis: turning times the moment of the force about the axis, pitch
 // times its share along it.
 TEST(Steering, LeverArmsByTheScrewAxis) {
@@ -26,7 +22,7 @@ TEST(Steering, LeverArmsByTheScrewAxis) {
     for (const WheelGuide& guide : {guide_sample(name).guide, mirrored(guide_sample(name).guide)})
       for (Driver lock : {Driver::spring, Driver::wheel_centre_z, Driver::contact_z}) {
         SCOPED_TRACE(name);
-        const GuidePlan plan = prepare(guide);
+        const GuidePlan plan = prepare_guide(guide);
         const GuidePosition here = solve(plan, 0.02, 0.03);
         const auto found = steering_parameters(plan, here, lock);
         ASSERT_TRUE(found);
@@ -61,7 +57,7 @@ TEST(Steering, LeverArmsByTheScrewAxis) {
 // Straight ahead a force along the wheel has nearly the scrub radius as its arm: the axis is upright but for
 // caster and inclination.
 TEST(Steering, SignsOfTheArms) {
-  const GuidePlan plan = prepare(guide_sample("2RS-US").guide);
+  const GuidePlan plan = prepare_guide(guide_sample("2RS-US").guide);
   const GuidePosition here = reference_position(plan);
   const auto found = steering_parameters(plan, here, Driver::spring);
   const WheelParameters wheel = wheel_parameters(plan, here);
@@ -76,7 +72,7 @@ TEST(Steering, SignsOfTheArms) {
 TEST(Steering, AgainstPositionsWithTheSpringHeld) {
   for (const char* name : steered) {
     SCOPED_TRACE(name);
-    const GuidePlan plan = prepare(guide_sample(name).guide);
+    const GuidePlan plan = prepare_guide(guide_sample(name).guide);
     const GuidePosition start = solve(plan, 0.03, 0.02);
     const double length = driver_value(plan, start.place, 0.02, Driver::spring);
     const auto at_rack = [&](double rack) {
@@ -100,7 +96,7 @@ TEST(Steering, AgainstPositionsWithTheSpringHeld) {
 
 TEST(Steering, MirroredWheel) {
   const WheelGuide& guide = guide_sample("5US").guide;
-  const GuidePlan left = prepare(guide), right = prepare(mirrored(guide));
+  const GuidePlan left = prepare_guide(guide), right = prepare_guide(mirrored(guide));
   const auto a = steering_parameters(left, solve(left, 0.01, 0.02), Driver::spring);
   const auto b = steering_parameters(right, solve(right, 0.01, -0.02), Driver::spring);
   ASSERT_TRUE(a && b);
@@ -120,12 +116,12 @@ TEST(Steering, Ratio) {
 
 TEST(Steering, NothingToSteer) {
   WheelGuide guide = guide_sample("SR-3US").guide;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   EXPECT_FALSE(is_steered(plan));
   EXPECT_FALSE(steering_parameters(plan, reference_position(plan), Driver::spring));
   guide.spring.reset();
   EXPECT_THAT(test::message([&] {
-                const GuidePlan bare = prepare(guide);
+                const GuidePlan bare = prepare_guide(guide);
                 steering_parameters(bare, reference_position(bare), Driver::spring);
               }),
               ::testing::StartsWith("steering_parameters: the spring is held, and the suspension has none"));

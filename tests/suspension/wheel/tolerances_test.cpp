@@ -30,8 +30,8 @@ TEST(Tolerances, OfOneNumberAreItsDerivative) {
   for (std::size_t i = 0; i < task.inputs.size(); ++i) {
     const auto toe = [&](double by) {
       WheelGuide guide = task.guide;
-      at(guide, task.numbers[0].number) += by;
-      const GuidePlan plan = prepare(guide);
+      design_value(guide, task.numbers[0].number) += by;
+      const GuidePlan plan = prepare_guide(guide);
       return wheel_parameters(
                  plan, solve_position(plan, Driver::wheel_centre_z, task.inputs[i], reference_position(plan)))
           .angles.toe;

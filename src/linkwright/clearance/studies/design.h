@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <complex>
 #include <optional>
 #include <string>
 #include <string_view>

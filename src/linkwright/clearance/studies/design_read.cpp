@@ -1,7 +1,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/clearance/studies/design.h"
 #include "linkwright/clearance/studies/templates.h"

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <span>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 #include "linkwright/clearance/studies/design.h"
 #include "linkwright/core/numbers.h"

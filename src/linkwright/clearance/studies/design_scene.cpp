@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
 
 #include "linkwright/clearance/studies/design.h"
 #include "linkwright/clearance/studies/simulation.h"
@@ -30,7 +33,7 @@ ClearanceStudy as_linkage(const DesignMeasures& d) {
   l.bodies[2].mass = d.model.coupler;
   l.bodies[3].mass = d.model.rocker;
   l.gravity = d.model.gravity;
-  out.plan = planar::plan(l).plan;
+  out.plan = planar::plan_linkage(l).plan;
   out.traces = planar::points_named(l, {"coupler.P"});
   out.continuous.push_back({.clearance = {.joint = loose, .clearance = d.model.clearance}});
   return out;

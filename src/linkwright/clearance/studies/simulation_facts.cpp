@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <string>
+#include <string_view>
 
 #include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/core/numbers.h"

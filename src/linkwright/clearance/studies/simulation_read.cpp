@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <variant>
+#include <vector>
 
 #include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/clearance/studies/templates.h"

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/core/numbers.h"

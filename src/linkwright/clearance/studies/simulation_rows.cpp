@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <string>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"

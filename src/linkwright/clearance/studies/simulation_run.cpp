@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/clearance/studies/simulation_rows.h"

@@ -1,6 +1,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <complex>
+#include <string>
+#include <vector>
 
 #include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/core/numbers.h"

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
 
 #include "linkwright/clearance/contact_analysis.h"
 #include "linkwright/clearance/studies/simulation.h"

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 #include "linkwright/clearance/studies/tolerance.h"
 #include "linkwright/core/numbers.h"

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "linkwright/clearance/studies/tolerance.h"
 #include "linkwright/core/numbers.h"

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "linkwright/clearance/studies/tolerance.h"
 #include "linkwright/core/numbers.h"

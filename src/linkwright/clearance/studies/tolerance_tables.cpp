@@ -1,7 +1,11 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <tuple>
+#include <variant>
+#include <vector>
 
 #include "linkwright/clearance/studies/tolerance.h"
 #include "linkwright/core/numbers.h"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/flexible/response.h"

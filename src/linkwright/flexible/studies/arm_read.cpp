@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/flexible/studies/arm.h"
 #include "linkwright/study/bind_write.h"

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string_view>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/flexible/statics.h"

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "linkwright/flexible/reference_beam.h"
 #include "linkwright/flexible/response.h"

@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <optional>
+
 #include "linkwright/flexible/modes.h"
 #include "linkwright/flexible/studies/templates.h"
 #include "linkwright/flexible/studies/vibration.h"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/flexible/continuum.h"

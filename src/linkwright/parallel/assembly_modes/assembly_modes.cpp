@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <optional>
 #include <tuple>
 #include <utility>

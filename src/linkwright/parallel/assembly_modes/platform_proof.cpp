@@ -1,6 +1,7 @@
 #include "linkwright/parallel/assembly_modes/platform_proof.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 

@@ -1,5 +1,7 @@
 #include <cmath>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/numbers.h"

@@ -1,7 +1,10 @@
 #include "linkwright/parallel/dexterity/detail/synthesis_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "linkwright/core/interruption.h"
 #include "linkwright/core/numbers.h"

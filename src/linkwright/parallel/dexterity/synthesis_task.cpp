@@ -1,6 +1,9 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/parallel/dexterity/synthesis.h"

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "linkwright/core/field.h"
 #include "linkwright/core/status.h"

@@ -3,7 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <variant>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"

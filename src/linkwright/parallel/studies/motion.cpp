@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <variant>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 
 #include "linkwright/parallel/robot/constraint.h"
 #include "linkwright/parallel/studies/templates.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"

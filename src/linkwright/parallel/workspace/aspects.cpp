@@ -1,6 +1,7 @@
 #include "linkwright/parallel/workspace/aspects.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <numeric>

@@ -1,7 +1,10 @@
 #include "linkwright/parallel/workspace/inscribed.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/interruption.h"

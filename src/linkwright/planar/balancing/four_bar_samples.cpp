@@ -1,5 +1,7 @@
 #include "linkwright/planar/balancing/four_bar_samples.h"
 
+#include <array>
+
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
 

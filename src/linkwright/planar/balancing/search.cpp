@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "linkwright/core/checkpoint.h"
 #include "linkwright/core/numbers.h"

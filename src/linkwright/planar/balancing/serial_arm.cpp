@@ -7,6 +7,7 @@
 #include <complex>
 #include <memory>
 #include <utility>
+#include <variant>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/random.h"

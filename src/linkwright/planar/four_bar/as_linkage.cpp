@@ -1,5 +1,8 @@
 #include "linkwright/planar/four_bar/as_linkage.h"
 
+#include <complex>
+#include <vector>
+
 #include "linkwright/planar/linkage/build.h"
 
 namespace linkwright::planar {

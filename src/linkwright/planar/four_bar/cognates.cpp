@@ -1,6 +1,7 @@
 #include "linkwright/planar/four_bar/cognates.h"
 
 #include <cmath>
+#include <complex>
 
 namespace linkwright::planar {
 namespace {

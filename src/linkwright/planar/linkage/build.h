@@ -9,7 +9,7 @@
 #include "linkwright/planar/linkage/linkage.h"
 
 // Writing a linkage down by names. All functions throw ContractError on names that do not exist; what they
-// cannot see (freedoms, lengths, names given twice) is left to `check` and `plan`.
+// cannot see (freedoms, lengths, names given twice) is left to `check` and `plan_linkage`.
 namespace linkwright::planar {
 
 /// A linkage that has a ground with the given points (global frame, m) and nothing else.

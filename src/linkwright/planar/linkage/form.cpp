@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <complex>
+#include <string_view>
 
 #include "linkwright/planar/linkage/build.h"
 

@@ -2,7 +2,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"

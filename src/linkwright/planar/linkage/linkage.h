@@ -188,7 +188,7 @@ double size_of(const Linkage& linkage);
 
 /// What is wrong with the description by itself: indices, names given twice, numbers that are not finite,
 /// negative masses, links of no length, springs between a body and itself, tables that do not rise. Keys are
-/// "joint.<name>", "body.<name>" and so on. Whether it moves as it should is asked of `plan`.
+/// "joint.<name>", "body.<name>" and so on. Whether it moves as it should is asked of `plan_linkage`.
 Diagnostics check(const Linkage& linkage);
 
 }  // namespace linkwright::planar

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numeric>
 #include <optional>
 
@@ -705,6 +706,6 @@ int mobility(const Linkage& linkage) {
   return freedoms;
 }
 
-PlanResult plan(const Linkage& linkage, PlanRoute route) { return Planner(linkage).run(route); }
+PlanResult plan_linkage(const Linkage& linkage, PlanRoute route) { return Planner(linkage).run(route); }
 
 }  // namespace linkwright::planar

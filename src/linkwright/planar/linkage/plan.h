@@ -139,7 +139,7 @@ enum class PlanRoute { along_groups, all_at_once };
 /// Decomposes a linkage. Problems are named in plain words with the bodies and joints that take part: bodies
 /// that hang on nothing, freedoms without a drive, drives beyond the freedoms, joints that close a loop that
 /// is closed already, gears whose angle is not known. Includes those of `check`.
-PlanResult plan(const Linkage& linkage, PlanRoute route = PlanRoute::along_groups);
+PlanResult plan_linkage(const Linkage& linkage, PlanRoute route = PlanRoute::along_groups);
 
 /// Position, velocity and acceleration of one input: rad or m, per second.
 struct InputMotion {

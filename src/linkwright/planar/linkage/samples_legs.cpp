@@ -1,5 +1,8 @@
 #include <array>
 #include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"

@@ -1,4 +1,8 @@
 #include <cmath>
+#include <complex>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"

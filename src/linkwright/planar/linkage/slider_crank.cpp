@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <complex>
+
 #include "linkwright/planar/linkage/build.h"
 
 namespace linkwright::planar {

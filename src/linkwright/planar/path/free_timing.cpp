@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <optional>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"

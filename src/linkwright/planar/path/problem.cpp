@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <memory>
+#include <string_view>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"

@@ -1,5 +1,7 @@
 #include "linkwright/planar/path/slider_crank_samples.h"
 
+#include <complex>
+
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/path/eighteen_points.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/four_bar/classify.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"

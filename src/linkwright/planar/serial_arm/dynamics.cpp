@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 #include "linkwright/core/check.h"

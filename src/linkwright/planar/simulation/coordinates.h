@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "linkwright/planar/simulation/simulation.h"
 
 namespace linkwright::planar {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <string>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
@@ -22,7 +24,7 @@ class Builder {
   Builder(const Linkage& rigid, std::span<const ElasticBody> bodies) : rigid_(rigid), given_(bodies) {}
 
   ElasticLinkage run(std::span<const InputMotion> inputs) {
-    PlanResult planned = plan(rigid_);
+    PlanResult planned = plan_linkage(rigid_);
     if (has_errors(planned.problems)) return refused(std::move(planned.problems));
     LINKWRIGHT_REQUIRE(inputs.size() == planned.plan.inputs(), "the linkage has {} drives, got {} inputs",
                        planned.plan.inputs(), inputs.size());
@@ -40,7 +42,7 @@ class Builder {
     move_joints_and_loads();
     if (!out_.problems.empty()) return refused(std::move(out_.problems));
     for (const ElasticPieces& p : out_.pieces) drive(p, planned.plan, motion);
-    planned = plan(out_.linkage);
+    planned = plan_linkage(out_.linkage);
     if (has_errors(planned.problems)) return refused(std::move(planned.problems));
     out_.plan = std::move(planned.plan);
     return std::move(out_);

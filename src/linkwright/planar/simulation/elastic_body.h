@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <span>
 #include <vector>
 
@@ -87,8 +88,8 @@ struct ElasticLinkage {
 /// inputs on (LinkageElimination): 2.7 times as long for 16 as for 4, and 4 times as long again for 64. Steps
 /// get shorter by the square of that number, which is what limits it.
 ///
-/// Problems have the key "elastic_body.<name>" or are those of `plan`. Throws ContractError when the number
-/// of inputs is not that of the drives.
+/// Problems have the key "elastic_body.<name>" or are those of `plan_linkage`. Throws ContractError when the
+/// number of inputs is not that of the drives.
 ElasticLinkage with_elastic_bodies(const Linkage& linkage, std::span<const ElasticBody> bodies,
                                    std::span<const InputMotion> inputs);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/interruption.h"

@@ -4,6 +4,10 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/planar/studies/balancing.h"

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/elastic.h"

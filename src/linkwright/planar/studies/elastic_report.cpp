@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"

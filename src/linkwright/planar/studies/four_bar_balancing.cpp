@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 #include "linkwright/planar/balancing/four_bar.h"
 #include "linkwright/planar/studies/linkage.h"

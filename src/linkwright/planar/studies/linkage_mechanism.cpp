@@ -2,6 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/build.h"
@@ -218,7 +224,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
     if (environment.direction == LinkageEnvironment{}.direction) l.gravity = {0, -environment.gravity};
   }
   if (!good || document.document().has_errors()) return std::nullopt;
-  PlanResult planned = plan(l);
+  PlanResult planned = plan_linkage(l);
   if (!planned.problems.empty()) {
     report(document, *mechanism, planned.problems);
     return std::nullopt;

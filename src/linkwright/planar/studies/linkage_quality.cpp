@@ -1,6 +1,9 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"

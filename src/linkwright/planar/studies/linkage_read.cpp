@@ -1,7 +1,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "linkwright/planar/linkage/build.h"
 #include "linkwright/planar/linkage/samples.h"

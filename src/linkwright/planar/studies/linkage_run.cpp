@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"

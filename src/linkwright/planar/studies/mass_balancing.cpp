@@ -5,8 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <functional>
 #include <map>
 #include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/balancing/mass_redistribution.h"
@@ -271,7 +276,7 @@ class Maker {
         }
       }
     }
-    PlanResult planned = plan(l);
+    PlanResult planned = plan_linkage(l);
     const LinkageRows rows = rows_of(*study);
     std::vector<InputMotion> inputs;
     for (const auto& row : rows.inputs) inputs.insert(inputs.end(), row.begin(), row.end());

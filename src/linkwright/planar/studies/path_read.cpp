@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <variant>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/path.h"

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 #include "linkwright/planar/studies/serial_arm.h"
 #include "linkwright/planar/studies/templates.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 

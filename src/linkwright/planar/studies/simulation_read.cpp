@@ -1,6 +1,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/planar/studies/elastic.h"
 #include "linkwright/planar/studies/templates.h"
@@ -139,7 +143,7 @@ bool add_elastic(study::ObjectReader& document, LinkageType type, LinkageDescrip
   const std::vector<ElasticPieces> pieces =
       place_elastic(document, d.linkage, s.elastic, inputs_at(s.drives, s.from - s.settle));
   if (pieces.empty()) return false;
-  d.plan = plan(d.linkage).plan;
+  d.plan = plan_linkage(d.linkage).plan;
   if (!require_masses(document, type, d.plan)) return false;
   auto table = document.table("simulation");
   if (!table->has("rtol")) s.options.relative_tolerance = elastic_tolerance;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <variant>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/studies/slider_crank_path.h"

@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/tolerance.h"

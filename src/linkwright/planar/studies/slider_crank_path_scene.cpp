@@ -1,6 +1,7 @@
 #include "linkwright/planar/studies/slider_crank_path_scene.h"
 
 #include <cmath>
+#include <span>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"
@@ -28,7 +29,7 @@ std::vector<double> shown_angles(const SliderPathDesign& design, int samples) {
 study::Scene slider_path_scene(const SliderPathProblem& problem, const SliderPathDesign& design,
                                std::string name, std::string title, int samples) {
   const Linkage linkage = slider_crank(design.mechanism);
-  const PlanResult planned = plan(linkage);
+  const PlanResult planned = plan_linkage(linkage);
   LINKWRIGHT_REQUIRE(planned.problems.empty(), "a slider-crank of crank {} and rod {} has no plan",
                      design.mechanism.parameters.crank, design.mechanism.parameters.rod);
   LinkageMotion motion(planned.plan);

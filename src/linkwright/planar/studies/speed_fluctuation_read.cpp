@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <string>
 
 #include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/studies/speed_fluctuation.h"

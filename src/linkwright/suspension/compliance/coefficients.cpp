@@ -1,5 +1,7 @@
 #include "linkwright/suspension/compliance/coefficients.h"
 
+#include <array>
+
 #include "linkwright/core/check.h"
 
 namespace linkwright::suspension {

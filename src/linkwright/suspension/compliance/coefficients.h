@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "linkwright/suspension/compliance/compliance.h"
 
 /// Compliance in the terms of chassis engineers, of a wheel and of an axle. SI: rad/N, rad/(N m), m/N; tables

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/suspension/guide/detail/constraints_kernel.h"

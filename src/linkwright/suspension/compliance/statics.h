@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "linkwright/suspension/compliance/compliance.h"
 
 namespace linkwright::suspension {

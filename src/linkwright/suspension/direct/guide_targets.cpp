@@ -100,7 +100,7 @@ TargetAnswer answer(const WheelGuide& guide, std::span<const TargetObjective> ob
   if (!check(guide).empty()) return out;
   DerivativePlan plan;
   if (numbers.empty())
-    plan.plan = prepare(guide);
+    plan.plan = prepare_guide(guide);
   else
     plan = prepare_derivatives(guide, {numbers.begin(), numbers.end()});
 

@@ -81,7 +81,7 @@ void place_published_boxes(DirectTask& task, std::uint64_t seed) {
   for (int link = 2; link < 5; ++link)
     for (int axis = 0; axis < 3; ++axis) {
       const DesignNumber number{DesignKind::body, link, 0, axis};
-      const double middle = at(task.guide, number) + random.uniform(-edge / 2, edge / 2);
+      const double middle = design_value(task.guide, number) + random.uniform(-edge / 2, edge / 2);
       task.designed.push_back({number, middle - edge / 2, middle + edge / 2});
     }
 }

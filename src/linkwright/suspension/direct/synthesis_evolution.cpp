@@ -1,5 +1,7 @@
 #include <cmath>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/optimise/combine.h"
@@ -20,7 +22,8 @@ DirectEvolution evolve(const DirectTask& task, const DirectOptions& options, std
                          std::span<double> violation) {
     WheelGuide guide = task.guide;
     for (std::size_t i = 0; i < candidates.size; ++i) {
-      for (std::size_t j = 0; j < model.size(); ++j) at(guide, task.designed[j].number) = candidates(j, i);
+      for (std::size_t j = 0; j < model.size(); ++j)
+        design_value(guide, task.designed[j].number) = candidates(j, i);
       const TargetAnswer found = answer(guide, task.objectives, model.positions(), {});
       violation[i] = 0;
       if (!found.assembled) {
@@ -48,7 +51,7 @@ DirectEvolution evolve(const DirectTask& task, const DirectOptions& options, std
   const optimise::Report report = optimise::minimise(single, method, stop, {.seed = seed}, context);
   DirectEvolution out;
   WheelGuide guide = task.guide;
-  for (std::size_t j = 0; j < model.size(); ++j) at(guide, task.designed[j].number) = report.x[j];
+  for (std::size_t j = 0; j < model.size(); ++j) design_value(guide, task.designed[j].number) = report.x[j];
   out.found = assess(task, options, guide);
   out.found.evaluations = report.evaluations;
   out.generations = report.generations;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "linkwright/core/check.h"
 
@@ -35,7 +37,7 @@ WheelGuide DirectModel::guide(std::span<const double> u) const {
   WheelGuide out = task_.guide;
   for (std::size_t j = 0; j < size(); ++j) {
     const auto& [number, lower, upper] = task_.designed[j];
-    at(out, number) = lower + u[j] * (upper - lower);
+    design_value(out, number) = lower + u[j] * (upper - lower);
   }
   return out;
 }
@@ -51,7 +53,7 @@ std::vector<double> DirectModel::shares(const WheelGuide& guide) const {
   std::vector<double> out(size());
   for (std::size_t j = 0; j < size(); ++j) {
     const auto& [number, lower, upper] = task_.designed[j];
-    out[j] = (at(guide, number) - lower) / (upper - lower);
+    out[j] = (design_value(guide, number) - lower) / (upper - lower);
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"

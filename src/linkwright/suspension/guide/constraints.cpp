@@ -1,6 +1,7 @@
 #include "linkwright/suspension/guide/constraints.h"
 
 #include <cmath>
+#include <string>
 
 #include "linkwright/core/check.h"
 #include "linkwright/suspension/guide/detail/constraints_kernel.h"
@@ -16,7 +17,7 @@ void require_spring(const GuidePlan& plan, Driver driver) {
 
 }  // namespace
 
-GuidePlan prepare(const WheelGuide& guide) {
+GuidePlan prepare_guide(const WheelGuide& guide) {
   const Diagnostics problems = check(guide);
   LINKWRIGHT_REQUIRE(problems.empty(), "{} problems, the first: {}", problems.size(),
                      to_string(problems.front()));

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "linkwright/suspension/guide/constructions.h"
@@ -88,7 +89,7 @@ struct BasicSpringConstants {
 };
 using SpringConstants = BasicSpringConstants<double>;
 
-/// A suspension made ready for solving. Make it with `prepare`.
+/// A suspension made ready for solving. Make it with `prepare_guide`.
 template <class T>
 struct BasicGuidePlan {
   Side side = Side::left;
@@ -107,7 +108,7 @@ using GuidePlan = BasicGuidePlan<double>;
 
 /// Throws ContractError for a suspension that `check` finds errors in, or whose constraints do not add up to
 /// five.
-GuidePlan prepare(const WheelGuide& guide);
+GuidePlan prepare_guide(const WheelGuide& guide);
 
 inline constexpr int most_unknowns = 7;
 

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <array>
+
 #include "linkwright/core/check.h"
 #include "linkwright/math/dual.h"
 
@@ -72,16 +74,18 @@ T& found(Guide& guide, const DesignNumber& number) {
 }  // namespace
 
 template <class T>
-T& at(BasicWheelGuide<T>& guide, const DesignNumber& number) {
+T& design_value(BasicWheelGuide<T>& guide, const DesignNumber& number) {
   return found<T>(guide, number);
 }
-template double& at(WheelGuide&, const DesignNumber&);
-template math::Dual<4>& at(BasicWheelGuide<math::Dual<4>>&, const DesignNumber&);
+template double& design_value(WheelGuide&, const DesignNumber&);
+template math::Dual<4>& design_value(BasicWheelGuide<math::Dual<4>>&, const DesignNumber&);
 
-double at(const WheelGuide& guide, const DesignNumber& number) { return found<const double>(guide, number); }
+double design_value(const WheelGuide& guide, const DesignNumber& number) {
+  return found<const double>(guide, number);
+}
 
 std::string label(const WheelGuide& guide, const DesignNumber& number) {
-  at(guide, number);  // that it exists
+  design_value(guide, number);  // that it exists
   const auto link_point = [&](const char* where, std::size_t points) {
     const std::string which = points > 1 ? fmt::format("{}_", number.point + 1) : "";
     return fmt::format("{}.{}_{}{}", link_label(guide, number.index), where, which, axes[number.axis]);

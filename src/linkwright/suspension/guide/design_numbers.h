@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -48,8 +49,8 @@ struct DesignNumber {
 /// The place of a number in a suspension. Throws ContractError for one that the suspension does not have; a
 /// length has to be prescribed.
 template <class T>
-T& at(BasicWheelGuide<T>& guide, const DesignNumber& number);
-double at(const WheelGuide& guide, const DesignNumber& number);
+T& design_value(BasicWheelGuide<T>& guide, const DesignNumber& number);
+double design_value(const WheelGuide& guide, const DesignNumber& number);
 
 /// What files and reports call it: "link 3 (US).body_y", "spring.moving_x"; the number of the point is named
 /// where there are two: "lower arm.body_2_z".

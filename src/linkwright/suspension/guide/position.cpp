@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "linkwright/core/check.h"
 #include "linkwright/math/small_lu.h"

@@ -1,5 +1,8 @@
 #include "linkwright/suspension/guide/samples.h"
 
+#include <optional>
+#include <vector>
+
 #include "linkwright/core/check.h"
 #include "linkwright/math/angles.h"
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 
 #include "linkwright/math/dense.h"
 
@@ -50,7 +51,7 @@ std::string count_of(const Structure& structure, int couplers) {
 
 void check_rank(const WheelGuide& guide, Diagnostics& found) {
   const WeakMotion weakest =
-      weakest_motion(prepare(guide), {{guide.wheel.centre, {}}, 0}, 0, Driver::wheel_centre_z);
+      weakest_motion(prepare_guide(guide), {{guide.wheel.centre, {}}, 0}, 0, Driver::wheel_centre_z);
   const double least = weakest.singular_value;
   if (least >= poor_rank) return;
   const std::string motion = in_words(weakest.shift, weakest.turn, guide.wheel.tyre_diameter / 2);

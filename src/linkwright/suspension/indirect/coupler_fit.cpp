@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"

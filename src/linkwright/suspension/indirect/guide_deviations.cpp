@@ -39,7 +39,7 @@ struct Sums {
 }  // namespace
 
 ConstraintError constraint_error(const WheelGuide& guide, const CarrierTargets& targets) {
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   ConstraintError worst;
   for (std::size_t i = 0; i < targets.poses.size(); ++i) {
     const CarrierTarget& target = targets.poses[i];
@@ -69,7 +69,7 @@ ConstraintError constraint_error(const WheelGuide& guide, const CarrierTargets& 
 }
 
 PoseDeviations pose_deviations(const WheelGuide& guide, const CarrierTargets& targets) {
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuidePosition start = reference_position(plan);
   PoseDeviations out;
   Sums x, y, toe, camber, carrier_pitch;

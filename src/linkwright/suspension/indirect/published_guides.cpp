@@ -151,7 +151,7 @@ WheelGuide strut_as_printed() {
 
 CarrierTargets published_targets(const PublishedGuide& published) {
   const WheelGuide& guide = guide_sample(published.sample).guide;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuidePosition start = reference_position(plan);
   CarrierTargets targets{.wheel = guide.wheel, .rack_direction = guide.rack_direction, .poses = {}};
   for (const PublishedPosition& row : published.positions) {

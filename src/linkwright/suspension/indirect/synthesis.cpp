@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "linkwright/core/check.h"
 #include "linkwright/core/numbers.h"

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "linkwright/study/kind.h"
 #include "linkwright/suspension/studies/values.h"

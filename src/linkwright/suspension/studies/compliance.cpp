@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "linkwright/math/angles.h"
 #include "linkwright/suspension/compliance/statics.h"
@@ -251,7 +252,7 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
 
 void add_compliance(study::Result& result, const GuideDescription& description, const ComplianceForm& form) {
   const WheelGuide& guide = description.guide;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   const GuidePosition reference = reference_position(plan);
   const auto remark = [&](std::string message, std::string hint) {
     result.diagnostics.push_back(

@@ -1,8 +1,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
@@ -172,7 +177,7 @@ Table sweep_table(const DirectStudy& s, const WheelGuide& guide, std::string nam
   Table table{.name = std::move(name)};
   RunContext nobody;
   const std::array<double, 1> racks{0};
-  const GridPositions grid = solve_grid(prepare(guide), s.task.driver, travels, racks, nobody);
+  const GridPositions grid = solve_grid(prepare_guide(guide), s.task.driver, travels, racks, nobody);
   table.add("travel_m", "travel (m)", {travels.begin(), travels.end()});
   for (const GuideColumn& c : guide_columns()) {
     std::vector<double> values;
@@ -236,7 +241,7 @@ void add_designs(study::Result& result, const DirectStudy& s, const DirectSynthe
   }
   RunContext nobody;
   const GridPositions grid =
-      solve_grid(prepare(best.guide), s.task.driver, range.travels, range.racks, nobody);
+      solve_grid(prepare_guide(best.guide), s.task.driver, range.travels, range.racks, nobody);
   result.scenes.push_back(
       guide_scene(best.guide, "solution-1", "the design found",
                   {s.task.driver, range.travels, range.racks, grid.positions, grid.wheels, s.lock}));

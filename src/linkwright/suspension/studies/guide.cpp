@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "linkwright/math/angles.h"
 #include "linkwright/study/beside.h"

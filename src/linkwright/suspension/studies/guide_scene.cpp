@@ -1,7 +1,9 @@
 #include "linkwright/suspension/studies/guide_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/vector3.h"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "linkwright/core/csv.h"
 #include "linkwright/study/beside.h"

@@ -1,10 +1,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
@@ -218,7 +223,7 @@ study::Solution solution_of(const IndirectStudy& s, const SeedRun& run, std::str
 /// Prescribed positions and what the wheel does there at the height and rack of each.
 Table poses_table(const CarrierTargets& targets, const WheelGuide& left) {
   Table table{.name = "poses"};
-  const GuidePlan plan = prepare(left);
+  const GuidePlan plan = prepare_guide(left);
   const GuidePosition reference = reference_position(plan);
   const std::array<std::pair<const char*, const char*>, 6> keys{{{"centre_x_m", "wheel centre x"},
                                                                  {"centre_y_m", "wheel centre y"},
@@ -409,7 +414,7 @@ study::Scene scene_of(const IndirectStudy& s, const WheelGuide& guide, const std
   for (int i = -steps; i <= steps; ++i) travels.push_back((i < 0 ? -low : high) * i / steps);
   travels.erase(std::unique(travels.begin(), travels.end()), travels.end());
   RunContext nobody;
-  const GridPositions grid = solve_grid(prepare(guide), Driver::wheel_centre_z, travels, racks, nobody);
+  const GridPositions grid = solve_grid(prepare_guide(guide), Driver::wheel_centre_z, travels, racks, nobody);
   return guide_scene(
       guide, name, "wheel travel and rack",
       {Driver::wheel_centre_z, travels, racks, grid.positions, grid.wheels, Driver::wheel_centre_z});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 
 #include "linkwright/core/units.h"
 #include "linkwright/study/design_variables.h"
@@ -189,7 +190,7 @@ void add_tolerances(study::Result& result, const WheelGuide& guide, const Tolera
     task.numbers.push_back({n, tolerance});
     names.push_back(name);
   }
-  const Way way = solve_way(prepare(guide), inputs);
+  const Way way = solve_way(prepare_guide(guide), inputs);
   if (way.positions.empty() || task.numbers.empty())
     return remark(result,
                   "no tolerance bands: no position of the sweep is reached, or no point has a tolerance");

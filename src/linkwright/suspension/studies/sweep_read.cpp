@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/memory.h"

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "linkwright/math/angles.h"
 #include "linkwright/study/remarks.h"
@@ -195,7 +198,8 @@ void add_baseline(study::Result& result, const SweepStudy& s, RunContext& contex
         {Diagnostic::Severity::warning, {}, {}, "baseline", "it has no spring to travel by", {}});
     return;
   }
-  GridPositions solved = solve_grid(prepare(other.description.guide), s.travel, s.travels, s.racks, context);
+  GridPositions solved =
+      solve_grid(prepare_guide(other.description.guide), s.travel, s.travels, s.racks, context);
   const std::size_t positions = solved.positions.size();
   if (positions < s.travels.size() * s.racks.size()) result.status = context.interruption();
   if (positions == 0) return;
@@ -360,7 +364,7 @@ GridPositions solve_grid(const GuidePlan& plan, Driver travel, std::span<const d
 
 study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   study::Result result;
-  const GuidePlan plan = prepare(asked.description.guide);
+  const GuidePlan plan = prepare_guide(asked.description.guide);
   GridPositions solved = solve_grid(plan, asked.travel, asked.travels, asked.racks, context);
   const std::size_t positions = solved.positions.size();
   if (positions < asked.travels.size() * asked.racks.size()) result.status = context.interruption();

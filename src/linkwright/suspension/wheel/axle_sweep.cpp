@@ -41,7 +41,7 @@ AxlePlan prepare_axle(const WheelGuide& guide) {
 AxlePlan prepare_axle(const WheelGuide& left, const WheelGuide& right) {
   LINKWRIGHT_REQUIRE(left.side == Side::left && right.side == Side::right,
                      "the first wheel is {}, the second {}", name_of(left.side), name_of(right.side));
-  return {prepare(left), prepare(right)};
+  return {prepare_guide(left), prepare_guide(right)};
 }
 
 AxlePosition reference_position(const AxlePlan& plan) {

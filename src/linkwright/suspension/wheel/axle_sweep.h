@@ -16,8 +16,8 @@ namespace linkwright::suspension {
 struct AxlePlan {
   GuidePlan left, right;
 };
-/// A symmetric axle from either wheel, and one of two wheels. Throw ContractError as `prepare` does, and if
-/// the wheels are not a left and a right one.
+/// A symmetric axle from either wheel, and one of two wheels. Throw ContractError as `prepare_guide` does,
+/// and if the wheels are not a left and a right one.
 AxlePlan prepare_axle(const WheelGuide& guide);
 AxlePlan prepare_axle(const WheelGuide& left, const WheelGuide& right);
 

@@ -271,12 +271,12 @@ InputDerivatives by_inputs(const DerivativePlan& plan, const GuidePosition& posi
 }  // namespace
 
 DerivativePlan prepare_derivatives(const WheelGuide& guide, std::vector<DesignNumber> numbers) {
-  DerivativePlan out{.plan = prepare(guide), .numbers = std::move(numbers)};
+  DerivativePlan out{.plan = prepare_guide(guide), .numbers = std::move(numbers)};
   const auto constants = constant(guide);
   for (std::size_t first = 0; first < out.numbers.size(); first += derivative_width) {
     auto varied = constants;
     for (std::size_t k = first; k < out.numbers.size() && k < first + derivative_width; ++k)
-      at(varied, out.numbers[k]).by[k - first] = 1;
+      design_value(varied, out.numbers[k]).by[k - first] = 1;
     out.passes.push_back(kernel::prepare(varied));
   }
   out.inputs = kernel::prepare(constants);

@@ -21,7 +21,7 @@ struct DerivativePlan {
   std::vector<BasicGuidePlan<math::Dual<derivative_width>>> passes;
   BasicGuidePlan<math::Dual<derivative_width>> inputs;
 };
-/// Throws ContractError as `prepare` does, and for numbers that the suspension does not have.
+/// Throws ContractError as `prepare_guide` does, and for numbers that the suspension does not have.
 DerivativePlan prepare_derivatives(const WheelGuide& guide, std::vector<DesignNumber> numbers);
 
 struct WheelDerivatives {

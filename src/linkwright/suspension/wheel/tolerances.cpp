@@ -33,11 +33,11 @@ void draw(const ToleranceTask& task, const MonteCarlo& options, int sample,
   RandomStream random({options.seed, 0, 0, static_cast<std::uint32_t>(sample)});
   WheelGuide guide = task.guide;
   for (const auto& [number, tolerance] : task.numbers)
-    at(guide, number) +=
+    design_value(guide, number) +=
         tolerance * (options.scatter == Scatter::uniform ? random.uniform(-1, 1) : random.normal() / 3);
   std::fill(out.begin(), out.end(), WheelParameters::missing);
   if (!check(guide).empty()) return;
-  const GuidePlan plan = prepare(guide);
+  const GuidePlan plan = prepare_guide(guide);
   for (std::size_t i = 0; i < nominal.size(); ++i) {
     if (nominal[i].status != Status::done) continue;
     const GuidePosition position = solve_position(plan, task.driver, task.inputs[i], nominal[i]);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "linkwright/math/simd.h"
 #include "linkwright/math/singular_values.h"

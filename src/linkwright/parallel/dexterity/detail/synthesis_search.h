@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "linkwright/parallel/dexterity/detail/synthesis_model.h"
 
 /// One local search of dexterity_synthesis.h, and the search between nodes.

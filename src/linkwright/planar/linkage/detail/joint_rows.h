@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/kernel.h"

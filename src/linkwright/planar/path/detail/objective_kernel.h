@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <type_traits>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/simd.h"

@@ -352,7 +352,7 @@ T write_driver(const Placed<T>& placed, Driver driver, Row<T>& row) {
   return T(0);
 }
 
-/// `prepare` for a suspension that has been checked, without labels.
+/// `prepare_guide` for a suspension that has been checked, without labels.
 template <class T>
 BasicGuidePlan<T> prepare(const BasicWheelGuide<T>& guide) {
   BasicGuidePlan<T> plan{.side = guide.side,

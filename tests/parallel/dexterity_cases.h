@@ -1,0 +1,14 @@
+#pragma once
+
+#include "linkwright/parallel/dexterity/synthesis.h"
+
+namespace linkwright::parallel {
+
+/// Where a design stands against a limit; null if it was not asked for.
+inline const DexterityStand* stand_of(const DexterityDesign& design, DexterityLimit limit) {
+  for (const DexterityStand& stand : design.limits)
+    if (stand.limit == limit) return &stand;
+  return nullptr;
+}
+
+}  // namespace linkwright::parallel
