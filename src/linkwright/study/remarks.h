@@ -33,6 +33,24 @@ struct AddWarning {
   }
 };
 
+/// Adds diagrams of one table to a result: `const AddPlot plot{result, {.table = "motion", .x = "time_s",
+/// .scene = "motion"}};`, then plot("torque", "Drive torque", {"torque_N_m"}). Columns that the table does
+/// not have are left out, and a diagram without columns is not added.
+struct AddPlot {
+  Result& result;
+  Plot like;  ///< what all of them have
+  void operator()(std::string name, std::string title, std::vector<std::string> y) const {
+    (*this)(std::move(name), std::move(title), std::move(y), like.style);
+  }
+  void operator()(std::string name, std::string title, std::vector<std::string> y, Plot::Style style) const {
+    const Table* table = result.table(like.table);
+    std::erase_if(y, [&](const std::string& key) { return !table || !table->find(key); });
+    if (y.empty()) return;
+    Plot& plot = result.plots.emplace_back(like);
+    plot.name = std::move(name), plot.title = std::move(title), plot.y = std::move(y), plot.style = style;
+  }
+};
+
 /// A length for people, in the unit that suits its size: "1.25 m", "12.5 mm", "3.1 µm".
 inline std::string metres(double value) {
   if (value >= 0.1) return fmt::format("{:.4g} m", value);

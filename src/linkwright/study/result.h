@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
@@ -131,6 +132,13 @@ struct Result {
   std::vector<Check> checks;
   std::vector<Trouble> troubles;  ///< in the order in which they occur; see study/answer.h
   Diagnostics diagnostics;        ///< remarks and warnings about the answer
+
+  /// The table of that name; nullptr if there is none.
+  const Table* table(std::string_view name) const {
+    for (const Table& t : tables)
+      if (t.name == name) return &t;
+    return nullptr;
+  }
 };
 
 }  // namespace linkwright::study

@@ -34,12 +34,12 @@ class Facts {
       contact_facts();
     else
       continuous_facts();
-    if (!std::isnan(errors_.path))
-      fact("path error",
-           fmt::format("{} is at most {:.4g} mm from the ideal path{}", errors_.point, 1e3 * errors_.path,
-                       std::isnan(errors_.place)
-                           ? ""
-                           : fmt::format(", {:.4g} mm from its ideal place", 1e3 * errors_.place)));
+    if (errors_.path.any())
+      fact("path error", fmt::format("{} is at most {:.4g} mm from the ideal path{}", errors_.point,
+                                     1e3 * errors_.path.value,
+                                     errors_.place.any() ? fmt::format(", {:.4g} mm from its ideal place",
+                                                                       1e3 * errors_.place.value)
+                                                         : ""));
     if (rows() > 0) {
       const double share = r_.peak_energy > 0 ? r_.largest_drift / r_.peak_energy : 0;
       const std::string text = fmt::format("within {:.2g} J ({:.2g} of the peak energy {:.4g} J)",
@@ -61,8 +61,8 @@ class Facts {
     }
     if (r_.regime) text = regime_headline();
     text += motion_headline();
-    if (!std::isnan(errors_.path))
-      text += fmt::format("; {} leaves its path by up to {:.4g} mm", errors_.point, 1e3 * errors_.path);
+    if (errors_.path.any())
+      text += fmt::format("; {} leaves its path by up to {:.4g} mm", errors_.point, 1e3 * errors_.path.value);
     text += ".";
     if (r_.status != Status::done && !(r_.regime && r_.time >= s_.to()))
       text +=

@@ -88,7 +88,7 @@ struct ChainRun {
 /// Integrates; what was reached is kept, whatever ends it.
 ChainRun run_chain(const ChainStudy& study, RunContext& context);
 
-/// Largest |value| of a column, 0 of an empty one.
+/// Largest |value| of a column, 0 of an empty one and of one that the table does not have.
 double largest_of(const Table& table, std::string_view key);
 /// "12.34 mm".
 std::string millimetres(double metres);

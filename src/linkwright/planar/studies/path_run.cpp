@@ -207,30 +207,18 @@ study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t
 
 void add_tables(study::Result& result, const PathStudy& s, const study::Common& common,
                 const std::vector<PathDesign>& designs, const Run& run) {
+  using Style = study::Plot::Style;
   for (std::size_t i = 0; i < designs.size(); ++i) {
     // The best design's tables have plain names, those of the others carry the number of the solution.
     const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result.solutions[i].scene;
     result.tables.push_back(point_table(s.problem, designs[i], "points" + suffix));
     result.tables.push_back(motion_table(designs[i], "motion" + suffix, common.output.samples));
-    result.plots.push_back({.name = "errors" + suffix,
-                            .title = "Distance from the target points",
-                            .table = "points" + suffix,
-                            .x = "crank_angle_rad",
-                            .y = {"distance_m"},
-                            .style = study::Plot::Style::points,
-                            .scene = scene});
-    result.plots.push_back({.name = "transmission" + suffix,
-                            .title = "Transmission angle",
-                            .table = "motion" + suffix,
-                            .x = "crank_angle_rad",
-                            .y = {"transmission_angle_rad"},
-                            .scene = scene});
-    result.plots.push_back({.name = "angles" + suffix,
-                            .title = "Coupler and rocker angle",
-                            .table = "motion" + suffix,
-                            .x = "crank_angle_rad",
-                            .y = {"coupler_angle_rad", "rocker_angle_rad"},
-                            .scene = scene});
+    const study::AddPlot of_points{
+        result, {.table = "points" + suffix, .x = "crank_angle_rad", .style = Style::points, .scene = scene}},
+        of_motion{result, {.table = "motion" + suffix, .x = "crank_angle_rad", .scene = scene}};
+    of_points("errors" + suffix, "Distance from the target points", {"distance_m"});
+    of_motion("transmission" + suffix, "Transmission angle", {"transmission_angle_rad"});
+    of_motion("angles" + suffix, "Coupler and rocker angle", {"coupler_angle_rad", "rocker_angle_rad"});
   }
 
   Table seeds{.name = "seeds"};

@@ -88,18 +88,7 @@ class SimulationRunner {
   }
 
   void plots() {
-    const auto plot = [&](std::string name, std::string title, std::vector<std::string> y,
-                          study::Plot::Style style = study::Plot::Style::line) {
-      std::erase_if(y, [&](const std::string& key) { return !result_.tables[0].find(key); });
-      if (y.empty()) return;
-      result_.plots.push_back({.name = std::move(name),
-                               .title = std::move(title),
-                               .table = "motion",
-                               .x = "time_s",
-                               .y = std::move(y),
-                               .style = style,
-                               .scene = "motion"});
-    };
+    const study::AddPlot plot{result_, {.table = "motion", .x = "time_s", .scene = "motion"}};
     const Linkage& l = s_.linkage;
     for (const bool rotary : {true, false}) {
       std::vector<std::string> values, rates;

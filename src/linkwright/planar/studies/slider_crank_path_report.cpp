@@ -51,6 +51,7 @@ class Report {
   }
 
  private:
+  using Style = study::Plot::Style;
   using Verdict = study::Fact::Verdict;
   double rms(const SliderPathDesign& d) const {
     return std::sqrt(d.error / static_cast<double>(p_.x.size()));
@@ -169,19 +170,13 @@ class Report {
       const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result_.solutions[i].scene;
       result_.tables.push_back(slider_point_table(p_, designs_[i], "points" + suffix));
       result_.tables.push_back(slider_motion_table(designs_[i], "motion" + suffix, common_.output.samples));
-      const auto plot = [&](std::string name, std::string title, std::string table, std::string y) {
-        result_.plots.push_back(
-            {.name = name + suffix,
-             .title = std::move(title),
-             .table = table + suffix,
-             .x = "crank_angle_rad",
-             .y = {std::move(y)},
-             .style = table == "points" ? study::Plot::Style::points : study::Plot::Style::line,
-             .scene = scene});
-      };
-      plot("errors", "Distance from the target points", "points", "distance_m");
-      plot("displacement", "Displacement of the slider", "motion", "slider_m");
-      plot("pressure", "Pressure angle between rod and guide", "motion", "pressure_angle_rad");
+      const study::AddPlot of_points{
+          result_,
+          {.table = "points" + suffix, .x = "crank_angle_rad", .style = Style::points, .scene = scene}},
+          of_motion{result_, {.table = "motion" + suffix, .x = "crank_angle_rad", .scene = scene}};
+      of_points("errors" + suffix, "Distance from the target points", {"distance_m"});
+      of_motion("displacement" + suffix, "Displacement of the slider", {"slider_m"});
+      of_motion("pressure" + suffix, "Pressure angle between rod and guide", {"pressure_angle_rad"});
     }
     if (s_.front && feasible_) front_table();
     Table seeds{.name = "seeds", .columns{}, .status{}};
@@ -222,7 +217,7 @@ class Report {
                                                  .table = "front",
                                                  .x = "stroke_m",
                                                  .y = {"path_error_sum_sq_m2"},
-                                                 .style = study::Plot::Style::points});
+                                                 .style = Style::points});
   }
 
   // The best mechanism and the other one with the same curve.

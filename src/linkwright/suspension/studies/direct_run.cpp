@@ -7,6 +7,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/design_variables.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 #include "linkwright/suspension/guide/hard_points.h"
 #include "linkwright/suspension/guide/structure.h"
@@ -216,24 +217,19 @@ void add_designs(study::Result& result, const DirectStudy& s, const DirectSynthe
   result.tables.push_back(sweep_table(s, best.guide, "sweep", range.travels));
   if (before.answer.assembled)
     result.tables.push_back(sweep_table(s, s.task.guide, "initial", range.travels));
+  const study::AddPlot plot{result,
+                            {.table = "sweep",
+                             .x = "travel_m",
+                             .scene = "solution-1",
+                             .baseline = before.answer.assembled ? "initial" : ""}};
   for (const auto& [key, title] : std::initializer_list<std::pair<const char*, const char*>>{
            {"toe_rad", "Toe over travel"},
            {"camber_rad", "Camber over travel"},
            {"half_track_change_m", "Half-track change over travel"},
            {"roll_centre_height_m", "Roll-centre height over travel"},
            {"caster_rad", "Caster over travel"},
-           {"motion_ratio", "Motion ratio of the spring over travel"}}) {
-    const auto sweep = std::find_if(result.tables.begin(), result.tables.end(),
-                                    [](const Table& t) { return t.name == "sweep"; });
-    if (!sweep->find(key)) continue;
-    result.plots.push_back({.name = std::string("sweep-") + key,
-                            .title = title,
-                            .table = "sweep",
-                            .x = "travel_m",
-                            .y = {key},
-                            .scene = "solution-1",
-                            .baseline = before.answer.assembled ? "initial" : ""});
-  }
+           {"motion_ratio", "Motion ratio of the spring over travel"}})
+    plot(std::string("sweep-") + key, title, {key});
   RunContext nobody;
   const GridPositions grid =
       solve_grid(prepare(best.guide), s.task.driver, range.travels, range.racks, nobody);

@@ -8,6 +8,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 #include "linkwright/suspension/guide/hard_points.h"
 #include "linkwright/suspension/guide/structure.h"
@@ -465,14 +466,8 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
     const WheelGuide left = guide.side == Side::left ? guide : mirrored(guide);
     result.tables.push_back(poses_table(best.answer.targets, left));
     result.scenes.push_back(scene_of(s, guide, scene));
-    const auto deviations = [&](std::string name, std::string title, std::vector<std::string> y) {
-      result.plots.push_back({.name = std::move(name),
-                              .title = std::move(title),
-                              .table = "poses",
-                              .x = "travel_m",
-                              .y = std::move(y),
-                              .style = study::Plot::Style::points});
-    };
+    const study::AddPlot deviations{result,
+                                    {.table = "poses", .x = "travel_m", .style = study::Plot::Style::points}};
     deviations("place-deviations", "Deviations of the wheel centre from the prescribed positions",
                {"deviation_centre_x_m", "deviation_centre_y_m"});
     deviations("angle-deviations", "Deviations of the angles from the prescribed positions",

@@ -10,6 +10,7 @@
 #include "linkwright/study/design_variables.h"
 #include "linkwright/study/memory.h"
 #include "linkwright/suspension/guide/hard_points.h"
+#include "linkwright/suspension/studies/values.h"
 #include "linkwright/suspension/wheel/derivatives.h"
 
 namespace linkwright::suspension {
@@ -123,10 +124,7 @@ void add_sensitivity(study::Result& result, const WheelGuide& guide, const Sensi
   for (const DesignNumber& n : plan.numbers) names.push_back(label(guide, n));
   std::vector<WheelDerivatives> derivatives;
   for (const GuidePosition& p : way.positions) derivatives.push_back(wheel_derivatives(plan, p));
-  const auto middle = static_cast<std::size_t>(
-      std::min_element(way.travels.begin(), way.travels.end(),
-                       [](double a, double b) { return std::abs(a) < std::abs(b); }) -
-      way.travels.begin());
+  const std::size_t middle = next_to_zero(way.travels);
 
   Table here{.name = "sensitivity"};
   here.names = names;

@@ -22,12 +22,6 @@ constexpr const char* scene_name = "travel";
 /// A scene is for looking at: so many samples at most.
 constexpr std::size_t most_scene_samples = 2500;
 
-std::size_t next_to_zero(std::span<const double> values) {
-  const auto at = std::min_element(values.begin(), values.end(),
-                                   [](double a, double b) { return std::abs(a) < std::abs(b); });
-  return static_cast<std::size_t>(at - values.begin());
-}
-
 /// Why quantities that the study asks for have no values.
 void tell_missing(study::Result& result, const SweepStudy& s) {
   std::string_view told;
@@ -159,18 +153,9 @@ void add_assemblies(study::Result& result, const SweepStudy& s, const GuidePlan&
 }
 
 void add_plots(study::Result& result, const SweepStudy& s) {
-  const Table& table = result.tables.front();
-  const auto over_travel = [&](std::string name, std::string title, std::vector<std::string> y) {
-    std::erase_if(y, [&](const std::string& key) { return !table.find(key); });
-    if (y.empty()) return;
-    result.plots.push_back({.name = std::move(name),
-                            .title = std::move(title),
-                            .table = "sweep",
-                            .x = "travel_m",
-                            .y = std::move(y),
-                            .scene = scene_name,
-                            .group = s.racks.size() > 1 ? "rack_m" : ""});
-  };
+  const study::AddPlot over_travel{
+      result,
+      {.table = "sweep", .x = "travel_m", .scene = scene_name, .group = s.racks.size() > 1 ? "rack_m" : ""}};
   over_travel("toe", "Toe over travel", {"toe_rad"});
   over_travel("camber", "Camber over travel", {"camber_rad"});
   over_travel("track", "Half-track change over travel", {"half_track_change_m"});
