@@ -51,6 +51,17 @@ TEST(Remarks, LengthsHaveTheUnitOfTheirSize) {
   EXPECT_EQ(metres(1.25), "1.25 m");
   EXPECT_EQ(metres(0.0125), "12.5 mm");
   EXPECT_EQ(metres(3.14e-6), "3.14 µm");
+  EXPECT_EQ(millimetres(-1.5), "-1500 mm");
+  EXPECT_EQ(angle_or_length(0.0123456, false, 3), "12.3 mm");
+  EXPECT_EQ(angle_or_length(0.5, true, 4), "28.65°");
+}
+
+TEST(Remarks, EnergiesBalanceOrDoNot) {
+  const EnergyBalance good{1e-6, 20}, poor{0.003, 20};
+  EXPECT_FALSE(good.poor());
+  EXPECT_TRUE(poor.poor());
+  EXPECT_EQ(poor.text(), "within 0.003 J (0.00015 of the peak energy 20 J)");
+  EXPECT_EQ(EnergyBalance{}.text(), "within 0 J (0 of the peak energy 0 J)");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
+#include "linkwright/math/angles.h"
 #include "linkwright/study/result.h"
 
 // How a study that reports says what it found: `const AddFact fact{result.facts};`, then fact("circuits",
@@ -57,5 +58,27 @@ inline std::string metres(double value) {
   if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
   return fmt::format("{:.3g} µm", value * 1e6);
 }
+
+/// "12.5 mm".
+inline std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
+
+/// An angle or a length, as those of a joint: "45°", "12.5 mm".
+inline std::string angle_or_length(double value, bool is_angle, int digits) {
+  return is_angle ? fmt::format("{:.{}g}°", math::degrees(value), digits)
+                  : fmt::format("{:.{}g} mm", 1e3 * value, digits);
+}
+
+/// How far the energies of a simulation are from their balance.
+struct EnergyBalance {
+  double drift = 0;  ///< J, at most
+  double peak = 0;   ///< J, the largest energy
+
+  double share() const { return peak > 0 ? drift / peak : 0; }
+  /// Whether the answer is not to be trusted.
+  bool poor() const { return share() > 1e-5; }
+  std::string text() const {
+    return fmt::format("within {:.2g} J ({:.2g} of the peak energy {:.4g} J)", drift, share(), peak);
+  }
+};
 
 }  // namespace linkwright::study

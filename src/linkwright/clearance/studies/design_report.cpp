@@ -59,7 +59,7 @@ class DesignReporter {
     result_.status = runs_.status;
     const auto best = std::min_element(runs_.answers.begin(), runs_.answers.end(),
                                        [](const auto& a, const auto& b) { return rank(a) < rank(b); });
-    interrupted();
+    study::warn_of_missing_seeds(result_, runs_.answers.size(), common_.seeds);
     if (best == runs_.answers.end() || !complete(*best)) {
       nothing_found();
       return std::move(result_);
@@ -104,10 +104,6 @@ class DesignReporter {
   }
   std::string_view method() const {
     return std::visit([](const auto& m) { return choice_word(m).name; }, s_.method);
-  }
-  void interrupted() {
-    if (runs_.answers.size() < static_cast<std::size_t>(common_.seeds.count))
-      warn(fmt::format("interrupted: {} of {} seeds ran", runs_.answers.size(), common_.seeds.count));
   }
   void nothing_found() {
     if (result_.status == Status::done) result_.status = Status::infeasible;
@@ -233,7 +229,6 @@ class DesignReporter {
     out["method"] = method();
     out["measure"] = cost_name(s_).key;
     study::write_statistics(out, st);
-    success_ = st.success_rate;
   }
 
   // ---- tables
@@ -347,11 +342,7 @@ class DesignReporter {
     fact("method", std::string(method()));
     if (answer_->starts > 0 && s_.target == DesignTarget::lengths)
       fact("local searches that came to it", fmt::format("{} of {}", answer_->reached, answer_->starts));
-    fact("seeds that reached the best",
-         fmt::format("{:.0f} of {}", success_ * static_cast<double>(runs_.answers.size()),
-                     runs_.answers.size()),
-         success_ > 0.9 ? Verdict::good : Verdict::plain);
-    fact("evaluations", fmt::format("{}", result_.statistics.find("evaluations")->as_integer()));
+    study::add_seed_facts(result_, "seeds that reached the best", runs_.answers.size());
   }
   double off(std::size_t k) const {
     return std::abs(d_.reached[k] - std::complex<double>(s_.path.x[k], s_.path.y[k]));
@@ -447,7 +438,6 @@ class DesignReporter {
   DesignMeasures d_;
   std::optional<DesignMeasures> before_;
   bool feasible_ = false;
-  double success_ = 0;
   study::Result result_;
   const study::AddFact fact{result_.facts};
   const study::AddWarning warn{result_.diagnostics};

@@ -11,8 +11,6 @@
 namespace linkwright::clearance {
 namespace {
 
-// A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
-constexpr double poor_balance = 1e-5;
 // Of the radius of the pin: depths beyond it are outside of the law of contact.
 constexpr double deep_share = 0.1;
 // Of the coefficient of restitution: a law that is off by more is reported.
@@ -41,11 +39,9 @@ class Facts {
                                                                        1e3 * errors_.place.value)
                                                          : ""));
     if (rows() > 0) {
-      const double share = r_.peak_energy > 0 ? r_.largest_drift / r_.peak_energy : 0;
-      const std::string text = fmt::format("within {:.2g} J ({:.2g} of the peak energy {:.4g} J)",
-                                           r_.largest_drift, share, r_.peak_energy);
-      fact("energy balance", text, share > poor_balance ? Verdict::bad : Verdict::good);
-      if (share > poor_balance) warn("the energies do not balance: " + text, "take a smaller rtol");
+      const study::EnergyBalance balance{r_.largest_drift, r_.peak_energy};
+      fact("energy balance", balance.text(), balance.poor() ? Verdict::bad : Verdict::good);
+      if (balance.poor()) warn("the energies do not balance: " + balance.text(), "take a smaller rtol");
     }
     fact("integration",
          fmt::format("{} steps, {} evaluations of the equations of motion", r_.steps, r_.evaluations));

@@ -75,12 +75,9 @@ Start start_of(const ChainStudy& s, const Chain& chain, study::Result& result) {
     if (bent.status == Status::done)
       out.q = bent.state.q;
     else
-      result.diagnostics.push_back({Diagnostic::Severity::warning,
-                                    {},
-                                    {},
-                                    "simulation.start",
-                                    "no equilibrium was found at the start; the links start straight",
-                                    "they bend too far under their weight: take more divisions"});
+      study::AddWarning{result.diagnostics}("simulation.start",
+                                            "no equilibrium was found at the start; the links start straight",
+                                            "they bend too far under their weight: take more divisions");
   }
   return out;
 }
@@ -184,8 +181,6 @@ double largest_of(const Table& table, std::string_view key) {
   const Column* column = table.find(key);
   return column ? study::largest_size(column->values) : 0;
 }
-
-std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
 
 std::string headline_of_end(const Simulation& run) {
   return fmt::format("Ended at {:.4g} s: {}.", run.samples.empty() ? 0.0 : run.samples.back().time,

@@ -18,7 +18,7 @@ namespace {
 constexpr double right = pi / 2;
 
 std::string degrees(double radians) { return fmt::format("{:.4g}°", math::degrees(radians)); }
-std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
+using study::millimetres;
 
 /// Base, arms, coupler and diagonal over the angle.
 study::Scene scene_of(const PiJoint& joint, std::span<const double> angles) {

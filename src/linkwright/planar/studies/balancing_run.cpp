@@ -381,11 +381,7 @@ class Report {
     fact("active bounds", text.empty() ? "none" : text);
     fact("method",
          fmt::format("{}, combine {}", method_name(s_.optimiser.method), name_of(s_.optimiser.combine)));
-    const Value* success = result_.statistics.find("success_rate");
-    fact("seeds that reached the best",
-         fmt::format("{:.0f} of {}", success->as_number() * static_cast<double>(runs_.answers.size()),
-                     runs_.answers.size()));
-    fact("evaluations", fmt::format("{}", result_.statistics.find("evaluations")->as_integer()));
+    study::add_seed_facts(result_, "seeds that reached the best", runs_.answers.size(), false);
   }
 
   // Of a four-bar, in closed form: what would have to be added to the answer for a shaking force of its
@@ -439,14 +435,7 @@ study::Result run_balancing_study(const BalancingStudy& s, const study::Common& 
   // The report is made whether or not time is left.
   RunContext unhurried;
   study::Result result = Report(s, common, problem, runs, unhurried).make();
-  if (runs.answers.size() < static_cast<std::size_t>(common.seeds.count))
-    result.diagnostics.push_back(
-        {Diagnostic::Severity::warning,
-         {},
-         {},
-         {},
-         fmt::format("interrupted: {} of {} seeds ran", runs.answers.size(), common.seeds.count),
-         {}});
+  study::warn_of_missing_seeds(result, runs.answers.size(), common.seeds);
   return result;
 }
 

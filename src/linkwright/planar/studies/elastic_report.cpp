@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/math/spectrum.h"
 #include "linkwright/planar/studies/elastic.h"
 #include "linkwright/study/extremes.h"
@@ -13,8 +12,6 @@
 namespace linkwright::planar {
 namespace {
 
-// A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
-constexpr double poor_balance = 1e-5;
 // Of the length of a beam: beyond it the straight theory of its bending is off by some per cent.
 constexpr double far_bent = 0.1;
 // Explicit steps of a fast vibration: at least so many a period.
@@ -120,8 +117,7 @@ class ElasticReporter {
     return fmt::format("{:.4g} mm from {}", 1e3 * place, points[at(p.beam.from)].name);
   }
   static std::string error_text(const OutputError& e, double value) {
-    return e.of == OutputError::Of::angle ? fmt::format("{:.3g}°", math::degrees(value))
-                                          : fmt::format("{:.3g} mm", 1e3 * value);
+    return study::angle_or_length(value, e.of == OutputError::Of::angle, 3);
   }
 
   void facts() {
@@ -205,13 +201,11 @@ class ElasticReporter {
   }
   void integration() {
     using Verdict = study::Fact::Verdict;
-    const double share = r_.report.peak_energy > 0 ? r_.report.largest_drift / r_.report.peak_energy : 0;
-    const bool poor = share > poor_balance;
-    const std::string balance = fmt::format("within {:.2g} J ({:.2g} of the peak energy {:.4g} J)",
-                                            r_.report.largest_drift, share, r_.report.peak_energy);
-    result_.statistics["energy_drift_share"] = share;
-    if (!r_.times.empty()) fact("energy balance", balance, poor ? Verdict::bad : Verdict::good);
-    if (poor) warn("the energies do not balance: " + balance, "take a smaller rtol");
+    const study::EnergyBalance balance{r_.report.largest_drift, r_.report.peak_energy};
+    result_.statistics["energy_drift_share"] = balance.share();
+    if (!r_.times.empty())
+      fact("energy balance", balance.text(), balance.poor() ? Verdict::bad : Verdict::good);
+    if (balance.poor()) warn("the energies do not balance: " + balance.text(), "take a smaller rtol");
     if (s_.settle > 0) fact("settled", fmt::format("{:.4g} s before the first row", s_.settle));
     fact("integration",
          fmt::format("{}{}; {} steps, {} evaluations", name_of(s_.options.method),

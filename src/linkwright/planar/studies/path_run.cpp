@@ -237,7 +237,7 @@ void add_tables(study::Result& result, const PathStudy& s, const study::Common& 
   result.tables.push_back(std::move(seeds));
 }
 
-double add_statistics(study::Result& result, const Run& run, double best, double size) {
+void add_statistics(study::Result& result, const Run& run, double best, double size) {
   std::vector<optimise::SeedOutcome> outcomes;
   result.log = Value::array();
   for (std::size_t i = 0; i < run.runs.size(); ++i) {
@@ -260,7 +260,6 @@ double add_statistics(study::Result& result, const Run& run, double best, double
   Value& out = result.statistics;
   out["method"] = run.method;
   study::write_statistics(out, st);
-  return st.success_rate;
 }
 
 bool is_eighteen_points(const PathProblem& p) {
@@ -372,19 +371,15 @@ void warn_of_transmission(study::Result& result, const PathProblem& p, const Pat
   const double mu = math::degrees(judged_transmission(p, d));
   if (mu >= 20) return;
   const double limit = math::degrees(p.min_transmission_angle);
-  result.diagnostics.push_back(
-      {Diagnostic::Severity::warning,
-       {},
-       {},
-       {},
-       fmt::format("the transmission angle falls to {:.1f}°{}: the linkage transmits force badly there", mu,
-                   p.closed                ? ""
-                   : p.crank_rotates_fully ? " over the full turn"
-                                           : " on the path"),
-       limit > 0
-           ? fmt::format("raise the limit of [[constraint]] type = \"transmission_angle\": min_deg is {:.6g}",
-                         limit)
-           : "limit it: [[constraint]] type = \"transmission_angle\", min_deg = 30"});
+  study::AddWarning{result.diagnostics}(
+      fmt::format("the transmission angle falls to {:.1f}°{}: the linkage transmits force badly there", mu,
+                  p.closed                ? ""
+                  : p.crank_rotates_fully ? " over the full turn"
+                                          : " on the path"),
+      limit > 0
+          ? fmt::format("raise the limit of [[constraint]] type = \"transmission_angle\": min_deg is {:.6g}",
+                        limit)
+          : "limit it: [[constraint]] type = \"transmission_angle\", min_deg = 30");
 }
 
 void add_cognates(study::Result& result, const PathDesign& best) {
@@ -429,7 +424,7 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
                                        fmt::format("{}: {}", i + 1, result.solutions[i].label),
                                        common.output.samples));
   }
-  const double success = add_statistics(result, run, feasible ? best.error : infinity, path_size(s.problem));
+  add_statistics(result, run, feasible ? best.error : infinity, path_size(s.problem));
   add_tables(result, s, common, designs, run);
   add_cognates(result, best);
   add_published(result, s.problem, feasible ? best.error : infinity);
@@ -456,19 +451,9 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
       {"type", result.solutions[0].label},
       transmission_fact(s.problem, best),
       {"method", run.method},
-      {"seeds that reached the best",
-       fmt::format("{:.0f} of {}", success * static_cast<double>(run.runs.size()), run.runs.size()),
-       success > 0.9 ? Verdict::good : Verdict::plain},
-      {"evaluations", fmt::format("{}", result.statistics.find("evaluations")->as_integer())},
   };
-  if (run.runs.size() < static_cast<std::size_t>(common.seeds.count))
-    result.diagnostics.push_back(
-        {Diagnostic::Severity::warning,
-         {},
-         {},
-         {},
-         fmt::format("interrupted: {} of {} seeds ran", run.runs.size(), common.seeds.count),
-         {}});
+  study::add_seed_facts(result, "seeds that reached the best", run.runs.size());
+  study::warn_of_missing_seeds(result, run.runs.size(), common.seeds);
   if (!but.empty()) {
     std::string names;
     for (const Drawback& drawback : drawbacks(s.problem, best)) {

@@ -161,7 +161,6 @@ class Report {
     result_.statistics["method"] = runs_.method;
     result_.statistics["measure"] = s_.front ? "share of the common front that is missing" : "path error, m2";
     study::write_statistics(result_.statistics, st);
-    success_ = st.success_rate;
   }
 
   void tables() {
@@ -314,13 +313,11 @@ class Report {
            pressure > steep ? Verdict::bad : Verdict::plain);
     }
     fact("method", runs_.method);
-    fact(s_.front ? "seeds that reached the common front" : "seeds that reached the best",
-         fmt::format("{:.0f} of {}", success_ * static_cast<double>(runs_.runs.size()), runs_.runs.size()),
-         success_ > 0.9 ? Verdict::good : Verdict::plain);
-    fact("evaluations", fmt::format("{}", result_.statistics.find("evaluations")->as_integer()));
+    study::add_seed_facts(result_,
+                          s_.front ? "seeds that reached the common front" : "seeds that reached the best",
+                          runs_.runs.size());
     const study::AddWarning warn{result_.diagnostics};
-    if (runs_.runs.size() < static_cast<std::size_t>(common_.seeds.count))
-      warn(fmt::format("interrupted: {} of {} seeds ran", runs_.runs.size(), common_.seeds.count), {});
+    study::warn_of_missing_seeds(result_, runs_.runs.size(), common_.seeds);
     if (pressure > steep)
       warn(fmt::format("the rod comes to {:.1f}° from the guide: it presses the slider against it there",
                        pressure),
@@ -333,7 +330,6 @@ class Report {
   const SliderPathRuns& runs_;
   const std::vector<SliderPathDesign> designs_;
   bool feasible_ = false;
-  double success_ = 0;
   std::vector<double> missing_;
   study::Result result_;
 };

@@ -122,13 +122,10 @@ Table steer_table(std::span<const AxleRow> rows, const AxleParameters& straight,
 void remark_lost(study::Result& result, std::span<const AxleRow> rows, std::string_view what) {
   for (const AxleRow& r : rows)
     if (r.position.status != Status::done) {
-      result.diagnostics.push_back(
-          {Diagnostic::Severity::warning,
-           {},
-           {},
-           "axle",
-           fmt::format("{} {:.6g}: {}: {}", what, r.value, to_string(r.position.status), r.position.reason),
-           {}});
+      study::AddWarning{result.diagnostics}(
+          "axle",
+          fmt::format("{} {:.6g}: {}: {}", what, r.value, to_string(r.position.status), r.position.reason),
+          {});
       return;  // the first one says why
     }
 }

@@ -24,18 +24,14 @@ constexpr std::size_t most_scene_samples = 2500;
 
 /// Why quantities that the study asks for have no values.
 void tell_missing(study::Result& result, const SweepStudy& s) {
+  const study::AddWarning warn{result.diagnostics};
   std::string_view told;
   for (const GuideColumn* c : columns_of(s)) {
     if (c->group == told) continue;
     const std::string why = why_missing(s.description.guide, *c);
     if (why.empty()) continue;
     told = c->group;
-    result.diagnostics.push_back({Diagnostic::Severity::warning,
-                                  {},
-                                  {},
-                                  "output.quantities",
-                                  fmt::format("'{}' has no values: {}", c->group, why),
-                                  {}});
+    warn("output.quantities", fmt::format("'{}' has no values: {}", c->group, why), {});
   }
 }
 
@@ -176,8 +172,7 @@ void add_baseline(study::Result& result, const SweepStudy& s, RunContext& contex
   other.description = *s.baseline;
   if (!other.description.guide.spring) other.lock = Driver::wheel_centre_z;
   if (s.travel == Driver::spring && !other.description.guide.spring) {
-    result.diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, "baseline", "it has no spring to travel by", {}});
+    study::AddWarning{result.diagnostics}("baseline", "it has no spring to travel by", {});
     return;
   }
   GridPositions solved = solve_grid(prepare(other.description.guide), s.travel, s.travels, s.racks, context);
@@ -380,6 +375,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   if (s.compliance) add_compliance(result, s.description, *s.compliance);
   if (s.drawn) result.scenes.push_back(scene_of(s, grid));
 
+  const study::AddWarning warn{result.diagnostics};
   std::size_t lost = 0;
   double worst = 0;
   for (std::size_t i = 0; i < grid.rows(); ++i) {
@@ -390,22 +386,11 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
     }
     if (result.status == Status::done) result.status = p.status;
     if (lost++ < 5)
-      result.diagnostics.push_back(
-          {Diagnostic::Severity::warning,
-           {},
-           {},
-           {},
-           fmt::format("travel {:.6g} mm, rack {:.6g} mm: {}: {}", grid.travel(i) * 1e3, grid.rack(i) * 1e3,
+      warn(fmt::format("travel {:.6g} mm, rack {:.6g} mm: {}: {}", grid.travel(i) * 1e3, grid.rack(i) * 1e3,
                        to_string(p.status), p.reason),
-           "the table `limits` lists how far the links reach"});
+           "the table `limits` lists how far the links reach");
   }
-  if (lost > 5)
-    result.diagnostics.push_back({Diagnostic::Severity::warning,
-                                  {},
-                                  {},
-                                  {},
-                                  fmt::format("{} more positions are not reached", lost - 5),
-                                  {}});
+  if (lost > 5) warn(fmt::format("{} more positions are not reached", lost - 5));
   result.headline =
       lost == 0
           ? fmt::format("{} wheel suspension: all {} positions reached (largest closure residual {:.1g} m).",
