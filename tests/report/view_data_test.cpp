@@ -128,7 +128,7 @@ TEST(ViewData, NamesOfStylesAndStatus) {
 std::string viewer_types() {
   std::ifstream file(LINKWRIGHT_SOURCE_DIR "/web/src/data.ts");
   const std::string text(std::istreambuf_iterator<char>(file), {});
-  return std::regex_replace(text, std::regex(R"(//[^\n]*|/\*[^*]*\*+/)"), "");
+  return std::regex_replace(text, std::regex(R"(//[^\n]*|/\*([^*]|\*[^/])*\*/)"), "");
 }
 // Keys of the type that begins where `type` ends, with a brace.
 std::set<std::string> keys_of(std::string_view type) {
