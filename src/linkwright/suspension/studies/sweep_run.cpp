@@ -6,6 +6,7 @@
 #include <string>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/suspension/guide/assemblies.h"
 #include "linkwright/suspension/guide/constructions.h"
@@ -200,18 +201,19 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
   const std::size_t rack = next_to_zero(s.racks), first = rack * s.travels.size();
   if (rack >= grid.racks) return;
   const std::string centred = s.racks[rack] == 0 ? "" : fmt::format(" (rack {})", millimetres(s.racks[rack]));
-  const auto span = [&](double WheelAngles::*angle) {
-    double least = 1e300, largest = -1e300;
+  const auto span = [&](const char* label, double WheelAngles::*angle) {
+    study::Extreme least, greatest;
     for (std::size_t i = first; i < first + s.travels.size(); ++i) {
       if (grid.solved.positions[i].status != Status::done) continue;
       const double value = grid.solved.wheels[i].angles.*angle;
-      least = std::min(least, value);
-      largest = std::max(largest, value);
+      least.least(value, i);
+      greatest.greatest(value, i);
     }
-    return fmt::format("{} to {}", degrees(least), degrees(largest));
+    if (least.any())
+      fact(label + centred, fmt::format("{} to {}", degrees(least.value), degrees(greatest.value)));
   };
-  fact("toe over the travel" + centred, span(&WheelAngles::toe));
-  fact("camber over the travel" + centred, span(&WheelAngles::camber));
+  span("toe over the travel", &WheelAngles::toe);
+  span("camber over the travel", &WheelAngles::camber);
   const std::size_t middle = first + next_to_zero(s.travels);
   const WheelParameters& w = grid.solved.wheels[middle];
   if (grid.solved.positions[middle].status == Status::done && w.status == Status::done) {
