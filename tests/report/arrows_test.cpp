@@ -76,11 +76,5 @@ TEST(Arrows, ArcsTellSizeAndSign) {
   EXPECT_GT(arc_turn(1e-9), pi / 7);
 }
 
-TEST(Arrows, NamesOfQuantities) {
-  EXPECT_EQ(quantity_name(Scene::Quantity::force), "force");
-  EXPECT_EQ(quantity_name(Scene::Quantity::velocity), "velocity");
-  EXPECT_EQ(quantity_name(Scene::Quantity::acceleration), "acceleration");
-}
-
 }  // namespace
 }  // namespace linkwright::report

@@ -104,13 +104,13 @@ TEST(Drawing, UnitsFollowTheSize) {
 
 TEST(Drawing, WorstTarget) {
   study::Scene::Target target;
-  EXPECT_LT(worst(target).distance, 0);
+  EXPECT_FALSE(worst(target).any());
   target.x = {0, 0, 0};
   target.y = {0, 0, 0};
   target.achieved_x = {3, nan, 1};
   target.achieved_y = {4, nan, 1};
-  EXPECT_EQ(worst(target).index, 0u);
-  EXPECT_DOUBLE_EQ(worst(target).distance, 5);
+  EXPECT_EQ(worst(target).row, 0u);
+  EXPECT_DOUBLE_EQ(worst(target).value, 5);
 }
 
 }  // namespace

@@ -1,9 +1,19 @@
 #include "linkwright/report/view_data.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
 
+#include "linkwright/study/answer.h"
 #include "linkwright/study/write.h"
 #include "tests/report/sample_result.h"
 
@@ -112,6 +122,105 @@ TEST(ViewData, NamesOfStylesAndStatus) {
   EXPECT_EQ(out.find("plots")->as_array()[0].find("style")->as_string(), "line");
   EXPECT_EQ(out.find("status")->as_string(), "done");
   EXPECT_EQ(out.find("solution_scenes")->as_array()[2].as_string(), "solution-3");
+}
+
+// The types of the viewer, without comments.
+std::string viewer_types() {
+  std::ifstream file(LINKWRIGHT_SOURCE_DIR "/web/src/data.ts");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  return std::regex_replace(text, std::regex(R"(//[^\n]*|/\*([^*]|\*[^/])*\*/)"), "");
+}
+// Keys of the type that begins where `type` ends, with a brace.
+std::set<std::string> keys_of(std::string_view type) {
+  std::set<std::string> out;
+  std::string word;
+  int depth = 0;
+  for (const char c : type) {
+    if (c == '{') ++depth;
+    if (c == '}' && --depth == 0) break;
+    if (c == ';' || c == '{' || c == '}') word.clear();
+    if (depth == 1 && c == ':') out.insert(word);
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_') word += c;
+  }
+  return out;
+}
+std::set<std::string> keys_of(const Value& object) {
+  std::set<std::string> out;
+  for (const auto& member : object.as_object()) out.insert(member.key);
+  return out;
+}
+
+TEST(ViewData, TheViewerHasTheSameKeys) {
+  study::Result result;
+  study::Scene scene;
+  scene.second = {1};
+  scene.second_key = "rack_m";
+  scene.points = {{"A", {1}, {2}, {3}}};
+  scene.bodies.resize(1);
+  scene.joints.resize(1);
+  scene.traces.resize(1);
+  scene.targets.resize(1);
+  scene.circles.resize(1);
+  scene.discs.resize(1);
+  scene.vectors = {{"f", study::Scene::Quantity::force, "N", 0, {1}, {2}, "F", {3}}};
+  scene.moments.resize(1);
+  result.scenes = {scene};
+  study::Plot plot;
+  plot.group = plot.baseline = "some";
+  plot.bands.resize(1);
+  result.plots = {plot};
+  result.facts.resize(1);
+  result.solutions.resize(1);
+  result.solutions[0].parameters.resize(1);
+  result.changes.resize(1);
+  result.comparisons.resize(1);
+  const Value out = data(result);
+  const std::string types = viewer_types();
+  const auto expect = [&](const std::string& type, const Value& written) {
+    const std::size_t at = types.find(type + " {");
+    ASSERT_NE(at, std::string::npos) << type;
+    EXPECT_EQ(keys_of(std::string_view(types).substr(at)), keys_of(written)) << type;
+  };
+  const auto first = [](const Value& object, std::string_view key) -> const Value& {
+    return object.find(key)->as_array().at(0);
+  };
+  expect("interface View", out);
+  for (const auto& [key, type] : {std::pair{"facts", "facts:"},
+                                  {"scenes", "interface Scene"},
+                                  {"plots", "interface Plot"},
+                                  {"changes", "interface Change"},
+                                  {"comparisons", "interface Comparison"}})
+    expect(type, first(out, key));
+  expect("interface Parameter", out.find("parameters")->as_array().at(0).as_array().at(0));
+  expect("bands?:", first(first(out, "plots"), "bands"));
+  for (const auto& [key, type] : {std::pair{"points", "points:"},
+                                  {"bodies", "bodies:"},
+                                  {"joints", "joints:"},
+                                  {"traces", "traces:"},
+                                  {"targets", "interface Target"},
+                                  {"circles", "circles:"},
+                                  {"discs", "interface Disc"},
+                                  {"vectors", "interface Vector"},
+                                  {"moments", "interface Moment"}})
+    expect(type, first(first(out, "scenes"), key));
+}
+
+template <class E>
+std::string union_of_words() {
+  std::string out;
+  for (const auto& word : names(E{})) out += fmt::format("{}\"{}\"", out.empty() ? "" : " | ", word.name);
+  return out;
+}
+
+TEST(ViewData, TheViewerKnowsTheSameWords) {
+  const std::string types = viewer_types();
+  for (const std::string& words :
+       {"BodyStyle = " + union_of_words<study::Scene::BodyStyle>(),
+        "style: " + union_of_words<study::Scene::JointStyle>(),
+        "Quantity = " + union_of_words<study::Scene::Quantity>(),
+        "style: " + union_of_words<study::Plot::Style>(),
+        "verdict: " + union_of_words<study::Fact::Verdict>(), "verdict: " + union_of_words<study::Verdict>()})
+    EXPECT_NE(types.find(words), std::string::npos) << words;
 }
 
 }  // namespace

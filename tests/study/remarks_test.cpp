@@ -24,10 +24,44 @@ TEST(Remarks, GoToTheResult) {
   EXPECT_EQ(result.diagnostics[1].hint, "take a stronger one");
 }
 
+TEST(Remarks, DiagramsShowTheColumnsThatTheirTableHas) {
+  Result result;
+  result.tables = {{.name = "motion"}};
+  result.tables[0].add("time_s", "time (s)");
+  result.tables[0].add("torque_N_m", "torque (N m)");
+  const AddPlot plot{result, {.table = "motion", .x = "time_s", .scene = "turn", .baseline = "before"}};
+  plot("torque", "Torque", {"force_N", "torque_N_m"});
+  plot("force", "Force", {"force_N"});
+  plot("paths", "Paths", {"torque_N_m"}, Plot::Style::polar);
+  AddPlot{result, {.table = "steady", .x = "time_s"}}("torque", "Torque", {"torque_N_m"});
+  ASSERT_EQ(result.plots.size(), 2u);
+  const Plot& first = result.plots[0];
+  EXPECT_EQ(first.name, "torque");
+  EXPECT_EQ(first.title, "Torque");
+  EXPECT_EQ(first.table, "motion");
+  EXPECT_EQ(first.x, "time_s");
+  EXPECT_EQ(first.y, std::vector<std::string>{"torque_N_m"});
+  EXPECT_EQ(first.style, Plot::Style::line);
+  EXPECT_EQ(first.scene, "turn");
+  EXPECT_EQ(first.baseline, "before");
+  EXPECT_EQ(result.plots[1].style, Plot::Style::polar);
+}
+
 TEST(Remarks, LengthsHaveTheUnitOfTheirSize) {
   EXPECT_EQ(metres(1.25), "1.25 m");
   EXPECT_EQ(metres(0.0125), "12.5 mm");
   EXPECT_EQ(metres(3.14e-6), "3.14 µm");
+  EXPECT_EQ(millimetres(-1.5), "-1500 mm");
+  EXPECT_EQ(angle_or_length(0.0123456, false, 3), "12.3 mm");
+  EXPECT_EQ(angle_or_length(0.5, true, 4), "28.65°");
+}
+
+TEST(Remarks, EnergiesBalanceOrDoNot) {
+  const EnergyBalance good{1e-6, 20}, poor{0.003, 20};
+  EXPECT_FALSE(good.poor());
+  EXPECT_TRUE(poor.poor());
+  EXPECT_EQ(poor.text(), "within 0.003 J (0.00015 of the peak energy 20 J)");
+  EXPECT_EQ(EnergyBalance{}.text(), "within 0 J (0 of the peak energy 0 J)");
 }
 
 }  // namespace

@@ -134,5 +134,26 @@ TEST(RunSeeds, StatisticsOfWhatIsToBecomeLargeAreWrittenAsThemselves) {
   EXPECT_EQ(out.find("evaluations")->as_integer(), 40);
 }
 
+TEST(RunSeeds, FactsSayHowManySucceededAndWarningsHowManyAreMissing) {
+  Result result;
+  result.statistics["success_rate"] = 0.95;
+  result.statistics["evaluations"] = 1234;
+  EXPECT_EQ(successful_seeds(result, 20), "19 of 20");
+  add_seed_facts(result, "seeds that reached the best", 20);
+  add_seed_facts(result, "seeds that reached the best", 20, false);
+  ASSERT_EQ(result.facts.size(), 4u);
+  EXPECT_EQ(result.facts[0].label, "seeds that reached the best");
+  EXPECT_EQ(result.facts[0].text, "19 of 20");
+  EXPECT_EQ(result.facts[0].verdict, Fact::Verdict::good);
+  EXPECT_EQ(result.facts[1].label, "evaluations");
+  EXPECT_EQ(result.facts[1].text, "1234");
+  EXPECT_EQ(result.facts[2].verdict, Fact::Verdict::plain);
+  warn_of_missing_seeds(result, 20, {.first = 1, .count = 20});
+  EXPECT_TRUE(result.diagnostics.empty());
+  warn_of_missing_seeds(result, 19, {.first = 1, .count = 20});
+  ASSERT_EQ(result.diagnostics.size(), 1u);
+  EXPECT_EQ(to_string(result.diagnostics[0]), "warning: interrupted: 19 of 20 seeds ran");
+}
+
 }  // namespace
 }  // namespace linkwright::study

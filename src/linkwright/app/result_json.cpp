@@ -102,9 +102,7 @@ Value to_value(const study::Fact& fact) {
     v["value"] = number->value;
     v["unit"] = number->unit;
   }
-  v["verdict"] = fact.verdict == study::Fact::Verdict::good  ? "good"
-                 : fact.verdict == study::Fact::Verdict::bad ? "bad"
-                                                             : "plain";
+  v["verdict"] = name_of(fact.verdict);
   return v;
 }
 

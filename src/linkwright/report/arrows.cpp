@@ -21,18 +21,6 @@ double at(const std::vector<double>& values, std::size_t sample) {
 
 }  // namespace
 
-std::string_view quantity_name(Scene::Quantity quantity) {
-  switch (quantity) {
-    case Scene::Quantity::force:
-      return "force";
-    case Scene::Quantity::velocity:
-      return "velocity";
-    case Scene::Quantity::acceleration:
-      return "acceleration";
-  }
-  return "force";
-}
-
 double Components::size() const { return std::hypot(x, y, z); }
 
 Components components(const Scene::Vector& vector, std::size_t sample) {

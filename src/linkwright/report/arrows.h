@@ -1,22 +1,13 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string>
-#include <string_view>
 
 #include "linkwright/report/drawing.h"
 #include "linkwright/study/scene.h"
 
 /// How long and where the arrows of a scene are drawn.
 namespace linkwright::report {
-
-/// In the order in which they are listed.
-inline constexpr std::array quantities = {study::Scene::Quantity::force, study::Scene::Quantity::velocity,
-                                          study::Scene::Quantity::acceleration};
-
-/// "force", "velocity", "acceleration".
-std::string_view quantity_name(study::Scene::Quantity quantity);
 
 /// One scale for all vectors of a quantity, the same at every sample.
 struct ArrowScale {

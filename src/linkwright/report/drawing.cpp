@@ -191,15 +191,12 @@ LengthUnit length_unit(double size) {
   return {1, "m"};
 }
 
-Worst worst(const study::Scene::Target& target) {
-  Worst result;
+study::Extreme worst(const study::Scene::Target& target) {
+  study::Extreme result;
   const std::size_t n =
       std::min({target.x.size(), target.y.size(), target.achieved_x.size(), target.achieved_y.size()});
-  for (std::size_t i = 0; i < n; ++i) {
-    const double distance =
-        std::hypot(target.achieved_x[i] - target.x[i], target.achieved_y[i] - target.y[i]);
-    if (distance > result.distance) result = {i, distance};
-  }
+  for (std::size_t i = 0; i < n; ++i)
+    result.greatest(std::hypot(target.achieved_x[i] - target.x[i], target.achieved_y[i] - target.y[i]), i);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "linkwright/study/extremes.h"
 #include "linkwright/study/scene.h"
 
 /// What SVG, DXF and HTML have in common when they draw a scene.
@@ -71,12 +72,7 @@ struct LengthUnit {
 /// Millimetres below one metre, else metres.
 LengthUnit length_unit(double size);
 
-/// Index of the target point that is missed most, and by how much (m); distance is negative when there is
-/// none.
-struct Worst {
-  std::size_t index = 0;
-  double distance = -1;
-};
-Worst worst(const study::Scene::Target& target);
+/// The target point that is missed most, and by how much (m).
+study::Extreme worst(const study::Scene::Target& target);
 
 }  // namespace linkwright::report

@@ -17,6 +17,7 @@
 #include "linkwright/report/groups.h"
 #include "linkwright/report/markup.h"
 #include "linkwright/report/units.h"
+#include "linkwright/study/extremes.h"
 
 namespace linkwright::report {
 namespace {
@@ -77,8 +78,8 @@ Maps maps_of(const study::Plot& plot, const Table& table) {
   const auto stands = [&](std::size_t row) {
     return row < rows && std::isfinite(x->values[row]) && std::isfinite(y->values[row]);
   };
-  out.unit = display_unit(plot.x, std::max(largest_size(x->values), largest_size(y->values)));
-  out.value_unit = display_unit(plot.y[1], largest_size(values->values));
+  out.unit = display_unit(plot.x, std::max(study::largest_size(x->values), study::largest_size(y->values)));
+  out.value_unit = display_unit(plot.y[1], study::largest_size(values->values));
   std::vector<double> xs, ys;
   for (std::size_t row = 0; row < rows; ++row)
     if (stands(row)) {

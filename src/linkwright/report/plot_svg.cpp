@@ -18,6 +18,7 @@
 #include "linkwright/report/map_svg.h"
 #include "linkwright/report/markup.h"
 #include "linkwright/report/units.h"
+#include "linkwright/study/extremes.h"
 
 namespace linkwright::report {
 namespace {
@@ -69,12 +70,12 @@ Shown shown_of(const study::Plot& plot, const Table& table) {
   const Column* x = table.find(plot.x);
   double most = 0;
   const auto count = [&](const std::string& key) {
-    if (const Column* column = table.find(key)) most = std::max(most, largest_size(column->values));
+    if (const Column* column = table.find(key)) most = std::max(most, study::largest_size(column->values));
   };
   for (const auto& key : plot.y) count(key);
   for (const auto& band : plot.bands) count(band.lower), count(band.upper);
   Shown out;
-  if (x) out.x = display_unit(plot.x, largest_size(x->values));
+  if (x) out.x = display_unit(plot.x, study::largest_size(x->values));
   if (!plot.y.empty()) out.y = display_unit(plot.y.front(), most);
   if (plot.style == Style::polar) out.x = out.y;
   return out;

@@ -19,6 +19,7 @@
 #include "linkwright/report/svg.h"
 #include "linkwright/report/units.h"
 #include "linkwright/study/answer.h"
+#include "linkwright/study/extremes.h"
 
 namespace linkwright::report {
 namespace {
@@ -79,7 +80,7 @@ void write_banner(std::string& out, const ReportInput& input) {
 
 // One of the inputs of a scene.
 std::string input_text(std::string_view key, const std::vector<double>& inputs, std::size_t sample) {
-  return quantity(inputs[sample], display_unit(key, largest_size(inputs)));
+  return quantity(inputs[sample], display_unit(key, study::largest_size(inputs)));
 }
 
 // The instant for which the arrows of a drawing hold.
@@ -114,19 +115,14 @@ void write_drawings(std::string& out, const study::Result& result) {
 void write_plots(std::string& out, const study::Result& result) {
   bool first = true;
   for (const auto& plot : result.plots) {
-    const auto find = [&](const std::string& name) {
-      const auto found = std::find_if(result.tables.begin(), result.tables.end(),
-                                      [&](const Table& t) { return t.name == name; });
-      return found == result.tables.end() ? nullptr : &*found;
-    };
-    const Table* table = find(plot.table);
+    const Table* table = result.table(plot.table);
     if (!table) continue;
     if (std::exchange(first, false)) {
       heading(out, "Diagrams");
       out += "<div class=\"diagrams\">\n";
     }
     put(out, "<figure class=\"drawing\">{}<figcaption>{}</figcaption></figure>\n",
-        plot_svg(plot, *table, find(plot.baseline)), escape(plot.title));
+        plot_svg(plot, *table, result.table(plot.baseline)), escape(plot.title));
   }
   if (!first) out += "</div>\n";
 }

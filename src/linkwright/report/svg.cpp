@@ -246,11 +246,11 @@ void draw_targets(std::string& out, const Canvas& canvas, const Scene& scene, do
           "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.6\" fill=\"{}\" stroke=\"{}\" stroke-width=\"1.5\"/>", x,
           y, paper, ink);
     }
-    if (const Worst w = worst(target); w.distance > 0)
+    if (const study::Extreme w = worst(target); w.value > 0)
       put(out,
           "<circle class=\"worst\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"9\" fill=\"none\" stroke=\"{}\" "
           "stroke-width=\"1.6\" stroke-dasharray=\"3 2\"/>",
-          canvas.x(target.x[w.index]), canvas.y(target.y[w.index]), error_colour);
+          canvas.x(target.x[w.row]), canvas.y(target.y[w.row]), error_colour);
     out += "</g>\n";
   }
 }

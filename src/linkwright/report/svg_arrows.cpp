@@ -68,7 +68,7 @@ void draw_arrow(std::string& out, Scene::Quantity quantity, double x, double y, 
       fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", x, y, x + end * std::cos(angle), y + end * std::sin(angle));
   const std::string head = head_of(quantity, end_x, end_y, angle, size);
   put(out, "<g class=\"arrow {}\" fill=\"none\" stroke-linejoin=\"round\"><title>{}</title>",
-      quantity_name(quantity), escape(title));
+      linkwright::name_of(quantity), escape(title));
   put(out, "<path d=\"{}{}\" stroke=\"{}\" stroke-width=\"{}\"/>", shaft, head, paper, style.width + 3);
   put(out, "<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\" stroke-dasharray=\"{}\"/>", shaft, style.colour,
       style.width, style.dashes.empty() ? "none" : style.dashes);
@@ -162,7 +162,7 @@ void draw_key(std::string& out, const Canvas& canvas, const Scene& scene,
     if (scale.metres_per_unit == 0) continue;
     const double length = scale.key_value * scale.metres_per_unit * canvas.scale();
     const std::string text =
-        fmt::format("{} {} {}", quantity_name(quantity), number(scale.key_value), scale.unit);
+        fmt::format("{} {} {}", linkwright::name_of(quantity), number(scale.key_value), scale.unit);
     line(length, text, [&] { draw_arrow(out, quantity, 40, y, 40 + length, y, text, {}); });
   }
   const double most = largest_moment(scene);

@@ -65,13 +65,6 @@ DisplayUnit display_unit(std::string_view key, double largest) {
   return {};
 }
 
-double largest_size(const std::vector<double>& values) {
-  double out = 0;
-  for (const double v : values)
-    if (std::isfinite(v)) out = std::max(out, std::abs(v));
-  return out;
-}
-
 std::string label_with(const Column& column, const DisplayUnit& unit) {
   if (unit.symbol.empty()) return column.label.empty() ? column.key : column.label;
   std::string bare = column.label;

@@ -32,9 +32,6 @@ std::span<const SuffixUnit> suffix_units();
 /// kPa on.
 DisplayUnit display_unit(std::string_view key, double largest = infinity);
 
-/// Size of the largest finite one of the values; 0 when there is none.
-double largest_size(const std::vector<double>& values);
-
 /// "crank angle (°)" of a column labelled "crank angle (rad)"; its label, or else its key, as it is when the
 /// unit has no symbol.
 std::string label_with(const Column& column, const DisplayUnit& unit);

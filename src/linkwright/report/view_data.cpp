@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "linkwright/core/status.h"
-#include "linkwright/report/arrows.h"
 #include "linkwright/study/answer.h"
 
 namespace linkwright::report {
@@ -51,42 +50,6 @@ Value list(const std::vector<T>& items, F&& convert) {
   return out;
 }
 
-std::string_view style_name(Scene::BodyStyle style) {
-  switch (style) {
-    case Scene::BodyStyle::ground:
-      return "ground";
-    case Scene::BodyStyle::bar:
-      return "bar";
-    case Scene::BodyStyle::plate:
-      return "plate";
-    case Scene::BodyStyle::spring:
-      return "spring";
-    case Scene::BodyStyle::damper:
-      return "damper";
-    case Scene::BodyStyle::guide:
-      return "guide";
-    case Scene::BodyStyle::axis:
-      return "axis";
-  }
-  return "bar";
-}
-
-std::string_view style_name(study::Plot::Style style) {
-  switch (style) {
-    case study::Plot::Style::line:
-      return "line";
-    case study::Plot::Style::points:
-      return "points";
-    case study::Plot::Style::histogram:
-      return "histogram";
-    case study::Plot::Style::polar:
-      return "polar";
-    case study::Plot::Style::map:
-      return "map";
-  }
-  return "line";
-}
-
 Value scene_data(const Scene& scene) {
   Value out = Value::object();
   out["name"] = scene.name;
@@ -109,14 +72,12 @@ Value scene_data(const Scene& scene) {
   out["bodies"] = list(scene.bodies, [](Value& o, const Scene::Body& b) {
     o["name"] = b.name;
     o["points"] = indices(b.points);
-    o["style"] = style_name(b.style);
+    o["style"] = linkwright::name_of(b.style);
   });
   out["joints"] = list(scene.joints, [](Value& o, const Scene::Joint& j) {
     o["name"] = j.name;
     o["point"] = j.point;
-    o["style"] = j.style == Scene::JointStyle::ground_pivot ? "ground_pivot"
-                 : j.style == Scene::JointStyle::tracer     ? "tracer"
-                                                            : "pivot";
+    o["style"] = linkwright::name_of(j.style);
   });
   out["traces"] = list(scene.traces, [](Value& o, const Scene::Trace& t) {
     o["point"] = t.point;
@@ -148,7 +109,7 @@ Value scene_data(const Scene& scene) {
     });
   out["vectors"] = list(scene.vectors, [](Value& o, const Scene::Vector& v) {
     o["name"] = v.name;
-    o["quantity"] = quantity_name(v.quantity);
+    o["quantity"] = linkwright::name_of(v.quantity);
     o["unit"] = v.unit;
     o["point"] = v.point;
     o["x"] = coordinates(v.x);
@@ -192,9 +153,7 @@ Value view_data(const ReportInput& input) {
   out["facts"] = list(result.facts, [](Value& o, const study::Fact& f) {
     o["label"] = f.label;
     o["text"] = f.text;
-    o["verdict"] = f.verdict == study::Fact::Verdict::good  ? "good"
-                   : f.verdict == study::Fact::Verdict::bad ? "bad"
-                                                            : "plain";
+    o["verdict"] = linkwright::name_of(f.verdict);
   });
   out["parameters"] = Value::array();
   out["solution_scenes"] = Value::array();
@@ -210,7 +169,7 @@ Value view_data(const ReportInput& input) {
     o["table"] = p.table;
     o["x"] = p.x;
     o["y"] = texts(p.y);
-    o["style"] = style_name(p.style);
+    o["style"] = linkwright::name_of(p.style);
     o["logarithmic_y"] = p.logarithmic_y;
     o["scene"] = p.scene;
     if (!p.group.empty()) o["group"] = p.group;

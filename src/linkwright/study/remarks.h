@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
+#include "linkwright/math/angles.h"
 #include "linkwright/study/result.h"
 
 // How a study that reports says what it found: `const AddFact fact{result.facts};`, then fact("circuits",
@@ -33,11 +34,51 @@ struct AddWarning {
   }
 };
 
+/// Adds diagrams of one table to a result: `const AddPlot plot{result, {.table = "motion", .x = "time_s",
+/// .scene = "motion"}};`, then plot("torque", "Drive torque", {"torque_N_m"}). Columns that the table does
+/// not have are left out, and a diagram without columns is not added.
+struct AddPlot {
+  Result& result;
+  Plot like;  ///< what all of them have
+  void operator()(std::string name, std::string title, std::vector<std::string> y) const {
+    (*this)(std::move(name), std::move(title), std::move(y), like.style);
+  }
+  void operator()(std::string name, std::string title, std::vector<std::string> y, Plot::Style style) const {
+    const Table* table = result.table(like.table);
+    std::erase_if(y, [&](const std::string& key) { return !table || !table->find(key); });
+    if (y.empty()) return;
+    Plot& plot = result.plots.emplace_back(like);
+    plot.name = std::move(name), plot.title = std::move(title), plot.y = std::move(y), plot.style = style;
+  }
+};
+
 /// A length for people, in the unit that suits its size: "1.25 m", "12.5 mm", "3.1 µm".
 inline std::string metres(double value) {
   if (value >= 0.1) return fmt::format("{:.4g} m", value);
   if (value >= 1e-4) return fmt::format("{:.4g} mm", value * 1e3);
   return fmt::format("{:.3g} µm", value * 1e6);
 }
+
+/// "12.5 mm".
+inline std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
+
+/// An angle or a length, as those of a joint: "45°", "12.5 mm".
+inline std::string angle_or_length(double value, bool is_angle, int digits) {
+  return is_angle ? fmt::format("{:.{}g}°", math::degrees(value), digits)
+                  : fmt::format("{:.{}g} mm", 1e3 * value, digits);
+}
+
+/// How far the energies of a simulation are from their balance.
+struct EnergyBalance {
+  double drift = 0;  ///< J, at most
+  double peak = 0;   ///< J, the largest energy
+
+  double share() const { return peak > 0 ? drift / peak : 0; }
+  /// Whether the answer is not to be trusted.
+  bool poor() const { return share() > 1e-5; }
+  std::string text() const {
+    return fmt::format("within {:.2g} J ({:.2g} of the peak energy {:.4g} J)", drift, share(), peak);
+  }
+};
 
 }  // namespace linkwright::study

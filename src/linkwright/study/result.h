@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
+#include "linkwright/core/field.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/status.h"
 #include "linkwright/core/table.h"
@@ -28,6 +31,10 @@ struct Fact {
   std::string text;   ///< "0.00902888 m2"
   enum class Verdict { plain, good, bad } verdict = Verdict::plain;
 };
+constexpr std::array<EnumName<Fact::Verdict>, 3> names(Fact::Verdict) {
+  using Verdict = Fact::Verdict;
+  return {{{Verdict::plain, "plain"}, {Verdict::good, "good"}, {Verdict::bad, "bad"}}};
+}
 
 /// One designed or fixed number of the answer.
 struct Parameter {
@@ -66,6 +73,14 @@ struct Plot {
   /// Table with the same columns whose curves are drawn pale behind: the design before; empty = none.
   std::string baseline = {};
 };
+constexpr std::array<EnumName<Plot::Style>, 5> names(Plot::Style) {
+  using Style = Plot::Style;
+  return {{{Style::line, "line"},
+           {Style::points, "points"},
+           {Style::histogram, "histogram"},
+           {Style::polar, "polar"},
+           {Style::map, "map"}}};
+}
 
 /// One row "published / ours / verdict".
 struct Comparison {
@@ -131,6 +146,13 @@ struct Result {
   std::vector<Check> checks;
   std::vector<Trouble> troubles;  ///< in the order in which they occur; see study/answer.h
   Diagnostics diagnostics;        ///< remarks and warnings about the answer
+
+  /// The table of that name; nullptr if there is none.
+  const Table* table(std::string_view name) const {
+    for (const Table& t : tables)
+      if (t.name == name) return &t;
+    return nullptr;
+  }
 };
 
 }  // namespace linkwright::study

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::study {
 namespace {
@@ -90,6 +93,24 @@ void write_statistics(Value& out, const optimise::SeedStatistics& st, double sig
   out["success_rate"] = st.success_rate;
   out["evaluations"] = st.evaluations;
   out["median_evaluations"] = st.median_evaluations;
+}
+
+std::string successful_seeds(const Result& result, std::size_t ran) {
+  const double share = result.statistics.find("success_rate")->as_number();
+  return fmt::format("{:.0f} of {}", share * static_cast<double>(ran), ran);
+}
+
+void add_seed_facts(Result& result, std::string label, std::size_t ran, bool judged) {
+  using Verdict = Fact::Verdict;
+  const bool good = judged && result.statistics.find("success_rate")->as_number() > 0.9;
+  const AddFact fact{result.facts};
+  fact(std::move(label), successful_seeds(result, ran), good ? Verdict::good : Verdict::plain);
+  fact("evaluations", fmt::format("{}", result.statistics.find("evaluations")->as_integer()));
+}
+
+void warn_of_missing_seeds(Result& result, std::size_t ran, const Seeds& asked) {
+  if (ran < static_cast<std::size_t>(asked.count))
+    AddWarning{result.diagnostics}(fmt::format("interrupted: {} of {} seeds ran", ran, asked.count));
 }
 
 }  // namespace linkwright::study

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
+
+#include "linkwright/core/field.h"
 
 namespace linkwright::study {
 
@@ -109,5 +112,27 @@ struct Scene {
     return std::any_of(points.begin(), points.end(), [](const Point& p) { return !p.z.empty(); });
   }
 };
+
+constexpr std::array<EnumName<Scene::BodyStyle>, 7> names(Scene::BodyStyle) {
+  using Style = Scene::BodyStyle;
+  return {{{Style::ground, "ground"},
+           {Style::bar, "bar"},
+           {Style::plate, "plate"},
+           {Style::spring, "spring"},
+           {Style::damper, "damper"},
+           {Style::guide, "guide"},
+           {Style::axis, "axis"}}};
+}
+constexpr std::array<EnumName<Scene::JointStyle>, 3> names(Scene::JointStyle) {
+  using Style = Scene::JointStyle;
+  return {{{Style::ground_pivot, "ground_pivot"}, {Style::pivot, "pivot"}, {Style::tracer, "tracer"}}};
+}
+/// In the order in which they are listed.
+constexpr std::array<EnumName<Scene::Quantity>, 3> names(Scene::Quantity) {
+  using Quantity = Scene::Quantity;
+  return {{{Quantity::force, "force"},
+           {Quantity::velocity, "velocity"},
+           {Quantity::acceleration, "acceleration"}}};
+}
 
 }  // namespace linkwright::study

@@ -143,7 +143,8 @@ TEST(DriveUseStudy, ColumnsAreThoseOfEachDrive) {
   EXPECT_EQ(table.find("motor_speed_1_rad_per_s"), nullptr);
   EXPECT_NEAR(table.find("motor_speed_2_rad_per_s")->values[0], 20, 1e-13);
   study::Result result;
-  add_drive_plots(result, table, drives);
+  result.tables = {table};
+  add_drive_plots({result, {.table = "motion", .x = "time_s"}}, drives);
   std::vector<std::string> names;
   for (const auto& plot : result.plots) names.push_back(plot.name);
   EXPECT_THAT(names,

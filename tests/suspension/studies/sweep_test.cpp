@@ -26,6 +26,7 @@ using test::sweep;
 using test::table;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(SweepStudy, TablesAGridAsTheLibrarySolvesIt) {
   const study::Result result = run_text(sample("5US", sweep + racks));
@@ -75,6 +76,12 @@ TEST(SweepStudy, ToldLimitsAreWhereRowsEnd) {
   EXPECT_THAT(to_string(result.diagnostics[0]),
               AllOf(HasSubstr("rack 0 mm: no_assembly: the height of the wheel centre "),
                     HasSubstr("cannot pass"), HasSubstr("1.000 mm short of")));
+}
+
+TEST(SweepStudy, RowsThatAreNotReachedHaveNoExtremes) {
+  const study::Result result = run_text(sample("SP-3US", "[sweep.travel]\nvalues_mm = [500, 600]\n"));
+  EXPECT_EQ(result.status, Status::no_assembly);
+  for (const study::Fact& f : result.facts) EXPECT_THAT(f.label, Not(HasSubstr("over the travel")));
 }
 
 TEST(SweepStudy, LaysAnotherGuideBehindTheCurves) {

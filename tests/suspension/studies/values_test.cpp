@@ -40,5 +40,11 @@ TEST(InputValues, SayWhatTheyLack) {
   EXPECT_THAT(told("from_mm = 0\nto_mm = 80\nstep_mm = 1e-5\n"), HasSubstr("makes 8e+06 values"));
 }
 
+TEST(InputValues, TheOneNextToZeroIsTheFirstOfEqualOnes) {
+  EXPECT_EQ(next_to_zero(std::vector{-0.03, -0.01, 0.01, 0.02}), 1u);
+  EXPECT_EQ(next_to_zero(std::vector{0.5, 0.6}), 0u);
+  EXPECT_EQ(next_to_zero(std::vector{-0.2, 0.0, 0.1}), 1u);
+}
+
 }  // namespace
 }  // namespace linkwright::suspension

@@ -14,6 +14,7 @@
 #include "linkwright/clearance/studies/design.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 
@@ -65,7 +66,7 @@ class DesignReporter {
     result_.status = runs_.status;
     const auto best = std::min_element(runs_.answers.begin(), runs_.answers.end(),
                                        [](const auto& a, const auto& b) { return rank(a) < rank(b); });
-    interrupted();
+    study::warn_of_missing_seeds(result_, runs_.answers.size(), common_.seeds);
     if (best == runs_.answers.end() || !complete(*best)) {
       nothing_found();
       return std::move(result_);
@@ -110,10 +111,6 @@ class DesignReporter {
   }
   std::string_view method() const {
     return std::visit([](const auto& m) { return choice_word(m).name; }, s_.method);
-  }
-  void interrupted() {
-    if (runs_.answers.size() < static_cast<std::size_t>(common_.seeds.count))
-      warn(fmt::format("interrupted: {} of {} seeds ran", runs_.answers.size(), common_.seeds.count));
   }
   void nothing_found() {
     if (result_.status == Status::done) result_.status = Status::infeasible;
@@ -239,7 +236,6 @@ class DesignReporter {
     out["method"] = method();
     out["measure"] = cost_name(s_).key;
     study::write_statistics(out, st);
-    success_ = st.success_rate;
   }
 
   // ---- tables
@@ -281,42 +277,23 @@ class DesignReporter {
   // ---- plots and scene
   // ----------------------------------------------------------------------------------------
 
-  study::Plot& plot(const char* name, std::string title, const char* table, const char* x,
-                    std::vector<std::string> y, Style style = Style::line) {
-    study::Plot& p = result_.plots.emplace_back();
-    p.name = name;
-    p.title = std::move(title);
-    p.table = table;
-    p.x = x;
-    p.y = std::move(y);
-    p.style = style;
-    p.scene = "motion";
-    return p;
-  }
   void plots() {
     const std::string pale = before_ ? fmt::format(" (pale: {})", s_.reference_label) : "";
     const char* before = before_ ? "reference" : "";
-    if (s_.has_path()) {
-      plot("path", "Path: targets and the points reached", "points", "crank_angle_rad",
-           {"target_x_m", "target_y_m", "x_m", "y_m"}, Style::polar);
-      std::vector<std::string> distances{"distance_m"};
-      if (before_) distances.emplace_back("reference_distance_m");
-      plot("errors", "Distance from the target points", "points", "crank_angle_rad", distances,
+    const study::AddPlot points{result_, {.table = "points", .x = "crank_angle_rad", .scene = "motion"}},
+        turn{result_, {.table = "turn", .x = "crank_angle_rad", .scene = "motion", .baseline = before}},
+        alone{result_, {.table = "turn", .x = "crank_angle_rad", .baseline = before}};
+    points("path", "Path: targets and the points reached", {"target_x_m", "target_y_m", "x_m", "y_m"},
+           Style::polar);
+    points("errors", "Distance from the target points", {"distance_m", "reference_distance_m"},
            Style::points);
-    }
     if (!s_.has_masses()) return;
-    plot("phase", "Phase of the clearance link from the crank" + pale, "turn", "crank_angle_rad",
-         {"phase_rad", "wanted_phase_rad"})
-        .baseline = before;
+    turn("phase", "Phase of the clearance link from the crank" + pale, {"phase_rad", "wanted_phase_rad"});
     // Not with the scene, where the last row is the first one again: this angle is larger there by a turn.
-    study::Plot& angle = plot("contact-angle", "Contact angle over the turn" + pale, "turn",
-                              "crank_angle_rad", {"contact_angle_rad", "wanted_contact_angle_rad"});
-    angle.baseline = before;
-    angle.scene.clear();
-    plot("tension", "Tension of the clearance link: contact while positive" + pale, "turn", "crank_angle_rad",
-         {"tension_N"})
-        .baseline = before;
-    plot("torque", "Drive torque" + pale, "turn", "crank_angle_rad", {"drive_torque_N_m"}).baseline = before;
+    alone("contact-angle", "Contact angle over the turn" + pale,
+          {"contact_angle_rad", "wanted_contact_angle_rad"});
+    turn("tension", "Tension of the clearance link: contact while positive" + pale, {"tension_N"});
+    turn("torque", "Drive torque" + pale, {"drive_torque_N_m"});
   }
 
   // ---- words
@@ -334,12 +311,11 @@ class DesignReporter {
   }
   void facts() {
     if (s_.has_path()) {
-      std::size_t worst = 0;
-      for (std::size_t k = 0; k < d_.reached.size(); ++k)
-        if (off(k) > off(worst)) worst = k;
+      study::Extreme worst;
+      for (std::size_t k = 0; k < d_.reached.size(); ++k) worst.greatest(off(k), k);
       fact(s_.has_masses() ? "path error on the motion" : "path error with the presumed phase",
            std::isfinite(d_.rms) ? fmt::format("root mean square {}, at most {} at point {}", metres(d_.rms),
-                                               metres(d_.largest), worst + 1)
+                                               metres(d_.largest), worst.row + 1)
                                  : std::string("not known: the motion does not reach every point"),
            feasible_ ? Verdict::good : Verdict::bad);
       if (s_.has_masses())
@@ -373,11 +349,7 @@ class DesignReporter {
     fact("method", std::string(method()));
     if (answer_->starts > 0 && s_.target == DesignTarget::lengths)
       fact("local searches that came to it", fmt::format("{} of {}", answer_->reached, answer_->starts));
-    fact("seeds that reached the best",
-         fmt::format("{:.0f} of {}", success_ * static_cast<double>(runs_.answers.size()),
-                     runs_.answers.size()),
-         success_ > 0.9 ? Verdict::good : Verdict::plain);
-    fact("evaluations", fmt::format("{}", result_.statistics.find("evaluations")->as_integer()));
+    study::add_seed_facts(result_, "seeds that reached the best", runs_.answers.size());
   }
   double off(std::size_t k) const {
     return std::abs(d_.reached[k] - std::complex<double>(s_.path.x[k], s_.path.y[k]));
@@ -473,7 +445,6 @@ class DesignReporter {
   DesignMeasures d_;
   std::optional<DesignMeasures> before_;
   bool feasible_ = false;
-  double success_ = 0;
   study::Result result_;
   const study::AddFact fact{result_.facts};
   const study::AddWarning warn{result_.diagnostics};

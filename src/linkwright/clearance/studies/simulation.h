@@ -14,6 +14,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/columns.h"
 #include "linkwright/planar/studies/linkage_scene.h"
+#include "linkwright/study/extremes.h"
 #include "linkwright/study/kind.h"
 
 // The simulation of a linkage whose pins have clearance: what its file holds, how it is read, run and
@@ -153,11 +154,11 @@ Table section_table(const ClearanceStudy& study, const ClearanceRecording& recor
 Table orbit_table(const ClearanceStudy& study, const JointOrbit& orbit);
 Table multipliers_table(const JointOrbit& orbit);
 
-/// How far traced points are off; NaN: nothing is known.
+/// How far traced points are off at most (m); rows are the traces.
 struct PathErrors {
-  double path = nan;   ///< m, from the ideal path, at most
-  double place = nan;  ///< m, from the ideal place, at most
-  std::string point;   ///< that is farthest from its path
+  study::Extreme path;   ///< from the ideal path
+  study::Extreme place;  ///< from the ideal place
+  std::string point;     ///< that is farthest from its path
 };
 /// Facts, warnings and the headline.
 void add_facts(const ClearanceStudy& study, const ClearanceRecording& recording, const PathErrors& errors,

@@ -14,8 +14,6 @@
 namespace linkwright::clearance {
 namespace {
 
-// A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
-constexpr double poor_balance = 1e-5;
 // Of the radius of the pin: depths beyond it are outside of the law of contact.
 constexpr double deep_share = 0.1;
 // Of the coefficient of restitution: a law that is off by more is reported.
@@ -37,18 +35,16 @@ class Facts {
       contact_facts();
     else
       continuous_facts();
-    if (!std::isnan(errors_.path))
-      fact("path error",
-           fmt::format("{} is at most {:.4g} mm from the ideal path{}", errors_.point, 1e3 * errors_.path,
-                       std::isnan(errors_.place)
-                           ? ""
-                           : fmt::format(", {:.4g} mm from its ideal place", 1e3 * errors_.place)));
+    if (errors_.path.any())
+      fact("path error", fmt::format("{} is at most {:.4g} mm from the ideal path{}", errors_.point,
+                                     1e3 * errors_.path.value,
+                                     errors_.place.any() ? fmt::format(", {:.4g} mm from its ideal place",
+                                                                       1e3 * errors_.place.value)
+                                                         : ""));
     if (rows() > 0) {
-      const double share = r_.peak_energy > 0 ? r_.largest_drift / r_.peak_energy : 0;
-      const std::string text = fmt::format("within {:.2g} J ({:.2g} of the peak energy {:.4g} J)",
-                                           r_.largest_drift, share, r_.peak_energy);
-      fact("energy balance", text, share > poor_balance ? Verdict::bad : Verdict::good);
-      if (share > poor_balance) warn("the energies do not balance: " + text, "take a smaller rtol");
+      const study::EnergyBalance balance{r_.largest_drift, r_.peak_energy};
+      fact("energy balance", balance.text(), balance.poor() ? Verdict::bad : Verdict::good);
+      if (balance.poor()) warn("the energies do not balance: " + balance.text(), "take a smaller rtol");
     }
     fact("integration",
          fmt::format("{} steps, {} evaluations of the equations of motion", r_.steps, r_.evaluations));
@@ -64,8 +60,8 @@ class Facts {
     }
     if (r_.regime) text = regime_headline();
     text += motion_headline();
-    if (!std::isnan(errors_.path))
-      text += fmt::format("; {} leaves its path by up to {:.4g} mm", errors_.point, 1e3 * errors_.path);
+    if (errors_.path.any())
+      text += fmt::format("; {} leaves its path by up to {:.4g} mm", errors_.point, 1e3 * errors_.path.value);
     text += ".";
     if (r_.status != Status::done && !(r_.regime && r_.time >= s_.to()))
       text +=

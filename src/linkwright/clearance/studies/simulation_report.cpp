@@ -10,6 +10,7 @@
 #include "linkwright/clearance/studies/simulation.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::clearance {
 namespace {
@@ -145,9 +146,8 @@ class SimulationReporter {
       error[i] = std::abs(place - std::complex<double>(ideal_x[i], ideal_y[i]));
     }
     for (const double d : off)
-      if (d > errors_.path || std::isnan(errors_.path)) errors_.path = d, errors_.point = trace_name(k);
-    for (const double d : error)
-      if (d > errors_.place || std::isnan(errors_.place)) errors_.place = d;
+      if (errors_.path.greatest(d, k)) errors_.point = trace_name(k);
+    for (const double d : error) errors_.place.greatest(d, k);
     table.add(key + "_ideal_x_m", label + " x without clearance (m)", std::move(ideal_x));
     table.add(key + "_ideal_y_m", label + " y without clearance (m)", std::move(ideal_y));
     table.add(key + "_place_error_m", label + " distance from where it is without clearance (m)",
@@ -240,32 +240,21 @@ class SimulationReporter {
   // ---- plots
   // --------------------------------------------------------------------------------------------------
 
-  const Table* table(std::string_view name) const {
-    for (const Table& t : result_.tables)
-      if (t.name == name) return &t;
-    return nullptr;
-  }
-  using Style = study::Plot::Style;
-  study::Plot& plot(std::string name, std::string title, const char* of, std::string x,
-                    std::vector<std::string> y, Style style = Style::line) {
-    const Table* t = table(of);
-    if (t) std::erase_if(y, [&](const std::string& key) { return !t->find(key); });
-    if (!t || t->rows() == 0 || y.empty()) return none_ = {};
-    result_.plots.emplace_back();
-    study::Plot& p = result_.plots.back();
-    p.name = std::move(name);
-    p.title = std::move(title);
-    p.table = of;
-    p.scene = x == "time_s" ? "motion" : "";
-    p.x = std::move(x);
-    p.y = std::move(y);
-    p.style = style;
-    return p;
-  }
-  void against_ideal(study::Plot& p) {
-    if (table("ideal")) p.baseline = "ideal";
+  // Diagrams of a table that has rows; of another one, none.
+  study::AddPlot diagrams(study::Plot like) {
+    if (const Table* table = result_.table(like.table); table && table->rows() == 0) like.table.clear();
+    return {result_, std::move(like)};
   }
   void plots() {
+    using Style = study::Plot::Style;
+    const study::AddPlot motion = diagrams({.table = "motion", .x = "time_s", .scene = "motion"}),
+                         against_ideal = diagrams({.table = "motion",
+                                                   .x = "time_s",
+                                                   .scene = "motion",
+                                                   .baseline = result_.table("ideal") ? "ideal" : ""}),
+                         of_pins = diagrams({.table = "pins", .x = "time_s", .scene = "motion"}),
+                         in_bushes = diagrams({.table = "hodograph", .style = Style::polar}),
+                         map_of_bushes = diagrams({.table = "contact_map", .style = Style::polar});
     std::vector<std::string> paths, errors, hodograph, forces, spectrum, reactions, drives, map, times,
         angles;
     for (std::size_t k = 0; k < s_.traces.size(); ++k) {
@@ -283,58 +272,56 @@ class SimulationReporter {
       for (const char* end : {"_time_share_x", "_time_share_y"}) times.push_back(key(k) + end);
       angles.push_back(key(k) + (contact() ? "_contact_angle_rad" : "_phase_rad"));
     }
-    plot("hodograph", "Paths of the pins in their bushes", "hodograph", "", hodograph, Style::polar);
-    plot("contact-forces",
-         contact() ? "Contact forces" : "Tension of the clearance links: contact while positive", "pins",
-         "time_s", forces);
-    plot("contact-map",
-         "Contact map: largest force of the pins on each place of their bushes, as seen from the bush",
-         "contact_map", "", map, Style::polar);
-    plot("contact-time-map",
-         "Contact map: share of the time in which the pins touch each place of their bushes, as seen from "
-         "the bush",
-         "contact_map", "", times, Style::polar);
-    plot("contact-angles",
-         contact() ? "Where the pins touch: directions in their bushes" : "Phases of the clearance links",
-         "pins", "time_s", angles, contact() ? Style::points : Style::line);
+    in_bushes("hodograph", "Paths of the pins in their bushes", hodograph);
+    of_pins("contact-forces",
+            contact() ? "Contact forces" : "Tension of the clearance links: contact while positive", forces);
+    map_of_bushes(
+        "contact-map",
+        "Contact map: largest force of the pins on each place of their bushes, as seen from the bush", map);
+    map_of_bushes(
+        "contact-time-map",
+        "Contact map: share of the time in which the pins touch each place of their bushes, as seen from "
+        "the bush",
+        times);
+    of_pins("contact-angles",
+            contact() ? "Where the pins touch: directions in their bushes" : "Phases of the clearance links",
+            angles, contact() ? Style::points : Style::line);
     if (!contact()) {
       std::vector<std::string> speeds;
       for (std::size_t k = 0; k < s_.pins(); ++k) speeds.push_back(key(k) + "_link_speed_rad_per_s");
-      plot("link-speeds", "Speeds of the clearance links", "pins", "time_s", speeds);
+      of_pins("link-speeds", "Speeds of the clearance links", speeds);
     }
-    plot("paths", "Paths of the traced points, with and without clearance", "motion", "time_s", paths,
-         Style::polar);
-    plot("path-errors", "How far the traced points are off", "motion", "time_s", errors);
+    motion("paths", "Paths of the traced points, with and without clearance", paths, Style::polar);
+    motion("path-errors", "How far the traced points are off", errors);
     for (std::size_t k = 0; k < s_.traces.size(); ++k)
-      against_ideal(
-          plot("acceleration-" + trace_key(k),
-               "Acceleration of " + trace_name(k) + " (pale: without clearance)", "motion", "time_s",
-               {trace_key(k) + "_acceleration_x_m_per_s2", trace_key(k) + "_acceleration_y_m_per_s2"}));
+      against_ideal("acceleration-" + trace_key(k),
+                    "Acceleration of " + trace_name(k) + " (pale: without clearance)",
+                    {trace_key(k) + "_acceleration_x_m_per_s2", trace_key(k) + "_acceleration_y_m_per_s2"});
     for (std::size_t k = 0; k < s_.plan.inputs(); ++k)
       if (s_.plan.rotary[k])
         drives.push_back(planar::identifier(planar::input_joint(s_.linkage, k).name) + "_drive_torque_N_m");
     for (const planar::LinkageJoint& j : s_.linkage.joints)
       if (j.type != planar::JointType::gear && reactions.size() < 6)
         reactions.push_back(planar::identifier(j.name) + "_N");
-    against_ideal(plot("torque", "Drive torque (pale: without clearance)", "motion", "time_s", drives));
-    against_ideal(plot("reactions", "Joint forces (pale: without clearance)", "motion", "time_s", reactions));
-    plot("spectrum", contact() ? "Spectrum of the contact forces" : "Spectrum of the tensions", "spectrum",
-         "frequency_Hz", spectrum)
-        .logarithmic_y = true;
+    against_ideal("torque", "Drive torque (pale: without clearance)", drives);
+    against_ideal("reactions", "Joint forces (pale: without clearance)", reactions);
+    diagrams({.table = "spectrum", .x = "frequency_Hz", .logarithmic_y = true})(
+        "spectrum", contact() ? "Spectrum of the contact forces" : "Spectrum of the tensions", spectrum);
     for (std::size_t k = 0; k < s_.pins(); ++k)
-      plot("section-" + key(k), "Once a turn: " + name(k), "section",
-           key(k) + (contact() ? "_eccentricity_x_m" : "_link_angle_rad"),
-           {key(k) + (contact() ? "_eccentricity_rate_x_m_per_s" : "_link_speed_rad_per_s")}, Style::points);
-    plot("energies", "Energies", "motion", "time_s",
-         {"kinetic_energy_J", "potential_energy_J", "contact_energy_J", "dissipated_energy_J", "work_J"});
-    plot("energy-audit", "Energy audit: imbalance", "motion", "time_s", {"energy_drift_J"});
+      diagrams({.table = "section",
+                .x = key(k) + (contact() ? "_eccentricity_x_m" : "_link_angle_rad"),
+                .style = Style::points})(
+          "section-" + key(k), "Once a turn: " + name(k),
+          {key(k) + (contact() ? "_eccentricity_rate_x_m_per_s" : "_link_speed_rad_per_s")});
+    motion("energies", "Energies",
+           {"kinetic_energy_J", "potential_energy_J", "contact_energy_J", "dissipated_energy_J", "work_J"});
+    motion("energy-audit", "Energy audit: imbalance", {"energy_drift_J"});
   }
 
   const ClearanceStudy& s_;
   ClearanceRecording r_;
   PathErrors errors_;
   study::Result result_;
-  study::Plot none_;  // what is said of a plot that has nothing to show goes here
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/columns.h"
+#include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
 
 namespace linkwright::clearance {
@@ -110,55 +111,49 @@ class ToleranceReporter {
   // --------------------------------------------------------------------------------------------------
 
   using Style = study::Plot::Style;
-  study::Plot& plot(std::string name, std::string title, std::string table, std::vector<std::string> y,
-                    Style style = Style::line) {
+  study::AddPlot over_input(std::string table) {
     const bool linked =
         std::holds_alternative<study::TimeSamples>(s_.motion.sweep) || s_.motion.plan.inputs() == 1;
-    result_.plots.push_back({.name = std::move(name),
-                             .title = std::move(title),
-                             .table = std::move(table),
-                             .x = tolerance_input_key(s_),
-                             .y = std::move(y),
-                             .style = linked || style != Style::line ? style : Style::points,
-                             .scene = linked ? "motion" : ""});
-    return result_.plots.back();
+    return {result_,
+            {.table = std::move(table),
+             .x = tolerance_input_key(s_),
+             .style = linked ? Style::line : Style::points,
+             .scene = linked ? "motion" : ""}};
   }
   void plots() {
     std::vector<std::string> paths;
     for (std::size_t p = 0; p < bands_.size(); ++p)
       for (const char* end : {"_x_m", "_y_m", "_left_x_m", "_left_y_m", "_right_x_m", "_right_y_m"})
         paths.push_back(r_.quantities[p].key + end);
-    if (!paths.empty())
-      plot("paths", fmt::format("Paths and how far they may be off, drawn {:g} x", scale_), "band", paths,
-           Style::polar);
+    over_input("band")("paths", fmt::format("Paths and how far they may be off, drawn {:g} x", scale_), paths,
+                       Style::polar);
     for (std::size_t q = 0; q < std::min(quantities(), most_told); ++q) {
       const ToleranceQuantity& quantity = r_.quantities[q];
       if (!quantity.any) continue;
       const std::string unit = unit_key(quantity.kind);
       std::vector<std::string> y;
       for (const char* key : {"_worst_", "_across_", "_drawn_", "_rms_"})
-        if (result_.tables[0].find(quantity.key + key + unit)) y.push_back(quantity.key + key + unit);
-      plot("error-" + quantity.key, "Error of " + quantity.name, "errors", y);
+        y.push_back(quantity.key + key + unit);
+      over_input("errors")("error-" + quantity.key, "Error of " + quantity.name, y);
       std::vector<std::string> parts;
       for (const std::size_t k : r_.by_share(q))
         if (parts.size() < most_curves) parts.push_back(planar::identifier(r_.tolerances[k]) + "_" + unit);
-      plot("contributions-" + quantity.key, "Who makes the worst error of " + quantity.name,
-           "contributions_" + quantity.key, parts);
+      over_input("contributions_" + quantity.key)("contributions-" + quantity.key,
+                                                  "Who makes the worst error of " + quantity.name, parts);
       // Where a band can be seen around its curve.
       if ((quantity.kind == Kind::force || quantity.kind == Kind::torque) &&
           worst(q) > 0.02 * largest_value(q))
-        for (const char* axis : {"", "_x", "_y"})
-          if (const std::string key = quantity.key + axis; result_.tables[1].find(key + "_" + unit))
-            plot("value-" + key, quantity.name + (*axis ? std::string(" along ") + axis[1] : ""), "values",
-                 {key + "_" + unit})
-                .bands.push_back({key + "_lower_" + unit, key + "_upper_" + unit, "worst case"});
-      if (r_.random.draws == 0) continue;
-      study::Plot& histogram =
-          plot("draws-" + quantity.key,
-               fmt::format("{} random linkages by the largest error of {}", r_.random.draws, quantity.name),
-               "draws", {quantity.key + "_" + unit}, Style::histogram);
-      histogram.x.clear();
-      histogram.scene.clear();
+        for (const char* axis : {"", "_x", "_y"}) {
+          const std::string key = quantity.key + axis;
+          study::AddPlot plot = over_input("values");
+          plot.like.bands = {{key + "_lower_" + unit, key + "_upper_" + unit, "worst case"}};
+          plot("value-" + key, quantity.name + (*axis ? std::string(" along ") + axis[1] : ""),
+               {key + "_" + unit});
+        }
+      study::AddPlot{result_, {.table = "draws", .style = Style::histogram}}(
+          "draws-" + quantity.key,
+          fmt::format("{} random linkages by the largest error of {}", r_.random.draws, quantity.name),
+          {quantity.key + "_" + unit});
     }
   }
 
@@ -178,11 +173,9 @@ class ToleranceReporter {
       if (q >= most_told) continue;
       std::string text =
           fmt::format("at most {} at {}", shown(quantity.kind, worst(q)), where(quantity.worst_row));
-      if (quantity.kind == Kind::point) {
-        double across = 0;
-        for (const double a : bands_[q].across) across = std::max(across, std::isnan(a) ? 0 : a);
-        text += fmt::format(", at most {} across its path", shown(quantity.kind, across));
-      }
+      if (quantity.kind == Kind::point)
+        text += fmt::format(", at most {} across its path",
+                            shown(quantity.kind, study::largest_size(bands_[q].across)));
       if (quantity.kind == Kind::force || quantity.kind == Kind::torque)
         if (const double size = largest_value(q); size > 0)
           text += fmt::format(", {:.2g} % of the largest there is, {}", 100 * worst(q) / size,

@@ -9,8 +9,8 @@
 
 #include "linkwright/clearance/studies/tolerance.h"
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/columns.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::clearance {
 namespace {
@@ -128,9 +128,8 @@ std::string shown(Kind kind, double value) {
   switch (kind) {
     case Kind::point:
     case Kind::displacement:
-      return fmt::format("{:.3g} mm", 1e3 * value);
     case Kind::angle:
-      return fmt::format("{:.3g}°", math::degrees(value));
+      return study::angle_or_length(value, kind == Kind::angle, 3);
     case Kind::force:
     case Kind::torque:
       return fmt::format("{:.3g} {}", value, unit_label(kind));
@@ -176,8 +175,7 @@ std::string tolerance_place(const ToleranceStudy& s, const ToleranceRecording& r
   for (std::size_t k = 0; k < s.motion.plan.inputs(); ++k) {
     const double value = r.rows.inputs[sample][k].value;
     out += k ? ", " : "";
-    out += s.motion.plan.rotary[k] ? fmt::format("{:.4g}°", math::degrees(value))
-                                   : fmt::format("{:.4g} mm", 1e3 * value);
+    out += study::angle_or_length(value, s.motion.plan.rotary[k], 4);
   }
   return out;
 }

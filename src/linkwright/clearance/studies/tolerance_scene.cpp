@@ -9,12 +9,12 @@
 #include "linkwright/clearance/studies/tolerance.h"
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/columns.h"
+#include "linkwright/study/extremes.h"
 
 namespace linkwright::clearance {
 double tolerance_scale(const ToleranceStudy& s, const std::vector<PathBand>& bands) {
   double largest = 0;
-  for (const PathBand& band : bands)
-    for (const double across : band.across) largest = std::max(largest, std::isnan(across) ? 0 : across);
+  for (const PathBand& band : bands) largest = std::max(largest, study::largest_size(band.across));
   for (const PinTolerance& p : s.tolerances.pins) largest = std::max(largest, p.clearance);
   // 1, 2, 5, 10, ...: the largest that is not more.
   const double scale = 0.05 * s.motion.plan.size / largest;

@@ -231,9 +231,8 @@ study::Result run_arm_study(const ArmStudy& s, RunContext& context) {
     if (link.hinge && motion.find(link.name + "_torque_N_m"))
       fact("largest torque in the hinge of " + link.name,
            fmt::format("{:.4g} N m", largest_of(motion, link.name + "_torque_N_m")));
-    const std::string where =
-        fmt::format("{} its root, at {:.4g} s",
-                    w.position == 0 ? "at" : fmt::format("{:.4g} mm from", 1e3 * w.position), w.time);
+    const std::string where = fmt::format("{} its root, at {:.4g} s",
+                                          w.position == 0 ? "at" : millimetres(w.position) + " from", w.time);
     double stress = nan;
     if (link.fibre_distance) {
       stress = bending_stress(link.beam, w.moment, *link.fibre_distance);

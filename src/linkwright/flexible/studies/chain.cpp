@@ -10,6 +10,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/flexible/statics.h"
 #include "linkwright/flexible/studies/chain_scene.h"
+#include "linkwright/study/extremes.h"
 #include "linkwright/study/memory.h"
 #include "linkwright/study/remarks.h"
 
@@ -76,12 +77,9 @@ Start start_of(const ChainStudy& s, const Chain& chain, study::Result& result) {
     if (bent.status == Status::done)
       out.q = bent.state.q;
     else
-      result.diagnostics.push_back({Diagnostic::Severity::warning,
-                                    {},
-                                    {},
-                                    "simulation.start",
-                                    "no equilibrium was found at the start; the links start straight",
-                                    "they bend too far under their weight: take more divisions"});
+      study::AddWarning{result.diagnostics}("simulation.start",
+                                            "no equilibrium was found at the start; the links start straight",
+                                            "they bend too far under their weight: take more divisions");
   }
   return out;
 }
@@ -139,17 +137,9 @@ double difference(const ChainStudy& s, const Table& a, const Table& b) {
 }
 
 void add_plots(const ChainStudy& s, bool shaped, study::Result& result) {
-  for (const ChainPlot& plot : s.plots) {
-    study::Plot out{.name = plot.name,
-                    .title = plot.title,
-                    .table = "motion",
-                    .x = "time_s",
-                    .y = plot.columns,
-                    .scene = "motion"};
-    std::erase_if(out.y, [&](const std::string& key) { return !result.tables.front().find(key); });
-    if (shaped) out.baseline = "unshaped";
-    if (!out.y.empty()) result.plots.push_back(std::move(out));
-  }
+  const study::AddPlot add{
+      result, {.table = "motion", .x = "time_s", .scene = "motion", .baseline = shaped ? "unshaped" : ""}};
+  for (const ChainPlot& plot : s.plots) add(plot.name, plot.title, plot.columns);
 }
 
 // How far the energies less the work moved away from where they were.
@@ -190,14 +180,9 @@ std::string hertz_of(const std::vector<Mode>& found) {
 }  // namespace
 
 double largest_of(const Table& table, std::string_view key) {
-  double out = 0;
-  if (const Column* column = table.find(key))
-    for (const double v : column->values)
-      if (!std::isnan(v)) out = std::max(out, std::abs(v));
-  return out;
+  const Column* column = table.find(key);
+  return column ? study::largest_size(column->values) : 0;
 }
-
-std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
 
 std::string headline_of_end(const Simulation& run) {
   return fmt::format("Ended at {:.4g} s: {}.", run.samples.empty() ? 0.0 : run.samples.back().time,

@@ -12,9 +12,12 @@
 #include "linkwright/flexible/simulation.h"
 #include "linkwright/flexible/studies/drive.h"
 #include "linkwright/study/kind.h"
+#include "linkwright/study/remarks.h"
 
 // What the simulations of one link and of arms share: their options, how they run and what they report.
 namespace linkwright::flexible {
+
+using study::millimetres;
 
 enum class StartForm { undeformed, equilibrium };
 constexpr std::array<EnumName<StartForm>, 2> names(StartForm) {
@@ -89,10 +92,8 @@ struct ChainRun {
 /// Integrates; what was reached is kept, whatever ends it.
 ChainRun run_chain(const ChainStudy& study, RunContext& context);
 
-/// Largest |value| of a column, 0 of an empty one.
+/// Largest |value| of a column, 0 of an empty one and of one that the table does not have.
 double largest_of(const Table& table, std::string_view key);
-/// "12.34 mm".
-std::string millimetres(double metres);
 /// "Ended at 1.2 s: ..." of a run that is not done.
 std::string headline_of_end(const Simulation& run);
 

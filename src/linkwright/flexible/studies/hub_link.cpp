@@ -149,12 +149,8 @@ void compare_elastica(const HubLinkStudy& s, study::Result& result, std::vector<
   const ReferenceMotion motion =
       drive.motion ? reference_motion(beam, drive.motion, run) : reference_torque(beam, drive.torque, run);
   if (motion.status != Status::done)
-    result.diagnostics.push_back({Diagnostic::Severity::warning,
-                                  {},
-                                  {},
-                                  "simulation.compare_elastica",
-                                  "the elastica ended early: " + motion.message,
-                                  {}});
+    study::AddWarning{result.diagnostics}("simulation.compare_elastica",
+                                          "the elastica ended early: " + motion.message, {});
   Table other = table_of(motion.samples);
   other.name = "elastica";
   const double difference = lay_beside(result, std::move(other));

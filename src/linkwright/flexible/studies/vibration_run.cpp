@@ -14,6 +14,7 @@
 #include "linkwright/flexible/studies/vibration.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/math/zero.h"
+#include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
 
 namespace linkwright::flexible {
@@ -89,17 +90,13 @@ class Analyst {
       by_continuum.push_back(w > 0 && exact[k] > 0 ? w / exact[k] - 1 : 0);
       text += fmt::format("{}{:.4g}", text.empty() ? "" : ", ", w / full_turn);
     }
-    const auto largest = [](const std::vector<double>& v) {
-      double out = 0;
-      for (const double x : v) out = std::max(out, std::abs(x));
-      return out;
-    };
     fact("frequencies at rest", text + " Hz");
     fact("against the continuum",
-         fmt::format("within {:.2g} %; {:.2g} % is what {} divisions change", 100 * largest(by_continuum),
-                     100 * largest(by_twice), 2 * s_.vibration.divisions),
-         largest(by_continuum) > poor_frequency ? Verdict::bad : Verdict::good);
-    if (largest(by_continuum) > poor_frequency)
+         fmt::format("within {:.2g} %; {:.2g} % is what {} divisions change",
+                     100 * study::largest_size(by_continuum), 100 * study::largest_size(by_twice),
+                     2 * s_.vibration.divisions),
+         study::largest_size(by_continuum) > poor_frequency ? Verdict::bad : Verdict::good);
+    if (study::largest_size(by_continuum) > poor_frequency)
       for (std::size_t k = 0; k < found_.size(); ++k)
         if (std::abs(by_continuum[k]) > poor_frequency) {
           warn("vibration.divisions",
@@ -144,13 +141,8 @@ class Analyst {
     }
     result_.tables.push_back(std::move(table));
     if (hub() == Hub::free) result_.tables.front().add("hub_angle_rad", "turn of the hub (rad)", hub_angle);
-    if (!eta.empty())
-      result_.plots.push_back({.name = "shapes",
-                               .title = "Shapes of the modes, in axes of the hub",
-                               .table = "shapes",
-                               .x = "position_m",
-                               .y = eta,
-                               .scene = ""});
+    study::AddPlot{result_, {.table = "shapes", .x = "position_m"}}(
+        "shapes", "Shapes of the modes, in axes of the hub", eta);
   }
 
   // One period of a mode, the largest deflection a seventh of the link.
@@ -247,8 +239,7 @@ class Analyst {
                              .title = "Campbell diagram: frequencies over the speed of the hub",
                              .table = "campbell",
                              .x = "speed_rad_per_s",
-                             .y = y,
-                             .scene = ""});
+                             .y = y});
     for (int k = 1; k <= count(); ++k) {
       const auto& values = table.columns[static_cast<std::size_t>(k)].values;
       if (k == 1 && !std::isnan(values.back())) last_ = values.back();
@@ -316,12 +307,8 @@ class Analyst {
     table.status = status;
     result_.tables.push_back(std::move(table));
     sections(found, load);
-    result_.plots.push_back({.name = "deflection",
-                             .title = "The link under its load",
-                             .table = "deflection",
-                             .x = "position_m",
-                             .y = {"eta_m", "linear_eta_m"},
-                             .scene = ""});
+    study::AddPlot{result_, {.table = "deflection", .x = "position_m"}}(
+        "deflection", "The link under its load", {"eta_m", "linear_eta_m"});
     tip_ = across.back();
     fact("tip under the load", fmt::format("{} across the link, {} along it, {:.4g}°; linear {} across it",
                                            millimetres(across.back()), millimetres(along.back()),
@@ -375,12 +362,8 @@ class Analyst {
            fmt::format("{:.4g} MPa", 1e-6 * bending_stress(beam(), largest, *s_.mechanism.fibre_distance)));
     }
     result_.tables.push_back(std::move(table));
-    result_.plots.push_back({.name = "moment",
-                             .title = "Bending moment along the link",
-                             .table = "sections",
-                             .x = "position_m",
-                             .y = {"moment_N_m"},
-                             .scene = ""});
+    study::AddPlot{result_, {.table = "sections", .x = "position_m"}}(
+        "moment", "Bending moment along the link", {"moment_N_m"});
   }
 
   void remarks() {

@@ -478,12 +478,7 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
   if (!held.empty()) fact("held back by", held);
   if (a.starts > 0) fact("local searches that came to it", fmt::format("{} of {}", a.reached_best, a.starts));
   if (runs.answers.size() > 1)
-    fact("seeds that came to it",
-         fmt::format(
-             "{:.0f} of {}",
-             result.statistics.find("success_rate")->as_number() * static_cast<double>(runs.answers.size()),
-             runs.answers.size()),
-         Verdict::plain);
+    fact("seeds that came to it", study::successful_seeds(result, runs.answers.size()));
   result.scenes.push_back(scene_of(s, a.best));
   result.headline =
       proof.violated

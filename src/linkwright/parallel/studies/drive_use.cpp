@@ -263,34 +263,23 @@ void add_drive_columns(Table& table, std::span<const Drive> drives, std::span<co
       [&](const M& m, std::size_t k) { return motor_torque(motors[k].screw, m.effort, m.speed); });
 }
 
-study::Plot motion_plot(std::string name, std::string title, std::vector<std::string> columns) {
-  return {.name = std::move(name),
-          .title = std::move(title),
-          .table = "motion",
-          .x = "time_s",
-          .y = std::move(columns),
-          .scene = "motion"};
-}
-
-void add_drive_plots(study::Result& result, const Table& motion, std::span<const Drive> drives) {
-  const auto plot = [&](const char* name, const char* title, std::string_view key, std::string_view unit,
-                        bool of_pi_too = true) {
+void add_drive_plots(const study::AddPlot& plot, std::span<const Drive> drives) {
+  const auto add = [&](const char* name, const char* title, std::string_view key, std::string_view unit,
+                       bool of_pi_too = true) {
     std::vector<std::string> columns;
-    for (std::size_t k = 0; k < drives.size(); ++k) {
-      std::string column = fmt::format("{}_{}_{}", key, k + 1, unit);
-      if (motion.find(column) && (of_pi_too || !is_pi(drives[k]))) columns.push_back(std::move(column));
-    }
-    if (!columns.empty()) result.plots.push_back(motion_plot(name, title, std::move(columns)));
+    for (std::size_t k = 0; k < drives.size(); ++k)
+      if (of_pi_too || !is_pi(drives[k])) columns.push_back(fmt::format("{}_{}_{}", key, k + 1, unit));
+    plot(name, title, std::move(columns));
   };
-  plot("diagonals", "Diagonals of the Pi-joints", "diagonal", "m");
-  plot("diagonal-rates", "Rates of the diagonals", "diagonal_rate", "m_per_s");
-  plot("arm-angles", "Arm angles", "arm_angle", "rad", false);
-  plot("arm-speeds", "Speeds of the arms", "arm_speed", "rad_per_s", false);
-  plot("arm-torques", "Torques at the arms", "arm_torque", "N_m");
-  plot("screw-forces", "Screw forces", "screw_force", "N");
-  plot("powers", "Powers of the drives", "power", "W");
-  plot("motor-torques", "Torques of the motors", "motor_torque", "N_m");
-  plot("motor-speeds", "Speeds of the motors", "motor_speed", "rad_per_s");
+  add("diagonals", "Diagonals of the Pi-joints", "diagonal", "m");
+  add("diagonal-rates", "Rates of the diagonals", "diagonal_rate", "m_per_s");
+  add("arm-angles", "Arm angles", "arm_angle", "rad", false);
+  add("arm-speeds", "Speeds of the arms", "arm_speed", "rad_per_s", false);
+  add("arm-torques", "Torques at the arms", "arm_torque", "N_m");
+  add("screw-forces", "Screw forces", "screw_force", "N");
+  add("powers", "Powers of the drives", "power", "W");
+  add("motor-torques", "Torques of the motors", "motor_torque", "N_m");
+  add("motor-speeds", "Speeds of the motors", "motor_speed", "rad_per_s");
 }
 
 void add_verdict(study::Result& result, const PathJudge& judge, const ToolMotion& motion, double end,

@@ -10,7 +10,7 @@
 #include "linkwright/math/function_ref.h"
 #include "linkwright/parallel/studies/robot.h"
 #include "linkwright/parallel/tool/motion.h"
-#include "linkwright/study/result.h"
+#include "linkwright/study/remarks.h"
 
 // What studies of a tool path report of it whatever the robot: what its drives do, how much of their limits
 // that takes, and whether the path can be done.
@@ -128,10 +128,8 @@ Table uses_table(const std::vector<DriveUse>& uses);
 /// known.
 void add_drive_columns(Table& table, std::span<const Drive> drives, std::span<const PiDrive> motors,
                        const std::vector<std::vector<DriveMotion>>& rows, bool motors_known, bool forces);
-/// A diagram over the time for each kind of these columns, as far as the table "motion" has them.
-void add_drive_plots(study::Result& result, const Table& motion, std::span<const Drive> drives);
-/// A diagram of columns of the table "motion" over the time.
-study::Plot motion_plot(std::string name, std::string title, std::vector<std::string> columns);
+/// A diagram for each kind of these columns, as far as the table has them.
+void add_drive_plots(const study::AddPlot& plot, std::span<const Drive> drives);
 
 /// Facts on the limits of the drives and on failures, the headline with the verdict, and the status that goes
 /// with it: of the worst. `end`: of the last instant that was looked at (s); `whole`: all of it was looked

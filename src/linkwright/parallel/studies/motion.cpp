@@ -319,20 +319,16 @@ void add_motion(study::Result& result, const RobotDescription& d, const std::opt
   }
   const auto& f = study.form;
   const bool forces = masses.has_value() || norm(vec(f.force)) > 0 || norm(vec(f.moment)) > 0;
-  const Table table = motion_table(d, instants, forces);
-  result.tables.push_back(table);
+  result.tables.push_back(motion_table(d, instants, forces));
   const auto uses = judge.uses();
   if (!uses.empty()) result.tables.push_back(uses_table(uses));
-  result.plots.push_back(motion_plot("tool-speed", "Speed of the tool", {"tool_speed_m_per_s"}));
-  result.plots.push_back(
-      motion_plot("tool-acceleration", "Acceleration of the tool", {"tool_acceleration_m_per_s2"}));
-  add_drive_plots(result, table, std::span(d.drives).first(legs));
-  std::vector<std::string> indices{"transmission", "local_conditioning"};
+  const study::AddPlot plot{result, {.table = "motion", .x = "time_s", .scene = "motion"}};
+  plot("tool-speed", "Speed of the tool", {"tool_speed_m_per_s"});
+  plot("tool-acceleration", "Acceleration of the tool", {"tool_acceleration_m_per_s2"});
+  add_drive_plots(plot, std::span(d.drives).first(legs));
   const bool held = d.robot.freedom == Freedom::space_translation;
-  if (held) indices.emplace_back("constraint_index");
-  result.plots.push_back(motion_plot(
-      "transmission", held ? "Transmission, conditioning and constraint" : "Transmission and conditioning",
-      indices));
+  plot("transmission", held ? "Transmission, conditioning and constraint" : "Transmission and conditioning",
+       {"transmission", "local_conditioning", "constraint_index"});
 
   const study::AddFact fact{result.facts};
   fact("duration of the path", fmt::format("{:.4g} s", study.motion.duration()));

@@ -12,6 +12,7 @@
 #include "linkwright/parallel/pi_joint/singularities.h"
 #include "linkwright/parallel/studies/templates.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -19,11 +20,7 @@ namespace {
 constexpr double right = pi / 2;
 
 std::string degrees(double radians) { return fmt::format("{:.4g}°", math::degrees(radians)); }
-std::string millimetres(double metres) { return fmt::format("{:.4g} mm", 1e3 * metres); }
-
-void fact(study::Result& result, std::string label, std::string text) {
-  result.facts.push_back({std::move(label), std::move(text)});
-}
+using study::millimetres;
 
 /// Base, arms, coupler and diagonal over the angle.
 study::Scene scene_of(const PiJoint& joint, std::span<const double> angles) {
@@ -98,17 +95,7 @@ Table curves_table(const PiAnalysis& s, const std::vector<PiCurvePoint>& points)
 }
 
 void add_plots(study::Result& result) {
-  const Table& table = result.tables.front();
-  const auto plot = [&](const char* name, const char* title, std::vector<std::string> y) {
-    std::erase_if(y, [&](const std::string& key) { return !table.find(key); });
-    if (!y.empty())
-      result.plots.push_back({.name = name,
-                              .title = title,
-                              .table = "curves",
-                              .x = "angle_rad",
-                              .y = std::move(y),
-                              .scene = "travel"});
-  };
+  const study::AddPlot plot{result, {.table = "curves", .x = "angle_rad", .scene = "travel"}};
   plot("diagonal", "Diagonal", {"diagonal_m"});
   plot("jacobian", "Rate of the diagonal by the angle", {"jacobian_m"});
   plot("angles", "Angles of the diagonal",
@@ -123,6 +110,7 @@ void add_plots(study::Result& result) {
 
 /// Which bars the samples can distinguish.
 void add_calibration(study::Result& result, const PiAnalysis& s) {
+  const study::AddFact fact{result.facts};
   std::vector<PiStiffnessSample> samples;
   const CalibrationForm& c = *s.calibration;
   for (std::size_t i = 0; i < c.angles.size(); ++i) samples.push_back({c.angles[i], c.stiffnesses[i]});
@@ -150,8 +138,7 @@ void add_calibration(study::Result& result, const PiAnalysis& s) {
   table.add("coupler_N_per_m", "stiffness of the coupler (N/m)", coupler);
   table.add("error_percent", "relative error of the compliance, rms (%)", error);
   table.add("condition", "growth of relative errors", condition);
-  fact(result, "diagonal that fits the measurements",
-       fmt::format("{:.4g} N/m, rms {:.2g} %", diagonal[0], error[0]));
+  fact("diagonal that fits the measurements", fmt::format("{:.4g} N/m, rms {:.2g} %", diagonal[0], error[0]));
   result.tables.push_back(std::move(table));
 }
 
@@ -266,40 +253,40 @@ PiRequirements requirements_of(const PiLimitsForm& form) {
 
 study::Result run_pi_analysis(const PiAnalysis& s, RunContext&) {
   study::Result result;
+  const study::AddFact fact{result.facts};
   const auto points = pi_curves(s.joint, s.equipment, s.angles);
   result.tables.push_back(curves_table(s, points));
   add_plots(result);
   const auto range = range_values(s.joint, 0.5 * (s.angles.front() + s.angles.back()),
                                   0.5 * (s.angles.back() - s.angles.front()));
-  fact(result, "base and coupler", millimetres(base_length(s.joint)));
-  fact(result, "diagonal",
+  fact("base and coupler", millimetres(base_length(s.joint)));
+  fact("diagonal",
        fmt::format("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
-  fact(result, "stroke", millimetres(range.stroke()));
-  fact(result, "longest to shortest diagonal", fmt::format("{:.4f}", range.telescoping()));
-  fact(result, "least angle between diagonal and arm", degrees(range.least_transmission));
+  fact("stroke", millimetres(range.stroke()));
+  fact("longest to shortest diagonal", fmt::format("{:.4f}", range.telescoping()));
+  fact("least angle between diagonal and arm", degrees(range.least_transmission));
   const double half = 0.5 * (s.angles.back() - s.angles.front());
-  fact(result, "best centre for this travel", degrees(best_centre(s.joint, half)));
+  fact("best centre for this travel", degrees(best_centre(s.joint, half)));
   const auto least = [&](auto&& value) {
     double out = value(points.front());
     for (const PiCurvePoint& p : points) out = std::min(out, value(p));
     return out;
   };
   if (s.equipment.drive) {
-    fact(result, "least torque at the output",
+    fact("least torque at the output",
          fmt::format("{:.4g} N m", least([](const PiCurvePoint& p) { return p.output.torque; })));
-    fact(result, "least top speed",
+    fact("least top speed",
          fmt::format("{:.4g} rad/s", least([](const PiCurvePoint& p) { return p.output.speed; })));
     fact(
-        result, "coarsest resolution",
+        "coarsest resolution",
         fmt::format("{:.4g} mrad", -1e3 * least([](const PiCurvePoint& p) { return -p.output.resolution; })));
-    fact(result, "screw",
-         self_locking(s.equipment.drive->screw) ? "self-locking" : "can be driven back by the load");
+    fact("screw", self_locking(s.equipment.drive->screw) ? "self-locking" : "can be driven back by the load");
   }
   if (s.equipment.bars)
-    fact(result, "least stiffness",
+    fact("least stiffness",
          fmt::format("{:.4g} N m/rad", least([](const PiCurvePoint& p) { return p.stiffness; })));
   for (const PiSingularPosition& p : singular_positions(s.joint))
-    fact(result, "singular",
+    fact("singular",
          fmt::format("{} at {}, diagonal {}", name_of(p.kind), degrees(p.angle), millimetres(p.diagonal)));
   if (s.calibration) add_calibration(result, s);
   result.scenes.push_back(scene_of(s.joint, s.angles));
@@ -311,11 +298,11 @@ study::Result run_pi_analysis(const PiAnalysis& s, RunContext&) {
 
 study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, RunContext& context) {
   study::Result result;
+  const study::AddFact fact{result.facts};
   const PiDesignReport report =
       design_pi_joint(r, {}, {.seed = static_cast<std::uint64_t>(seeds.first)}, context);
   result.status = report.status;
-  for (const PiConflict& conflict : report.closed_form.conflicts)
-    fact(result, "conflict", to_string(conflict));
+  for (const PiConflict& conflict : report.closed_form.conflicts) fact("conflict", to_string(conflict));
   const PiDesign& best = report.best;
   const PiRangeValues range = range_values(best.joint, best.centre, r.half_travel);
   study::Solution solution{.label = "smallest Pi-joint"};
@@ -365,18 +352,17 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
   limits.add("price", "relative size saved per relative relaxation", price);
   result.tables.push_back(std::move(limits));
 
-  fact(result, "arm, base",
-       fmt::format("{}, {}", millimetres(best.joint.arm), millimetres(base_length(best.joint))));
-  fact(result, "range of the angle",
+  fact("arm, base", fmt::format("{}, {}", millimetres(best.joint.arm), millimetres(base_length(best.joint))));
+  fact("range of the angle",
        fmt::format("{} to {}", degrees(best.centre - r.half_travel), degrees(best.centre + r.half_travel)));
-  fact(result, "diagonal",
+  fact("diagonal",
        fmt::format("{} to {}", millimetres(range.least_diagonal), millimetres(range.greatest_diagonal)));
-  for (const PiActiveLimit& active : report.active) fact(result, "held back by", limit_text(active));
-  fact(result, "closed form",
-       report.closed_form.design ? fmt::format("{}{}", millimetres(report.closed_form.design->size),
-                                               report.closed_form_is_best ? ", the best there is" : "")
-                                 : "none: requirements are in conflict");
-  fact(result, "local searches that came to it", fmt::format("{} of {}", report.reached_best, report.starts));
+  for (const PiActiveLimit& active : report.active) fact("held back by", limit_text(active));
+  fact("closed form", report.closed_form.design
+                          ? fmt::format("{}{}", millimetres(report.closed_form.design->size),
+                                        report.closed_form_is_best ? ", the best there is" : "")
+                          : "none: requirements are in conflict");
+  fact("local searches that came to it", fmt::format("{} of {}", report.reached_best, report.starts));
   result.statistics["evaluations"] = static_cast<std::int64_t>(report.evaluations);
   result.statistics["starts"] = static_cast<std::int64_t>(report.starts);
   result.statistics["reached_best"] = static_cast<std::int64_t>(report.reached_best);
@@ -384,13 +370,9 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
   for (int i = 0; i <= 180; ++i) angles.push_back(best.centre + r.half_travel * (i / 90.0 - 1));
   PiAnalysis analysis{.joint = best.joint, .angles = angles};
   result.tables.push_back(curves_table(analysis, pi_curves(best.joint, {}, angles)));
-  for (const char* y : {"diagonal_m", "jacobian_m"})
-    result.plots.push_back({.name = y,
-                            .title = y[0] == 'd' ? "Diagonal" : "Rate of the diagonal by the angle",
-                            .table = "curves",
-                            .x = "angle_rad",
-                            .y = {y},
-                            .scene = "travel"});
+  const study::AddPlot plot{result, {.table = "curves", .x = "angle_rad", .scene = "travel"}};
+  plot("diagonal_m", "Diagonal", {"diagonal_m"});
+  plot("jacobian_m", "Rate of the diagonal by the angle", {"jacobian_m"});
   result.scenes.push_back(scene_of(best.joint, angles));
   result.headline =
       report.status == Status::done

@@ -14,6 +14,7 @@
 #include "linkwright/parallel/robot/statics.h"
 #include "linkwright/parallel/studies/robot_scene.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -185,9 +186,7 @@ Table assembly_table(study::Result& result, const RobotDescription& d, const Pos
     }
     result.facts.push_back(
         {fmt::format("{}: poses with its arm angles", form.poses[i].name), fmt::format("{}", found.size())});
-    if (!note.empty())
-      result.diagnostics.push_back(
-          {Diagnostic::Severity::warning, {}, {}, "modes", form.poses[i].name + ": " + note, {}});
+    if (!note.empty()) study::AddWarning{result.diagnostics}("modes", form.poses[i].name + ": " + note, {});
   }
   return table;
 }
@@ -367,12 +366,8 @@ void add_poses(study::Result& result, const RobotDescription& d, const PosesForm
     const SolvedPose& s = solved.back();
     good += s.status == Status::done;
     if (s.status != Status::done) {
-      result.diagnostics.push_back({Diagnostic::Severity::warning,
-                                    {},
-                                    {},
-                                    "pose",
-                                    fmt::format("{}: {}: {}", asked.name, to_string(s.status), s.reason),
-                                    {}});
+      study::AddWarning{result.diagnostics}(
+          "pose", fmt::format("{}: {}: {}", asked.name, to_string(s.status), s.reason), {});
       if (result.status == Status::done) result.status = s.status;
     }
     // Of robots that do not turn a way that is shown needs no word.

@@ -182,15 +182,14 @@ void add_serial_motion(study::Result& result, const SerialAnalysis& s, RunContex
     return;
   }
   const bool forces = s.masses.has_value() || study.form.force[0] != 0 || study.form.force[1] != 0;
-  const Table table = motion_table(d, instants, forces);
-  result.tables.push_back(table);
+  result.tables.push_back(motion_table(d, instants, forces));
   const auto uses = judge.uses();
   if (!uses.empty()) result.tables.push_back(uses_table(uses));
-  result.plots.push_back(motion_plot("tool-speed", "Speed of the tool", {"tool_speed_m_per_s"}));
-  result.plots.push_back(
-      motion_plot("tool-acceleration", "Acceleration of the tool", {"tool_acceleration_m_per_s2"}));
-  add_drive_plots(result, table, d.arm.drive);
-  result.plots.push_back(motion_plot("conditioning", "Conditioning", {"local_conditioning"}));
+  const study::AddPlot plot{result, {.table = "motion", .x = "time_s", .scene = "motion"}};
+  plot("tool-speed", "Speed of the tool", {"tool_speed_m_per_s"});
+  plot("tool-acceleration", "Acceleration of the tool", {"tool_acceleration_m_per_s2"});
+  add_drive_plots(plot, d.arm.drive);
+  plot("conditioning", "Conditioning", {"local_conditioning"});
 
   const study::AddFact fact{result.facts};
   fact("duration of the path", fmt::format("{:.4g} s", study.motion.duration()));

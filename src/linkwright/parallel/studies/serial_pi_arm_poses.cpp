@@ -11,6 +11,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
 #include "linkwright/parallel/studies/serial_pi_arm_scene.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::parallel {
 namespace {
@@ -141,12 +142,8 @@ void add_serial_poses(study::Result& result, const SerialAnalysis& s) {
     const SolvedArm& at = solved.back();
     good += at.status == Status::done;
     if (at.status != Status::done) {
-      result.diagnostics.push_back({Diagnostic::Severity::warning,
-                                    {},
-                                    {},
-                                    "pose",
-                                    fmt::format("{}: {}: {}", asked.name, to_string(at.status), at.reason),
-                                    {}});
+      study::AddWarning{result.diagnostics}(
+          "pose", fmt::format("{}: {}: {}", asked.name, to_string(at.status), at.reason), {});
       if (result.status == Status::done) result.status = at.status;
     }
     table.names.push_back(asked.name);

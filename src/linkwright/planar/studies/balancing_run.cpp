@@ -278,30 +278,13 @@ class Report {
   }
 
   void plots() {
-    const std::string x = balanced().columns.front().key;
-    const auto overlay = [&](const std::string& key) {
-      return std::any_of(result_.tables[2].columns.begin(), result_.tables[2].columns.end(),
-                         [&](const Column& c) { return c.key == key; });
-    };
-    const auto plot = [&](std::string name, std::string title, std::vector<std::string> y,
-                          study::Plot::Style style) {
-      result_.plots.push_back({.name = std::move(name),
-                               .title = std::move(title),
-                               .table = "overlay",
-                               .x = x,
-                               .y = std::move(y),
-                               .style = style,
-                               .scene = "solution-1"});
-    };
-    if (designs_.size() > 1 && p_.problem.objectives >= 2)
-      for (std::size_t k = 1; k < std::min<std::size_t>(p_.problem.objectives, 4); ++k)
-        result_.plots.push_back({.name = fmt::format("front-{}", k),
-                                 .title = "Front: " + p_.task.objectives[k].quantity + " against " +
-                                          p_.task.objectives[0].quantity,
-                                 .table = "front",
-                                 .x = ratio_key(0),
-                                 .y = {ratio_key(k)},
-                                 .style = study::Plot::Style::points});
+    const study::AddPlot front{result_,
+                               {.table = "front", .x = ratio_key(0), .style = study::Plot::Style::points}},
+        plot{result_, {.table = "overlay", .x = balanced().columns.front().key, .scene = "solution-1"}};
+    for (std::size_t k = 1; k < std::min<std::size_t>(p_.problem.objectives, 4); ++k)
+      front(fmt::format("front-{}", k),
+            "Front: " + p_.task.objectives[k].quantity + " against " + p_.task.objectives[0].quantity,
+            {ratio_key(k)});
     // What was asked for, then the other loads; magnitudes and components.
     std::vector<std::string> keys;
     for (const BalancingGoal& o : p_.task.objectives)
@@ -309,14 +292,14 @@ class Report {
     for (const Column& c : balanced().columns)
       if (is_load(c.key) && std::find(keys.begin(), keys.end(), c.key) == keys.end() && keys.size() < 24)
         keys.push_back(c.key);
+    const Table& overlay = *result_.table("overlay");
     for (const std::string& key : keys)
-      if (overlay(key))
-        plot("overlay-" + key, label_of(balanced(), key), {key, "initial_" + key}, study::Plot::Style::line);
+      if (overlay.find(key)) plot("overlay-" + key, label_of(balanced(), key), {key, "initial_" + key});
     for (const std::string& key : keys) {
       if (!key.ends_with("_x_N")) continue;
       std::string other = key;
       other.replace(other.size() - 3, 1, "y");
-      if (overlay(key) && overlay(other))
+      if (overlay.find(key) && overlay.find(other))
         plot("polar-" + key.substr(0, key.size() - 4), words_of(key.substr(0, key.size() - 4)) + ", polar",
              {key, other, "initial_" + key, "initial_" + other}, study::Plot::Style::polar);
     }
@@ -403,11 +386,7 @@ class Report {
     fact("active bounds", text.empty() ? "none" : text);
     fact("method",
          fmt::format("{}, combine {}", method_name(s_.optimiser.method), name_of(s_.optimiser.combine)));
-    const Value* success = result_.statistics.find("success_rate");
-    fact("seeds that reached the best",
-         fmt::format("{:.0f} of {}", success->as_number() * static_cast<double>(runs_.answers.size()),
-                     runs_.answers.size()));
-    fact("evaluations", fmt::format("{}", result_.statistics.find("evaluations")->as_integer()));
+    study::add_seed_facts(result_, "seeds that reached the best", runs_.answers.size(), false);
   }
 
   // Of a four-bar, in closed form: what would have to be added to the answer for a shaking force of its
@@ -461,14 +440,7 @@ study::Result run_balancing_study(const BalancingStudy& s, const study::Common& 
   // The report is made whether or not time is left.
   RunContext unhurried;
   study::Result result = Report(s, common, problem, runs, unhurried).make();
-  if (runs.answers.size() < static_cast<std::size_t>(common.seeds.count))
-    result.diagnostics.push_back(
-        {Diagnostic::Severity::warning,
-         {},
-         {},
-         {},
-         fmt::format("interrupted: {} of {} seeds ran", runs.answers.size(), common.seeds.count),
-         {}});
+  study::warn_of_missing_seeds(result, runs.answers.size(), common.seeds);
   return result;
 }
 

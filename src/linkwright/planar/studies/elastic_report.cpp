@@ -7,16 +7,14 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/math/spectrum.h"
 #include "linkwright/planar/studies/elastic.h"
+#include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
 
 namespace linkwright::planar {
 namespace {
 
-// A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
-constexpr double poor_balance = 1e-5;
 // Of the length of a beam: beyond it the straight theory of its bending is off by some per cent.
 constexpr double far_bent = 0.1;
 // Explicit steps of a fast vibration: at least so many a period.
@@ -77,32 +75,16 @@ class ElasticReporter {
   }
 
   void plots() {
-    const auto plot = [&](std::string name, std::string title, std::vector<std::string> y,
-                          bool beside_rigid = false, std::string table = "motion") {
-      const Table* of = nullptr;
-      for (const Table& t : result_.tables)
-        if (t.name == table) of = &t;
-      if (!of) return;
-      std::erase_if(y, [&](const std::string& key) { return !of->find(key); });
-      if (y.empty()) return;
-      const bool motion = table == "motion";
-      result_.plots.push_back({.name = std::move(name),
-                               .title = std::move(title),
-                               .table = std::move(table),
-                               .x = motion ? "time_s" : "frequency_Hz",
-                               .y = std::move(y),
-                               .logarithmic_y = !motion,
-                               .scene = motion ? "motion" : "",
-                               .baseline = beside_rigid ? "rigid" : ""});
-    };
+    const study::AddPlot plot{result_, {.table = "motion", .x = "time_s", .scene = "motion"}},
+        beside_rigid{result_, {.table = "motion", .x = "time_s", .scene = "motion", .baseline = "rigid"}},
+        spectrum{result_, {.table = "spectrum", .x = "frequency_Hz", .logarithmic_y = true}};
     for (std::size_t e = 0; e < r_.beams.size(); ++e) {
       const std::string key = beam_key(e), &name = name_of_beam(r_.elastic.pieces[e]);
       plot(key + "-deflection", "Deflection of " + name + ", middle and largest",
            {key + "_middle_deflection_m", key + "_largest_deflection_m"});
       plot(key + "-stress", "Stress of " + name + " at its worst section",
            {key + "_stress_Pa", key + "_bending_stress_Pa"});
-      plot(key + "-spectrum", "Spectrum of the deflection of " + name, {key + "_middle_deflection_m"}, false,
-           "spectrum");
+      spectrum(key + "-spectrum", "Spectrum of the deflection of " + name, {key + "_middle_deflection_m"});
     }
     for (const auto& [of, name, title] :
          {std::tuple{OutputError::Of::angle, "angle-error", "Angle against the rigid linkage"},
@@ -122,43 +104,33 @@ class ElasticReporter {
         (s_.plan.rotary[k] ? torques : drive_forces)
             .push_back(key + (s_.plan.rotary[k] ? "_drive_torque_N_m" : "_drive_force_N"));
     }
-    plot("torque", "Drive torque, pale: rigid linkage", torques, true);
-    plot("drive-force", "Drive force, pale: rigid linkage", drive_forces, true);
+    beside_rigid("torque", "Drive torque, pale: rigid linkage", torques);
+    beside_rigid("drive-force", "Drive force, pale: rigid linkage", drive_forces);
     for (const LinkageJoint& j : l.joints)
       if (j.type != JointType::gear && sizes.size() < 6) sizes.push_back(identifier(j.name) + "_N");
-    plot("reactions", "Joint forces, pale: rigid linkage", sizes, true);
+    beside_rigid("reactions", "Joint forces, pale: rigid linkage", sizes);
     plot("energies", "Energies", {"kinetic_energy_J", "potential_energy_J", "work_J"});
     plot("energy-audit", "Energy audit: imbalance", {"energy_drift_J"});
   }
 
-  // Row with the largest size of a column; none without a finite value.
-  static std::optional<std::size_t> worst_row(const std::vector<double>& values) {
-    std::optional<std::size_t> out;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (std::isfinite(values[i]) && (!out || std::abs(values[i]) > std::abs(values[*out]))) out = i;
-    return out;
-  }
-  static double largest(const Column* c) {
-    const auto row = c ? worst_row(c->values) : std::nullopt;
-    return row ? std::abs(c->values[*row]) : nan;
-  }
+  // Of a column that a table may have; NaN when there is none.
+  static double largest(const Column* c) { return c ? std::abs(study::largest(c->values).value) : nan; }
   std::string place_text(const ElasticPieces& p, double place) const {
     const auto& points = s_.linkage.bodies[at(p.beam.body)].points;
     return fmt::format("{:.4g} mm from {}", 1e3 * place, points[at(p.beam.from)].name);
   }
   static std::string error_text(const OutputError& e, double value) {
-    return e.of == OutputError::Of::angle ? fmt::format("{:.3g}°", math::degrees(value))
-                                          : fmt::format("{:.3g} mm", 1e3 * value);
+    return study::angle_or_length(value, e.of == OutputError::Of::angle, 3);
   }
 
   void facts() {
     result_.statistics = Value::object();
     for (std::size_t e = 0; e < r_.beams.size(); ++e) beam_facts(e);
     for (std::size_t i = 0; i < r_.errors.size(); ++i)
-      if (const auto row = worst_row(r_.errors[i].values))
+      if (const study::Extreme most = study::largest(r_.errors[i].values); most.any())
         fact("largest " + r_.errors[i].label.substr(0, r_.errors[i].label.rfind(" (")),
-             fmt::format("{} at {:.4g} s", error_text(r_.errors[i], std::abs(r_.errors[i].values[*row])),
-                         r_.times[*row]));
+             fmt::format("{} at {:.4g} s", error_text(r_.errors[i], std::abs(most.value)),
+                         r_.times[most.row]));
     against_rigid();
     integration();
   }
@@ -167,18 +139,18 @@ class ElasticReporter {
     const std::string& name = name_of_beam(p);
     const BeamRows& v = r_.beams[e];
     const double first = first_frequency(p.beam, p.length);
-    if (const auto row = worst_row(v.largest)) {
-      const double share = std::abs(v.largest[*row]) / p.length;
+    if (const study::Extreme most = study::largest(v.largest); most.any()) {
+      const double share = std::abs(most.value) / p.length;
       fact(name + ": largest deflection",
-           fmt::format("{:.4g} mm at {:.4g} s", 1e3 * std::abs(v.largest[*row]), r_.times[*row]));
+           fmt::format("{:.4g} mm at {:.4g} s", 1e3 * std::abs(most.value), r_.times[most.row]));
       if (share > far_bent)
         warn(fmt::format("{} bends by {:.3g} of its length", name, share),
              "a beam theory without stretching is off by about the square of it");
     }
-    if (const auto row = worst_row(v.stress); row && p.beam.fibre_distance > 0)
+    if (const study::Extreme most = study::largest(v.stress); most.any() && p.beam.fibre_distance > 0)
       fact(name + ": largest stress",
-           fmt::format("{:.4g} MPa at {:.4g} s, {}; bending alone {:.4g} MPa", 1e-6 * v.stress[*row],
-                       r_.times[*row], place_text(p, v.place[*row]),
+           fmt::format("{:.4g} MPa at {:.4g} s, {}; bending alone {:.4g} MPa", 1e-6 * most.value,
+                       r_.times[most.row], place_text(p, v.place[most.row]),
                        1e-6 * *std::max_element(v.bending.begin(), v.bending.end())));
     fact(name + ": first frequency on two pins",
          fmt::format("{:.4g} Hz{}; {} segments", hertz(first),
@@ -232,13 +204,11 @@ class ElasticReporter {
   }
   void integration() {
     using Verdict = study::Fact::Verdict;
-    const double share = r_.report.peak_energy > 0 ? r_.report.largest_drift / r_.report.peak_energy : 0;
-    const bool poor = share > poor_balance;
-    const std::string balance = fmt::format("within {:.2g} J ({:.2g} of the peak energy {:.4g} J)",
-                                            r_.report.largest_drift, share, r_.report.peak_energy);
-    result_.statistics["energy_drift_share"] = share;
-    if (!r_.times.empty()) fact("energy balance", balance, poor ? Verdict::bad : Verdict::good);
-    if (poor) warn("the energies do not balance: " + balance, "take a smaller rtol");
+    const study::EnergyBalance balance{r_.report.largest_drift, r_.report.peak_energy};
+    result_.statistics["energy_drift_share"] = balance.share();
+    if (!r_.times.empty())
+      fact("energy balance", balance.text(), balance.poor() ? Verdict::bad : Verdict::good);
+    if (balance.poor()) warn("the energies do not balance: " + balance.text(), "take a smaller rtol");
     if (s_.settle > 0) fact("settled", fmt::format("{:.4g} s before the first row", s_.settle));
     fact("integration",
          fmt::format("{}{}; {} steps, {} evaluations", name_of(s_.options.method),
@@ -264,18 +234,19 @@ class ElasticReporter {
     std::string text;
     for (std::size_t e = 0; e < r_.beams.size(); ++e) {
       const ElasticPieces& p = r_.elastic.pieces[e];
-      const auto bent = worst_row(r_.beams[e].largest), stressed = worst_row(r_.beams[e].stress);
-      if (!bent) continue;
+      const study::Extreme bent = study::largest(r_.beams[e].largest),
+                           stressed = study::largest(r_.beams[e].stress);
+      if (!bent.any()) continue;
       text += fmt::format("{}{} bends by up to {:.3g} mm", text.empty() ? "" : "; ", name_of_beam(p),
-                          1e3 * std::abs(r_.beams[e].largest[*bent]));
-      if (p.beam.fibre_distance > 0 && stressed)
-        text += fmt::format(" and bears up to {:.3g} MPa {}", 1e-6 * r_.beams[e].stress[*stressed],
-                            place_text(p, r_.beams[e].place[*stressed]));
+                          1e3 * std::abs(bent.value));
+      if (p.beam.fibre_distance > 0 && stressed.any())
+        text += fmt::format(" and bears up to {:.3g} MPa {}", 1e-6 * stressed.value,
+                            place_text(p, r_.beams[e].place[stressed.row]));
     }
     for (std::size_t i = 0; i < r_.errors.size(); ++i)
-      if (const auto row = worst_row(r_.errors[i].values)) {
+      if (const study::Extreme most = study::largest(r_.errors[i].values); most.any()) {
         text += fmt::format("; {} up to {}", r_.errors[i].label.substr(0, r_.errors[i].label.rfind(" (")),
-                            error_text(r_.errors[i], std::abs(r_.errors[i].values[*row])));
+                            error_text(r_.errors[i], std::abs(most.value)));
         break;
       }
     if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');

@@ -212,30 +212,18 @@ study::Solution solution_of(const PathStudy& s, const PathDesign& d, std::size_t
 
 void add_tables(study::Result& result, const PathStudy& s, const study::Common& common,
                 const std::vector<PathDesign>& designs, const Run& run) {
+  using Style = study::Plot::Style;
   for (std::size_t i = 0; i < designs.size(); ++i) {
     // The best design's tables have plain names, those of the others carry the number of the solution.
     const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result.solutions[i].scene;
     result.tables.push_back(point_table(s.problem, designs[i], "points" + suffix));
     result.tables.push_back(motion_table(designs[i], "motion" + suffix, common.output.samples));
-    result.plots.push_back({.name = "errors" + suffix,
-                            .title = "Distance from the target points",
-                            .table = "points" + suffix,
-                            .x = "crank_angle_rad",
-                            .y = {"distance_m"},
-                            .style = study::Plot::Style::points,
-                            .scene = scene});
-    result.plots.push_back({.name = "transmission" + suffix,
-                            .title = "Transmission angle",
-                            .table = "motion" + suffix,
-                            .x = "crank_angle_rad",
-                            .y = {"transmission_angle_rad"},
-                            .scene = scene});
-    result.plots.push_back({.name = "angles" + suffix,
-                            .title = "Coupler and rocker angle",
-                            .table = "motion" + suffix,
-                            .x = "crank_angle_rad",
-                            .y = {"coupler_angle_rad", "rocker_angle_rad"},
-                            .scene = scene});
+    const study::AddPlot of_points{
+        result, {.table = "points" + suffix, .x = "crank_angle_rad", .style = Style::points, .scene = scene}},
+        of_motion{result, {.table = "motion" + suffix, .x = "crank_angle_rad", .scene = scene}};
+    of_points("errors" + suffix, "Distance from the target points", {"distance_m"});
+    of_motion("transmission" + suffix, "Transmission angle", {"transmission_angle_rad"});
+    of_motion("angles" + suffix, "Coupler and rocker angle", {"coupler_angle_rad", "rocker_angle_rad"});
   }
 
   Table seeds{.name = "seeds"};
@@ -254,7 +242,7 @@ void add_tables(study::Result& result, const PathStudy& s, const study::Common& 
   result.tables.push_back(std::move(seeds));
 }
 
-double add_statistics(study::Result& result, const Run& run, double best, double size) {
+void add_statistics(study::Result& result, const Run& run, double best, double size) {
   std::vector<optimise::SeedOutcome> outcomes;
   result.log = Value::array();
   for (std::size_t i = 0; i < run.runs.size(); ++i) {
@@ -277,7 +265,6 @@ double add_statistics(study::Result& result, const Run& run, double best, double
   Value& out = result.statistics;
   out["method"] = run.method;
   study::write_statistics(out, st);
-  return st.success_rate;
 }
 
 bool is_eighteen_points(const PathProblem& p) {
@@ -389,19 +376,15 @@ void warn_of_transmission(study::Result& result, const PathProblem& p, const Pat
   const double mu = math::degrees(judged_transmission(p, d));
   if (mu >= 20) return;
   const double limit = math::degrees(p.min_transmission_angle);
-  result.diagnostics.push_back(
-      {Diagnostic::Severity::warning,
-       {},
-       {},
-       {},
-       fmt::format("the transmission angle falls to {:.1f}°{}: the linkage transmits force badly there", mu,
-                   p.closed                ? ""
-                   : p.crank_rotates_fully ? " over the full turn"
-                                           : " on the path"),
-       limit > 0
-           ? fmt::format("raise the limit of [[constraint]] type = \"transmission_angle\": min_deg is {:.6g}",
-                         limit)
-           : "limit it: [[constraint]] type = \"transmission_angle\", min_deg = 30"});
+  study::AddWarning{result.diagnostics}(
+      fmt::format("the transmission angle falls to {:.1f}°{}: the linkage transmits force badly there", mu,
+                  p.closed                ? ""
+                  : p.crank_rotates_fully ? " over the full turn"
+                                          : " on the path"),
+      limit > 0
+          ? fmt::format("raise the limit of [[constraint]] type = \"transmission_angle\": min_deg is {:.6g}",
+                        limit)
+          : "limit it: [[constraint]] type = \"transmission_angle\", min_deg = 30");
 }
 
 void add_cognates(study::Result& result, const PathDesign& best) {
@@ -446,7 +429,7 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
                                        fmt::format("{}: {}", i + 1, result.solutions[i].label),
                                        common.output.samples));
   }
-  const double success = add_statistics(result, run, feasible ? best.error : infinity, path_size(s.problem));
+  add_statistics(result, run, feasible ? best.error : infinity, path_size(s.problem));
   add_tables(result, s, common, designs, run);
   add_cognates(result, best);
   add_published(result, s.problem, feasible ? best.error : infinity);
@@ -473,19 +456,9 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
       {"type", result.solutions[0].label},
       transmission_fact(s.problem, best),
       {"method", run.method},
-      {"seeds that reached the best",
-       fmt::format("{:.0f} of {}", success * static_cast<double>(run.runs.size()), run.runs.size()),
-       success > 0.9 ? Verdict::good : Verdict::plain},
-      {"evaluations", fmt::format("{}", result.statistics.find("evaluations")->as_integer())},
   };
-  if (run.runs.size() < static_cast<std::size_t>(common.seeds.count))
-    result.diagnostics.push_back(
-        {Diagnostic::Severity::warning,
-         {},
-         {},
-         {},
-         fmt::format("interrupted: {} of {} seeds ran", run.runs.size(), common.seeds.count),
-         {}});
+  study::add_seed_facts(result, "seeds that reached the best", run.runs.size());
+  study::warn_of_missing_seeds(result, run.runs.size(), common.seeds);
   if (!but.empty()) {
     std::string names;
     for (const Drawback& drawback : drawbacks(s.problem, best)) {

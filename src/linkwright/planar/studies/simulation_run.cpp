@@ -17,9 +17,6 @@
 namespace linkwright::planar {
 namespace {
 
-// A share of the energy that went through the linkage: beyond it an answer is not to be trusted.
-constexpr double poor_balance = 1e-5;
-
 class SimulationRunner {
  public:
   SimulationRunner(const LinkageSimulationStudy& s, RunContext& context) : s_(s), context_(context) {
@@ -91,18 +88,7 @@ class SimulationRunner {
   }
 
   void plots() {
-    const auto plot = [&](std::string name, std::string title, std::vector<std::string> y,
-                          study::Plot::Style style = study::Plot::Style::line) {
-      std::erase_if(y, [&](const std::string& key) { return !result_.tables[0].find(key); });
-      if (y.empty()) return;
-      result_.plots.push_back({.name = std::move(name),
-                               .title = std::move(title),
-                               .table = "motion",
-                               .x = "time_s",
-                               .y = std::move(y),
-                               .style = style,
-                               .scene = "motion"});
-    };
+    const study::AddPlot plot{result_, {.table = "motion", .x = "time_s", .scene = "motion"}};
     const Linkage& l = s_.linkage;
     for (const bool rotary : {true, false}) {
       std::vector<std::string> values, rates;
@@ -142,14 +128,9 @@ class SimulationRunner {
   }
 
   std::string shown(std::size_t k, double value) const {
-    return s_.plan.rotary[k] ? fmt::format("{:.6g}°", math::degrees(value))
-                             : fmt::format("{:.6g} mm", value * 1e3);
+    return study::angle_or_length(value, s_.plan.rotary[k], 6);
   }
-  std::string balance() const {
-    const double share = report_.peak_energy > 0 ? report_.largest_drift / report_.peak_energy : 0;
-    return fmt::format("within {:.2g} J ({:.2g} of the peak energy {:.4g} J)", report_.largest_drift, share,
-                       report_.peak_energy);
-  }
+  study::EnergyBalance balance() const { return {report_.largest_drift, report_.peak_energy}; }
 
   void facts() {
     using Verdict = study::Fact::Verdict;
@@ -160,10 +141,11 @@ class SimulationRunner {
     fact("degrees of freedom",
          fmt::format("{}, {} free and {} driven", mobility(s_.linkage), free, s_.drives.size() - free));
     if (!times_.empty()) {
-      const bool poor = report_.largest_drift > poor_balance * report_.peak_energy;
-      fact("energy balance", balance(), poor ? Verdict::bad : Verdict::good);
+      const bool poor = balance().poor();
+      fact("energy balance", balance().text(), poor ? Verdict::bad : Verdict::good);
       if (poor)
-        warn("the energies do not balance: " + balance(), "take a smaller rtol; loads that jump need it");
+        warn("the energies do not balance: " + balance().text(),
+             "take a smaller rtol; loads that jump need it");
       fact("closure residual", fmt::format("{:.2g} m", closure_));
     }
     fact("integration", fmt::format("{} steps, {} evaluations of the equations of motion", report_.steps,
@@ -175,15 +157,10 @@ class SimulationRunner {
                                         report_.passages.size(), first.time, input_joint(s_.linkage, 0).name,
                                         shown(0, first.value), first.groups.size(), choice));
       if (s_.options.at_change_point == AtChangePoint::smooth)
-        result_.diagnostics.push_back(
-            {Diagnostic::Severity::warning,
-             {},
-             {},
-             {},
-             fmt::format("the linkage went through {} change points, where it can go on in two ways: it went "
+        warn(fmt::format("the linkage went through {} change points, where it can go on in two ways: it went "
                          "on smoothly",
                          report_.passages.size()),
-             "simulation.at_change_point = \"stop\" or \"keep_sign\" chooses otherwise"});
+             "simulation.at_change_point = \"stop\" or \"keep_sign\" chooses otherwise");
     }
     if (report_.status == Status::at_rest) {
       fact("at rest", report_.message, Verdict::plain);
@@ -207,7 +184,7 @@ class SimulationRunner {
             fmt::format("{}{} goes from {} to {}", text.empty() ? "" : ", ", input_joint(s_.linkage, k).name,
                         shown(k, inputs_[3 * k].front()), shown(k, inputs_[3 * k].back()));
     result_.headline =
-        fmt::format("In {:.4g} s {}; energies balance {}.", report_.time - s_.from, text, balance());
+        fmt::format("In {:.4g} s {}; energies balance {}.", report_.time - s_.from, text, balance().text());
     if (report_.status == Status::at_rest)
       result_.headline += fmt::format(" Then {}.", report_.message);
     else if (report_.status != Status::done)

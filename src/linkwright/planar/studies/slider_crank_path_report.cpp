@@ -55,6 +55,7 @@ class Report {
   }
 
  private:
+  using Style = study::Plot::Style;
   using Verdict = study::Fact::Verdict;
   double rms(const SliderPathDesign& d) const {
     return std::sqrt(d.error / static_cast<double>(p_.x.size()));
@@ -164,7 +165,6 @@ class Report {
     result_.statistics["method"] = runs_.method;
     result_.statistics["measure"] = s_.front ? "share of the common front that is missing" : "path error, m2";
     study::write_statistics(result_.statistics, st);
-    success_ = st.success_rate;
   }
 
   void tables() {
@@ -173,19 +173,13 @@ class Report {
       const std::string suffix = i == 0 ? "" : fmt::format("-{}", i + 1), scene = result_.solutions[i].scene;
       result_.tables.push_back(slider_point_table(p_, designs_[i], "points" + suffix));
       result_.tables.push_back(slider_motion_table(designs_[i], "motion" + suffix, common_.output.samples));
-      const auto plot = [&](std::string name, std::string title, std::string table, std::string y) {
-        result_.plots.push_back(
-            {.name = name + suffix,
-             .title = std::move(title),
-             .table = table + suffix,
-             .x = "crank_angle_rad",
-             .y = {std::move(y)},
-             .style = table == "points" ? study::Plot::Style::points : study::Plot::Style::line,
-             .scene = scene});
-      };
-      plot("errors", "Distance from the target points", "points", "distance_m");
-      plot("displacement", "Displacement of the slider", "motion", "slider_m");
-      plot("pressure", "Pressure angle between rod and guide", "motion", "pressure_angle_rad");
+      const study::AddPlot of_points{
+          result_,
+          {.table = "points" + suffix, .x = "crank_angle_rad", .style = Style::points, .scene = scene}},
+          of_motion{result_, {.table = "motion" + suffix, .x = "crank_angle_rad", .scene = scene}};
+      of_points("errors" + suffix, "Distance from the target points", {"distance_m"});
+      of_motion("displacement" + suffix, "Displacement of the slider", {"slider_m"});
+      of_motion("pressure" + suffix, "Pressure angle between rod and guide", {"pressure_angle_rad"});
     }
     if (s_.front && feasible_) front_table();
     Table seeds{.name = "seeds", .columns{}, .status{}};
@@ -226,7 +220,7 @@ class Report {
                                                  .table = "front",
                                                  .x = "stroke_m",
                                                  .y = {"path_error_sum_sq_m2"},
-                                                 .style = study::Plot::Style::points});
+                                                 .style = Style::points});
   }
 
   // The best mechanism and the other one with the same curve.
@@ -323,13 +317,11 @@ class Report {
            pressure > steep ? Verdict::bad : Verdict::plain);
     }
     fact("method", runs_.method);
-    fact(s_.front ? "seeds that reached the common front" : "seeds that reached the best",
-         fmt::format("{:.0f} of {}", success_ * static_cast<double>(runs_.runs.size()), runs_.runs.size()),
-         success_ > 0.9 ? Verdict::good : Verdict::plain);
-    fact("evaluations", fmt::format("{}", result_.statistics.find("evaluations")->as_integer()));
+    study::add_seed_facts(result_,
+                          s_.front ? "seeds that reached the common front" : "seeds that reached the best",
+                          runs_.runs.size());
     const study::AddWarning warn{result_.diagnostics};
-    if (runs_.runs.size() < static_cast<std::size_t>(common_.seeds.count))
-      warn(fmt::format("interrupted: {} of {} seeds ran", runs_.runs.size(), common_.seeds.count), {});
+    study::warn_of_missing_seeds(result_, runs_.runs.size(), common_.seeds);
     if (pressure > steep)
       warn(fmt::format("the rod comes to {:.1f}° from the guide: it presses the slider against it there",
                        pressure),
@@ -342,7 +334,6 @@ class Report {
   const SliderPathRuns& runs_;
   const std::vector<SliderPathDesign> designs_;
   bool feasible_ = false;
-  double success_ = 0;
   std::vector<double> missing_;
   study::Result result_;
 };

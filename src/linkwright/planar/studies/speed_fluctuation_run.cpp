@@ -16,20 +16,6 @@ namespace {
 
 double rpm(double speed) { return speed * 30 / pi; }
 
-void warn(study::Result& result, std::string message) {
-  result.diagnostics.push_back({Diagnostic::Severity::warning, {}, {}, {}, std::move(message), {}});
-}
-
-void add_plot(study::Result& result, std::string name, std::string title, std::string table,
-              std::vector<std::string> y) {
-  result.plots.push_back({.name = std::move(name),
-                          .title = std::move(title),
-                          .table = table,
-                          .x = result.scenes.empty() ? "input_rad" : result.scenes[0].input_key,
-                          .y = std::move(y),
-                          .scene = table == "cycle" ? "motion" : ""});
-}
-
 // The cycle drawn with the forces that it has at the mean speed.
 study::Scene drawn(const SpeedFluctuationStudy& s, const SpeedFluctuation& cycle) {
   LinkageMotion motion(s.plan);
@@ -49,11 +35,12 @@ study::Scene drawn(const SpeedFluctuationStudy& s, const SpeedFluctuation& cycle
 
 study::Result run_speed_fluctuation(const SpeedFluctuationStudy& s, RunContext& context) {
   study::Result result;
+  const study::AddWarning warn{result.diagnostics};
   const SpeedFluctuation cycle = speed_fluctuation(s.linkage, s.plan, s.setup, &context);
   result.status = cycle.status;
   if (cycle.speed.empty()) {
     result.headline = "No cycle: " + cycle.message + ".";
-    warn(result, cycle.message);
+    warn(cycle.message);
     return result;
   }
   const std::string key = input_key(s.linkage, s.plan, 0), label = input_label(s.linkage, s.plan, 0);
@@ -67,11 +54,11 @@ study::Result run_speed_fluctuation(const SpeedFluctuationStudy& s, RunContext& 
   table.status.assign(cycle.input.size(), "done");
   result.tables.push_back(std::move(table));
   result.scenes.push_back(drawn(s, cycle));
-  add_plot(result, "inertia", "Reduced inertia", "cycle", {"inertia_kg_m2"});
-  add_plot(result, "torque", "Torque of weight and loads on the input", "cycle", {"load_torque_N_m"});
-  add_plot(result, "energy", "Excess energy with a constant motor torque", "cycle", {"excess_energy_J"});
-  add_plot(result, "speed", "Speed without and with the flywheel", "cycle",
-           {"speed_rad_per_s", "speed_with_flywheel_rad_per_s"});
+  const study::AddPlot plot{result, {.table = "cycle", .x = key, .scene = "motion"}};
+  plot("inertia", "Reduced inertia", {"inertia_kg_m2"});
+  plot("torque", "Torque of weight and loads on the input", {"load_torque_N_m"});
+  plot("energy", "Excess energy with a constant motor torque", {"excess_energy_J"});
+  plot("speed", "Speed without and with the flywheel", {"speed_rad_per_s", "speed_with_flywheel_rad_per_s"});
   const study::AddFact fact{result.facts};
   fact("constant motor torque",
        fmt::format("{:.6g} N m ({:.5g} W at {:.5g} rpm)", cycle.motor_torque,
@@ -96,13 +83,13 @@ study::Result run_speed_fluctuation(const SpeedFluctuationStudy& s, RunContext& 
                 cycle.flywheel, input_joint(s.linkage, 0).name, s.setup.fluctuation, rpm(s.setup.mean_speed))
           : fmt::format("The speed stays within {:.4g} of its mean of {:.5g} rpm without a flywheel.",
                         cycle.fluctuation, rpm(s.setup.mean_speed));
-  if (!found) warn(result, cycle.message);
+  if (!found) warn(cycle.message);
   if (!found || !s.has_motor) return result;
 
   const SteadyCycle steady = steady_cycle(s.linkage, s.plan, s.setup, &context);
   if (steady.status != Status::done) {
     result.status = steady.status;
-    warn(result, "with the motor, without flywheel: " + steady.message);
+    warn("with the motor, without flywheel: " + steady.message);
     return result;
   }
   Table with{.name = "steady"};
@@ -110,7 +97,8 @@ study::Result run_speed_fluctuation(const SpeedFluctuationStudy& s, RunContext& 
   with.add("speed_rad_per_s", "speed with the motor, without flywheel (rad/s)", steady.speed);
   with.status.assign(steady.input.size(), "done");
   result.tables.push_back(std::move(with));
-  add_plot(result, "steady", "Speed with the motor, without flywheel", "steady", {"speed_rad_per_s"});
+  study::AddPlot{result, {.table = "steady", .x = key}}("steady", "Speed with the motor, without flywheel",
+                                                        {"speed_rad_per_s"});
   fact("steady mean speed with the motor", fmt::format("{:.6g} rpm, coefficient of fluctuation {:.5g}",
                                                        rpm(steady.mean_speed), steady.fluctuation));
   result.statistics["steady_mean_speed_rad_per_s"] = steady.mean_speed;

@@ -122,25 +122,13 @@ Table steer_table(std::span<const AxleRow> rows, const AxleParameters& straight,
   return out.take();
 }
 
-void plot(study::Result& result, std::string name, std::string title, std::string table, std::string x,
-          std::vector<std::string> y) {
-  result.plots.push_back({.name = std::move(name),
-                          .title = std::move(title),
-                          .table = std::move(table),
-                          .x = std::move(x),
-                          .y = std::move(y)});
-}
-
 void remark_lost(study::Result& result, std::span<const AxleRow> rows, std::string_view what) {
   for (const AxleRow& r : rows)
     if (r.position.status != Status::done) {
-      result.diagnostics.push_back(
-          {Diagnostic::Severity::warning,
-           {},
-           {},
-           "axle",
-           fmt::format("{} {:.6g}: {}: {}", what, r.value, to_string(r.position.status), r.position.reason),
-           {}});
+      study::AddWarning{result.diagnostics}(
+          "axle",
+          fmt::format("{} {:.6g}: {}: {}", what, r.value, to_string(r.position.status), r.position.reason),
+          {});
       return;  // the first one says why
     }
 }
@@ -196,14 +184,15 @@ void add_anti_features(study::Result& result, const VehicleForm& vehicle,
   sweep.add(brake + "_outboard_percent", brake_label + ", outboard brake (%)", std::move(columns[0]));
   sweep.add(brake + "_inboard_percent", brake_label + ", inboard brake (%)", std::move(columns[1]));
   sweep.add(drive + "_percent", drive_label + ", inboard drive (%)", std::move(columns[2]));
-  plot(result, "anti-features",
-       front ? "Anti-dive and anti-lift over travel" : "Anti-lift and anti-squat over travel", sweep.name,
-       "travel_m", {brake + "_outboard_percent", brake + "_inboard_percent", drive + "_percent"});
+  study::AddPlot plot{result, {.table = sweep.name, .x = "travel_m"}};
   if (sweep.find("rack_m")) {
     const auto& racks = sweep.find("rack_m")->values;
     if (std::any_of(racks.begin(), racks.end(), [&](double r) { return r != racks.front(); }))
-      result.plots.back().group = "rack_m";
+      plot.like.group = "rack_m";
   }
+  plot("anti-features",
+       front ? "Anti-dive and anti-lift over travel" : "Anti-lift and anti-squat over travel",
+       {brake + "_outboard_percent", brake + "_inboard_percent", drive + "_percent"});
 }
 
 void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& form,
@@ -221,12 +210,12 @@ void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& fo
   if (form.roll) {
     const auto rows = swept(AxleMotion::roll, *form.roll->values);
     result.tables.push_back(roll_table(rows));
-    plot(result, "roll-steer", "Steer and toe over roll", "roll", "roll_rad",
-         {"steer_rad", "left_toe_rad", "right_toe_rad"});
-    plot(result, "roll-camber", "Camber against the road over roll", "roll", "roll_rad",
+    const study::AddPlot plot{result, {.table = "roll", .x = "roll_rad"}};
+    plot("roll-steer", "Steer and toe over roll", {"steer_rad", "left_toe_rad", "right_toe_rad"});
+    plot("roll-camber", "Camber against the road over roll",
          {"left_road_camber_rad", "right_road_camber_rad"});
-    plot(result, "roll-centre-roll", "Roll centre over roll: height, and offset to the left", "roll",
-         "roll_rad", {"roll_centre_height_m", "roll_centre_offset_m"});
+    plot("roll-centre-roll", "Roll centre over roll: height, and offset to the left",
+         {"roll_centre_height_m", "roll_centre_offset_m"});
     remark_lost(result, rows, "roll (rad)");
     fact("roll steer (mean steer by roll)", fmt::format("{:.4f} °/°", straight.roll_steer));
     fact("camber against the road by roll, left", fmt::format("{:.4f} °/°", straight.roll_camber_left));
@@ -234,10 +223,10 @@ void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& fo
   if (form.rack) {
     const auto rows = swept(AxleMotion::rack, *form.rack->values);
     result.tables.push_back(steer_table(rows, straight, form, vehicle));
-    plot(result, "steer-angles", "Steer angles over rack", "steer", "rack_m",
-         {"left_steer_rad", "right_steer_rad"});
-    if (vehicle) plot(result, "ackermann", "Ackermann over rack", "steer", "rack_m", {"ackermann_percent"});
-    plot(result, "lever-arms", "Lever arms of the left wheel about its steering axis", "steer", "rack_m",
+    const study::AddPlot plot{result, {.table = "steer", .x = "rack_m"}};
+    plot("steer-angles", "Steer angles over rack", {"left_steer_rad", "right_steer_rad"});
+    plot("ackermann", "Ackermann over rack", {"ackermann_percent"});
+    plot("lever-arms", "Lever arms of the left wheel about its steering axis",
          {"left_brake_arm_m", "left_drive_arm_m", "left_lateral_arm_m", "left_load_arm_m"});
     remark_lost(result, rows, "rack (m)");
     if (form.rack_per_turn && straight.steering_left && straight.steering_right)

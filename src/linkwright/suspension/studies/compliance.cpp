@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/suspension/compliance/statics.h"
 #include "linkwright/suspension/guide/position.h"
 
@@ -254,18 +255,16 @@ void add_compliance(study::Result& result, const GuideDescription& description, 
   const WheelGuide& guide = description.guide;
   const GuidePlan plan = prepare_guide(guide);
   const GuidePosition reference = reference_position(plan);
-  const auto remark = [&](std::string message, std::string hint) {
-    result.diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, "compliance", std::move(message), std::move(hint)});
-  };
+  const study::AddWarning warn{result.diagnostics};
   if (reference.status != Status::done)
-    return remark("no compliance: there is no reference position", "see the remarks on positions");
+    return warn("compliance", "no compliance: there is no reference position",
+                "see the remarks on positions");
   std::optional<PointLoad> preload;
   if (form.preload) preload = PointLoad{plan.contact, {0, 0, *form.preload}};
   const Compliance c =
       solve_compliance(guide, reference.place, 0, elasticity_of(description, form), *form.support, preload);
   if (c.status != Status::done)
-    return remark("no compliance: " + c.reason, "are all freedoms of the links held once?");
+    return warn("compliance", "no compliance: " + c.reason, "are all freedoms of the links held once?");
   result.tables.push_back(coefficients_table(c));
   result.tables.push_back(matrix_table(c));
   result.tables.push_back(forces_table(guide, c));

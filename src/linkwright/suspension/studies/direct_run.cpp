@@ -12,6 +12,7 @@
 #include "linkwright/core/numbers.h"
 #include "linkwright/core/units.h"
 #include "linkwright/study/design_variables.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 #include "linkwright/suspension/guide/hard_points.h"
 #include "linkwright/suspension/guide/structure.h"
@@ -221,24 +222,19 @@ void add_designs(study::Result& result, const DirectStudy& s, const DirectSynthe
   result.tables.push_back(sweep_table(s, best.guide, "sweep", range.travels));
   if (before.answer.assembled)
     result.tables.push_back(sweep_table(s, s.task.guide, "initial", range.travels));
+  const study::AddPlot plot{result,
+                            {.table = "sweep",
+                             .x = "travel_m",
+                             .scene = "solution-1",
+                             .baseline = before.answer.assembled ? "initial" : ""}};
   for (const auto& [key, title] : std::initializer_list<std::pair<const char*, const char*>>{
            {"toe_rad", "Toe over travel"},
            {"camber_rad", "Camber over travel"},
            {"half_track_change_m", "Half-track change over travel"},
            {"roll_centre_height_m", "Roll-centre height over travel"},
            {"caster_rad", "Caster over travel"},
-           {"motion_ratio", "Motion ratio of the spring over travel"}}) {
-    const auto sweep = std::find_if(result.tables.begin(), result.tables.end(),
-                                    [](const Table& t) { return t.name == "sweep"; });
-    if (!sweep->find(key)) continue;
-    result.plots.push_back({.name = std::string("sweep-") + key,
-                            .title = title,
-                            .table = "sweep",
-                            .x = "travel_m",
-                            .y = {key},
-                            .scene = "solution-1",
-                            .baseline = before.answer.assembled ? "initial" : ""});
-  }
+           {"motion_ratio", "Motion ratio of the spring over travel"}})
+    plot(std::string("sweep-") + key, title, {key});
   RunContext nobody;
   const GridPositions grid =
       solve_grid(prepare_guide(best.guide), s.task.driver, range.travels, range.racks, nobody);
@@ -381,34 +377,23 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
   result.facts.push_back({"active targets", fmt::format("{} for {} design variables", best.active.size(),
                                                         s.task.designed.size())});
   result.facts.push_back({"method", std::string(result.statistics.find("method")->as_string())});
-  result.facts.push_back(
-      {"seeds that reached the best", fmt::format("{:.0f} of {}",
-                                                  result.statistics.find("success_rate")->as_number() *
-                                                      static_cast<double>(runs.answers.size()),
-                                                  runs.answers.size())});
-  result.facts.push_back(
-      {"evaluations", fmt::format("{}", result.statistics.find("evaluations")->as_integer())});
-  const auto remark = [&](std::string message, std::string hint) {
-    result.diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, {}, std::move(message), std::move(hint)});
-  };
+  study::add_seed_facts(result, "seeds that reached the best", runs.answers.size(), false);
+  const study::AddWarning warn{result.diagnostics};
   if (!before.answer.assembled)
-    remark(
+    warn(
         "the initial design does not assemble at every position of the targets: there is nothing to compare "
-        "with",
-        {});
+        "with");
   for (std::size_t i = 0; i < s.task.designed.size(); ++i) {
     const DesignVariable& d = s.task.designed[i];
     const double span = d.upper - d.lower;
     if (best.x[i] - d.lower < 1e-6 * span || d.upper - best.x[i] < 1e-6 * span)
-      remark(fmt::format("{} lies at its limit, {}", label(s.task.guide, d.number),
-                         d.number.kind == DesignKind::coupler_fraction
-                             ? fmt::format("{:.6g}", best.x[i])
-                             : common.units.text(best.x[i], Dimension::length, 6)),
-             "a larger box may give more");
+      warn(fmt::format("{} lies at its limit, {}", label(s.task.guide, d.number),
+                       d.number.kind == DesignKind::coupler_fraction
+                           ? fmt::format("{:.6g}", best.x[i])
+                           : common.units.text(best.x[i], Dimension::length, 6)),
+           "a larger box may give more");
   }
-  if (runs.answers.size() < static_cast<std::size_t>(common.seeds.count))
-    remark(fmt::format("interrupted: {} of {} seeds ran", runs.answers.size(), common.seeds.count), {});
+  study::warn_of_missing_seeds(result, runs.answers.size(), common.seeds);
   return result;
 }
 

@@ -13,6 +13,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/math/angles.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/study/run_seeds.h"
 #include "linkwright/suspension/guide/hard_points.h"
 #include "linkwright/suspension/guide/structure.h"
@@ -463,21 +464,14 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
   const bool assembled = std::isfinite(best.error);
   if (result.status == Status::done) result.status = best.answer.status;
   add_statistics(result, s, runs);
-  const double success = result.statistics.find("success_rate")->as_number();
   const std::string scene = assembled ? "solution-1" : "";
   result.solutions.push_back(solution_of(s, best, scene));
   if (assembled) {
     const WheelGuide left = guide.side == Side::left ? guide : mirrored(guide);
     result.tables.push_back(poses_table(best.answer.targets, left));
     result.scenes.push_back(scene_of(s, guide, scene));
-    const auto deviations = [&](std::string name, std::string title, std::vector<std::string> y) {
-      result.plots.push_back({.name = std::move(name),
-                              .title = std::move(title),
-                              .table = "poses",
-                              .x = "travel_m",
-                              .y = std::move(y),
-                              .style = study::Plot::Style::points});
-    };
+    const study::AddPlot deviations{result,
+                                    {.table = "poses", .x = "travel_m", .style = study::Plot::Style::points}};
     deviations("place-deviations", "Deviations of the wheel centre from the prescribed positions",
                {"deviation_centre_x_m", "deviation_centre_y_m"});
     deviations("angle-deviations", "Deviations of the angles from the prescribed positions",
@@ -504,11 +498,8 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
        good ? Verdict::good : Verdict::bad},
       {"structure", structure_name(structure_of(guide))},
       {"positions", fmt::format("{} (at least {:.2g} determine the links)", poses, best.answer.fewest)},
-      {"method", std::string(result.statistics.find("method")->as_string())},
-      {"seeds that found exact links",
-       fmt::format("{:.0f} of {}", success * static_cast<double>(runs.answers.size()), runs.answers.size()),
-       success > 0.9 ? Verdict::good : Verdict::plain},
-      {"evaluations", fmt::format("{}", result.statistics.find("evaluations")->as_integer())}};
+      {"method", std::string(result.statistics.find("method")->as_string())}};
+  study::add_seed_facts(result, "seeds that found exact links", runs.answers.size());
   if (carrier_pitch_is_given(best.answer.targets)) add_seven_poses(result, s, best.answer.targets);
   for (const Diagnostic& d : best.answer.findings) {
     Diagnostic remark = d;
@@ -516,21 +507,11 @@ study::Result run_indirect_study(const IndirectStudy& s, const study::Common& co
     result.diagnostics.push_back(std::move(remark));
   }
   if (!carrier_pitch_is_given(s.task.targets))
-    result.diagnostics.push_back({Diagnostic::Severity::warning,
-                                  {},
-                                  {},
-                                  {},
-                                  "the positions do not prescribe the carrier pitch: many suspensions move "
-                                  "the wheel alike, this is one of them",
-                                  {}});
-  if (runs.answers.size() < static_cast<std::size_t>(common.seeds.count))
-    result.diagnostics.push_back(
-        {Diagnostic::Severity::warning,
-         {},
-         {},
-         {},
-         fmt::format("interrupted: {} of {} seeds ran", runs.answers.size(), common.seeds.count),
-         {}});
+    study::AddWarning{result.diagnostics}(
+        "the positions do not prescribe the carrier pitch: many suspensions move the wheel alike, this is "
+        "one "
+        "of them");
+  study::warn_of_missing_seeds(result, runs.answers.size(), common.seeds);
   return result;
 }
 

@@ -10,7 +10,9 @@
 #include "linkwright/core/units.h"
 #include "linkwright/study/design_variables.h"
 #include "linkwright/study/memory.h"
+#include "linkwright/study/remarks.h"
 #include "linkwright/suspension/guide/hard_points.h"
+#include "linkwright/suspension/studies/values.h"
 #include "linkwright/suspension/wheel/derivatives.h"
 
 namespace linkwright::suspension {
@@ -74,10 +76,6 @@ Way solve_way(const GuidePlan& plan, const SensitivityInputs& inputs) {
   return out;
 }
 
-void remark(study::Result& result, std::string message) {
-  result.diagnostics.push_back({Diagnostic::Severity::warning, {}, {}, {}, std::move(message), {}});
-}
-
 }  // namespace
 
 void complete_sensitivity(study::ObjectReader& document, SensitivityForm& form, const WheelGuide& guide) {
@@ -119,15 +117,13 @@ void add_sensitivity(study::Result& result, const WheelGuide& guide, const Sensi
                      const SensitivityInputs& inputs) {
   const DerivativePlan plan = prepare_derivatives(guide, hard_points(guide));
   const Way way = solve_way(plan.plan, inputs);
-  if (way.positions.empty()) return remark(result, "no sensitivities: no position of the sweep is reached");
+  if (way.positions.empty())
+    return study::AddWarning{result.diagnostics}("no sensitivities: no position of the sweep is reached");
   std::vector<std::string> names;
   for (const DesignNumber& n : plan.numbers) names.push_back(label(guide, n));
   std::vector<WheelDerivatives> derivatives;
   for (const GuidePosition& p : way.positions) derivatives.push_back(wheel_derivatives(plan, p));
-  const auto middle = static_cast<std::size_t>(
-      std::min_element(way.travels.begin(), way.travels.end(),
-                       [](double a, double b) { return std::abs(a) < std::abs(b); }) -
-      way.travels.begin());
+  const std::size_t middle = next_to_zero(way.travels);
 
   Table here{.name = "sensitivity"};
   here.names = names;
@@ -192,8 +188,8 @@ void add_tolerances(study::Result& result, const WheelGuide& guide, const Tolera
   }
   const Way way = solve_way(prepare_guide(guide), inputs);
   if (way.positions.empty() || task.numbers.empty())
-    return remark(result,
-                  "no tolerance bands: no position of the sweep is reached, or no point has a tolerance");
+    return study::AddWarning{result.diagnostics}(
+        "no tolerance bands: no position of the sweep is reached, or no point has a tolerance");
   for (const double travel : way.travels) task.inputs.push_back({travel, inputs.rack});
   for (const std::string& q : form.quantities)
     task.curves.push_back(*quantity_of(*guide_column(q), inputs.lock));

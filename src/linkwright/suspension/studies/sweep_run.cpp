@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "linkwright/math/angles.h"
+#include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
 #include "linkwright/suspension/guide/assemblies.h"
 #include "linkwright/suspension/guide/constructions.h"
@@ -25,26 +26,16 @@ constexpr const char* scene_name = "travel";
 /// A scene is for looking at: so many samples at most.
 constexpr std::size_t most_scene_samples = 2500;
 
-std::size_t next_to_zero(std::span<const double> values) {
-  const auto at = std::min_element(values.begin(), values.end(),
-                                   [](double a, double b) { return std::abs(a) < std::abs(b); });
-  return static_cast<std::size_t>(at - values.begin());
-}
-
 /// Why quantities that the study asks for have no values.
 void tell_missing(study::Result& result, const SweepStudy& s) {
+  const study::AddWarning warn{result.diagnostics};
   std::string_view told;
   for (const GuideColumn* c : columns_of(s)) {
     if (c->group == told) continue;
     const std::string why = why_missing(s.description.guide, *c);
     if (why.empty()) continue;
     told = c->group;
-    result.diagnostics.push_back({Diagnostic::Severity::warning,
-                                  {},
-                                  {},
-                                  "output.quantities",
-                                  fmt::format("'{}' has no values: {}", c->group, why),
-                                  {}});
+    warn("output.quantities", fmt::format("'{}' has no values: {}", c->group, why), {});
   }
 }
 
@@ -162,18 +153,9 @@ void add_assemblies(study::Result& result, const SweepStudy& s, const GuidePlan&
 }
 
 void add_plots(study::Result& result, const SweepStudy& s) {
-  const Table& table = result.tables.front();
-  const auto over_travel = [&](std::string name, std::string title, std::vector<std::string> y) {
-    std::erase_if(y, [&](const std::string& key) { return !table.find(key); });
-    if (y.empty()) return;
-    result.plots.push_back({.name = std::move(name),
-                            .title = std::move(title),
-                            .table = "sweep",
-                            .x = "travel_m",
-                            .y = std::move(y),
-                            .scene = scene_name,
-                            .group = s.racks.size() > 1 ? "rack_m" : ""});
-  };
+  const study::AddPlot over_travel{
+      result,
+      {.table = "sweep", .x = "travel_m", .scene = scene_name, .group = s.racks.size() > 1 ? "rack_m" : ""}};
   over_travel("toe", "Toe over travel", {"toe_rad"});
   over_travel("camber", "Camber over travel", {"camber_rad"});
   over_travel("track", "Half-track change over travel", {"half_track_change_m"});
@@ -194,8 +176,7 @@ void add_baseline(study::Result& result, const SweepStudy& s, RunContext& contex
   other.description = *s.baseline;
   if (!other.description.guide.spring) other.lock = Driver::wheel_centre_z;
   if (s.travel == Driver::spring && !other.description.guide.spring) {
-    result.diagnostics.push_back(
-        {Diagnostic::Severity::warning, {}, {}, "baseline", "it has no spring to travel by", {}});
+    study::AddWarning{result.diagnostics}("baseline", "it has no spring to travel by", {});
     return;
   }
   GridPositions solved =
@@ -224,18 +205,19 @@ void add_facts(study::Result& result, const SweepStudy& s, const Grid& grid, con
   const std::size_t rack = next_to_zero(s.racks), first = rack * s.travels.size();
   if (rack >= grid.racks) return;
   const std::string centred = s.racks[rack] == 0 ? "" : fmt::format(" (rack {})", millimetres(s.racks[rack]));
-  const auto span = [&](double WheelAngles::*angle) {
-    double least = 1e300, largest = -1e300;
+  const auto span = [&](const char* label, double WheelAngles::*angle) {
+    study::Extreme least, greatest;
     for (std::size_t i = first; i < first + s.travels.size(); ++i) {
       if (grid.solved.positions[i].status != Status::done) continue;
       const double value = grid.solved.wheels[i].angles.*angle;
-      least = std::min(least, value);
-      largest = std::max(largest, value);
+      least.least(value, i);
+      greatest.greatest(value, i);
     }
-    return fmt::format("{} to {}", degrees(least), degrees(largest));
+    if (least.any())
+      fact(label + centred, fmt::format("{} to {}", degrees(least.value), degrees(greatest.value)));
   };
-  fact("toe over the travel" + centred, span(&WheelAngles::toe));
-  fact("camber over the travel" + centred, span(&WheelAngles::camber));
+  span("toe over the travel", &WheelAngles::toe);
+  span("camber over the travel", &WheelAngles::camber);
   const std::size_t middle = first + next_to_zero(s.travels);
   const WheelParameters& w = grid.solved.wheels[middle];
   if (grid.solved.positions[middle].status == Status::done && w.status == Status::done) {
@@ -399,6 +381,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   if (s.compliance) add_compliance(result, s.description, *s.compliance);
   if (s.drawn) result.scenes.push_back(scene_of(s, grid));
 
+  const study::AddWarning warn{result.diagnostics};
   std::size_t lost = 0;
   double worst = 0;
   for (std::size_t i = 0; i < grid.rows(); ++i) {
@@ -409,22 +392,11 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
     }
     if (result.status == Status::done) result.status = p.status;
     if (lost++ < 5)
-      result.diagnostics.push_back(
-          {Diagnostic::Severity::warning,
-           {},
-           {},
-           {},
-           fmt::format("travel {:.6g} mm, rack {:.6g} mm: {}: {}", grid.travel(i) * 1e3, grid.rack(i) * 1e3,
+      warn(fmt::format("travel {:.6g} mm, rack {:.6g} mm: {}: {}", grid.travel(i) * 1e3, grid.rack(i) * 1e3,
                        to_string(p.status), p.reason),
-           "the table `limits` lists how far the links reach"});
+           "the table `limits` lists how far the links reach");
   }
-  if (lost > 5)
-    result.diagnostics.push_back({Diagnostic::Severity::warning,
-                                  {},
-                                  {},
-                                  {},
-                                  fmt::format("{} more positions are not reached", lost - 5),
-                                  {}});
+  if (lost > 5) warn(fmt::format("{} more positions are not reached", lost - 5));
   result.headline =
       lost == 0
           ? fmt::format("{} wheel suspension: all {} positions reached (largest closure residual {:.1g} m).",

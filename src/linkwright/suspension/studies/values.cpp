@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/extremes.h"
 
 namespace linkwright::suspension {
 
@@ -76,6 +77,12 @@ std::optional<std::vector<double>> values_of(study::ObjectReader& table, const I
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
+}
+
+std::size_t next_to_zero(std::span<const double> values) {
+  study::Extreme least;
+  for (std::size_t i = 0; i < values.size(); ++i) least.least(std::abs(values[i]), i);
+  return least.row;
 }
 
 }  // namespace linkwright::suspension

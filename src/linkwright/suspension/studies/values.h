@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -56,6 +58,8 @@ Value schema_value(const Field& field, const Numbers& member);
 /// hints: "mm".
 std::optional<std::vector<double>> values_of(study::ObjectReader& table, const InputValues& values,
                                              std::string_view unit);
+/// Index of the value of least size, the first of equal ones; `values` are not empty.
+std::size_t next_to_zero(std::span<const double> values);
 /// Values as a list, as canonical studies have them.
 template <class Values>
 Values listed(std::vector<double> values) {

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "linkwright/core/numbers.h"
+
+// The largest of what a study reports, and where it is.
+namespace linkwright::study {
+
+/// The extreme value of some rows and the row that has it, the first of equal ones. Rows without a finite
+/// value are passed over. Values are offered by one of `greatest`, `least` and `largest`, which say whether
+/// it is the extreme one so far.
+struct Extreme {
+  double value = nan;  ///< NaN = there is none
+  std::size_t row = 0;
+
+  bool any() const { return !std::isnan(value); }
+  bool greatest(double v, std::size_t of) { return std::isfinite(v) && !(v <= value) && take(v, of); }
+  bool least(double v, std::size_t of) { return std::isfinite(v) && !(v >= value) && take(v, of); }
+  /// Of the greatest size.
+  bool largest(double v, std::size_t of) {
+    return std::isfinite(v) && !(std::abs(v) <= std::abs(value)) && take(v, of);
+  }
+
+ private:
+  bool take(double v, std::size_t of) {
+    value = v, row = of;
+    return true;
+  }
+};
+
+/// The value of greatest size.
+inline Extreme largest(std::span<const double> values) {
+  Extreme out;
+  for (std::size_t i = 0; i < values.size(); ++i) out.largest(values[i], i);
+  return out;
+}
+
+/// The greatest size of the values, 0 without any.
+inline double largest_size(std::span<const double> values) {
+  const Extreme most = largest(values);
+  return most.any() ? std::abs(most.value) : 0;
+}
+
+}  // namespace linkwright::study
