@@ -267,5 +267,42 @@ TEST(SerialArmStudyRun, CancelledRunKeepsItsFirstRows) {
   EXPECT_EQ(result.tables[0].rows(), 1024u);
 }
 
+// The same arm as any linkage: the same names and signs of joints, forces and angles, by another route.
+TEST(SerialArmStudyRun, IsAnArmOfTheGeneralLinkage) {
+  const std::string law = "law = \"harmonic\"\namplitude_deg = 30\nfrequency_Hz = 0.5\n";
+  const study::Result arm = run({{"6 drive", "[[drive]]\nlink = \"fore\"\nangle = \"joint\"\n" + law}});
+  const study::Result any = run_text(
+      "schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"planar.linkage\"\n"
+      "body = [ { name = \"ground\", points_m = { O1 = [0, 0] } },\n"
+      "  { name = \"upper\", points_m = { O1 = [0, 0], O2 = [0.4, 0] }, mass_kg = 3, inertia_kg_m2 = 0.04,\n"
+      "    centre_m = [0.2, 0] },\n"
+      "  { name = \"fore\", points_m = { O2 = [0, 0], tip = [0.3, 0] }, mass_kg = 2, inertia_kg_m2 = 0.02,\n"
+      "    centre_m = [0.09848077530122081, 0.01736481776669304],\n"
+      "    attached = [ { mass_kg = 1, at_m = [0.3, 0] } ] } ]\n"
+      "joint = [ { name = \"O1\", first = \"ground.O1\", second = \"upper.O1\" },\n"
+      "  { name = \"O2\", first = \"upper.O2\", second = \"fore.O2\" } ]\n"
+      "[[drive]]\njoint = \"O1\"\nlaw = \"cycloidal\"\nfrom_deg = 0\nto_deg = 90\nduration_s = 2\n"
+      "[[drive]]\njoint = \"O2\"\n" +
+      law + "[sweep.time]\nto_s = 2\nsamples = 5\n");
+  ASSERT_EQ(any.status, Status::done);
+  for (const auto& [of_arm, of_any] : std::vector<std::pair<const char*, const char*>>{
+           {"upper_angle_rad", "upper_angle_rad"},
+           {"fore_angle_rad", "fore_angle_rad"},
+           {"fore_speed_rad_per_s", "fore_speed_rad_per_s"},
+           {"fore_acceleration_rad_per_s2", "fore_acceleration_rad_per_s2"},
+           {"O1_x_N", "O1_x_N"},
+           {"O1_y_N", "O1_y_N"},
+           {"O2_x_N", "O2_x_N"},
+           {"O2_y_N", "O2_y_N"},
+           {"upper_torque_joint_N_m", "O1_drive_torque_N_m"},
+           {"fore_torque_joint_N_m", "O2_drive_torque_N_m"},
+           {"power_W", "drive_power_W"}}) {
+    const Column *a = arm.tables[0].find(of_arm), *b = any.tables[0].find(of_any);
+    ASSERT_TRUE(a && b) << of_arm;
+    for (std::size_t i = 0; i < a->values.size(); ++i)
+      EXPECT_NEAR(a->values[i], b->values[i], 1e-11) << of_arm << ' ' << i;
+  }
+}
+
 }  // namespace
 }  // namespace linkwright::planar
