@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "linkwright/core/check.h"
+#include "linkwright/planar/linkage/kernel.h"
 
 namespace linkwright::planar {
 namespace {
@@ -22,6 +23,34 @@ std::string listed(const std::vector<std::string>& names) {
   for (Index i = 0; i < names.size(); ++i)
     out += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + ("'" + names[i] + "'");
   return out;
+}
+
+PlanLink closed_form_link(const Vec<double>& vector) {
+  PlanLink link;
+  link.vector = vector;
+  link.square = dot(vector, vector);
+  link.length = std::sqrt(link.square);
+  if (link.square > 0) link.inverse = (1 / link.square) * conj(vector);
+  return link;
+}
+
+// The dyad of three joints in the order of the chain, the pin first where one end is a slide.
+Dyad dyad_of(const PlanJoint& j1, const PlanJoint& j2, const PlanJoint& j3) {
+  Dyad d;
+  if (j2.slide)
+    d.type = j3.slide ? DyadType::rpp : DyadType::rpr;
+  else
+    d.type = j1.slide ? DyadType::prp : j3.slide ? DyadType::rrp : DyadType::rrr;
+  Vec<double> first = j2.before.at - j1.after.at, second = j2.after.at - j3.before.at;
+  if (d.type == DyadType::rpr) {
+    first = rotate_inverse(j2.before.direction, first);
+    second = rotate_inverse(j2.after.direction, second);
+  }
+  d.first = closed_form_link(first);
+  d.second = closed_form_link(second);
+  if (d.type == DyadType::rrr) d.per_length = 1 / (d.first.length * d.second.length);
+  if (d.type == DyadType::rrp) d.per_length = 1 / d.first.length;
+  return d;
 }
 
 class Planner {
@@ -211,8 +240,12 @@ class Planner {
 
   PlanJoint chained(const Link& link, int before) const {
     const bool reversed = link.first.part != before;
-    return {link.slide, reversed ? link.second : link.first, reversed ? link.first : link.second, link.joint,
-            reversed};
+    return {link.slide,
+            reversed,
+            link.joint,
+            link.input,
+            reversed ? link.second : link.first,
+            reversed ? link.first : link.second};
   }
   void place(Group group) {
     std::vector<std::string> names;
@@ -231,11 +264,9 @@ class Planner {
         continue;
       const bool from_first = known_[at(link.first.part)];
       const int base = from_first ? link.first.part : link.second.part;
-      Group g;
-      g.type = GroupType::driver;
+      Group g{.kind = Driver{}};
       g.joints = {chained(link, base)};
       g.parts = {g.joints[0].after.part};
-      g.input = link.input;
       if (affine_[at(base)]) {
         Affine a = *affine_[at(base)];
         a.angle += angle_of(g.joints[0].before.direction) - angle_of(g.joints[0].after.direction);
@@ -260,23 +291,20 @@ class Planner {
         if (link.used || link.slide || link.input >= 0 || (!first && link.second.part != turned)) continue;
         const int base = first ? link.second.part : link.first.part;
         if (!known_[at(base)]) continue;
-        Group g;
-        g.type = GroupType::gear;
-        g.joints = {chained(link, base)};
-        g.parts = {turned};
         const double ratio = joint(gl.joint).ratio;
-        g.ratio = backwards ? 1 / ratio : ratio;
-        g.turning = turning;
-        g.carrier = gl.carrier;
-        g.gear_joint = gl.joint;
-        g.gear_backwards = backwards;
+        Gear gear{.ratio = backwards ? 1 / ratio : ratio,
+                  .turning = turning,
+                  .carrier = gl.carrier,
+                  .joint = gl.joint,
+                  .backwards = backwards};
         const Affine &a = *affine_[at(turning)], &c = *affine_[at(gl.carrier)];
-        g.angle = g.ratio * a.angle + (1 - g.ratio) * c.angle + (backwards ? -gl.phase / ratio : gl.phase);
+        gear.angle =
+            gear.ratio * a.angle + (1 - gear.ratio) * c.angle + (backwards ? -gl.phase / ratio : gl.phase);
         for (Index i = 0; i < a.gains.size(); ++i)
-          g.gains.push_back(g.ratio * a.gains[i] + (1 - g.ratio) * c.gains[i]);
-        affine_[at(turned)] = Affine{g.angle, g.gains};
+          gear.gains.push_back(gear.ratio * a.gains[i] + (1 - gear.ratio) * c.gains[i]);
+        affine_[at(turned)] = Affine{gear.angle, gear.gains};
         link.used = gl.used = true;
-        place(std::move(g));
+        place({.kind = std::move(gear), .parts = {turned}, .joints = {chained(link, base)}});
         return true;
       }
     }
@@ -309,34 +337,13 @@ class Planner {
       if (slides == 3) continue;  // no pin: nothing holds the way of the two together
       // Order of the chain: the pin first where one end is a slide.
       if (outer1->slide && !outer3->slide) std::swap(i, k), std::swap(outer1, outer3);
-      Group g;
-      g.parts = {i, k};
       const auto other = [](const Link& link, int part) {
         return link.first.part == part ? link.second.part : link.first.part;
       };
-      g.joints = {chained(*outer1, other(*outer1, i)), chained(inner, i), chained(*outer3, k)};
-      const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
-      g.first_link = j2.before.at - j1.after.at;
-      g.second_link = j2.after.at - j3.before.at;
-      if (inner.slide) {
-        g.type = outer3->slide ? GroupType::rpp : GroupType::rpr;
-        if (g.type == GroupType::rpr) {
-          g.first_link = rotate_inverse(j2.before.direction, g.first_link);
-          g.second_link = rotate_inverse(j2.after.direction, g.second_link);
-        }
-      } else {
-        g.type = outer1->slide ? GroupType::prp : outer3->slide ? GroupType::rrp : GroupType::rrr;
-      }
-      g.first_square = dot(g.first_link, g.first_link);
-      g.second_square = dot(g.second_link, g.second_link);
-      g.first_length = std::sqrt(g.first_square);
-      g.second_length = std::sqrt(g.second_square);
-      if (g.type == GroupType::rrr) g.per_length = 1 / (g.first_length * g.second_length);
-      if (g.type == GroupType::rrp) g.per_length = 1 / g.first_length;
-      if (g.first_square > 0) g.first_inverse = (1 / g.first_square) * conj(g.first_link);
-      if (g.second_square > 0) g.second_inverse = (1 / g.second_square) * conj(g.second_link);
+      const PlanJoint j1 = chained(*outer1, other(*outer1, i)), j2 = chained(inner, i),
+                      j3 = chained(*outer3, k);
       outer1->used = inner.used = outer3->used = true;
-      place(std::move(g));
+      place({.kind = dyad_of(j1, j2, j3), .parts = {i, k}, .joints = {j1, j2, j3}});
       return true;
     }
     return false;
@@ -360,18 +367,12 @@ class Planner {
           std::vector<bool> chosen(parts(), false);
           chosen[at(x)] = chosen[at(y)] = chosen[at(z)] = true;
           if (equations(chosen) != 9) continue;
-          Group g;
-          g.type = GroupType::triangle;
-          g.parts = {x, y, z};
           const int known = foot->first.part == x ? foot->second.part : foot->first.part;
-          g.joints = {chained(*foot, known), chained(inner, x), chained(tip, y), chained(*base, z)};
-          g.inputs = {-1, inner.input, -1, -1};
-          g.second_link = g.joints[2].after.at - g.joints[3].before.at;
-          g.second_square = dot(g.second_link, g.second_link);
-          g.second_length = std::sqrt(g.second_square);
-          if (g.second_square > 0) g.second_inverse = (1 / g.second_square) * conj(g.second_link);
+          const PlanJoint j3 = chained(tip, y), j4 = chained(*base, z);
           foot->used = inner.used = tip.used = base->used = true;
-          place(std::move(g));
+          place({.kind = Triangle{closed_form_link(j3.after.at - j4.before.at)},
+                 .parts = {x, y, z},
+                 .joints = {chained(*foot, known), chained(inner, x), j3, j4}});
           return true;
         }
       }
@@ -436,20 +437,18 @@ class Planner {
   }
   void place_general(std::vector<int> set, const std::vector<bool>& chosen) {
     std::sort(set.begin(), set.end());
-    Group g;
-    g.type = GroupType::general;
-    g.parts = set;
+    Group g{.kind = GeneralGroup{}, .parts = set};
     for (Link& link : links_) {
       const bool a = chosen[at(link.first.part)], b = chosen[at(link.second.part)];
       if (link.used || !((a && (b || known_[at(link.second.part)])) || (b && known_[at(link.first.part)])))
         continue;
       g.joints.push_back(chained(link, link.first.part));
-      g.inputs.push_back(link.input);
       link.used = true;
     }
+    std::vector<math::Pose>& start = std::get<GeneralGroup>(g.kind).start;
     for (int p : set)
-      if (start_[at(p)]) g.start.push_back(*start_[at(p)]);
-    if (g.start.size() != set.size()) g.start.clear();
+      if (start_[at(p)]) start.push_back(*start_[at(p)]);
+    if (start.size() != set.size()) start.clear();
     place(std::move(g));
   }
 
@@ -590,19 +589,21 @@ class Planner {
   void modes() {
     std::vector<bool> used(l_.modes.size(), false);
     for (Group& g : plan().groups) {
-      if (!has_modes(g.type)) continue;
+      if (!traits_of(g).has_modes) continue;
       if (const auto shown = shown_mode(g)) g.mode = *shown, g.mode_given = true;
       for (Index i = 0; i < l_.modes.size(); ++i) {
         const DyadMode& m = l_.modes[i];
         const int a = part_of(m.first), b = part_of(m.second);
-        const bool driven = g.type == GroupType::triangle;
+        const bool driven = g.as<Triangle>();
         const int first = driven && (a == g.parts[1] || b == g.parts[1]) ? g.parts[1] : g.parts[0],
                   second = g.parts.back();
         const bool straight = a == first && (b == second || (a == b && is_block(second)));
         const bool swapped = (a == second && b == first) || (a == b && a == second && is_block(first));
         if (!straight && !swapped) continue;
         used[i] = true;
-        g.mode = sign(m.mode) * (swapped && g.type != GroupType::rrp ? -1 : 1);
+        // The sign of RRP goes with the direction of its guide, the others with the order of the two parts.
+        const Dyad* dyad = g.as<Dyad>();
+        g.mode = sign(m.mode) * (swapped && !(dyad && dyad->type == DyadType::rrp) ? -1 : 1);
         g.mode_given = true;
       }
     }
@@ -610,7 +611,7 @@ class Planner {
       if (!used[i]) {
         std::string dyads;
         for (const Group& g : plan().groups)
-          if (has_modes(g.type)) dyads += (dyads.empty() ? "" : ", ") + g.name;
+          if (traits_of(g).has_modes) dyads += (dyads.empty() ? "" : ", ") + g.name;
         error("assembly",
               fmt::format("'{}' and '{}' are no pair with two assembly modes",
                           name_or_number(l_.modes[i].first), name_or_number(l_.modes[i].second)),
@@ -648,17 +649,7 @@ class Planner {
     const auto along = [&](const PartPoint& p) {
       return rotate(unit(start_[at(p.part)]->angle), p.direction);
     };
-    const Vec<double> a = there(g.joints[0].before), b = there(g.joints.back().after);
-    double side = 0;
-    if (g.type == GroupType::triangle)
-      side = cross(b - a, there(g.joints[2].before) - a);
-    else if (g.type == GroupType::rrr)
-      side = cross(b - a, there(g.joints[1].before) - a);
-    else if (g.type == GroupType::rrp)
-      side = dot(along(g.joints[2].after), there(g.joints[1].before) - a);
-    else
-      side = dot(along(g.joints[1].before), b - a);
-    return side < 0 ? -1.0 : 1.0;
+    return mode_side(g, there, along) < 0 ? -1.0 : 1.0;
   }
 
   const Linkage& l_;
@@ -673,8 +664,7 @@ class Planner {
 }  // namespace
 
 bool LinkagePlan::closed_form() const {
-  return std::none_of(groups.begin(), groups.end(),
-                      [](const Group& g) { return g.type == GroupType::general; });
+  return std::none_of(groups.begin(), groups.end(), [](const Group& g) { return !traits_of(g).closed_form; });
 }
 
 std::vector<PartMass> part_masses(const Linkage& linkage, std::span<const BodyOnPart> bodies,
