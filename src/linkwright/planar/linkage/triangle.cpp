@@ -7,16 +7,11 @@
 #include "linkwright/planar/loop_gap.h"
 
 namespace linkwright::planar {
-namespace {
-
-Vec<double> conj(const Vec<double>& a) { return {a.x, -a.y}; }
-
-}  // namespace
 
 DrivenSide driven_side(const Group& g, double value) {
   const PlanJoint &foot = g.joints[0], &drive = g.joints[1], &tip = g.joints[2];
   const double sense = drive.reversed ? -1 : 1, way = sense * value;
-  const Vec<double> back = conj(drive.after.direction), arm = tip.before.at - drive.after.at;
+  const Vec<double> back = conjugate(drive.after.direction), arm = tip.before.at - drive.after.at;
   DrivenSide out;
   const Vec<double> base = drive.before.at - foot.after.at;
   if (drive.slide) {
@@ -49,7 +44,7 @@ void place_triangle(const Group& g, const Triangle& triangle, double value, doub
   const double scale = 0.5 / d2, along = reach * fold + d2;
   const Vec<double> arm1 = scale * rotate(Vec<double>{along, root}, d),
                     arm2 = scale * rotate(Vec<double>{along - 2 * d2, root}, d);
-  first.direction = renormalised(rotate(arm1, (1 / square) * conj(side.way)));
+  first.direction = renormalised(rotate(arm1, (1 / square) * conjugate(side.way)));
   arm.direction = renormalised(rotate(arm2, triangle.arm.inverse));
   second.direction = renormalised(rotate(first.direction, side.turn));
   first.origin = a - rotate(first.direction, foot.after.at);
