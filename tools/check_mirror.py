@@ -51,6 +51,7 @@ NO_TEST = {
     "optimise/detail/firefly_base.h": "shared part of the forms of the firefly algorithm, tested through them",
     "optimise/detail/swarm_base.h": "shared part of fireflies and cuckoos, tested through them",
     "planar/linkage/detail/curve_equations.h": "part of linkage_curve, tested in linkage_curve_test.cpp",
+    "planar/linkage/detail/plan_draft.h": "stages of a plan, tested in plan_test.cpp",
     "planar/linkage/detail/joint_rows.h": "part of linkage_general and linkage_curve, tested in both",
     "planar/serial_arm/samples.h": "published numbers; run by the tests of serial arms and their balancing",
     "planar/sweep_input.h": "plain data; run by the tests of both sweeps",

@@ -29,7 +29,7 @@ TEST(OpenLinkage, KeepsClosedFormsAndStartsClosed) {
     ASSERT_EQ(open.status, Status::done) << open.message;
     EXPECT_TRUE(open.plan.closed_form());
     EXPECT_EQ(open.plan.inputs(), 1 + 2 * pins.size());
-    for (const planar::Group& g : open.plan.groups) EXPECT_EQ(g.type, planar::GroupType::driver);
+    for (const planar::Group& g : open.plan.groups) EXPECT_TRUE(g.as<planar::Driver>());
     planar::LinkageMotion motion(open.plan);
     std::vector<planar::InputMotion> inputs;
     for (const double value : open.start) inputs.push_back({value, 0, 0});

@@ -32,7 +32,7 @@ inline Linkage apply(const Change& c, const Linkage& original) {
   Linkage l = original;
   std::vector<std::pair<int, int>> three_pins;  // pairs whose sides the mirror swaps
   for (const Group& g : planned(original).groups)
-    if (g.type == GroupType::rrr) three_pins.emplace_back(g.parts[0], g.parts[1]);
+    if (traits_of(g).name == "RRR") three_pins.emplace_back(g.parts[0], g.parts[1]);
   const LinkagePlan p = planned(original);
   for (std::size_t b = 0; b < l.bodies.size(); ++b) {
     LinkageBody& body = l.bodies[b];

@@ -154,9 +154,9 @@ class PlainFollower {
   std::vector<double> signs() const {
     std::vector<double> out;
     for (std::size_t k = 0; k < plan_.groups.size(); ++k)
-      out.push_back(has_modes(plan_.groups[k].type)              ? motion_.modes[k]
-                    : plan_.groups[k].type == GroupType::general ? determinant_sign(*motion_.general[k])
-                                                                 : 1.0);
+      out.push_back(traits_of(plan_.groups[k]).has_modes ? motion_.modes[k]
+                    : plan_.groups[k].as<GeneralGroup>() ? determinant_sign(*motion_.general[k])
+                                                         : 1.0);
     return out;
   }
   const LinkagePlan& plan_;

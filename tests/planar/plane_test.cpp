@@ -16,6 +16,7 @@ TEST(Plane, ProductsAreThoseOfComplexNumbers) {
   EXPECT_GT(cross(Vec<double>{1, 0}, Vec<double>{0, 1}), 0);  // to the left
   EXPECT_EQ(number(rotate(a, b)), number(a) * number(b));
   EXPECT_EQ(number(rotate_inverse(a, b)), std::conj(number(a)) * number(b));
+  EXPECT_EQ(number(conjugate(a)), std::conj(number(a)));
   EXPECT_EQ(number(perpendicular(a)), std::complex<double>(0, 1) * number(a));
   EXPECT_EQ(number(a + b - 2.0 * a), number(b) - number(a));
   EXPECT_EQ(number(-a), -number(a));

@@ -121,7 +121,7 @@ std::optional<LinkagePlan> choose_drives(Linkage& l, int count, std::string& pro
     if (result.problems.empty()) {
       int score = 0;
       for (const planar::Group& g : result.plan.groups)
-        score += g.type == planar::GroupType::driver ? 100 : g.type == planar::GroupType::general ? 0 : 1;
+        score += g.as<planar::Driver>() ? 100 : g.as<planar::GeneralGroup>() ? 0 : 1;
       if (score > best_score) {
         best_score = score;
         best = std::move(result.plan);

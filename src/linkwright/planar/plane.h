@@ -54,6 +54,11 @@ template <class T>
 LINKWRIGHT_KERNEL Vec<T> rotate_inverse(const Vec<T>& u, const Vec<T>& a) {
   return {u.x * a.x + u.y * a.y, u.x * a.y - u.y * a.x};
 }
+/// a mirrored in the x axis: the rotation back, of a unit vector.
+template <class T>
+LINKWRIGHT_KERNEL Vec<T> conjugate(const Vec<T>& a) {
+  return {a.x, -a.y};
+}
 /// A vector that is of unit length but for rounding, brought to unit length (one Newton step).
 template <class T>
 LINKWRIGHT_KERNEL Vec<T> renormalised(const Vec<T>& u) {

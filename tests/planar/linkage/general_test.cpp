@@ -53,7 +53,7 @@ TEST(LinkageGeneral, TellsBranchesApartByTheSignOfTheDeterminant) {
   Linkage l = linkage_sample("four_bar").linkage;
   const LinkagePlan along = planned(l), at_once = planned(l, PlanRoute::all_at_once);
   ASSERT_EQ(at_once.groups.size(), 1u);
-  EXPECT_EQ(at_once.groups[0].type, GroupType::general);
+  EXPECT_TRUE(at_once.groups[0].as<GeneralGroup>());
   double signs[2];
   const std::vector<InputMotion> in{{1, 1, 0}};
   for (int k = 0; k < 2; ++k) {
@@ -89,7 +89,7 @@ TEST(LinkageGeneral, DrivesACylinderBetweenMovingBodies) {
   l.gravity = {0, -10};
   const LinkagePlan p = planned(l);
   ASSERT_EQ(p.groups.size(), 1u);
-  EXPECT_EQ(p.groups[0].type, GroupType::triangle);
+  EXPECT_TRUE(p.groups[0].as<Triangle>());
   EXPECT_FALSE(p.rotary[0]);
   LinkageMotion m(p);
   LinkageForces f;

@@ -14,14 +14,16 @@ namespace {
 using namespace linkwright::planar::test;
 
 // A dyad between two points of the ground, the first named "first" and "second".
-std::vector<PartState<double>> placed(const Linkage& l, double mode, GroupType type) {
+std::vector<PartState<double>> placed(const Linkage& l, double mode, DyadType type) {
   const PlanResult r = plan_linkage(l);
   for (const Diagnostic& d : r.problems) ADD_FAILURE() << to_string(d);
-  EXPECT_EQ(r.plan.groups.at(0).type, type);
+  const Group& g = r.plan.groups.at(0);
+  const Dyad& dyad = std::get<Dyad>(g.kind);
+  EXPECT_EQ(dyad.type, type);
   std::vector<PartState<double>> parts(r.plan.parts.size());
   parts[0] = {{0, 0}, {1, 0}, {0, 0}, 0, {0, 0}, 0};
   GroupState<double> state;
-  for_dyad(type, [&](auto dyad) { place_dyad(dyad, r.plan.groups[0], mode, parts.data(), state); });
+  for_dyad(type, [&](auto tag) { place_dyad(tag, g, dyad, mode, parts.data(), state); });
   return parts;
 }
 
@@ -53,19 +55,19 @@ TEST(LinkageKernel, MeetsThePublishedDyads) {
   add_pin(rpr, "B", "ground.B", "second.B");
   for (const auto& [mode, sign] : {std::pair{1.0, "+1"}, {-1.0, "-1"}}) {
     std::vector<double> e = expected(std::string("RRR") + sign);
-    std::vector<PartState<double>> parts = placed(rrr, mode, GroupType::rrr);
+    std::vector<PartState<double>> parts = placed(rrr, mode, DyadType::rrr);
     Vec<double> c = point_on(parts[1], {1.2, 0});
     EXPECT_NEAR(c.x, e[0], 1e-10);
     EXPECT_NEAR(c.y, e[1], 1e-10);
     EXPECT_LE(norm(point_on(parts[2], {0.9, 0}) - c), 1e-15);
     e = expected(std::string("RRP") + sign);
-    parts = placed(rrp, mode, GroupType::rrp);
+    parts = placed(rrp, mode, DyadType::rrp);
     c = point_on(parts[1], {1.2, 0});
     EXPECT_NEAR(c.x, e[0], 1e-10);
     EXPECT_NEAR(c.y, e[1], 1e-10);
     EXPECT_NEAR(dot(unit(0.7), c - Vec<double>{0.5, -0.3}), e[2], 1e-10);
     e = expected(std::string("RPR") + sign);
-    parts = placed(rpr, mode, GroupType::rpr);
+    parts = placed(rpr, mode, DyadType::rpr);
     EXPECT_NEAR(std::remainder(angle_of(parts[1].direction) - e[0], 2 * std::acos(-1.0)), 0, 1e-10);
     EXPECT_NEAR(dot(parts[1].direction, vec(b - a)), e[1], 1e-10);
   }
@@ -77,7 +79,7 @@ TEST(LinkageKernel, MeetsThePublishedDyads) {
   add_pin(prp, "C", "first.C", "second.C");
   add_slide(prp, "B", "ground.B", "second.C", 1.9);
   std::vector<double> e = expected("PRP");
-  std::vector<PartState<double>> parts = placed(prp, 1, GroupType::prp);
+  std::vector<PartState<double>> parts = placed(prp, 1, DyadType::prp);
   EXPECT_NEAR(parts[1].origin.x, e[0], 1e-10);
   EXPECT_NEAR(parts[1].origin.y, e[1], 1e-10);
   EXPECT_LE(norm(parts[1].origin - parts[2].origin), 1e-15);
@@ -91,7 +93,7 @@ TEST(LinkageKernel, MeetsThePublishedDyads) {
   add_slide(rpp, "inner", "first.A", "second.P", 0.9, 0.9);
   add_slide(rpp, "guide", "ground.B", "second.P", 2.4, 2.4);
   e = expected("RPP");
-  parts = placed(rpp, 1, GroupType::rpp);
+  parts = placed(rpp, 1, DyadType::rpp);
   const Vec<double> p = parts[2].origin;
   EXPECT_NEAR(dot(unit(2.4), p - vec(b)), e[0], 1e-10);
   EXPECT_NEAR(cross(unit(2.4), p - vec(b)), 0, 1e-15);
@@ -104,9 +106,8 @@ TEST(LinkageKernel, IsTheSameForBatches) {
   constexpr std::size_t lanes = B::size;
   for (const LinkageSample& s : linkage_samples()) {
     const LinkagePlan p = planned(s.linkage);
-    const bool plain = std::none_of(p.groups.begin(), p.groups.end(), [](const Group& g) {
-      return g.type == GroupType::general || g.type == GroupType::gear;
-    });
+    const bool plain = std::all_of(p.groups.begin(), p.groups.end(),
+                                   [](const Group& g) { return g.as<Driver>() || g.as<Dyad>(); });
     if (!plain || !s.linkage.springs.empty() || !s.linkage.torques.empty() || !s.linkage.forces.empty())
       continue;
     SCOPED_TRACE(s.name);
@@ -119,17 +120,19 @@ TEST(LinkageKernel, IsTheSameForBatches) {
     std::vector<std::array<Wrench<B>, 3>> joints(p.groups.size());
     for (std::size_t k = 0; k < p.groups.size(); ++k) {
       const Group& g = p.groups[k];
-      if (g.type == GroupType::driver) {
+      const Dyad* dyad = g.as<Dyad>();
+      if (!dyad) {
+        const std::size_t input = index(g.joints[0].input);
         alignas(64) double values[lanes];
         for (std::size_t i = 0; i < lanes; ++i)
-          values[i] = inputs_at(s, (static_cast<double>(i) + 0.5) / lanes, 2, 3)[index(g.input)].value;
-        const InputMotion in = inputs_at(s, 0, 2, 3)[index(g.input)];
+          values[i] = inputs_at(s, (static_cast<double>(i) + 0.5) / lanes, 2, 3)[input].value;
+        const InputMotion in = inputs_at(s, 0, 2, 3)[input];
         place_driver(g, B::load_unaligned(values), parts.data());
         drive_velocity(g, B(in.rate), parts.data());
         drive_acceleration(g, B(in.rate), B(in.acceleration), parts.data());
       } else {
-        for_dyad(g.type, [&](auto type) {
-          place_dyad(type, g, B(g.mode), parts.data(), states[k]);
+        for_dyad(dyad->type, [&](auto type) {
+          place_dyad(type, g, *dyad, B(g.mode), parts.data(), states[k]);
           dyad_velocity(type, g, parts.data(), states[k]);
           dyad_acceleration(type, g, parts.data(), states[k]);
         });
@@ -140,10 +143,11 @@ TEST(LinkageKernel, IsTheSameForBatches) {
     std::vector<Wrench<B>> torque(p.inputs());
     for (std::size_t k = p.groups.size(); k-- > 0;) {
       const Group& g = p.groups[k];
-      if (g.type == GroupType::driver)
-        torque[index(g.input)] = driver_force(g, parts.data(), needed.data());
+      const Dyad* dyad = g.as<Dyad>();
+      if (!dyad)
+        torque[index(g.joints[0].input)] = driver_force(g, parts.data(), needed.data());
       else
-        for_dyad(g.type, [&](auto type) {
+        for_dyad(dyad->type, [&](auto type) {
           dyad_forces(type, g, parts.data(), states[k], needed.data(), joints[k].data());
         });
     }
@@ -156,7 +160,7 @@ TEST(LinkageKernel, IsTheSameForBatches) {
       // Batches may fuse multiplications and additions: rounding only, over the sine of the transmission.
       double worst = 1;
       for (const Group& g : p.groups)
-        if (g.type != GroupType::driver)
+        if (g.as<Dyad>())
           worst = std::min(worst, std::abs(m.groups[static_cast<std::size_t>(&g - p.groups.data())].sine));
       const double near = 1e-13 / (worst * worst * worst), largest = largest_force(f);
       for (std::size_t k = 1; k < parts.size(); ++k) {

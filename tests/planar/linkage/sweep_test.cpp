@@ -47,7 +47,7 @@ void expect_same(const Linkage& linkage, const LinkagePlan& plan, const LinkageS
     // Some tens of operations, the divisions by sines and roots magnify their rounding.
     double bad = 1, largest = 0, fastest = 0;
     for (std::size_t k = 0; k < plan.groups.size(); ++k)
-      if (plan.groups[k].type != GroupType::driver) bad = std::min(bad, std::abs(m.groups[k].sine));
+      if (!plan.groups[k].as<Driver>()) bad = std::min(bad, std::abs(m.groups[k].sine));
     for (const JointReaction& r : f.joints) largest = std::max(largest, norm(r.force));
     const double eps = 1e-13 / (bad * bad);
     for (std::size_t p = 1; p < plan.parts.size(); ++p) {
@@ -66,7 +66,7 @@ void expect_same(const Linkage& linkage, const LinkagePlan& plan, const LinkageS
       EXPECT_NEAR(row(PartRow::angular_acceleration), s.angular_acceleration, 10 * eps * (fastest + 10));
     }
     for (std::size_t k = 0; k < plan.groups.size(); ++k) {
-      if (!has_modes(plan.groups[k].type)) continue;
+      if (!traits_of(plan.groups[k]).has_modes) continue;
       EXPECT_NEAR(sweep.group(static_cast<int>(k), GroupRow::sine)[i], m.groups[k].sine, eps);
       EXPECT_NEAR(sweep.group(static_cast<int>(k), GroupRow::radicand)[i], m.groups[k].radicand, eps);
     }
@@ -193,8 +193,9 @@ TEST(LinkageSweepTest, LoadsAndGeneralGroupsGoOneByOne) {
   solve_motion(along, std::vector<InputMotion>{{turn.value[0], 0, 0}}, m);
   for (std::size_t i = 0; i < at_once.groups[0].parts.size(); ++i) {
     const PartState<double>& s = m.parts[static_cast<std::size_t>(at_once.groups[0].parts[i])];
-    at_once.groups[0].start.resize(at_once.groups[0].parts.size());
-    at_once.groups[0].start[i] = {s.origin.x, s.origin.y, angle_of(s.direction)};
+    std::vector<math::Pose>& start = std::get<GeneralGroup>(at_once.groups[0].kind).start;
+    start.resize(at_once.groups[0].parts.size());
+    start[i] = {s.origin.x, s.origin.y, angle_of(s.direction)};
   }
   LinkageSweep followed(leg, at_once, {.rates = true, .forces = true});
   EXPECT_FALSE(followed.batched());

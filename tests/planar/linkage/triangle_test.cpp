@@ -27,7 +27,7 @@ TEST(LinkageTriangle, AgreesWithAllJointsAtOnce) {
     set_uniform_all(s.linkage, 2);
     const LinkagePlan p = planned(s.linkage), q = planned(s.linkage, PlanRoute::all_at_once);
     ASSERT_EQ(p.groups.size(), 1u);
-    ASSERT_EQ(p.groups[0].type, GroupType::triangle);
+    ASSERT_TRUE(p.groups[0].as<Triangle>());
     ASSERT_TRUE(p.closed_form());
     EXPECT_TRUE(p.groups[0].mode_given);
     LinkageMotion m(p), n(q);
@@ -94,7 +94,7 @@ TEST(LinkageTriangle, HasADrivenPinAsWell) {
   set_mode(k, "crank", "rocker", AssemblyMode::plus);
   const LinkagePlan q = planned(k);
   ASSERT_EQ(q.groups.size(), 1u);
-  ASSERT_EQ(q.groups[0].type, GroupType::triangle);
+  ASSERT_TRUE(q.groups[0].as<Triangle>());
   LinkageMotion n(q);
   solve_position(q, std::vector<InputMotion>{{inner, 1, 0}}, n);
   ASSERT_EQ(n.status, Status::done);

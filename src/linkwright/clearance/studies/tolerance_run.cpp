@@ -96,7 +96,7 @@ void record_motion(const ToleranceStudy& s, ToleranceRecording& r, bool time, co
                                             time ? r.rows.time[i] : now.back().value));
     for (std::size_t g = 0; g < m.plan.groups.size() && done; ++g) {
       const planar::Group& group = m.plan.groups[g];
-      if (group.joints.size() != 3 || group.type == planar::GroupType::general) continue;
+      if (!group.as<planar::Dyad>()) continue;
       const double angle = std::asin(std::min(1.0, std::abs(motion.groups[g].sine)));
       if (angle < r.transmission)
         r.transmission = angle, r.transmission_row = i, r.transmission_group = group.name;

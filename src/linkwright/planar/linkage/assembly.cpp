@@ -40,7 +40,7 @@ LinkageAssembly::LinkageAssembly(const LinkagePlan& plan, const InputReach& reac
   LINKWRIGHT_REQUIRE(reach.low.size() == plan.inputs() && reach.high.size() == plan.inputs(),
                      "the linkage has {} inputs, got {}", plan.inputs(), reach.low.size());
   for (std::size_t k = 0; k < plan.groups.size(); ++k) {
-    if (plan.groups[k].type != GroupType::general) continue;
+    if (!plan.groups[k].as<GeneralGroup>()) continue;
     if (closed_) first_general_ = k;
     last_general_ = k;
     closed_ = false;
@@ -90,10 +90,10 @@ double LinkageAssembly::misfit(std::span<const double> inputs) {
   if (motion.status != Status::done) return infinity;
   const Group& g = plan_.groups[first_general_];
   double sum = 0;
-  for (std::size_t i = 0; i < g.joints.size(); ++i) {
-    const InputMotion* input = g.inputs[i] >= 0 ? &now[at(g.inputs[i])] : nullptr;
-    const JointRows r = joint_rows(g.joints[i], input != nullptr, motion.parts);
-    const auto f = joint_residuals(g.joints[i], r, input, motion.parts, plan_.size);
+  for (const PlanJoint& j : g.joints) {
+    const InputMotion* input = j.input >= 0 ? &now[at(j.input)] : nullptr;
+    const JointRows r = joint_rows(j, input != nullptr, motion.parts);
+    const auto f = joint_residuals(j, r, input, motion.parts, plan_.size);
     for (int e = 0; e < r.count; ++e) sum += f[at(e)] * f[at(e)];
   }
   return sum;
@@ -101,7 +101,8 @@ double LinkageAssembly::misfit(std::span<const double> inputs) {
 
 void LinkageAssembly::find(const InputReach& reach) {
   const bool one = plan_.inputs() == 1;
-  if (!plan_.drawn_inputs.empty() && !plan_.groups[first_general_].start.empty()) {
+  const bool poses = !plan_.groups[first_general_].as<GeneralGroup>()->start.empty();
+  if (!plan_.drawn_inputs.empty() && poses) {
     std::vector<double> drawn = plan_.drawn_inputs;
     // The poses show angles but for whole turns: the ones nearest to where the inputs go.
     for (std::size_t i = 0; i < drawn.size(); ++i)
@@ -114,7 +115,6 @@ void LinkageAssembly::find(const InputReach& reach) {
     double misfit;
   };
   std::vector<Candidate> candidates;
-  const bool poses = !plan_.groups[first_general_].start.empty();
   for (int i = 0; i <= places; ++i) {
     std::vector<double> inputs;
     for (std::size_t k = 0; k < reach.low.size(); ++k)

@@ -120,9 +120,9 @@ BranchPath branch_path(const LinkagePlan& plan, std::span<const double> inputs, 
   begin_way(forward, repeats ? out.start + full_turn : to);
   if (!repeats) begin_way(backward, from);
   for (std::size_t k = 0; k < plan.groups.size(); ++k) {
-    const GroupType type = plan.groups[k].type;
-    if (!has_modes(type) && type != GroupType::prp) continue;
-    const double sign = has_modes(type) ? modes[k] : 1;
+    const GroupTraits traits = traits_of(plan.groups[k]);
+    if (!traits.has_limits) continue;
+    const double sign = traits.has_modes ? modes[k] : 1;
     if (repeats) {
       Way before = forward;
       const double end_sign = add_group(scan, policy, forward, k, sign);

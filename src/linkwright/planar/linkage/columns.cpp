@@ -199,7 +199,7 @@ std::vector<LinkageColumn> linkage_columns(const Linkage& l, const LinkagePlan& 
   }
   if (q.transmission_angle)
     for (std::size_t g = 0; g < plan.groups.size(); ++g)
-      if (plan.groups[g].parts.size() == 2 && plan.groups[g].type != GroupType::general)
+      if (plan.groups[g].as<Dyad>())
         add(group_key(plan.groups[g].name) + "_transmission_angle_rad",
             plan.groups[g].name + " transmission angle (rad)", [g](const LinkageInstant& i) {
               return std::asin(std::min(1.0, std::abs(i.motion->groups[g].sine)));

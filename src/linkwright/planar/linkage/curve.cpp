@@ -30,19 +30,9 @@ double alike(const CurveNode& a, std::span<const PartState<double>> b, const Cur
 
 // The sign of a group's assembly mode that places show; 0 where both meet.
 double shown_mode(const Group& g, std::span<const PartState<double>> parts) {
-  const auto there = [&](const PartPoint& p) { return point_on(parts[at(p.part)], p.at); };
-  const auto direction = [&](const PartPoint& p) { return rotate(parts[at(p.part)].direction, p.direction); };
-  const Vec<double> a = there(g.joints.front().before), b = there(g.joints.back().after);
-  switch (g.type) {
-    case GroupType::rrr:
-      return cross(b - a, there(g.joints[1].before) - a);
-    case GroupType::triangle:
-      return cross(b - a, there(g.joints[2].before) - a);
-    case GroupType::rrp:
-      return dot(direction(g.joints[2].after), there(g.joints[1].before) - a);
-    default:
-      return dot(direction(g.joints[1].before), b - a);
-  }
+  return mode_side(
+      g, [&](const PartPoint& p) { return point_on(parts[at(p.part)], p.at); },
+      [&](const PartPoint& p) { return rotate(parts[at(p.part)].direction, p.direction); });
 }
 
 }  // namespace
@@ -325,8 +315,7 @@ struct ModeCurve::Memory {
       int nearest = equations.groups().back();
       double least = 2;
       for (const int k : equations.groups()) {
-        const GroupType type = equations.plan().groups[at(k)].type;
-        if (type == GroupType::driver || type == GroupType::gear) continue;
+        if (!traits_of(equations.plan().groups[at(k)]).closes_loop) continue;
         if (motion.failed_group >= 0 && k > motion.failed_group) break;
         if (std::abs(motion.groups[at(k)].sine) < least)
           least = std::abs(motion.groups[at(k)].sine), nearest = k;
@@ -369,7 +358,7 @@ struct ModeCurve::Memory {
     }
     for (const int k : equations.groups()) {
       const Group& g = equations.plan().groups[at(k)];
-      if (!has_modes(g.type)) continue;
+      if (!traits_of(g).has_modes) continue;
       const double side = shown_mode(g, motion.parts);
       if (side != 0) motion.modes[at(k)] = side < 0 ? -1 : 1;
     }

@@ -25,18 +25,16 @@ Vec<double> point_of(const PlanJoint& j, const LinkageMotion& motion) {
 }  // namespace
 
 bool LinkageElimination::takes(const LinkagePlan& plan) {
-  return std::none_of(plan.groups.begin(), plan.groups.end(),
-                      [](const Group& g) { return g.type == GroupType::gear || g.gear_joint >= 0; });
+  return std::none_of(plan.groups.begin(), plan.groups.end(), [](const Group& g) { return g.as<Gear>(); });
 }
 
 LinkageElimination::LinkageElimination(const LinkagePlan& plan, const std::vector<bool>& free)
     : plan_(plan), parts_(plan.parts.size()), joint_of_input_(plan.inputs()) {
   LINKWRIGHT_REQUIRE(takes(plan), "the linkage has gears");
   for (const Group& g : plan.groups)
-    for (std::size_t k = 0; k < g.joints.size(); ++k) {
-      const int input = g.type == GroupType::driver ? g.input : k < g.inputs.size() ? g.inputs[k] : -1;
-      if (input >= 0) joint_of_input_[at(input)] = joints_.size();
-      joints_.push_back({&g.joints[k], input, input >= 0 && !free[at(input)], 0});
+    for (const PlanJoint& j : g.joints) {
+      if (j.input >= 0) joint_of_input_[at(j.input)] = joints_.size();
+      joints_.push_back({&j, j.input, j.input >= 0 && !free[at(j.input)], 0});
     }
   double largest = 0;
   for (const PartMass& m : plan.masses) largest = std::max(largest, m.mass);

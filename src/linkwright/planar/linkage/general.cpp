@@ -32,7 +32,7 @@ void assemble(const LinkagePlan& plan, const Group& g, const LinkageMotion& moti
   Index row = 0;
   for (std::size_t k = 0; k < g.joints.size(); ++k) {
     const PlanJoint& j = g.joints[k];
-    const JointRows r = joint_rows(j, g.inputs[k] >= 0, motion.parts);
+    const JointRows r = joint_rows(j, j.input >= 0, motion.parts);
     for (int i = 0; i < r.count; ++i, ++row) {
       const JointEquation& e = r.rows[at(i)];
       const double scale = e.moment != 0 ? plan.size : 1.0;
@@ -114,7 +114,7 @@ Status place_general(const LinkagePlan& plan, const Group& g, std::span<const In
     Index row = 0;
     for (std::size_t k = 0; k < g.joints.size(); ++k) {
       const PlanJoint& j = g.joints[k];
-      const InputMotion* input = g.inputs[k] >= 0 ? &inputs[at(g.inputs[k])] : nullptr;
+      const InputMotion* input = j.input >= 0 ? &inputs[at(j.input)] : nullptr;
       const JointRows r = joint_rows(j, input != nullptr, motion.parts);
       const std::array<double, 3> f = joint_residuals(j, r, input, motion.parts, plan.size);
       for (int i = 0; i < r.count; ++i) m.residual[row++] = f[at(i)];
@@ -163,7 +163,7 @@ void general_velocity(const LinkagePlan& plan, const Group& g, std::span<const I
   Index row = 0;
   for (std::size_t k = 0; k < g.joints.size(); ++k) {
     const PlanJoint& j = g.joints[k];
-    const bool driven = g.inputs[k] >= 0;
+    const bool driven = j.input >= 0;
     const JointRows r = joint_rows(j, driven, motion.parts);
     // What the known parts move, to the right side.
     Vec<double> slip{0, 0};
@@ -176,7 +176,7 @@ void general_velocity(const LinkagePlan& plan, const Group& g, std::span<const I
     for (int i = 0; i < r.count; ++i) {
       const JointEquation& e = r.rows[at(i)];
       double value = dot(e.force, slip) + e.moment * spin;
-      if (i == 2) value += sense(j) * inputs[at(g.inputs[k])].rate;
+      if (i == 2) value += sense(j) * inputs[at(j.input)].rate;
       m.residual[row++] = value * (e.moment != 0 ? plan.size : 1.0);
     }
   }
@@ -194,7 +194,7 @@ void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<con
   for (std::size_t k = 0; k < g.joints.size(); ++k) {
     const PlanJoint& j = g.joints[k];
     const PartState<double>&before = motion.parts[at(j.before.part)], &after = motion.parts[at(j.after.part)];
-    const JointRows r = joint_rows(j, g.inputs[k] >= 0, motion.parts);
+    const JointRows r = joint_rows(j, j.input >= 0, motion.parts);
     // The accelerations of both fields at the point differ by the Coriolis term of a slide only; on the
     // right side stand the parts of them that do not depend on unknown accelerations.
     Vec<double> slip{0, 0};
@@ -216,7 +216,7 @@ void general_acceleration(const LinkagePlan& plan, const Group& g, std::span<con
     for (int i = 0; i < r.count; ++i) {
       const JointEquation& e = r.rows[at(i)];
       double value = dot(e.force, slip) + e.moment * spin;
-      if (i == 2) value += sense(j) * inputs[at(g.inputs[k])].acceleration;
+      if (i == 2) value += sense(j) * inputs[at(j.input)].acceleration;
       m.residual[row++] = value * (e.moment != 0 ? plan.size : 1.0);
     }
   }
@@ -241,7 +241,7 @@ void general_forces(const LinkagePlan& plan, const Group& g, const LinkageMotion
   Index row = 0;
   for (std::size_t k = 0; k < g.joints.size(); ++k) {
     const PlanJoint& j = g.joints[k];
-    const bool driven = g.inputs[k] >= 0;
+    const bool driven = j.input >= 0;
     const JointRows r = joint_rows(j, driven, motion.parts);
     Wrench<double> w{{0, 0}, 0};
     drives[k] = nan;

@@ -47,37 +47,38 @@ struct DyadLayout {
   int zero, x, y;
   constexpr bool slide(int joint) const { return joint == 0 ? slide1 : joint == 1 ? slide2 : slide3; }
 };
-constexpr DyadLayout layout(GroupType type) {
+constexpr DyadLayout layout(DyadType type) {
   switch (type) {
-    case GroupType::rrp:
-      return {false, false, true, 1, 0, 2};
-    case GroupType::rpr:
-      return {false, true, false, 0, 1, 2};
-    case GroupType::prp:
-      return {true, false, true, 1, 0, 2};
-    case GroupType::rpp:
-      return {false, true, true, 0, 1, 2};
-    default:
+    case DyadType::rrr:
       return {false, false, false, 1, 0, 2};
+    case DyadType::rrp:
+      return {false, false, true, 1, 0, 2};
+    case DyadType::rpr:
+      return {false, true, false, 0, 1, 2};
+    case DyadType::prp:
+      return {true, false, true, 1, 0, 2};
+    case DyadType::rpp:
+      return {false, true, true, 0, 1, 2};
   }
+  return {};
 }
 
-/// A dyad's type as a type, so that its code has no branches: for_dyad(type, f) calls f(DyadType<type>()).
-template <GroupType type>
-using DyadType = std::integral_constant<GroupType, type>;
+/// A dyad's type as a type, so that its code has no branches: for_dyad(type, f) calls f(DyadTag<type>()).
+template <DyadType type>
+using DyadTag = std::integral_constant<DyadType, type>;
 template <class F>
-LINKWRIGHT_KERNEL void for_dyad(GroupType type, F&& f) {
+LINKWRIGHT_KERNEL void for_dyad(DyadType type, F&& f) {
   switch (type) {
-    case GroupType::rrr:
-      return f(DyadType<GroupType::rrr>());
-    case GroupType::rrp:
-      return f(DyadType<GroupType::rrp>());
-    case GroupType::rpr:
-      return f(DyadType<GroupType::rpr>());
-    case GroupType::prp:
-      return f(DyadType<GroupType::prp>());
-    default:
-      return f(DyadType<GroupType::rpp>());
+    case DyadType::rrr:
+      return f(DyadTag<DyadType::rrr>());
+    case DyadType::rrp:
+      return f(DyadTag<DyadType::rrp>());
+    case DyadType::rpr:
+      return f(DyadTag<DyadType::rpr>());
+    case DyadType::prp:
+      return f(DyadTag<DyadType::prp>());
+    case DyadType::rpp:
+      return f(DyadTag<DyadType::rpp>());
   }
 }
 
@@ -143,8 +144,8 @@ LINKWRIGHT_KERNEL void place_driver(const Group& g, const T& value, PartState<T>
 // Each places both parts and gives R and the columns of the 2 x 2 equations; `per_length` is one
 // over the product of the columns' lengths.
 template <class T>
-LINKWRIGHT_KERNEL void place_rrr(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state,
-                                 T& per_length) {
+LINKWRIGHT_KERNEL void place_rrr(const Group& g, const Dyad& dyad, const T& mode, PartState<T>* parts,
+                                 GroupState<T>& state, T& per_length) {
   using std::sqrt;
   const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
@@ -152,26 +153,26 @@ LINKWRIGHT_KERNEL void place_rrr(const Group& g, const T& mode, PartState<T>* pa
   const Vec<T> b = point_on(parts, j3.after);
   const Vec<T> d = b - a;
   const T d2 = dot(d, d);
-  const double reach = g.first_length + g.second_length, fold = g.first_length - g.second_length;
+  const double reach = dyad.first.length + dyad.second.length, fold = dyad.first.length - dyad.second.length;
   state.radicand = (T(reach * reach) - d2) * (d2 - T(fold * fold));
   const T root = mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
   const T scale = T(0.5) / d2;
   const T along = T(reach * fold) + d2;
   const Vec<T> arm1 = scale * rotate(Vec<T>{along, root}, d);              // a -> c
   const Vec<T> arm2 = scale * rotate(Vec<T>{along - T(2) * d2, root}, d);  // b -> c
-  first.direction = renormalised(rotate(arm1, broadcast<T>(g.first_inverse)));
-  second.direction = renormalised(rotate(arm2, broadcast<T>(g.second_inverse)));
+  first.direction = renormalised(rotate(arm1, broadcast<T>(dyad.first.inverse)));
+  second.direction = renormalised(rotate(arm2, broadcast<T>(dyad.second.inverse)));
   first.origin = a - rotate(first.direction, broadcast<T>(j1.after.at));
   second.origin = b - rotate(second.direction, broadcast<T>(j3.before.at));
   state.reference = a + arm1;
   state.column_x = perpendicular(arm1);
   state.column_y = perpendicular(arm2);
-  per_length = T(g.per_length);
+  per_length = T(dyad.per_length);
 }
 
 template <class T>
-LINKWRIGHT_KERNEL void place_rrp(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state,
-                                 T& per_length) {
+LINKWRIGHT_KERNEL void place_rrp(const Group& g, const Dyad& dyad, const T& mode, PartState<T>* parts,
+                                 GroupState<T>& state, T& per_length) {
   using std::sqrt;
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
@@ -179,24 +180,24 @@ LINKWRIGHT_KERNEL void place_rrp(const Group& g, const T& mode, PartState<T>* pa
   const Vec<T> e = direction_on(parts, j3.after);
   second.direction = rotate(e, broadcast<T>({j3.before.direction.x, -j3.before.direction.y}));
   // The inner pin runs along e through `start`.
-  const Vec<T> start = point_on(parts, j3.after) + rotate(second.direction, broadcast<T>(g.second_link));
+  const Vec<T> start = point_on(parts, j3.after) + rotate(second.direction, broadcast<T>(dyad.second.vector));
   const Vec<T> m = a - start;
   const T across = cross(e, m);
-  state.radicand = T(g.first_square) - across * across;
+  state.radicand = T(dyad.first.square) - across * across;
   const T t = dot(m, e) + mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
   const Vec<T> arm = t * e - m;
-  first.direction = renormalised(rotate(arm, broadcast<T>(g.first_inverse)));
+  first.direction = renormalised(rotate(arm, broadcast<T>(dyad.first.inverse)));
   first.origin = a - rotate(first.direction, broadcast<T>(j1.after.at));
   second.origin = start + t * e - rotate(second.direction, broadcast<T>(j2.after.at));
   state.reference = a + arm;
   state.column_x = perpendicular(arm);
   state.column_y = e;
-  per_length = T(g.per_length);
+  per_length = T(dyad.per_length);
 }
 
 template <class T>
-LINKWRIGHT_KERNEL void place_rpr(const Group& g, const T& mode, PartState<T>* parts, GroupState<T>& state,
-                                 T& per_length) {
+LINKWRIGHT_KERNEL void place_rpr(const Group& g, const Dyad& dyad, const T& mode, PartState<T>* parts,
+                                 GroupState<T>& state, T& per_length) {
   using std::sqrt;
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
@@ -204,7 +205,7 @@ LINKWRIGHT_KERNEL void place_rpr(const Group& g, const T& mode, PartState<T>* pa
   const Vec<T> b = point_on(parts, j3.after);
   const Vec<T> d = b - a;
   const T d2 = dot(d, d);
-  const double offset = g.first_link.y - g.second_link.y;  // links seen from the slide direction
+  const double offset = dyad.first.vector.y - dyad.second.vector.y;  // links seen from the slide direction
   state.radicand = d2 - T(offset * offset);
   const T way = mode * sqrt(math::Scalar<T>::positive_part(state.radicand));
   const T scale = T(1) / d2;
@@ -220,15 +221,17 @@ LINKWRIGHT_KERNEL void place_rpr(const Group& g, const T& mode, PartState<T>* pa
 }
 
 template <class T>
-LINKWRIGHT_KERNEL void place_prp(const Group& g, PartState<T>* parts, GroupState<T>& state) {
+LINKWRIGHT_KERNEL void place_prp(const Group& g, const Dyad& dyad, PartState<T>* parts,
+                                 GroupState<T>& state) {
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
   const Vec<T> e1 = direction_on(parts, j1.before);
   const Vec<T> e3 = direction_on(parts, j3.after);
   first.direction = rotate(e1, broadcast<T>({j1.after.direction.x, -j1.after.direction.y}));
   second.direction = rotate(e3, broadcast<T>({j3.before.direction.x, -j3.before.direction.y}));
-  const Vec<T> start1 = point_on(parts, j1.before) + rotate(first.direction, broadcast<T>(g.first_link));
-  const Vec<T> start3 = point_on(parts, j3.after) + rotate(second.direction, broadcast<T>(g.second_link));
+  const Vec<T> start1 = point_on(parts, j1.before) + rotate(first.direction, broadcast<T>(dyad.first.vector));
+  const Vec<T> start3 =
+      point_on(parts, j3.after) + rotate(second.direction, broadcast<T>(dyad.second.vector));
   const Vec<T> pin = start1 + (cross(start3 - start1, e3) / cross(e1, e3)) * e1;
   first.origin = pin - rotate(first.direction, broadcast<T>(j2.before.at));
   second.origin = pin - rotate(second.direction, broadcast<T>(j2.after.at));
@@ -238,7 +241,8 @@ LINKWRIGHT_KERNEL void place_prp(const Group& g, PartState<T>* parts, GroupState
 }
 
 template <class T>
-LINKWRIGHT_KERNEL void place_rpp(const Group& g, PartState<T>* parts, GroupState<T>& state) {
+LINKWRIGHT_KERNEL void place_rpp(const Group& g, const Dyad& dyad, PartState<T>* parts,
+                                 GroupState<T>& state) {
   const PlanJoint &j1 = g.joints[0], &j2 = g.joints[1], &j3 = g.joints[2];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
   const Vec<T> e3 = direction_on(parts, j3.after);
@@ -249,7 +253,8 @@ LINKWRIGHT_KERNEL void place_rpp(const Group& g, PartState<T>* parts, GroupState
   first.origin = a - rotate(first.direction, broadcast<T>(j1.after.at));
   const Vec<T> start2 = point_on(first, j2.before.at);
   // The second part's inner point runs along e2 through start2 and along e3 through start3.
-  const Vec<T> start3 = point_on(parts, j3.after) + rotate(second.direction, broadcast<T>(g.second_link));
+  const Vec<T> start3 =
+      point_on(parts, j3.after) + rotate(second.direction, broadcast<T>(dyad.second.vector));
   const Vec<T> meet = start2 + (cross(start3 - start2, e3) / cross(e2, e3)) * e2;
   second.origin = meet - rotate(second.direction, broadcast<T>(j2.after.at));
   state.reference = a;
@@ -257,24 +262,51 @@ LINKWRIGHT_KERNEL void place_rpp(const Group& g, PartState<T>* parts, GroupState
   state.column_y = e3;
 }
 
-template <GroupType type, class T>
-LINKWRIGHT_KERNEL void place_dyad(DyadType<type>, const Group& g, const T& mode, PartState<T>* parts,
-                                  GroupState<T>& state) {
+template <DyadType type, class T>
+LINKWRIGHT_KERNEL void place_dyad(DyadTag<type>, const Group& g, const Dyad& dyad, const T& mode,
+                                  PartState<T>* parts, GroupState<T>& state) {
   T per_length(1);
   state.radicand = T(1);
-  if constexpr (type == GroupType::rrr)
-    place_rrr(g, mode, parts, state, per_length);
-  else if constexpr (type == GroupType::rrp)
-    place_rrp(g, mode, parts, state, per_length);
-  else if constexpr (type == GroupType::rpr)
-    place_rpr(g, mode, parts, state, per_length);
-  else if constexpr (type == GroupType::prp)
-    place_prp(g, parts, state);
-  else
-    place_rpp(g, parts, state);
+  if constexpr (type == DyadType::rrr)
+    place_rrr(g, dyad, mode, parts, state, per_length);
+  else if constexpr (type == DyadType::rrp)
+    place_rrp(g, dyad, mode, parts, state, per_length);
+  else if constexpr (type == DyadType::rpr)
+    place_rpr(g, dyad, mode, parts, state, per_length);
+  else if constexpr (type == DyadType::prp)
+    place_prp(g, dyad, parts, state);
+  else {
+    static_assert(type == DyadType::rpp);
+    place_rpp(g, dyad, parts, state);
+  }
   const T determinant = cross(state.column_x, state.column_y);
   state.inverse = T(1) / determinant;
   state.sine = determinant * per_length;
+}
+
+/// The assembly mode that places show, by its sign; 0 where both modes meet and of groups with one mode.
+/// `point` and `direction` give those of a PartPoint in the global frame.
+template <class Point, class Direction>
+double mode_side(const Group& g, Point point, Direction direction) {
+  const Vec<double> a = point(g.joints.front().before), b = point(g.joints.back().after);
+  const auto beside = [&](const PlanJoint& pin) { return cross(b - a, point(pin.before) - a); };
+  return by_kind(
+      g, [](const Driver&) { return 0.0; }, [](const Gear&) { return 0.0; },
+      [&](const Dyad& dyad) {
+        switch (dyad.type) {
+          case DyadType::rrr:
+            return beside(g.joints[1]);
+          case DyadType::rrp:
+            return dot(direction(g.joints[2].after), point(g.joints[1].before) - a);
+          case DyadType::rpr:
+            return dot(direction(g.joints[1].before), b - a);
+          case DyadType::prp:
+          case DyadType::rpp:
+            break;
+        }
+        return 0.0;
+      },
+      [&](const Triangle&) { return beside(g.joints[2]); }, [](const GeneralGroup&) { return 0.0; });
 }
 
 // ---- rates
@@ -319,8 +351,8 @@ LINKWRIGHT_KERNEL void drive_acceleration(const Group& g, const T& rate, const T
 }
 
 /// Rates of the joints from the jump between the known parts at R, and motion of both parts.
-template <GroupType type, class T>
-LINKWRIGHT_KERNEL void dyad_velocity(DyadType<type>, const Group& g, PartState<T>* parts, GroupState<T>& s) {
+template <DyadType type, class T>
+LINKWRIGHT_KERNEL void dyad_velocity(DyadTag<type>, const Group& g, PartState<T>* parts, GroupState<T>& s) {
   const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
   const PartState<T>&before = parts[j1.before.part], &after = parts[j3.after.part];
   PartState<T>&first = parts[j1.after.part], &second = parts[j3.before.part];
@@ -353,8 +385,8 @@ LINKWRIGHT_KERNEL Vec<T> joint_bias(bool slide, const Vec<T>& column, const T& r
   return (speed_after * speed_after - speed_before * speed_before) * perpendicular(column);
 }
 
-template <GroupType type, class T>
-LINKWRIGHT_KERNEL void dyad_acceleration(DyadType<type>, const Group& g, PartState<T>* parts,
+template <DyadType type, class T>
+LINKWRIGHT_KERNEL void dyad_acceleration(DyadTag<type>, const Group& g, PartState<T>* parts,
                                          const GroupState<T>& s) {
   const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
   const PartState<T>&before = parts[j1.before.part], &after = parts[j3.after.part];
@@ -425,8 +457,8 @@ LINKWRIGHT_KERNEL Wrench<T> needed_wrench(const PartMass& m, const PartState<T>&
 /// Joint wrenches of a dyad about its R, of the part before on the part after each joint; `needed` holds, per
 /// part about its origin, what the part needs beyond the joints solved so far, and takes the loads that the
 /// dyad puts on its neighbours. The joints are free of torque and friction.
-template <GroupType type, class T>
-LINKWRIGHT_KERNEL void dyad_forces(DyadType<type>, const Group& g, const PartState<T>* parts,
+template <DyadType type, class T>
+LINKWRIGHT_KERNEL void dyad_forces(DyadTag<type>, const Group& g, const PartState<T>* parts,
                                    const GroupState<T>& s, Wrench<T>* needed, Wrench<T>* joints) {
   const PlanJoint &j1 = g.joints[0], &j3 = g.joints[2];
   const int first = j1.after.part, second = j3.before.part;

@@ -110,12 +110,12 @@ InputLimits input_limits(const LinkagePlan& plan, std::span<const double> inputs
                         std::vector<double>(plan.groups.size(), 1.0),
                         0});
   for (std::size_t k = 0; k < plan.groups.size(); ++k) {
-    const bool modes = has_modes(plan.groups[k].type);
-    if (!modes && plan.groups[k].type != GroupType::prp) continue;
+    const GroupTraits traits = traits_of(plan.groups[k]);
+    if (!traits.has_limits) continue;
     std::vector<InputRange> next;
     for (const InputRange& r : out.ranges)
       for (const Stretch& s : scan.stretches(k, r.modes, r.from.value, r.to.value))
-        for (int side = 0; side < (modes ? 2 : 1); ++side) {
+        for (int side = 0; side < (traits.has_modes ? 2 : 1); ++side) {
           InputRange one = r;
           one.from = refined(r.from, s.from, s.from_kind, static_cast<int>(k));
           one.to = refined(r.to, s.to, s.to_kind, static_cast<int>(k));
@@ -193,7 +193,7 @@ std::string assembly_gap_text(const LinkagePlan& plan, const LinkageMotion& moti
 std::string mode_text(const LinkagePlan& plan, std::span<const double> modes) {
   std::string out;
   for (std::size_t k = 0; k < plan.groups.size() && k < modes.size(); ++k)
-    if (has_modes(plan.groups[k].type))
+    if (traits_of(plan.groups[k]).has_modes)
       out += fmt::format("{}{} {}", out.empty() ? "" : ", ", plan.groups[k].name,
                          modes[k] < 0 ? "minus" : "plus");
   return out.empty() ? "only one mode" : out;

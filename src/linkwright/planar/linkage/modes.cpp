@@ -62,16 +62,16 @@ class Enumeration {
     if (k == plan_.groups.size()) {
       AssembledMode one{motion_.modes, motion_.parts, motion_.closure_residual};
       for (std::size_t g = 0; g < k; ++g)
-        if (plan_.groups[g].type == GroupType::general)
+        if (!traits_of(plan_.groups[g]).closed_form)
           one.modes[g] = motion_.groups[g].sine < 0 ? -1 : 1;
-        else if (!has_modes(plan_.groups[g].type))
+        else if (!traits_of(plan_.groups[g]).has_modes)
           one.modes[g] = 1;
       out_.found.push_back(std::move(one));
       return;
     }
     const Group& g = plan_.groups[k];
-    if (g.type == GroupType::general) return visit_general(k);
-    if (!has_modes(g.type)) {
+    if (!traits_of(g).closed_form) return visit_general(k);
+    if (!traits_of(g).has_modes) {
       if (placed(k)) visit(k + 1);
       return;
     }

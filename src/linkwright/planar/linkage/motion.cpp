@@ -15,18 +15,26 @@ namespace linkwright::planar {
 namespace {
 
 // By how much (m) a dyad that was placed cannot close; 0 when it does.
-double gap_of(const Group& g, const LinkageMotion& m, const GroupState<double>& s) {
-  if (!has_modes(g.type) || s.radicand > 0) return 0;
+double gap_of(const Group& g, const Dyad& dyad, const LinkageMotion& m, const GroupState<double>& s) {
+  if (s.radicand > 0) return 0;
   const Vec<double> a = point_on(m.parts[at(g.joints[0].before.part)], g.joints[0].before.at);
   const Vec<double> b = point_on(m.parts[at(g.joints[2].after.part)], g.joints[2].after.at);
-  const double length1 = g.first_length, length2 = g.second_length;
-  if (g.type == GroupType::rrr) return loop_gap(norm(b - a), length1, length2);
-  if (g.type == GroupType::rrp) {
-    const double away = std::sqrt(g.first_square - s.radicand);
-    return away <= length1 * (1 + tolerance::closure) ? 0 : away - length1;
+  switch (dyad.type) {
+    case DyadType::rrr:
+      return loop_gap(norm(b - a), dyad.first.length, dyad.second.length);
+    case DyadType::rrp: {
+      const double length = dyad.first.length, away = std::sqrt(dyad.first.square - s.radicand);
+      return away <= length * (1 + tolerance::closure) ? 0 : away - length;
+    }
+    case DyadType::rpr: {
+      const double offset = std::abs(dyad.first.vector.y - dyad.second.vector.y), distance = norm(b - a);
+      return distance >= offset * (1 - tolerance::closure) ? 0 : offset - distance;
+    }
+    case DyadType::prp:
+    case DyadType::rpp:
+      return 0;
   }
-  const double offset = std::abs(g.first_link.y - g.second_link.y), distance = norm(b - a);
-  return distance >= offset * (1 - tolerance::closure) ? 0 : offset - distance;
+  return 0;
 }
 
 // What rounding left open: the inner joint seen from both parts.
@@ -39,30 +47,33 @@ double closure_of(const Group& g, const LinkageMotion& m) {
 
 void forget(PartState<double>& part) { part = {{nan, nan}, {nan, nan}, {nan, nan}, nan, {nan, nan}, nan}; }
 
-void place_gear(const Group& g, std::span<const InputMotion> inputs, LinkageMotion& motion) {
+void place_gear(const Group& g, const Gear& gear, std::span<const InputMotion> inputs,
+                LinkageMotion& motion) {
   const PlanJoint& j = g.joints[0];
-  double angle = g.angle;
-  for (std::size_t i = 0; i < inputs.size(); ++i) angle += g.gains[i] * inputs[i].value;
+  double angle = gear.angle;
+  for (std::size_t i = 0; i < inputs.size(); ++i) angle += gear.gains[i] * inputs[i].value;
   PartState<double>& part = motion.parts[at(j.after.part)];
   part.direction = unit(angle);
   part.origin = point_on(motion.parts[at(j.before.part)], j.before.at) - rotate(part.direction, j.after.at);
 }
-void gear_velocity(const Group& g, std::span<const InputMotion> inputs, LinkageMotion& motion) {
+void gear_velocity(const Group& g, const Gear& gear, std::span<const InputMotion> inputs,
+                   LinkageMotion& motion) {
   const PlanJoint& j = g.joints[0];
   const PartState<double>& base = motion.parts[at(j.before.part)];
   PartState<double>& part = motion.parts[at(j.after.part)];
   part.speed = 0;
-  for (std::size_t i = 0; i < inputs.size(); ++i) part.speed += g.gains[i] * inputs[i].rate;
+  for (std::size_t i = 0; i < inputs.size(); ++i) part.speed += gear.gains[i] * inputs[i].rate;
   const Vec<double> pin = point_on(base, j.before.at);
   part.velocity = velocity_at(base, pin) - part.speed * perpendicular(pin - part.origin);
 }
-void gear_acceleration(const Group& g, std::span<const InputMotion> inputs, LinkageMotion& motion) {
+void gear_acceleration(const Group& g, const Gear& gear, std::span<const InputMotion> inputs,
+                       LinkageMotion& motion) {
   const PlanJoint& j = g.joints[0];
   const PartState<double>& base = motion.parts[at(j.before.part)];
   PartState<double>& part = motion.parts[at(j.after.part)];
   part.angular_acceleration = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i)
-    part.angular_acceleration += g.gains[i] * inputs[i].acceleration;
+    part.angular_acceleration += gear.gains[i] * inputs[i].acceleration;
   const Vec<double> pin = point_on(base, j.before.at), arm = pin - part.origin;
   part.acceleration = acceleration_at(base, pin) - part.angular_acceleration * perpendicular(arm) +
                       (part.speed * part.speed) * arm;
@@ -88,13 +99,13 @@ LinkageMotion::LinkageMotion(const LinkagePlan& plan) : parts(plan.parts.size())
   parts[0] = {{0, 0}, {1, 0}, {0, 0}, 0, {0, 0}, 0};
   for (const Group& g : plan.groups) {
     modes.push_back(g.mode);
-    if (g.type == GroupType::general)
+    if (const GeneralGroup* general_group = g.as<GeneralGroup>())
       for (std::size_t i = 0; i < g.parts.size(); ++i) {
-        const math::Pose pose = g.start.empty() ? math::Pose{} : g.start[i];
+        const math::Pose pose = general_group->start.empty() ? math::Pose{} : general_group->start[i];
         parts[at(g.parts[i])].origin = {pose.x, pose.y};
         parts[at(g.parts[i])].direction = unit(pose.angle);
       }
-    general.push_back(has_matrix(g.type) ? general_group_memory(plan, g) : GeneralGroupPointer());
+    general.push_back(traits_of(g).has_matrix ? general_group_memory(plan, g) : GeneralGroupPointer());
   }
 }
 
@@ -103,14 +114,15 @@ void mark_failed(const LinkagePlan& plan, LinkageMotion& motion, std::size_t gro
   motion.failed_group = static_cast<int>(group);
   // General groups keep their place: the next search starts from it. A group at a dead point has its place,
   // too, but no rates.
-  for (std::size_t g = group; g < plan.groups.size(); ++g)
+  for (std::size_t g = group; g < plan.groups.size(); ++g) {
+    const bool keeps = !traits_of(plan.groups[g]).closed_form || (status == Status::singular && g == group);
     for (int p : plan.groups[g].parts) {
       PartState<double>& part = motion.parts[at(p)];
       const Vec<double> origin = part.origin, direction = part.direction;
       forget(part);
-      if (plan.groups[g].type == GroupType::general || (status == Status::singular && g == group))
-        part.origin = origin, part.direction = direction;
+      if (keeps) part.origin = origin, part.direction = direction;
     }
+  }
 }
 
 PartState<double> body_state(const LinkagePlan& plan, const LinkageMotion& motion, int body) {
@@ -141,82 +153,72 @@ void solve_position(const LinkagePlan& plan, std::span<const InputMotion> inputs
   for (std::size_t k = 0; k < plan.groups.size(); ++k) {
     const Group& g = plan.groups[k];
     GroupState<double>& state = motion.groups[k];
-    switch (g.type) {
-      case GroupType::driver:
-        place_driver(g, inputs[at(g.input)].value, parts);
-        break;
-      case GroupType::gear:
-        place_gear(g, inputs, motion);
-        break;
-      case GroupType::triangle: {
-        const double value = inputs[at(g.inputs[1])].value;
-        place_triangle(g, value, motion.modes[k], motion.parts, state);
-        if (!(state.radicand > 0) && (motion.gap = triangle_gap(g, value, motion.parts)) > 0)
-          return mark_failed(plan, motion, k, Status::no_assembly);
-        if (!(std::abs(state.sine) >= tolerance::toggle_angle))
-          return mark_failed(plan, motion, k, Status::singular);
-        // One step of Newton's method makes the matrix for the rates.
-        const Status status = place_general(plan, g, inputs, motion, *motion.general[k]);
-        if (status != Status::done) return mark_failed(plan, motion, k, status);
-        break;
-      }
-      case GroupType::general: {
-        const Status status = place_general(plan, g, inputs, motion, *motion.general[k]);
-        state.sine = determinant_sign(*motion.general[k]) * conditioning(*motion.general[k]);
-        if (status != Status::done) return mark_failed(plan, motion, k, status);
-        break;
-      }
-      default:
-        for_dyad(g.type, [&](auto type) { place_dyad(type, g, motion.modes[k], parts, state); });
-        if ((motion.gap = gap_of(g, motion, state)) > 0)
-          return mark_failed(plan, motion, k, Status::no_assembly);
-        if (!(std::abs(state.sine) >= tolerance::toggle_angle))
-          return mark_failed(plan, motion, k, Status::singular);
-        motion.closure_residual = std::max(motion.closure_residual, closure_of(g, motion));
-    }
+    const Status status = by_kind(
+        g,
+        [&](const Driver&) {
+          place_driver(g, inputs[at(g.joints[0].input)].value, parts);
+          return Status::done;
+        },
+        [&](const Gear& gear) {
+          place_gear(g, gear, inputs, motion);
+          return Status::done;
+        },
+        [&](const Dyad& dyad) {
+          for_dyad(dyad.type, [&](auto type) { place_dyad(type, g, dyad, motion.modes[k], parts, state); });
+          if ((motion.gap = gap_of(g, dyad, motion, state)) > 0) return Status::no_assembly;
+          if (!(std::abs(state.sine) >= tolerance::toggle_angle)) return Status::singular;
+          motion.closure_residual = std::max(motion.closure_residual, closure_of(g, motion));
+          return Status::done;
+        },
+        [&](const Triangle& triangle) {
+          const double value = inputs[at(g.joints[1].input)].value;
+          place_triangle(g, triangle, value, motion.modes[k], motion.parts, state);
+          if (!(state.radicand > 0) && (motion.gap = triangle_gap(g, triangle, value, motion.parts)) > 0)
+            return Status::no_assembly;
+          if (!(std::abs(state.sine) >= tolerance::toggle_angle)) return Status::singular;
+          // One step of Newton's method makes the matrix for the rates.
+          return place_general(plan, g, inputs, motion, *motion.general[k]);
+        },
+        [&](const GeneralGroup&) {
+          const Status placed = place_general(plan, g, inputs, motion, *motion.general[k]);
+          state.sine = determinant_sign(*motion.general[k]) * conditioning(*motion.general[k]);
+          return placed;
+        });
+    if (status != Status::done) return mark_failed(plan, motion, k, status);
   }
 }
 
 void solve_velocity(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion) {
   for (std::size_t k = 0; k < solved(plan, motion); ++k) {
     const Group& g = plan.groups[k];
-    switch (g.type) {
-      case GroupType::driver:
-        drive_velocity(g, inputs[at(g.input)].rate, motion.parts.data());
-        break;
-      case GroupType::gear:
-        gear_velocity(g, inputs, motion);
-        break;
-      case GroupType::triangle:
-      case GroupType::general:
-        general_velocity(plan, g, inputs, motion, *motion.general[k]);
-        break;
-      default:
-        for_dyad(g.type, [&](auto type) { dyad_velocity(type, g, motion.parts.data(), motion.groups[k]); });
-    }
+    const auto by_matrix = [&] { general_velocity(plan, g, inputs, motion, *motion.general[k]); };
+    by_kind(
+        g, [&](const Driver&) { drive_velocity(g, inputs[at(g.joints[0].input)].rate, motion.parts.data()); },
+        [&](const Gear& gear) { gear_velocity(g, gear, inputs, motion); },
+        [&](const Dyad& dyad) {
+          for_dyad(dyad.type,
+                   [&](auto type) { dyad_velocity(type, g, motion.parts.data(), motion.groups[k]); });
+        },
+        [&](const Triangle&) { by_matrix(); }, [&](const GeneralGroup&) { by_matrix(); });
   }
 }
 
 void solve_acceleration(const LinkagePlan& plan, std::span<const InputMotion> inputs, LinkageMotion& motion) {
   for (std::size_t k = 0; k < solved(plan, motion); ++k) {
     const Group& g = plan.groups[k];
-    switch (g.type) {
-      case GroupType::driver: {
-        const InputMotion& i = inputs[at(g.input)];
-        drive_acceleration(g, i.rate, i.acceleration, motion.parts.data());
-        break;
-      }
-      case GroupType::gear:
-        gear_acceleration(g, inputs, motion);
-        break;
-      case GroupType::triangle:
-      case GroupType::general:
-        general_acceleration(plan, g, inputs, motion, *motion.general[k]);
-        break;
-      default:
-        for_dyad(g.type,
-                 [&](auto type) { dyad_acceleration(type, g, motion.parts.data(), motion.groups[k]); });
-    }
+    const auto by_matrix = [&] { general_acceleration(plan, g, inputs, motion, *motion.general[k]); };
+    by_kind(
+        g,
+        [&](const Driver&) {
+          const InputMotion& i = inputs[at(g.joints[0].input)];
+          drive_acceleration(g, i.rate, i.acceleration, motion.parts.data());
+        },
+        [&](const Gear& gear) { gear_acceleration(g, gear, inputs, motion); },
+        [&](const Dyad& dyad) {
+          for_dyad(dyad.type,
+                   [&](auto type) { dyad_acceleration(type, g, motion.parts.data(), motion.groups[k]); });
+        },
+        [&](const Triangle&) { by_matrix(); }, [&](const GeneralGroup&) { by_matrix(); });
   }
 }
 

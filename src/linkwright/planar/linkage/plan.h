@@ -3,6 +3,9 @@
 #include <array>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "linkwright/core/diagnostic.h"
@@ -11,31 +14,9 @@
 
 namespace linkwright::planar {
 
-/// The order in which a linkage is solved: drivers first, then groups of bodies, each placed from those
-/// before it (Assur groups). Two bodies with three joints, a dyad, have closed forms; what does not fall into
-/// dyads is a general group and solved by Newton's method.
-enum class GroupType { driver, gear, rrr, rrp, rpr, prp, rpp, triangle, general };
-constexpr std::array<EnumName<GroupType>, 9> names(GroupType) {
-  return {{{GroupType::driver, "driver", "a body placed by its drive"},
-           {GroupType::gear, "gear", "a body on a known pin, turned by a gear"},
-           {GroupType::rrr, "RRR", "dyad of three pins"},
-           {GroupType::rrp, "RRP", "dyad pin, pin, slide"},
-           {GroupType::rpr, "RPR", "dyad pin, slide, pin"},
-           {GroupType::prp, "PRP", "dyad slide, pin, slide"},
-           {GroupType::rpp, "RPP", "dyad pin, slide, slide"},
-           {GroupType::triangle, "triangle",
-            "two bodies with a drive between them, as a cylinder, hold an arm: a triangle of pins"},
-           {GroupType::general, "general", "group without closed form, solved by Newton's method"}}};
-}
-/// Whether such a group is assembled in closed form, in two ways.
-constexpr bool has_modes(GroupType type) {
-  return type == GroupType::rrr || type == GroupType::rrp || type == GroupType::rpr ||
-         type == GroupType::triangle;
-}
-/// Whether rates and forces of such a group come from one matrix of all its joint equations.
-constexpr bool has_matrix(GroupType type) {
-  return type == GroupType::general || type == GroupType::triangle;
-}
+// The order in which a linkage is solved: drivers first, then groups of bodies, each placed from those before
+// it (Assur groups). Two bodies with three joints, a dyad, have closed forms; what does not fall into dyads
+// is a general group and solved by Newton's method.
 
 /// One side of a joint as the solver sees it: a part with a point, and a direction for slides.
 struct PartPoint {
@@ -47,41 +28,124 @@ struct PartPoint {
 /// A joint between two parts, pins and slides only.
 struct PlanJoint {
   bool slide = false;
-  PartPoint before, after;
-  int joint = -1;         ///< of the linkage; the pin of a pin in a slot carries its index, its slide -1
   bool reversed = false;  ///< `before` is on the side of the second body of the joint
+  int joint = -1;         ///< of the linkage; the pin of a pin in a slot carries its index, its slide -1
+  int input = -1;         ///< index into the inputs of the one that drives it, else -1
+  PartPoint before, after;
 };
+
+/// What the kind of a group says of it; each kind has its `traits_of`.
+struct GroupTraits {
+  std::string_view name;     ///< as users read it
+  bool closes_loop = false;  ///< it can stand at a dead point, and has a sine that says how far that is
+  bool closed_form = true;   ///< it is placed without a search
+  bool has_modes = false;    ///< it is assembled in closed form, in two ways
+  bool has_limits = false;   ///< in closed form it can cease to assemble, or run away, as the inputs move
+  bool has_matrix = false;   ///< its rates and forces come from one matrix of all its joint equations
+};
+
+/// A part placed by its drive.
+struct Driver {};
+constexpr GroupTraits traits_of(const Driver&) { return {.name = "driver"}; }
+
+/// A part on a known pin, turned by a gear `ratio` times as fast as part `turning`, both seen from part
+/// `carrier`.
+struct Gear {
+  double ratio = 1;
+  int turning = 0, carrier = 0;
+  int joint = -1;          ///< of the linkage
+  bool backwards = false;  ///< turns the first body of its joint from the second
+  /// Angle of the part = angle + sum of gains times inputs (rad).
+  double angle = 0;
+  std::vector<double> gains;
+};
+constexpr GroupTraits traits_of(const Gear&) { return {.name = "gear"}; }
+
+/// A link between two joints of a closed form, and what that needs of it.
+struct PlanLink {
+  Vec<double> vector{0, 0};  ///< from outer to inner joint in the frame of the part
+  double square = 0, length = 0;
+  /// One over the link as a complex number: turned onto where the link lies it gives the direction of its
+  /// part. 0 of a link without length.
+  Vec<double> inverse{0, 0};
+};
+
+enum class DyadType { rrr, rrp, rpr, prp, rpp };
+constexpr std::array<EnumName<DyadType>, 5> names(DyadType) {
+  return {{{DyadType::rrr, "RRR", "dyad of three pins"},
+           {DyadType::rrp, "RRP", "dyad pin, pin, slide"},
+           {DyadType::rpr, "RPR", "dyad pin, slide, pin"},
+           {DyadType::prp, "PRP", "dyad slide, pin, slide"},
+           {DyadType::rpp, "RPP", "dyad pin, slide, slide"}}};
+}
+
+/// Two parts with three joints, in the order of the chain.
+struct Dyad {
+  DyadType type = DyadType::rrr;
+  PlanLink first, second;  ///< of RPR seen from the direction of the slide
+  double per_length = 1;   ///< one over the links between pins: both of RRR, the first of RRP
+};
+constexpr GroupTraits traits_of(const Dyad& dyad) {
+  GroupTraits out{.name = name_of(dyad.type), .closes_loop = true};
+  switch (dyad.type) {
+    case DyadType::rrr:
+    case DyadType::rrp:
+    case DyadType::rpr:
+      out.has_modes = out.has_limits = true;
+      break;
+    case DyadType::prp:
+      out.has_limits = true;  // its slides can become parallel
+      break;
+    case DyadType::rpp:
+      break;  // its slides keep their angle
+  }
+  return out;
+}
+
+/// Two bodies with a drive between them, as a cylinder, hold an arm: a triangle of pins. Known part, pin,
+/// first body, drive, second body, pin, arm, pin, known part.
+struct Triangle {
+  PlanLink arm;
+};
+constexpr GroupTraits traits_of(const Triangle&) {
+  return {.name = "triangle", .closes_loop = true, .has_modes = true, .has_limits = true, .has_matrix = true};
+}
+
+/// A group without closed form, solved by Newton's method.
+struct GeneralGroup {
+  std::vector<math::Pose> start;  ///< of the parts, where given; else empty
+};
+constexpr GroupTraits traits_of(const GeneralGroup&) {
+  return {.name = "general", .closes_loop = true, .closed_form = false, .has_matrix = true};
+}
 
 /// One step of the solution.
 struct Group {
-  GroupType type = GroupType::driver;
-  std::vector<int> parts;  ///< that this group places; two of a dyad, three of a triangle, chain order
-  /// 1 of a driver or gear, 3 of a dyad and 4 of a triangle in chain order, more of a general one. A
-  /// triangle: known part, pin, first body, drive, second body, pin, arm, pin, known part.
-  std::vector<PlanJoint> joints;
-  int input = -1;           ///< of a driver: index into the inputs
-  std::vector<int> inputs;  ///< of groups with drives inside: one a driven joint, else -1
-  /// gear: turns the part `ratio` times as fast as part `turning`, both seen from part `carrier`.
-  double ratio = 1;
-  int turning = 0, carrier = 0, gear_joint = -1;
-  bool gear_backwards = false;  ///< turns the first body of its joint from the second
-  /// gear: angle of the part = angle + sum of gains times inputs (rad).
-  double angle = 0;
-  std::vector<double> gains;
+  std::variant<Driver, Gear, Dyad, Triangle, GeneralGroup> kind;
+  std::string name;               ///< "coupler + rocker"
+  std::vector<int> parts;         ///< that this group places; in the order of the chain, if it is one
+  std::vector<PlanJoint> joints;  ///< one of a driver or gear; in the order of the chain, if it is one
   /// Sign of the assembly mode that the model names or its start poses show; +1 where there is none.
   double mode = 1;
   bool mode_given = false;
-  std::vector<math::Pose> start;  ///< of the parts of a general group, where given; else empty
-  // Constants of the closed forms; of a triangle those of the arm alone, as `second`.
-  Vec<double> first_link{0, 0}, second_link{0, 0};  ///< from outer to inner joint in the frames of the parts
-  double first_square = 0, second_square = 0;       ///< their squared lengths
-  double first_length = 0, second_length = 0;
-  double per_length = 1;  ///< one over the links between pins: both of RRR, the first of RRP
-  /// One over the links as complex numbers: turned onto where a link lies they give the direction of its
-  /// part.
-  Vec<double> first_inverse{0, 0}, second_inverse{0, 0};
-  std::string name;  ///< "coupler + rocker"
+
+  /// The group as one of that kind, or null.
+  template <class Kind>
+  const Kind* as() const {
+    return std::get_if<Kind>(&kind);
+  }
 };
+inline GroupTraits traits_of(const Group& group) {
+  return std::visit([](const auto& kind) { return traits_of(kind); }, group.kind);
+}
+/// Calls the one of `cases` that takes the kind of the group. A kind without a case does not compile.
+template <class... Cases>
+decltype(auto) by_kind(const Group& group, Cases... cases) {
+  struct Overloaded : Cases... {
+    using Cases::operator()...;
+  };
+  return std::visit(Overloaded{std::move(cases)...}, group.kind);
+}
 
 /// A body as it sits on its part: welded bodies make one part.
 struct BodyOnPart {

@@ -52,13 +52,13 @@ class OneInput {
 
 double transmission_angle(const LinkagePlan& plan, const LinkageMotion& motion, std::size_t group) {
   LINKWRIGHT_REQUIRE(group < plan.groups.size(), "there is no group {} of {}", group, plan.groups.size());
-  const GroupType type = plan.groups[group].type;
   if (!placed(motion, group) &&
       !(motion.status == Status::singular && motion.failed_group == static_cast<int>(group)))
     return nan;
-  if (type == GroupType::driver || type == GroupType::gear) return right_angle;
+  const GroupTraits traits = traits_of(plan.groups[group]);
+  if (!traits.closes_loop) return right_angle;
   const GroupState<double>& s = motion.groups[group];
-  if (type == GroupType::general) return std::asin(std::min(1.0, std::abs(s.sine)));
+  if (!traits.closed_form) return std::asin(std::min(1.0, std::abs(s.sine)));
   return std::atan2(std::abs(cross(s.column_x, s.column_y)), std::abs(dot(s.column_x, s.column_y)));
 }
 
@@ -73,8 +73,7 @@ std::vector<TransmissionRange> transmission_ranges(const LinkagePlan& plan, std:
   OneInput one(plan, inputs, input);
   std::vector<TransmissionRange> out;
   for (std::size_t g = 0; g < plan.groups.size(); ++g)
-    if (plan.groups[g].type != GroupType::driver && plan.groups[g].type != GroupType::gear)
-      out.push_back({g, infinity, nan, -1, nan, 0});
+    if (traits_of(plan.groups[g]).closes_loop) out.push_back({g, infinity, nan, -1, nan, 0});
   std::vector<double> angles(samples * out.size());
   for (std::size_t i = 0; i < samples; ++i) {
     solve_position(plan, one(value_at(from, to, i, samples), 0), motion);

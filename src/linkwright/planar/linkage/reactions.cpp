@@ -79,45 +79,42 @@ void pass(const LinkagePlan& plan, const Linkage& linkage, const LinkageMotion& 
   for (std::size_t k = plan.groups.size(); k-- > 0;) {
     const Group& g = plan.groups[k];
     const PlanJoint& j = g.joints[0];
-    switch (g.type) {
-      case GroupType::driver: {
-        const Wrench<double> w = driver_force(g, motion.parts.data(), f.needed.data());
-        report(j, motion, w, point_on(motion.parts[at(j.after.part)], j.after.at), f);
-        f.drives[at(g.input)] = along_drive(j, motion, w);
-        break;
+    const auto by_matrix = [&] {
+      const std::span<Wrench<double>> joints(f.group_joints.data(), g.joints.size());
+      general_forces(plan, g, motion, *motion.general[k], f.needed, joints, f.group_drives);
+      for (std::size_t i = 0; i < g.joints.size(); ++i) {
+        const PlanJoint& here = g.joints[i];
+        report(here, motion, joints[i], point_on(motion.parts[at(here.after.part)], here.after.at), f);
+        if (here.input >= 0) f.drives[at(here.input)] = along_drive(here, motion, joints[i]);
       }
-      case GroupType::gear: {
-        const Vec<double> pin = point_on(motion.parts[at(j.after.part)], j.after.at);
-        Wrench<double> w = shifted(f.needed[at(g.parts[0])], motion.parts[at(g.parts[0])].origin - pin);
-        const double torque = w.moment;
-        w.moment = 0;
-        report(j, motion, w, pin, f);
-        f.joints[at(g.gear_joint)] = {pin, {0, 0}, g.gear_backwards ? -g.ratio * torque : torque};
-        Wrench<double>& base = f.needed[at(j.before.part)];
-        base = base + shifted(w, pin - motion.parts[at(j.before.part)].origin);
-        f.needed[at(g.turning)].moment += g.ratio * torque;
-        f.needed[at(g.carrier)].moment += (1 - g.ratio) * torque;
-        break;
-      }
-      case GroupType::triangle:
-      case GroupType::general: {
-        const std::span<Wrench<double>> joints(f.group_joints.data(), g.joints.size());
-        general_forces(plan, g, motion, *motion.general[k], f.needed, joints, f.group_drives);
-        for (std::size_t i = 0; i < g.joints.size(); ++i) {
-          const PlanJoint& here = g.joints[i];
-          report(here, motion, joints[i], point_on(motion.parts[at(here.after.part)], here.after.at), f);
-          if (g.inputs[i] >= 0) f.drives[at(g.inputs[i])] = along_drive(here, motion, joints[i]);
-        }
-        break;
-      }
-      default: {
-        const GroupState<double>& s = motion.groups[k];
-        for_dyad(g.type, [&](auto type) {
-          dyad_forces(type, g, motion.parts.data(), s, f.needed.data(), f.group_joints.data());
-        });
-        for (std::size_t i = 0; i < 3; ++i) report(g.joints[i], motion, f.group_joints[i], s.reference, f);
-      }
-    }
+    };
+    by_kind(
+        g,
+        [&](const Driver&) {
+          const Wrench<double> w = driver_force(g, motion.parts.data(), f.needed.data());
+          report(j, motion, w, point_on(motion.parts[at(j.after.part)], j.after.at), f);
+          f.drives[at(j.input)] = along_drive(j, motion, w);
+        },
+        [&](const Gear& gear) {
+          const Vec<double> pin = point_on(motion.parts[at(j.after.part)], j.after.at);
+          Wrench<double> w = shifted(f.needed[at(g.parts[0])], motion.parts[at(g.parts[0])].origin - pin);
+          const double torque = w.moment;
+          w.moment = 0;
+          report(j, motion, w, pin, f);
+          f.joints[at(gear.joint)] = {pin, {0, 0}, gear.backwards ? -gear.ratio * torque : torque};
+          Wrench<double>& base = f.needed[at(j.before.part)];
+          base = base + shifted(w, pin - motion.parts[at(j.before.part)].origin);
+          f.needed[at(gear.turning)].moment += gear.ratio * torque;
+          f.needed[at(gear.carrier)].moment += (1 - gear.ratio) * torque;
+        },
+        [&](const Dyad& dyad) {
+          const GroupState<double>& s = motion.groups[k];
+          for_dyad(dyad.type, [&](auto type) {
+            dyad_forces(type, g, motion.parts.data(), s, f.needed.data(), f.group_joints.data());
+          });
+          for (std::size_t i = 0; i < 3; ++i) report(g.joints[i], motion, f.group_joints[i], s.reference, f);
+        },
+        [&](const Triangle&) { by_matrix(); }, [&](const GeneralGroup&) { by_matrix(); });
   }
 }
 

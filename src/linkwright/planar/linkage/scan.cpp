@@ -14,9 +14,6 @@ namespace {
 constexpr int nodes = 240;
 constexpr double touching = 1e-11;
 
-// Two slides that may become parallel. Those of an RPP dyad keep their angle.
-bool slides_only(GroupType type) { return type == GroupType::prp; }
-
 }  // namespace
 
 GroupScan::GroupScan(const LinkagePlan& plan, std::span<const double> inputs, int input) : input_(at(input)) {
@@ -48,43 +45,51 @@ GroupScan::Closure GroupScan::closure(std::size_t k, double value) {
   const Vec<double> a = point_on(before, j1.before.at), b = point_on(after, j3.after.at);
   const Vec<double> d = b - a, slip = velocity_at(after, b) - velocity_at(before, a);
   const double length = norm(d);
-  switch (g.type) {
-    case GroupType::rrr: {
-      const double l1 = std::sqrt(g.first_square), l2 = std::sqrt(g.second_square), reach = l1 + l2,
-                   fold = std::abs(l1 - l2), square = dot(d, d);
-      return {(reach - length) * (reach + length) * (length - fold) * (length + fold),
-              2 * dot(d, slip) * (reach * reach + fold * fold - 2 * square),
-              std::min(std::abs(reach - length), std::abs(length - fold)) / reach};
+  const auto dyad_closure = [&](const Dyad& dyad) -> Closure {
+    switch (dyad.type) {
+      case DyadType::rrr: {
+        const double reach = dyad.first.length + dyad.second.length,
+                     fold = std::abs(dyad.first.length - dyad.second.length), square = dot(d, d);
+        return {(reach - length) * (reach + length) * (length - fold) * (length + fold),
+                2 * dot(d, slip) * (reach * reach + fold * fold - 2 * square),
+                std::min(std::abs(reach - length), std::abs(length - fold)) / reach};
+      }
+      case DyadType::rrp: {
+        const Vec<double> e = rotate(after.direction, j3.after.direction);
+        // The line of the inner pin runs beside the slide's, by as much wherever the guide stands.
+        const double beside = rotate_inverse(j3.before.direction, dyad.second.vector).y;
+        const double across = cross(e, d) + beside, l = dyad.first.length;
+        const double slope = cross(e, slip) + after.speed * cross(perpendicular(e), d);
+        return {(l - across) * (l + across), -2 * across * slope, std::abs(std::abs(across) - l) / l};
+      }
+      case DyadType::rpr: {
+        const double offset = dyad.first.vector.y - dyad.second.vector.y;
+        return {(length - offset) * (length + offset), 2 * dot(d, slip),
+                std::abs(length - std::abs(offset)) / plan.size};
+      }
+      case DyadType::prp: {  // the sine between the slides, with sign
+        const Vec<double> e1 = rotate(before.direction, j1.before.direction),
+                          e3 = rotate(after.direction, j3.after.direction);
+        return {cross(e1, e3), (after.speed - before.speed) * dot(e1, e3), std::abs(cross(e1, e3))};
+      }
+      case DyadType::rpp:
+        break;
     }
-    case GroupType::triangle: {
-      const InputMotion& drive = inputs_[at(g.inputs[1])];
-      const DrivenSide side = driven_side(g, drive.value);
-      const double l1 = norm(side.way), reach = l1 + g.second_length, fold = l1 - g.second_length,
-                   square = dot(d, d), longer = dot(side.way, side.rate) / l1 * drive.rate;
-      return {(reach - length) * (reach + length) * (length - fold) * (length + fold),
-              2 * dot(d, slip) * (reach * reach + fold * fold - 2 * square) +
-                  2 * longer * (reach * (square - fold * fold) - fold * (reach * reach - square)),
-              std::min(std::abs(reach - length), std::abs(length - std::abs(fold))) / reach};
-    }
-    case GroupType::rrp: {
-      const Vec<double> e = rotate(after.direction, j3.after.direction);
-      // The line of the inner pin runs beside the slide's, by as much wherever the guide stands.
-      const double beside = rotate_inverse(j3.before.direction, g.second_link).y;
-      const double across = cross(e, d) + beside, l = std::sqrt(g.first_square);
-      const double slope = cross(e, slip) + after.speed * cross(perpendicular(e), d);
-      return {(l - across) * (l + across), -2 * across * slope, std::abs(std::abs(across) - l) / l};
-    }
-    case GroupType::rpr: {
-      const double offset = g.first_link.y - g.second_link.y;
-      return {(length - offset) * (length + offset), 2 * dot(d, slip),
-              std::abs(length - std::abs(offset)) / plan.size};
-    }
-    default: {  // PRP: the sine between the slides, with sign
-      const Vec<double> e1 = rotate(before.direction, j1.before.direction),
-                        e3 = rotate(after.direction, j3.after.direction);
-      return {cross(e1, e3), (after.speed - before.speed) * dot(e1, e3), std::abs(cross(e1, e3))};
-    }
-  }
+    return no_limit;
+  };
+  return by_kind(
+      g, [](const Driver&) { return no_limit; }, [](const Gear&) { return no_limit; }, dyad_closure,
+      [&](const Triangle& triangle) -> Closure {
+        const InputMotion& drive = inputs_[at(g.joints[1].input)];
+        const DrivenSide side = driven_side(g, drive.value);
+        const double l1 = norm(side.way), reach = l1 + triangle.arm.length, fold = l1 - triangle.arm.length,
+                     square = dot(d, d), longer = dot(side.way, side.rate) / l1 * drive.rate;
+        return {(reach - length) * (reach + length) * (length - fold) * (length + fold),
+                2 * dot(d, slip) * (reach * reach + fold * fold - 2 * square) +
+                    2 * longer * (reach * (square - fold * fold) - fold * (reach * reach - square)),
+                std::min(std::abs(reach - length), std::abs(length - std::abs(fold))) / reach};
+      },
+      [](const GeneralGroup&) { return no_limit; });
 }
 
 // A double zero at an end where the groups before may be singular themselves, so that it can only be looked
@@ -102,8 +107,9 @@ std::vector<Stretch> GroupScan::stretches(std::size_t k, std::span<const double>
   LINKWRIGHT_REQUIRE(k < levels_.size() && modes.size() == levels_.size(), "group {} of {}, {} modes", k,
                      levels_.size(), modes.size());
   LINKWRIGHT_REQUIRE(std::isfinite(from) && std::isfinite(to) && from < to, "no stretch: {} to {}", from, to);
-  const GroupType type = levels_[k].groups[k].type;
-  if (!has_modes(type) && !slides_only(type)) return {{from, to, EndKind::bound, EndKind::bound}};
+  const GroupTraits traits = traits_of(levels_[k].groups[k]);
+  if (!traits.has_limits) return {{from, to, EndKind::bound, EndKind::bound}};
+  const bool slides_only = !traits.has_modes;  // which may become parallel
   for (std::size_t g = 0; g < k; ++g) motions_[k].modes[g] = modes[g];
   // The input runs as a cosine over the stretch: analytic also at limits of groups before, where positions
   // go with the square root of the distance.
@@ -116,14 +122,14 @@ std::vector<Stretch> GroupScan::stretches(std::size_t k, std::span<const double>
   };
   std::vector<Node> found;
   const double inward = 1e-5 * (to - from);
-  const bool touch_from = !slides_only(type) && touches_at_end(k, from, inward),
-             touch_to = !slides_only(type) && touches_at_end(k, to, -inward);
+  const bool touch_from = !slides_only && touches_at_end(k, from, inward),
+             touch_to = !slides_only && touches_at_end(k, to, -inward);
   if (!touch_from) found.push_back({from, closure(k, from)});
   for (int i = 0; i < nodes; ++i) {
     const double x = input_of((i + 0.5) * pi / nodes);
     const Node next{x, closure(k, x)};
     if (!std::isfinite(next.closure.value)) continue;
-    if (i > 0 && !found.empty() && !slides_only(type) && std::isfinite(found.back().closure.slope) &&
+    if (i > 0 && !found.empty() && !slides_only && std::isfinite(found.back().closure.slope) &&
         (found.back().closure.slope < 0) != (next.closure.slope < 0)) {
       const double s = math::zero_between([&](double v) { return closure(k, v).slope; }, found.back().at, x);
       const Closure here = closure(k, s);
@@ -137,7 +143,7 @@ std::vector<Stretch> GroupScan::stretches(std::size_t k, std::span<const double>
 
   std::vector<Stretch> out;
   Stretch open{from, to, touch_from ? EndKind::change_point : EndKind::bound, EndKind::bound};
-  const auto inside = [&](double value) { return slides_only(type) || value >= 0; };
+  const auto inside = [&](double value) { return slides_only || value >= 0; };
   const auto close = [&](double x, EndKind kind) {
     open.to = x;
     open.to_kind = kind;
@@ -160,7 +166,7 @@ std::vector<Stretch> GroupScan::stretches(std::size_t k, std::span<const double>
     }
     if (last.touch || (last.closure.value < 0) == (next.closure.value < 0)) continue;
     const double x = math::zero_between([&](double v) { return closure(k, v).value; }, last.at, next.at);
-    if (slides_only(type)) {
+    if (slides_only) {
       close(x, EndKind::singular);
     } else if (in) {
       close(x, EndKind::limit);
@@ -178,7 +184,8 @@ std::vector<Stretch> GroupScan::stretches(std::size_t k, std::span<const double>
 bool periodic(const LinkagePlan& plan, int input) {
   if (!plan.rotary[at(input)]) return false;
   return std::all_of(plan.groups.begin(), plan.groups.end(), [&](const Group& g) {
-    return g.type != GroupType::gear || std::abs(g.gains[at(input)] - std::round(g.gains[at(input)])) < 1e-12;
+    const Gear* gear = g.as<Gear>();
+    return !gear || std::abs(gear->gains[at(input)] - std::round(gear->gains[at(input)])) < 1e-12;
   });
 }
 

@@ -49,6 +49,8 @@ class GroupScan {
     double slope;      // with the input
     double closeness;  // to a zero, as a share of lengths
   };
+  // Of a group that assembles wherever those before it do.
+  static constexpr Closure no_limit{1, 0, 1};
   Closure closure(std::size_t group, double input);
   bool touches_at_end(std::size_t group, double end, double inward);
 

@@ -17,7 +17,7 @@ constexpr std::size_t line = 8;  // doubles of a cache line, and lanes of the wi
 bool all_in_registers(const Linkage& l, const LinkagePlan& plan, bool forces) {
   if (plan.parts.size() > most_sweep_parts || plan.groups.size() > most_sweep_parts) return false;
   for (const Group& g : plan.groups)
-    if (has_matrix(g.type) || g.type == GroupType::gear) return false;
+    if (!g.as<Driver>() && !g.as<Dyad>()) return false;
   if (!forces) return true;
   return l.springs.empty() && l.torsion_springs.empty() && l.forces.empty() && l.torques.empty() &&
          std::all_of(l.joints.begin(), l.joints.end(),
@@ -104,12 +104,13 @@ struct LinkageSweep::Memory {
         number(task.parts + task.part_rows * (p - 1) + r, i) = known ? values[r] : nan;
     }
     for (std::size_t k = 0; k < plan.groups.size(); ++k) {
-      const GroupType type = plan.groups[k].type;
-      const bool dyad = type != GroupType::driver && type != GroupType::gear;
-      const bool known = (k < failed || (k == failed && type != GroupType::general));
+      const GroupTraits traits = traits_of(plan.groups[k]);
+      const bool known = k < failed || (k == failed && traits.closed_form);
       const GroupState<double>& s = motion.groups[k];
-      number(task.groups + 2 * k, i) = !known ? nan : dyad && type != GroupType::general ? s.radicand : 1.0;
-      number(task.groups + 2 * k + 1, i) = !known ? nan : dyad ? s.sine : 1.0;
+      number(task.groups + 2 * k, i) = !known                                     ? nan
+                                       : traits.closes_loop && traits.closed_form ? s.radicand
+                                                                                  : 1.0;
+      number(task.groups + 2 * k + 1, i) = !known ? nan : traits.closes_loop ? s.sine : 1.0;
     }
     if (!wanted.forces) return;
     for (std::size_t j = 0; j < linkage.joints.size(); ++j) {
@@ -209,7 +210,7 @@ void LinkageSweep::run(std::span<const SweepInput> inputs, std::span<const doubl
     return;
   }
   for (std::size_t k = 0; k < m.plan.groups.size(); ++k)
-    if (m.plan.groups[k].type == GroupType::driver)
+    if (m.plan.groups[k].as<Driver>())
       for (std::size_t r = 0; r < 2; ++r)
         std::fill_n(&m.number(m.task.groups + 2 * k + r, 0), m.task.count, 1.0);
   m.task.modes = m.motion.modes.data();

@@ -7,16 +7,11 @@
 #include "linkwright/planar/loop_gap.h"
 
 namespace linkwright::planar {
-namespace {
-
-Vec<double> conj(const Vec<double>& a) { return {a.x, -a.y}; }
-
-}  // namespace
 
 DrivenSide driven_side(const Group& g, double value) {
   const PlanJoint &foot = g.joints[0], &drive = g.joints[1], &tip = g.joints[2];
   const double sense = drive.reversed ? -1 : 1, way = sense * value;
-  const Vec<double> back = conj(drive.after.direction), arm = tip.before.at - drive.after.at;
+  const Vec<double> back = conjugate(drive.after.direction), arm = tip.before.at - drive.after.at;
   DrivenSide out;
   const Vec<double> base = drive.before.at - foot.after.at;
   if (drive.slide) {
@@ -32,8 +27,8 @@ DrivenSide driven_side(const Group& g, double value) {
   return out;
 }
 
-void place_triangle(const Group& g, double value, double mode, std::span<PartState<double>> parts,
-                    GroupState<double>& state) {
+void place_triangle(const Group& g, const Triangle& triangle, double value, double mode,
+                    std::span<PartState<double>> parts, GroupState<double>& state) {
   const PlanJoint &foot = g.joints[0], &drive = g.joints[1], &base = g.joints[3];
   const DrivenSide side = driven_side(g, value);
   PartState<double>&first = parts[at(g.parts[0])], &second = parts[at(g.parts[1])],
@@ -42,15 +37,15 @@ void place_triangle(const Group& g, double value, double mode, std::span<PartSta
                     b = point_on(parts[at(base.after.part)], base.after.at), d = b - a;
   // As the dyad of three pins (place_rrr).
   const double d2 = dot(d, d), square = dot(side.way, side.way), length = std::sqrt(square);
-  const double reach = length + g.second_length, fold = length - g.second_length;
+  const double reach = length + triangle.arm.length, fold = length - triangle.arm.length;
   state = {};
   state.radicand = (reach * reach - d2) * (d2 - fold * fold);
   const double root = mode * std::sqrt(std::max(state.radicand, 0.0));
   const double scale = 0.5 / d2, along = reach * fold + d2;
   const Vec<double> arm1 = scale * rotate(Vec<double>{along, root}, d),
                     arm2 = scale * rotate(Vec<double>{along - 2 * d2, root}, d);
-  first.direction = renormalised(rotate(arm1, (1 / square) * conj(side.way)));
-  arm.direction = renormalised(rotate(arm2, g.second_inverse));
+  first.direction = renormalised(rotate(arm1, (1 / square) * conjugate(side.way)));
+  arm.direction = renormalised(rotate(arm2, triangle.arm.inverse));
   second.direction = renormalised(rotate(first.direction, side.turn));
   first.origin = a - rotate(first.direction, foot.after.at);
   arm.origin = b - rotate(arm.direction, base.before.at);
@@ -61,14 +56,15 @@ void place_triangle(const Group& g, double value, double mode, std::span<PartSta
   state.reference = a + arm1;
   state.column_x = perpendicular(arm1);
   state.column_y = perpendicular(arm2);
-  state.sine = cross(arm1, arm2) / (length * g.second_length);
+  state.sine = cross(arm1, arm2) / (length * triangle.arm.length);
 }
 
-double triangle_gap(const Group& g, double value, std::span<const PartState<double>> parts) {
+double triangle_gap(const Group& g, const Triangle& triangle, double value,
+                    std::span<const PartState<double>> parts) {
   const PlanJoint &foot = g.joints[0], &base = g.joints[3];
   const Vec<double> a = point_on(parts[at(foot.before.part)], foot.before.at),
                     b = point_on(parts[at(base.after.part)], base.after.at);
-  return loop_gap(norm(b - a), norm(driven_side(g, value).way), g.second_length);
+  return loop_gap(norm(b - a), norm(driven_side(g, value).way), triangle.arm.length);
 }
 
 }  // namespace linkwright::planar

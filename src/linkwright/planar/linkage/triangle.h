@@ -16,14 +16,15 @@ struct DrivenSide {
   Vec<double> rate;  ///< its derivative by the input, m/m or m/rad
   Vec<double> turn;  ///< x axis of the second body in the frame of the first
 };
-DrivenSide driven_side(const Group& triangle, double value);
+DrivenSide driven_side(const Group& group, double value);
 
 /// Places the three bodies from the known parts; `state` as of a dyad of three pins: radicand (m4), and the
 /// sine of the angle at the pin of the arm. Not closed where the radicand is negative.
-void place_triangle(const Group& triangle, double value, double mode, std::span<PartState<double>> parts,
-                    GroupState<double>& state);
+void place_triangle(const Group& group, const Triangle& triangle, double value, double mode,
+                    std::span<PartState<double>> parts, GroupState<double>& state);
 
 /// m: by how much the triangle that was placed cannot close; 0 when it does.
-double triangle_gap(const Group& triangle, double value, std::span<const PartState<double>> parts);
+double triangle_gap(const Group& group, const Triangle& triangle, double value,
+                    std::span<const PartState<double>> parts);
 
 }  // namespace linkwright::planar

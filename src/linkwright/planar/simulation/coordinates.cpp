@@ -387,7 +387,7 @@ class Coordinates {
   void place_groups() {
     if (!plan_.closed_form()) rows_.parts = motion_.parts;
     for (std::size_t g = 0; g < plan_.groups.size(); ++g) {
-      if (!has_modes(plan_.groups[g].type)) continue;
+      if (!traits_of(plan_.groups[g]).has_modes) continue;
       double nearest = infinity, best = 1;
       for (const double mode : {1.0, -1.0}) {
         rows_.modes[g] = mode;

@@ -268,7 +268,7 @@ class Builder {
                       [&](const BodyOnPart& b) { return b.part == part; }) != 1)
       return -1;
     const Group& group = plan.groups[at(plan.group_of_part[at(part)])];
-    if (group.type == GroupType::driver || group.type == GroupType::gear || has_matrix(group.type)) return -1;
+    if (!group.as<Dyad>()) return -1;
     return group.joints[group.parts[0] == part ? 0 : 2].joint;
   }
   void drive(const ElasticPieces& p, const LinkagePlan& plan, const LinkageMotion& motion) {

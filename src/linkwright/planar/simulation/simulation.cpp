@@ -236,7 +236,7 @@ class Simulation {
 
   bool changed_side() const {
     for (std::size_t g = 0; g < plan_.groups.size(); ++g)
-      if (plan_.groups[g].type == GroupType::general && last_sines_[g] * dynamics_.motion.groups[g].sine < 0)
+      if (!traits_of(plan_.groups[g]).closed_form && last_sines_[g] * dynamics_.motion.groups[g].sine < 0)
         return true;
     return false;
   }
@@ -255,10 +255,9 @@ class Simulation {
     put(t, state());
     report_.time = t;
     dynamics_.motion.groups.assign(plan_.groups.size(), {});
-    const bool modes = std::any_of(plan_.groups.begin(), plan_.groups.end(), [](const Group& g) {
-      return has_modes(g.type) || g.type == GroupType::prp;
-    });
-    if (plan_.inputs() == 1 && plan_.closed_form() && modes) {
+    const bool limits = std::any_of(plan_.groups.begin(), plan_.groups.end(),
+                                    [](const Group& g) { return traits_of(g).has_limits; });
+    if (plan_.inputs() == 1 && plan_.closed_form() && limits) {
       branch_.emplace(plan_, inputs_[0].value, dynamics_.motion.modes);
       if (branch_->path().status != Status::done) branch_.reset();
     }
@@ -390,8 +389,8 @@ class Simulation {
     horizon_ = infinity;
     if (step <= 0) return true;
     for (std::size_t g = 0; g < plan_.groups.size(); ++g) {
-      const GroupType type = plan_.groups[g].type;
-      if (type == GroupType::driver || type == GroupType::gear || type == GroupType::general) continue;
+      const GroupTraits traits = traits_of(plan_.groups[g]);
+      if (!traits.closes_loop || !traits.closed_form) continue;
       if (branch_ && !ends_here(static_cast<int>(g))) continue;
       const double sine = std::abs(dynamics_.motion.groups[g].sine), before = std::abs(last_sines_[g]);
       if (sine > watched_sine || sine >= before) continue;

@@ -30,7 +30,7 @@ void modes_table(const LinkageStudy& s, const std::vector<double>& inputs, study
     table.add(key, label, std::move(values));
   };
   for (std::size_t g = 0; g < s.plan.groups.size(); ++g)
-    if (has_modes(s.plan.groups[g].type))
+    if (traits_of(s.plan.groups[g]).has_modes)
       add(group_key(s.plan.groups[g].name) + "_mode", s.plan.groups[g].name + " mode (1 = plus)",
           [g](const AssembledMode& m) { return m.modes[g]; });
   for (std::size_t p = 1; p < s.plan.parts.size(); ++p) {
@@ -147,7 +147,7 @@ void add_limits(const LinkageStudy& s, const InputLimits& limits, study::Result&
   table.add("to_" + unit, "input to (" + unit + ")", std::move(to));
   table.add("full_turn", "rotates fully (1 = yes)", std::move(turns));
   for (std::size_t g = 0; g < s.plan.groups.size(); ++g) {
-    if (!has_modes(s.plan.groups[g].type)) continue;
+    if (!traits_of(s.plan.groups[g]).has_modes) continue;
     std::vector<double> mode;
     for (const InputRange& r : limits.ranges) mode.push_back(r.modes[g]);
     table.add(group_key(s.plan.groups[g].name) + "_mode", s.plan.groups[g].name + " mode (1 = plus)",

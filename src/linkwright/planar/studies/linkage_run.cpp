@@ -218,13 +218,13 @@ class Runner {
       return;
     }
     closure_.larger(motion.closure_residual, r);
-    for (std::size_t g = 0; g < s_.plan.groups.size(); ++g)
-      if (s_.plan.groups[g].type == GroupType::triangle ||
-          (s_.plan.groups[g].joints.size() == 3 && s_.plan.groups[g].type != GroupType::general)) {
-        const double before = transmission_.any ? transmission_.value : 10;
-        transmission_.smaller(std::asin(std::min(1.0, std::abs(motion.groups[g].sine))), r);
-        if (transmission_.value < before) weakest_ = g;
-      }
+    for (std::size_t g = 0; g < s_.plan.groups.size(); ++g) {
+      const GroupTraits traits = traits_of(s_.plan.groups[g]);
+      if (!traits.closes_loop || !traits.closed_form) continue;
+      const double before = transmission_.any ? transmission_.value : 10;
+      transmission_.smaller(std::asin(std::min(1.0, std::abs(motion.groups[g].sine))), r);
+      if (transmission_.value < before) weakest_ = g;
+    }
     if (!dynamic) return;
     drives_.resize(s_.plan.inputs());
     for (std::size_t k = 0; k < drives_.size(); ++k) drives_[k].larger(forces.drives[k], r);
@@ -259,7 +259,7 @@ class Runner {
   void find_limits() {
     modes_ = LinkageMotion(s_.plan).modes;
     const auto pairs = std::count_if(s_.plan.groups.begin(), s_.plan.groups.end(),
-                                     [](const Group& g) { return has_modes(g.type); });
+                                     [](const Group& g) { return traits_of(g).has_modes; });
     if (!s_.plan.closed_form()) limits_ = assembly_.limits();
     if (s_.plan.inputs() != 1 || over_time() || !s_.plan.closed_form() || pairs > 6) return;
     const InputSamples& axis = std::get<InputGrid>(s_.sweep).inputs[0];
@@ -372,8 +372,8 @@ class Runner {
     fact("degrees of freedom", fmt::format("{}, {} driven", mobility(s_.linkage), s_.plan.inputs()));
     std::string order;
     for (const Group& g : s_.plan.groups)
-      order += fmt::format("{}{} ({}{})", order.empty() ? "" : " → ", g.name, name_of(g.type),
-                           has_modes(g.type) ? g.mode > 0 ? ", plus" : ", minus" : "");
+      order += fmt::format("{}{} ({}{})", order.empty() ? "" : " → ", g.name, traits_of(g).name,
+                           traits_of(g).has_modes ? g.mode > 0 ? ", plus" : ", minus" : "");
     fact("solved in this order", order);
     if (limits_) {
       fact("range of the input", assembly_range_text(*limits_, modes_));

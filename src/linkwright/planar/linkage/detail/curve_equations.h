@@ -31,15 +31,14 @@ class CurveEquations {
   CurveEquations(const LinkagePlan& plan, InputLine line) : plan_(plan), line_(std::move(line)) {
     std::vector<bool> takes(plan.groups.size(), false);
     for (std::size_t k = plan.groups.size(); k-- > 0;) {
-      takes[k] = takes[k] || plan.groups[k].type == GroupType::general;
+      takes[k] = takes[k] || !traits_of(plan.groups[k]).closed_form;
       if (!takes[k]) continue;
       const auto needs = [&](int part) {
         const int g = plan.group_of_part[part_index(part)];
         if (part > 0 && g != static_cast<int>(k)) takes[part_index(g)] = true;
       };
       for (const PlanJoint& j : plan.groups[k].joints) needs(j.before.part), needs(j.after.part);
-      if (plan.groups[k].type == GroupType::gear)
-        needs(plan.groups[k].turning), needs(plan.groups[k].carrier);
+      if (const Gear* gear = plan.groups[k].as<Gear>()) needs(gear->turning), needs(gear->carrier);
     }
     column_.assign(plan.parts.size(), -1);
     for (std::size_t k = 0; k < takes.size(); ++k) {
@@ -88,21 +87,19 @@ class CurveEquations {
     Eigen::Index row = 0;
     for (const int k : groups_) {
       const Group& g = plan_.groups[part_index(k)];
-      for (std::size_t i = 0; i < g.joints.size(); ++i) {
-        const int input = g.type == GroupType::driver ? g.input : i < g.inputs.size() ? g.inputs[i] : -1;
-        const PlanJoint& j = g.joints[i];
-        const JointRows r = joint_rows(j, input >= 0, y.parts);
-        const auto f =
-            joint_residuals(j, r, input >= 0 ? &inputs_[part_index(input)] : nullptr, y.parts, plan_.size);
+      for (const PlanJoint& j : g.joints) {
+        const InputMotion* input = j.input >= 0 ? &inputs_[part_index(j.input)] : nullptr;
+        const JointRows r = joint_rows(j, input != nullptr, y.parts);
+        const auto f = joint_residuals(j, r, input, y.parts, plan_.size);
         for (int e = 0; e < r.count; ++e, ++row) {
           residual_[row] = f[part_index(e)] / plan_.size;
           if (derivatives) derive(row, j, r, r.rows[part_index(e)], y);
         }
-        if (derivatives && input >= 0)
+        if (derivatives && input)
           jacobian_(row - 1, n_) -=
-              sense(j) * line_.direction[part_index(input)] / unit_ / (j.slide ? plan_.size : 1);
+              sense(j) * line_.direction[part_index(j.input)] / unit_ / (j.slide ? plan_.size : 1);
       }
-      if (g.type == GroupType::gear) turn_gear(g, y, row++, derivatives);
+      if (const Gear* gear = g.as<Gear>()) turn_gear(*gear, g.parts[0], y, row++, derivatives);
     }
   }
 
@@ -252,15 +249,15 @@ class CurveEquations {
       jacobian_(row, c + 2) += side * (e.moment + cross(arm, e.force) / plan_.size);
     }
   }
-  void turn_gear(const Group& g, const CurveNode& y, Eigen::Index row, bool derivatives) {
-    double angle = g.angle, gain = 0;
+  void turn_gear(const Gear& gear, int part, const CurveNode& y, Eigen::Index row, bool derivatives) {
+    double angle = gear.angle, gain = 0;
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
-      angle += g.gains[i] * inputs_[i].value;
-      gain += g.gains[i] * line_.direction[i];
+      angle += gear.gains[i] * inputs_[i].value;
+      gain += gear.gains[i] * line_.direction[i];
     }
-    residual_[row] = math::wrap_angle(angle_of(y.parts[part_index(g.parts[0])].direction) - angle);
+    residual_[row] = math::wrap_angle(angle_of(y.parts[part_index(part)].direction) - angle);
     if (!derivatives) return;
-    jacobian_(row, column_[part_index(g.parts[0])] + 2) = 1;
+    jacobian_(row, column_[part_index(part)] + 2) = 1;
     jacobian_(row, n_) = -gain / unit_;
   }
 

@@ -71,7 +71,8 @@ LINKWRIGHT_KERNEL void sweep_forces(const SweepTask& task, SweepBlock<Batch>& bl
   }
   for (std::size_t k = plan.groups.size(); k-- > 0;) {
     const Group& g = plan.groups[k];
-    if (g.type == GroupType::driver) {
+    const Dyad* dyad = g.as<Dyad>();
+    if (!dyad) {  // a driver
       const PlanJoint& j = g.joints[0];
       for (std::size_t b = 0; b < sweep_together; ++b) {
         auto& r = block.registers[b];
@@ -82,12 +83,12 @@ LINKWRIGHT_KERNEL void sweep_forces(const SweepTask& task, SweepBlock<Batch>& bl
         if (j.slide)
           drive =
               dot(rotate(r.parts[j.before.part].direction, broadcast<Batch>(j.before.direction)), w.force);
-        rows.store(task.drives + static_cast<std::size_t>(g.input), j.reversed ? -drive : drive);
+        rows.store(task.drives + static_cast<std::size_t>(j.input), j.reversed ? -drive : drive);
       }
       continue;
     }
     for_dyad(
-        g.type, [&](auto type) __attribute__((always_inline)) {
+        dyad->type, [&](auto type) __attribute__((always_inline)) {
           constexpr DyadLayout at = layout(decltype(type)::value);
           for (std::size_t b = 0; b < sweep_together; ++b) {
             auto& r = block.registers[b];
@@ -114,8 +115,9 @@ LINKWRIGHT_KERNEL void sweep_motion(const SweepTask& task, SweepBlock<Batch>& bl
   const LinkagePlan& plan = *task.plan;
   for (std::size_t k = 0; k < plan.groups.size(); ++k) {
     const Group& g = plan.groups[k];
-    if (g.type == GroupType::driver) {
-      const std::size_t row = task.inputs + 3 * static_cast<std::size_t>(g.input);
+    const Dyad* dyad = g.as<Dyad>();
+    if (!dyad) {  // a driver
+      const std::size_t row = task.inputs + 3 * static_cast<std::size_t>(g.joints[0].input);
       for (std::size_t b = 0; b < sweep_together; ++b) {
         PartState<Batch>* parts = block.registers[b].parts;
         const SweepRows<Batch> rows = block.rows(b);
@@ -129,9 +131,9 @@ LINKWRIGHT_KERNEL void sweep_motion(const SweepTask& task, SweepBlock<Batch>& bl
       continue;
     }
     for_dyad(
-        g.type, [&](auto type) __attribute__((always_inline)) {
+        dyad->type, [&](auto type) __attribute__((always_inline)) {
           const Batch mode(task.modes[k]);
-          for (auto& r : block.registers) place_dyad(type, g, mode, r.parts, r.states[k]);
+          for (auto& r : block.registers) place_dyad(type, g, *dyad, mode, r.parts, r.states[k]);
           if constexpr (rates) {
             for (auto& r : block.registers) dyad_velocity(type, g, r.parts, r.states[k]);
             for (auto& r : block.registers) dyad_acceleration(type, g, r.parts, r.states[k]);
@@ -148,7 +150,7 @@ LINKWRIGHT_KERNEL bool sweep_write(const SweepTask& task, const SweepRows<Batch>
   const Batch none(0.0);
   auto good = none == none;
   for (std::size_t k = 0; k < plan.groups.size(); ++k) {
-    if (plan.groups[k].type == GroupType::driver) continue;
+    if (!plan.groups[k].as<Dyad>()) continue;
     const GroupState<Batch>& s = r.states[k];
     good = good & (s.radicand > none) & (math::Scalar<Batch>::abs(s.sine) >= Batch(tolerance::toggle_angle));
     rows.store(task.groups + 2 * k, s.radicand);

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "linkwright/core/numbers.h"
+#include "linkwright/planar/linkage/plan.h"
+
+// The stages of a plan, one source each: bodies become parts, parts fall into groups, what is left over is
+// named, and the drawing shows modes and inputs.
+namespace linkwright::planar {
+
+// A joint between two parts as the model has it, before it gets its place in a chain.
+struct PartJoint {
+  PartPoint first, second;
+  bool slide = false;
+  int joint = -1;  // -1: the slide of a pin in a slot
+  int input = -1;
+  bool used = false;
+};
+struct PartGear {
+  int joint = 0, turning = 0, turned = 0, carrier = 0;
+  double phase = 0;
+  bool used = false;
+};
+// Angle of a part that drives and gears alone turn: angle + sum of gains times inputs.
+struct DrivenAngle {
+  double angle = 0;
+  std::vector<double> gains;
+};
+
+// A plan under way.
+struct PlanDraft {
+  const Linkage& linkage;
+  PlanResult result;
+  std::vector<PartJoint> joints;
+  std::vector<PartGear> gears;
+  // One a part.
+  std::vector<std::optional<math::Pose>> start;    // where the model shows it
+  std::vector<bool> known;                         // placed by the groups so far
+  std::vector<std::optional<DrivenAngle>> angles;  // of those that drives and gears alone turn
+
+  LinkagePlan& plan() { return result.plan; }
+  const LinkagePlan& plan() const { return result.plan; }
+  std::size_t parts() const { return result.plan.parts.size(); }
+  bool good() const { return result.problems.empty(); }
+  const LinkageJoint& model(int joint) const { return linkage.joints[at(joint)]; }
+  const std::string& body_name(int body) const { return linkage.bodies[at(body)].name; }
+  void error(std::string key, std::string message, std::string hint) {
+    result.problems.push_back(
+        {Diagnostic::Severity::error, {}, {}, std::move(key), std::move(message), std::move(hint)});
+  }
+};
+
+// plan_parts.cpp: the parts, their masses, and the joints and gears between them.
+void find_parts(PlanDraft& d);
+
+// plan_groups.cpp: the groups in order, as far as parts can be placed.
+void find_groups(PlanDraft& d);
+PlanJoint chained(const PartJoint& joint, int before);
+void place_group(PlanDraft& d, Group group);
+
+// plan_general.cpp: the smallest group without closed form, or all parts as one in the place of all groups.
+bool find_general_group(PlanDraft& d);
+void merge_groups(PlanDraft& d);
+std::vector<int> unknown_parts(const PlanDraft& d);
+// Whether a joint not used yet runs inside `chosen` or from there to a known part.
+bool holds_chosen(const PlanDraft& d, const PartJoint& joint, const std::vector<bool>& chosen);
+// Equations of these joints, or -1 when a gear is among them.
+int equations_of(const PlanDraft& d, const std::vector<bool>& chosen);
+
+// plan_problems.cpp: why parts stay without a place, or joints without a use.
+void find_problems(PlanDraft& d);
+
+// plan_drawing.cpp: signs of the assembly modes, which the model names, else the start poses show, else plus;
+// and what the driven joints stand at in the start poses.
+void find_modes(PlanDraft& d);
+void find_drawn_inputs(PlanDraft& d);
+
+}  // namespace linkwright::planar

@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "linkwright/core/check.h"
+#include "linkwright/planar/linkage/detail/plan_draft.h"
+
+namespace linkwright::planar {
+namespace {
+
+bool linked(const PlanDraft& d, int part, const std::vector<bool>& chosen) {
+  return std::any_of(d.joints.begin(), d.joints.end(), [&](const PartJoint& joint) {
+    return !joint.used && ((joint.first.part == part && chosen[at(joint.second.part)]) ||
+                           (joint.second.part == part && chosen[at(joint.first.part)]));
+  });
+}
+// Smallest connected set of unknown parts with as many equations as unknowns, grown from its lowest part.
+bool grow_set(const PlanDraft& d, std::vector<int>& set, std::vector<bool>& chosen, std::size_t size,
+              int& tries) {
+  if (set.size() == size) return equations_of(d, chosen) == 3 * static_cast<int>(size);
+  for (int p = set.front() + 1; p < static_cast<int>(d.parts()); ++p) {
+    if (d.known[at(p)] || chosen[at(p)] || !linked(d, p, chosen) || --tries < 0) continue;
+    set.push_back(p);
+    chosen[at(p)] = true;
+    if (grow_set(d, set, chosen, size, tries)) return true;
+    set.pop_back();
+    chosen[at(p)] = false;
+  }
+  return false;
+}
+
+void add_general_group(PlanDraft& d, std::vector<int> set, const std::vector<bool>& chosen) {
+  std::sort(set.begin(), set.end());
+  Group g{.kind = GeneralGroup{}, .parts = set};
+  for (PartJoint& joint : d.joints) {
+    if (!holds_chosen(d, joint, chosen)) continue;
+    g.joints.push_back(chained(joint, joint.first.part));
+    joint.used = true;
+  }
+  std::vector<math::Pose>& start = std::get<GeneralGroup>(g.kind).start;
+  for (int p : set)
+    if (d.start[at(p)]) start.push_back(*d.start[at(p)]);
+  if (start.size() != set.size()) start.clear();
+  place_group(d, std::move(g));
+}
+
+}  // namespace
+
+bool holds_chosen(const PlanDraft& d, const PartJoint& joint, const std::vector<bool>& chosen) {
+  const int a = joint.first.part, b = joint.second.part;
+  return !joint.used &&
+         ((chosen[at(a)] && (chosen[at(b)] || d.known[at(b)])) || (chosen[at(b)] && d.known[at(a)]));
+}
+
+int equations_of(const PlanDraft& d, const std::vector<bool>& chosen) {
+  int count = 0;
+  for (const PartJoint& joint : d.joints)
+    if (holds_chosen(d, joint, chosen)) count += joint.input >= 0 ? 3 : 2;
+  for (const PartGear& g : d.gears)
+    if (!g.used && (chosen[at(g.turned)] || chosen[at(g.turning)])) return -1;
+  return count;
+}
+
+std::vector<int> unknown_parts(const PlanDraft& d) {
+  std::vector<int> unknown;
+  for (int p = 0; p < static_cast<int>(d.parts()); ++p)
+    if (!d.known[at(p)]) unknown.push_back(p);
+  return unknown;
+}
+
+bool find_general_group(PlanDraft& d) {
+  const std::vector<int> unknown = unknown_parts(d);
+  int tries = 200000;  // the whole rest is tried in any case
+  for (std::size_t size = 1; size <= unknown.size(); ++size) {
+    for (int first : unknown) {
+      std::vector<int> set{first};
+      std::vector<bool> chosen(d.parts(), false);
+      chosen[at(first)] = true;
+      if (size == unknown.size() && first == unknown.front()) {
+        set = unknown;
+        for (int p : unknown) chosen[at(p)] = true;
+        if (equations_of(d, chosen) != 3 * static_cast<int>(size)) continue;
+      } else if (!grow_set(d, set, chosen, size, tries)) {
+        continue;
+      }
+      add_general_group(d, set, chosen);
+      return true;
+    }
+  }
+  return false;
+}
+
+void merge_groups(PlanDraft& d) {
+  LINKWRIGHT_REQUIRE(d.gears.empty(), "a linkage with {} gear(s) cannot be solved all at once",
+                     d.gears.size());
+  d.plan().groups.clear();
+  for (PartJoint& joint : d.joints) joint.used = false;
+  std::vector<bool> chosen(d.parts(), true);
+  chosen[0] = false;
+  d.known.assign(d.parts(), false);
+  d.known[0] = true;
+  std::vector<int> all(d.parts() - 1);
+  std::iota(all.begin(), all.end(), 1);
+  add_general_group(d, std::move(all), chosen);
+}
+
+}  // namespace linkwright::planar

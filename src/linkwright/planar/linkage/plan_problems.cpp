@@ -1,0 +1,140 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "linkwright/planar/linkage/detail/plan_draft.h"
+
+namespace linkwright::planar {
+namespace {
+
+// "a", "a and b", "a, b and c", each in quotes.
+std::string quoted_list(const std::vector<std::string>& names) {
+  std::string out;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + ("'" + names[i] + "'");
+  return out;
+}
+
+int slot_of(const PlanDraft& d, const PartJoint& slide) {
+  for (const PartJoint& joint : d.joints)
+    if (!joint.slide && joint.first.part == slide.second.part) return joint.joint;
+  return 0;
+}
+std::string driven_names(const PlanDraft& d) {
+  std::vector<std::string> names;
+  for (int k : d.linkage.driven) names.push_back(d.model(k).name);
+  return quoted_list(names);
+}
+
+// Why parts stay without a place.
+void name_loose_parts(PlanDraft& d, const std::vector<int>& unknown) {
+  const auto names = [&](const std::vector<int>& of) {
+    std::vector<std::string> out;
+    for (int p : of) out.push_back(d.plan().parts[at(p)]);
+    return quoted_list(out);
+  };
+  // Components of the unknown parts; known parts are walls.
+  std::vector<bool> seen(d.parts(), false);
+  for (int p : unknown) {
+    if (seen[at(p)]) continue;
+    std::vector<int> component{p};
+    seen[at(p)] = true;
+    bool held = false;
+    for (std::size_t i = 0; i < component.size(); ++i)
+      for (const PartJoint& joint : d.joints)
+        for (const auto& [here, there] :
+             {std::pair{joint.first.part, joint.second.part}, std::pair{joint.second.part, joint.first.part}})
+          if (here == component[i]) {
+            if (d.known[at(there)]) {
+              held = true;
+            } else if (!seen[at(there)]) {
+              seen[at(there)] = true;
+              component.push_back(there);
+            }
+          }
+    std::sort(component.begin(), component.end());
+    std::vector<bool> chosen(d.parts(), false);
+    for (int c : component) chosen[at(c)] = true;
+    const int rows = equations_of(d, chosen);
+    const int free = 3 * static_cast<int>(component.size()) - std::max(rows, 0);
+    const std::string key = "body." + d.plan().parts[at(component[0])];
+    if (!held && component.size() == 1)
+      d.error(key, fmt::format("{} is not joined to anything", names(component)),
+              "join it to another body, or leave it out");
+    else if (!held)
+      d.error(key, fmt::format("{} are joined to each other but not to the ground", names(component)),
+              "join one of them to the ground or to a body that stands on it");
+    else if (rows < 0)
+      continue;  // the gear has been named
+    else if (free > 0)
+      d.error(key,
+              fmt::format("{} keep{} {} degree{} of freedom without a drive", names(component),
+                          component.size() == 1 ? "s" : "", free, free == 1 ? "" : "s"),
+              fmt::format("the linkage has {} degree(s) of freedom and {} drive(s): drive one more joint, or "
+                          "add a joint",
+                          mobility(d.linkage), d.linkage.driven.size()));
+    else if (free < 0 && d.linkage.driven.size() > 1 &&
+             mobility(d.linkage) < static_cast<int>(d.linkage.driven.size()))
+      d.error("drive",
+              fmt::format("two drives on one freedom: with the drives of {} nothing is left to place {}",
+                          driven_names(d), names(component)),
+              fmt::format("the linkage has {} degree(s) of freedom and {} drive(s): remove one drive",
+                          mobility(d.linkage), d.linkage.driven.size()));
+    else if (free < 0)
+      d.error(
+          key,
+          fmt::format("{} {} {} constraint{} too many: a rigid or overdetermined structure", names(component),
+                      component.size() == 1 ? "has" : "have", -free, free == -1 ? "" : "s"),
+          "leave out a joint or a drive");
+    else
+      d.error(key,
+              fmt::format("{} {} constrained too much in one place and too little in another",
+                          names(component), component.size() == 1 ? "is" : "are"),
+              "look for a triangle of links that cannot move");
+  }
+}
+
+}  // namespace
+
+void find_problems(PlanDraft& d) {
+  for (const PartJoint& joint : d.joints) {
+    if (joint.used || !d.known[at(joint.first.part)] || !d.known[at(joint.second.part)]) continue;
+    const int k = joint.joint >= 0 ? joint.joint : slot_of(d, joint);
+    const LinkageJoint& j = d.model(k);
+    if (joint.input >= 0)
+      d.error(
+          "drive",
+          fmt::format("two drives on one freedom: '{}' and '{}', which joint '{}' would drive, are placed "
+                      "by other drives already",
+                      d.body_name(j.first.body), d.body_name(j.second.body), j.name),
+          fmt::format("the linkage has {} degree(s) of freedom and {} drive(s): remove one drive",
+                      mobility(d.linkage), d.linkage.driven.size()));
+    else
+      d.error("joint." + j.name,
+              fmt::format("a redundant constraint: '{}' and '{}' are placed by other joints already, so the "
+                          "joint fits by chance only",
+                          d.body_name(j.first.body), d.body_name(j.second.body)),
+              "leave the joint out, or one of the links beside it");
+  }
+  for (const PartGear& g : d.gears) {
+    if (g.used) continue;
+    const LinkageJoint& j = d.model(g.joint);
+    if (d.known[at(g.turned)] && d.known[at(g.turning)])
+      d.error("joint." + j.name,
+              fmt::format("a redundant constraint: '{}' and '{}' are placed without the gear already",
+                          d.body_name(j.first.body), d.body_name(j.second.body)),
+              "leave the gear or a drive out");
+    else
+      d.error("joint." + j.name,
+              fmt::format("the gear between '{}' and '{}' on '{}' cannot be followed from the drives",
+                          d.body_name(j.first.body), d.body_name(j.second.body), d.body_name(j.carrier)),
+              "one of the two must be turned by drives and gears alone, so must the carrier, and the other "
+              "must have a pin on a placed body");
+  }
+  if (const std::vector<int> unknown = unknown_parts(d); !unknown.empty()) name_loose_parts(d, unknown);
+}
+
+}  // namespace linkwright::planar
