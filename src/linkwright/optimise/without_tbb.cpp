@@ -8,7 +8,8 @@
 #include "linkwright/core/check.h"
 #include "linkwright/optimise/parallel.h"
 
-// For places where TBB is not: a thread sanitizer sees what these threads share, and nothing of what TBB's do.
+// For places where TBB is not: a thread sanitizer sees what these threads share, and nothing of what TBB's
+// do.
 namespace linkwright::optimise {
 
 void parallel_for(std::size_t count, int threads, math::FunctionRef<void(std::size_t)> body) {
