@@ -36,14 +36,13 @@ TEST(StaticPage, HasEverySectionAndIsWellFormed) {
 
 TEST(StaticPage, BannerCountsChecks) {
   auto result = test::sample_result();
-  EXPECT_THAT(page(result), HasSubstr("class=\"verdict passed\""));
+  EXPECT_THAT(page(result), HasSubstr("class=\"verdict doubtful\"")) << "a bad transmission angle";
   EXPECT_THAT(page(result), HasSubstr("2 of 2 checks passed"));
+  result.facts.clear();
+  EXPECT_THAT(page(result), HasSubstr("class=\"verdict passed\""));
   result.checks[0].passed = false;
   EXPECT_THAT(page(result), HasSubstr("class=\"verdict failed\""));
   EXPECT_THAT(page(result), HasSubstr("1 of 2 checks passed"));
-  result.checks[0].passed = true;
-  result.facts.push_back({"least transmission angle", "2.1°", study::Fact::Verdict::bad});
-  EXPECT_THAT(page(result), HasSubstr("class=\"verdict doubtful\""));
 }
 
 TEST(StaticPage, LongTablesAreThinnedAndSaySo) {

@@ -117,6 +117,7 @@ class Runner {
     finish_table();
     result_.scenes.push_back(
         linkage_scene(s_.linkage, s_.plan, recorded_, s_.traces, scene_input_key(), scene_input_label()));
+    if (s_.quantities.dynamic()) add_mass_centres(result_.scenes[0], s_.linkage, s_.plan, recorded_);
     if (limits_) add_limits(s_, *limits_, result_);
     if (s_.plan.inputs() == 1 && !over_time()) add_quality(s_, branch_, result_);
     plots();

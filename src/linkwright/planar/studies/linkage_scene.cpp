@@ -178,16 +178,10 @@ class Artist {
           {s.name, {point(s.first), point(s.second)}, s.stiffness > 0 ? Style::spring : Style::damper});
   }
 
-  // Mass centres, counterweights and payloads, as large as steel discs of these masses.
+  // Counterweights and payloads.
   void masses() {
     for (int b = 1; b < static_cast<int>(l_.bodies.size()); ++b) {
       const LinkageBody& body = l_.bodies[at(b)];
-      if (body.mass && body.mass->mass > 0 && moves(b)) {
-        const std::complex<double> centre = body.mass->centre;
-        const std::complex<double> rim = centre + drawn_radius(body.mass->mass);
-        scene_.circles.push_back({fmt::format("mass centre of {}, {:.4g} kg", body.name, body.mass->mass),
-                                  add_point("", b, centre), add_point("", b, rim)});
-      }
       for (const AttachedMass& m : body.attached) {
         if (!(m.mass > 0)) continue;
         const std::string name =
@@ -309,6 +303,26 @@ LinkageRecord record_of(const Linkage& linkage, const LinkagePlan& plan, const L
     r.shaking_force = forces->shaking_force;
   }
   return r;
+}
+
+void add_mass_centres(study::Scene& scene, const Linkage& linkage, const LinkagePlan& plan,
+                      const std::vector<LinkageRecord>& records) {
+  for (std::size_t b = 1; b < linkage.bodies.size(); ++b) {
+    const LinkageBody& body = linkage.bodies[b];
+    if (!body.mass || !(body.mass->mass > 0) || plan.bodies[b].part == 0) continue;
+    const auto add_point = [&](std::complex<double> there) {
+      study::Scene::Point p;
+      for (const LinkageRecord& r : records) {
+        const Vec<double> v = r.bodies.empty() ? Vec<double>{nan, nan} : point_on(r.bodies[b], vec(there));
+        p.x.push_back(v.x), p.y.push_back(v.y);
+      }
+      scene.points.push_back(std::move(p));
+      return static_cast<int>(scene.points.size()) - 1;
+    };
+    const std::complex<double> centre = body.mass->centre;
+    scene.circles.push_back({fmt::format("mass centre of {}, {:.4g} kg", body.name, body.mass->mass),
+                             add_point(centre), add_point(centre + drawn_radius(body.mass->mass))});
+  }
 }
 
 study::Scene linkage_scene(const Linkage& linkage, const LinkagePlan& plan,

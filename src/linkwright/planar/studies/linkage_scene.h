@@ -29,4 +29,9 @@ study::Scene linkage_scene(const Linkage& linkage, const LinkagePlan& plan,
                            const std::vector<LinkageRecord>& records, const std::vector<BodyPoint>& traces,
                            std::string input_key, std::string input_label);
 
+/// Adds discs at the mass centres of the moving bodies, as large as steel discs of these masses (see
+/// drawn_radius).
+void add_mass_centres(study::Scene& scene, const Linkage& linkage, const LinkagePlan& plan,
+                      const std::vector<LinkageRecord>& records);
+
 }  // namespace linkwright::planar
