@@ -1,4 +1,4 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -192,7 +192,8 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
     if (j < 0) {
       std::vector<std::string_view> known;
       for (const LinkageJoint& k : l.joints) known.push_back(k.name);
-      drive.error("joint", fmt::format("there is no joint '{}'", joint), did_you_mean(joint, known));
+      drive.error("joint", fmt::format("there is no joint '{}'", joint),
+                  did_you_mean(joint, known, fmt::format("there are: {}", fmt::join(known, ", "))));
       good = false;
     } else if (!own_drives) {
       l.driven.push_back(j);

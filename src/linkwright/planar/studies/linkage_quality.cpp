@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "linkwright/core/numbers.h"
-#include "linkwright/math/angles.h"
 #include "linkwright/planar/linkage/assembly.h"
 #include "linkwright/planar/linkage/branch.h"
 #include "linkwright/planar/linkage/limits.h"
 #include "linkwright/planar/linkage/modes.h"
 #include "linkwright/planar/linkage/quality.h"
 #include "linkwright/planar/studies/linkage.h"
+#include "linkwright/study/remarks.h"
 
 namespace linkwright::planar {
 namespace {
@@ -117,8 +117,7 @@ void dead_centres_table(const LinkageStudy& s, const InputSamples& axis,
     input.push_back(c.input);
     coordinate.push_back(c.coordinate);
     table.status.emplace_back("done");
-    text += (text.empty() ? "" : ", ") + (s.plan.rotary[0] ? fmt::format("{:.6g}°", math::degrees(c.input))
-                                                           : fmt::format("{:.6g} mm", c.input * 1e3));
+    text += (text.empty() ? "" : ", ") + study::angle_or_length(c.input, s.plan.rotary[0], 6);
   }
   const bool slide = s.linkage.joints[at(joint)].type == JointType::prismatic ||
                      s.linkage.joints[at(joint)].type == JointType::pin_in_slot;

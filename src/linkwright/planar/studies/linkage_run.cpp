@@ -20,6 +20,7 @@
 #include "linkwright/planar/linkage/smooth_branch.h"
 #include "linkwright/planar/studies/linkage.h"
 #include "linkwright/planar/studies/linkage_scene.h"
+#include "linkwright/study/extremes.h"
 #include "linkwright/study/remarks.h"
 
 namespace linkwright::planar {
@@ -85,23 +86,6 @@ LinkageRows rows_of(const LinkageStudy& s) {
 
 namespace {
 
-std::string shown(double value, bool rotary) {
-  return rotary ? fmt::format("{:.6g}°", math::degrees(value)) : fmt::format("{:.6g} mm", value * 1e3);
-}
-
-// What the rows tell beyond the table.
-struct Worst {
-  double value = 0;
-  std::size_t row = 0;
-  bool any = false;
-  void larger(double v, std::size_t r) {
-    if (!std::isnan(v) && (!any || std::abs(v) > std::abs(value))) value = v, row = r, any = true;
-  }
-  void smaller(double v, std::size_t r) {
-    if (!std::isnan(v) && (!any || v < value)) value = v, row = r, any = true;
-  }
-};
-
 class Runner {
  public:
   Runner(const LinkageStudy& s, RunContext& context)
@@ -147,7 +131,7 @@ class Runner {
     if (over_time()) return fmt::format("{:.4g} s", rows_.time[row]);
     std::string out;
     for (std::size_t k = 0; k < s_.plan.inputs(); ++k)
-      out += (k ? ", " : "") + shown(rows_.inputs[row][k].value, s_.plan.rotary[k]);
+      out += (k ? ", " : "") + study::angle_or_length(rows_.inputs[row][k].value, s_.plan.rotary[k], 6);
     return out;
   }
 
@@ -213,29 +197,27 @@ class Runner {
   }
 
   void collect(std::size_t r, const LinkageMotion& motion, const LinkageForces& forces, bool dynamic) {
-    if (motion.status == Status::no_assembly) gap_.larger(motion.gap, r);
+    if (motion.status == Status::no_assembly) gap_.largest(motion.gap, r);
     if (motion.status != Status::done || passed_.back()) {
       if (!passed_.back() && failed_group_ < 0) failed_group_ = motion.failed_group;
       return;
     }
-    closure_.larger(motion.closure_residual, r);
+    closure_.largest(motion.closure_residual, r);
     for (std::size_t g = 0; g < s_.plan.groups.size(); ++g) {
       const GroupTraits traits = traits_of(s_.plan.groups[g]);
       if (!traits.closes_loop || !traits.closed_form) continue;
-      const double before = transmission_.any ? transmission_.value : 10;
-      transmission_.smaller(std::asin(std::min(1.0, std::abs(motion.groups[g].sine))), r);
-      if (transmission_.value < before) weakest_ = g;
+      if (transmission_.least(std::asin(std::min(1.0, std::abs(motion.groups[g].sine))), r)) weakest_ = g;
     }
     if (!dynamic) return;
     drives_.resize(s_.plan.inputs());
-    for (std::size_t k = 0; k < drives_.size(); ++k) drives_[k].larger(forces.drives[k], r);
+    for (std::size_t k = 0; k < drives_.size(); ++k) drives_[k].largest(forces.drives[k], r);
     joints_.resize(forces.joints.size());
-    for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j].larger(norm(forces.joints[j].force), r);
-    shaking_.larger(norm(forces.shaking_force), r);
-    power_.larger(std::max({std::abs(forces.drive_power), std::abs(forces.kinetic_power),
-                            std::abs(forces.weight_power), std::abs(forces.load_power)}),
-                  r);
-    balance_.larger(forces.drive_power + forces.weight_power + forces.load_power - forces.kinetic_power, r);
+    for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j].largest(norm(forces.joints[j].force), r);
+    shaking_.largest(norm(forces.shaking_force), r);
+    power_.largest(std::max({std::abs(forces.drive_power), std::abs(forces.kinetic_power),
+                             std::abs(forces.weight_power), std::abs(forces.load_power)}),
+                   r);
+    balance_.largest(forces.drive_power + forces.weight_power + forces.load_power - forces.kinetic_power, r);
   }
 
   void finish_table() {
@@ -281,16 +263,11 @@ class Runner {
   }
   void plots() {
     const bool linked = over_time() || s_.plan.inputs() == 1;
+    const study::AddPlot add{
+        result_, {.table = "sweep", .x = scene_input_key(), .scene = linked ? "motion" : std::string()}};
     const auto plot = [&](std::string name, std::string title, std::vector<std::string> y,
                           study::Plot::Style style = study::Plot::Style::line) {
-      if (y.empty()) return;
-      result_.plots.push_back({.name = std::move(name),
-                               .title = std::move(title),
-                               .table = "sweep",
-                               .x = scene_input_key(),
-                               .y = std::move(y),
-                               .style = linked ? style : study::Plot::Style::points,
-                               .scene = linked ? "motion" : std::string()});
+      add(std::move(name), std::move(title), std::move(y), linked ? style : study::Plot::Style::points);
     };
     const LinkageQuantities& q = s_.quantities;
     if (q.drive) {
@@ -345,10 +322,6 @@ class Runner {
           speeds.push_back(identifier(b.name) + "_speed_rad_per_s");
           accelerations.push_back(identifier(b.name) + "_acceleration_rad_per_s2");
         }
-      const auto there = [&](std::vector<std::string>& keys) {
-        std::erase_if(keys, [&](const std::string& k) { return !result_.tables[0].find(k); });
-      };
-      there(speeds), there(accelerations);
       plot("speeds", "Angular speeds", speeds);
       plot("accelerations", "Angular accelerations", accelerations);
     }
@@ -360,7 +333,7 @@ class Runner {
   std::size_t strongest() const {
     std::size_t most = joints_.size();
     for (std::size_t j = 0; j < joints_.size(); ++j)
-      if (joints_[j].any && (most == joints_.size() || joints_[j].value > joints_[most].value)) most = j;
+      if (joints_[j].any() && (most == joints_.size() || joints_[j].value > joints_[most].value)) most = j;
     return most;
   }
 
@@ -382,7 +355,7 @@ class Runner {
         fact("circuits", fmt::format("{} over all assembly modes", limits_->circuits));
     }
     for (std::size_t k = 0; k < drives_.size(); ++k)
-      if (s_.quantities.drive && drives_[k].any)
+      if (s_.quantities.drive && drives_[k].any())
         fact(fmt::format("largest drive {} at {}", s_.plan.rotary[k] ? "torque" : "force",
                          input_joint(s_.linkage, k).name),
              fmt::format("{:.5g} {} at {}", drives_[k].value, s_.plan.rotary[k] ? "N m" : "N",
@@ -392,15 +365,15 @@ class Runner {
       fact("largest joint force",
            fmt::format("{:.5g} N at {}, {}", joints_[strongest()].value, s_.linkage.joints[strongest()].name,
                        where(joints_[strongest()].row)));
-    if (s_.quantities.shaking && shaking_.any)
+    if (s_.quantities.shaking && shaking_.any())
       fact("largest shaking force", fmt::format("{:.5g} N at {}", shaking_.value, where(shaking_.row)));
-    if (transmission_.any)
+    if (transmission_.any())
       fact("least transmission angle",
            fmt::format("{:.1f}° of {} at {}", math::degrees(transmission_.value),
                        s_.plan.groups[weakest_].name, where(transmission_.row)),
            transmission_.value < poor_transmission ? Verdict::bad : Verdict::plain);
-    if (closure_.any) fact("closure residual", fmt::format("{:.2g} m", closure_.value));
-    if (s_.quantities.dynamic() && power_.any && power_.value > 0)
+    if (closure_.any()) fact("closure residual", fmt::format("{:.2g} m", closure_.value));
+    if (s_.quantities.dynamic() && power_.any() && power_.value > 0)
       fact("power balance",
            fmt::format("within {:.2g} of the largest power", std::abs(balance_.value / power_.value)));
   }
@@ -454,7 +427,7 @@ class Runner {
                          group),
              {});
       else if (s == Status::no_assembly)
-        warn(gap_.any && gap_.value > 0
+        warn(gap_.any() && gap_.value > 0
                  ? fmt::format("{} do not assemble: {} would have to be longer, or shorter, by up to {}",
                                place, group, s_.units.text(gap_.value, Dimension::length))
                  : fmt::format("{} do not assemble", place),
@@ -469,7 +442,7 @@ class Runner {
              s == Status::limit_reached ? "a limit of the motion lies before them" : "");
     }
     change_points(warn);
-    if (transmission_.any && transmission_.value < poor_transmission)
+    if (transmission_.any() && transmission_.value < poor_transmission)
       warn(fmt::format("the transmission angle of {} falls to {:.2f}° at {}: near a dead point forces grow "
                        "without bound",
                        s_.plan.groups[weakest_].name, math::degrees(transmission_.value),
@@ -511,7 +484,7 @@ class Runner {
       warn(fmt::format(
                "at {} the assembly modes of {} meet and cross: which way the linkage goes on there is a "
                "choice",
-               shown(value, limits_->rotary), groups),
+               study::angle_or_length(value, limits_->rotary, 6), groups),
            s_.at_change_point == AtChangePoint::smooth
                ? "the rows go on smoothly; sweep.at_change_point = \"keep_sign\" takes the other branch"
            : s_.at_change_point == AtChangePoint::keep_sign
@@ -529,7 +502,7 @@ class Runner {
       return;
     }
     std::string text;
-    if (s_.quantities.drive && !drives_.empty() && drives_[0].any)
+    if (s_.quantities.drive && !drives_.empty() && drives_[0].any())
       text = fmt::format("The drive {} reaches {:.5g} {} at {}", s_.plan.rotary[0] ? "torque" : "force",
                          drives_[0].value, s_.plan.rotary[0] ? "N m" : "N", where(drives_[0].row));
     if (s_.quantities.reactions && strongest() < joints_.size())
@@ -553,8 +526,8 @@ class Runner {
   std::vector<bool> passed_;  // rows at change points that hold what is known there
   std::vector<LinkageRecord> recorded_;
   Status interruption_ = Status::done;
-  Worst gap_, closure_, transmission_, shaking_, power_, balance_;
-  std::vector<Worst> drives_, joints_;
+  study::Extreme gap_, closure_, transmission_, shaking_, power_, balance_;
+  std::vector<study::Extreme> drives_, joints_;
   std::size_t weakest_ = 0;
   int failed_group_ = -1;
   std::optional<InputLimits> limits_;

@@ -206,14 +206,7 @@ study::Scene arm_scene(const SerialArmStudy& s, const std::vector<Row>& rows) {
 
 void add_plots(study::Result& result, const SerialArmStudy& s) {
   const ArmQuantities& q = s.quantities;
-  const auto over_time = [&](std::string name, std::string title, std::vector<std::string> y) {
-    result.plots.push_back({.name = std::move(name),
-                            .title = std::move(title),
-                            .table = "sweep",
-                            .x = "time_s",
-                            .y = std::move(y),
-                            .scene = scene_name});
-  };
+  const study::AddPlot over_time{result, {.table = "sweep", .x = "time_s", .scene = scene_name}};
   const auto of_links = [&](std::string_view key) {
     std::vector<std::string> keys;
     for (const ArmLinkEntry& link : s.mechanism.links) keys.push_back(fmt::format("{}_{}", link.name, key));
