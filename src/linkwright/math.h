@@ -16,7 +16,6 @@
 #include "linkwright/math/ode_stepper.h"
 #include "linkwright/math/pose.h"
 #include "linkwright/math/scalar.h"
-#include "linkwright/math/simd.h"
 #include "linkwright/math/sincos.h"
 #include "linkwright/math/singular_values.h"
 #include "linkwright/math/small_inverse.h"

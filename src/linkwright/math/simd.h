@@ -4,6 +4,8 @@
 
 #include "linkwright/math/scalar.h"
 
+// Registers of several numbers as scalars of kernels. Shows xsimd, which users of the library need not have:
+// linkwright/math.h leaves it out.
 namespace linkwright::math {
 
 template <class Arch>
