@@ -157,7 +157,7 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
       out.traces = points_named(l, {"coupler.O3"});
       if (point_index(l.bodies[2], "C") >= 0) out.traces.push_back(point_named(l, "coupler.C"));
     }
-    out.four_bar = std::move(m);
+    out.four_bar = m;
   } else if (mechanism->has(sample_field)) {
     auto sample = sample_named(*mechanism);
     if (!sample) return std::nullopt;
