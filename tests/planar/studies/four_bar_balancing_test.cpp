@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <complex>
 #include <random>
 
 #include "planar/balancing_studies.h"
@@ -46,6 +47,38 @@ TEST(BalancingFourBar, BothWaysGiveTheSameObjectives) {
     }
   EXPECT_GT(there, 20);
   EXPECT_LT(there, 2 * static_cast<int>(n));
+}
+
+// A parallelogram stays one over both its change points, in the search as in the tables of the analysis; no
+// row stands at a change point.
+TEST(BalancingFourBar, AParallelogramStaysOne) {
+  std::string text = replaced(test::four_bar_masses, "rocker_m  = 0.32", "rocker_m  = 0.1");
+  text = replaced(replaced(text, "ground_m  = 0.6", "ground_m  = 0.4"), "from_deg = 0.0", "from_deg = 10.0");
+  text = replaced(text, "centre_distance_mm = 160.0", "centre_distance_mm = 50.0");
+  const BalancingStudy s = balancing_study(replaced(text, "to_deg   = 360.0", "to_deg   = 370.0"));
+  const BalancingProblem p = balancing_problem(test::task_of(s));
+  EXPECT_FALSE(four_bar_problem(s, p));
+  std::vector<double> x;
+  for (const study::DesignVariable& n : s.designed.numbers) x.push_back((n.lower + n.upper) / 2);
+  const std::vector<std::string> columns = {"coupler_angle_rad", "shaking_force_x_N"};
+  const Table table = design_table(s, x, columns);
+  const auto masses = four_bar_of(s, x).masses;
+  const Column *coupler = table.find(columns[0]), *shaking = table.find(columns[1]);
+  ASSERT_TRUE(masses && coupler && shaking && table.rows() == 61u);
+  // The coupler goes round a circle without turning: each point of it accelerates as the crank pin.
+  const double speed = 300 * 2 * pi / 60;
+  const auto moment = [](const LinkMass& m) {
+    return std::polar(m.mass * m.centre_distance, m.centre_angle);
+  };
+  for (std::size_t r = 0; r < table.rows(); ++r) {
+    EXPECT_EQ(table.status[r], "done");
+    EXPECT_NEAR(coupler->values[r], 0, 1e-9) << r;
+    const double angle = (10 + 6.0 * static_cast<double>(r)) * pi / 180;
+    const std::complex<double> turned =
+        (moment(masses->crank) + masses->coupler.mass * 0.1 + moment(masses->rocker)) *
+        std::polar(1.0, angle);
+    EXPECT_NEAR(shaking->values[r], speed * speed * turned.real(), 1e-7) << r;
+  }
 }
 
 TEST(BalancingFourBar, TheReportTellsTheCompleteForceBalance) {

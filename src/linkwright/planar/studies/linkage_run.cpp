@@ -29,11 +29,12 @@ namespace {
 // Below it a dyad is said to transmit force badly: reactions grow like the reciprocal of its sine.
 constexpr double poor_transmission = 5 * pi / 180;
 
+bool over_time(const LinkageStudy& s) { return std::holds_alternative<study::TimeSamples>(s.sweep); }
+
 // Columns of the table: time or not, inputs, quantities.
 std::vector<LinkageColumn> columns_of(const LinkageStudy& s) {
   std::vector<LinkageColumn> out;
-  if (std::holds_alternative<study::TimeSamples>(s.sweep))
-    out.push_back({"time_s", "time (s)", [](const LinkageInstant& i) { return i.time; }});
+  if (over_time(s)) out.push_back({"time_s", "time (s)", [](const LinkageInstant& i) { return i.time; }});
   for (std::size_t k = 0; k < s.plan.inputs(); ++k)
     out.push_back({input_key(s.linkage, s.plan, k), input_label(s.linkage, s.plan, k),
                    [k](const LinkageInstant& i) { return i.inputs[k].value; }});
@@ -86,6 +87,87 @@ LinkageRows rows_of(const LinkageStudy& s) {
 
 namespace {
 
+// Solves the rows of a study one after the other. Rows of one input in closed form follow their branch
+// through change points; more than 64 combinations of modes are not listed.
+class RowSolver {
+ public:
+  RowSolver(const LinkageStudy& s, const LinkageRows& rows)
+      : motion(s.plan),
+        now{.motion = &motion, .forces = &forces},
+        s_(s),
+        rows_(rows),
+        assembly_(s.plan, reach_of(rows.inputs), s.at_change_point, over_time(s)) {
+    limits = assembly_.limits();
+    const auto pairs = std::count_if(s.plan.groups.begin(), s.plan.groups.end(),
+                                     [](const Group& g) { return traits_of(g).has_modes; });
+    if (s.plan.inputs() != 1 || over_time(s) || !s.plan.closed_form() || pairs > 6) return;
+    const InputSamples& axis = std::get<InputGrid>(s.sweep).inputs[0];
+    const std::vector<double> inputs{axis.from};
+    const bool turn = s.plan.rotary[0] && periodic(s.plan, 0);
+    const double low = std::min(axis.from, axis.to), high = std::max(axis.from, axis.to);
+    limits = turn ? input_limits(s.plan, inputs, 0, -pi, pi) : input_limits(s.plan, inputs, 0, low, high);
+    const bool choice = std::any_of(limits->ranges.begin(), limits->ranges.end(), [](const InputRange& r) {
+      return r.from.kind == EndKind::change_point || r.to.kind == EndKind::change_point;
+    });
+    if (choice) branch = branch_path(s.plan, inputs, 0, motion.modes, low, high, s.at_change_point);
+  }
+
+  /// Fills `now`; the status says what of it holds.
+  Status solve(std::size_t r) {
+    now.time = rows_.time[r];
+    now.inputs = rows_.inputs[r];
+    bool there = true;
+    if (branch && branch->status == Status::done)
+      there = modes_at(*branch, now.inputs[0].value, motion.modes) == Status::done;
+    if (!there) motion.status = Status::limit_reached;
+    if (there) {
+      assembly_.place(now.inputs, motion);
+      solve_velocity(s_.plan, now.inputs, motion);
+      solve_acceleration(s_.plan, now.inputs, motion);
+    }
+    const bool dynamic = s_.quantities.dynamic();
+    if (dynamic) solve_forces(s_.linkage, s_.plan, motion, now.time, now.inputs[0].value, forces);
+    // At a change point the motion has a limit, but for the rates where it has a kink; forces may have
+    // none.
+    const bool kink = s_.at_change_point == AtChangePoint::keep_sign;
+    passed = there && at_change() &&
+             limit_at_change(s_.plan, *branch, now.inputs[0].value, now.inputs[0], motion,
+                             dynamic && !kink ? &s_.linkage : nullptr, forces);
+    if (passed && kink) forget_rates();
+    return motion.status != Status::done ? motion.status
+           : passed && kink              ? Status::singular
+           : dynamic                     ? forces.status
+                                         : Status::done;
+  }
+
+  LinkageMotion motion;
+  LinkageForces forces;
+  LinkageInstant now;
+  bool passed = false;  ///< whether the row stands at a change point that the branch passes or ends at
+  std::optional<InputLimits> limits;  ///< ranges of the one input
+  std::optional<BranchPath> branch;
+
+ private:
+  bool at_change() const {
+    if (!branch || branch->status != Status::done || motion.status != Status::singular) return false;
+    const auto here = [&](const RangeEnd& e) {
+      const double apart = now.inputs[0].value - e.value;
+      return e.kind == EndKind::change_point &&
+             std::abs(limits->closed ? std::remainder(apart, 2 * pi) : apart) < 1e-6;
+    };
+    return here(branch->low) || here(branch->high) ||
+           std::any_of(branch->change_points.begin(), branch->change_points.end(), here);
+  }
+  void forget_rates() {
+    for (PartState<double>& s : motion.parts)
+      s.velocity = s.acceleration = {nan, nan}, s.speed = s.angular_acceleration = nan;
+  }
+
+  const LinkageStudy& s_;
+  const LinkageRows& rows_;
+  LinkageAssembly assembly_;
+};
+
 class Runner {
  public:
   Runner(const LinkageStudy& s, RunContext& context)
@@ -93,10 +175,12 @@ class Runner {
         context_(context),
         columns_(columns_of(s)),
         rows_(rows_of(s)),
-        assembly_(s.plan, reach_of(rows_.inputs), s.at_change_point, over_time()) {}
+        solver_(s, rows_),
+        limits_(solver_.limits),
+        branch_(solver_.branch) {}
 
   study::Result run() {
-    find_limits();
+    modes_ = solver_.motion.modes;
     evaluate();
     finish_table();
     result_.scenes.push_back(
@@ -112,7 +196,7 @@ class Runner {
   }
 
  private:
-  bool over_time() const { return std::holds_alternative<study::TimeSamples>(s_.sweep); }
+  bool over_time() const { return planar::over_time(s_); }
   // The scene shows the rows along the last axis of a grid, with the other inputs at their first value.
   std::size_t shown_rows() const {
     if (over_time()) return rows_.inputs.size();
@@ -136,37 +220,15 @@ class Runner {
   }
 
   void evaluate() {
-    LinkageMotion motion(s_.plan);
-    LinkageForces forces;
+    const LinkageMotion& motion = solver_.motion;
+    const LinkageForces& forces = solver_.forces;
     const bool dynamic = s_.quantities.dynamic();
     values_.assign(columns_.size(), {});
     for (auto& v : values_) v.reserve(rows_.inputs.size());
-    LinkageInstant now{.motion = &motion, .forces = &forces};
     for (std::size_t r = 0; r < rows_.inputs.size(); ++r) {
-      now.time = rows_.time[r];
-      now.inputs = rows_.inputs[r];
-      bool there = true;
-      if (branch_ && branch_->status == Status::done)
-        there = modes_at(*branch_, now.inputs[0].value, motion.modes) == Status::done;
-      if (!there) motion.status = Status::limit_reached;
-      if (there) {
-        assembly_.place(now.inputs, motion);
-        solve_velocity(s_.plan, now.inputs, motion);
-        solve_acceleration(s_.plan, now.inputs, motion);
-      }
-      if (dynamic) solve_forces(s_.linkage, s_.plan, motion, now.time, now.inputs[0].value, forces);
-      // At a change point the motion has a limit, but for the rates where it has a kink; forces may have
-      // none.
-      const bool kink = s_.at_change_point == AtChangePoint::keep_sign;
-      const bool passed = there && at_change(now.inputs[0], motion) &&
-                          limit_at_change(s_.plan, *branch_, now.inputs[0].value, now.inputs[0], motion,
-                                          dynamic && !kink ? &s_.linkage : nullptr, forces);
-      if (passed && kink) forget_rates(motion);
-      passed_.push_back(passed);
-      const Status status = motion.status != Status::done ? motion.status
-                            : passed && kink              ? Status::singular
-                            : dynamic                     ? forces.status
-                                                          : Status::done;
+      const Status status = solver_.solve(r);
+      const LinkageInstant& now = solver_.now;
+      passed_.push_back(solver_.passed);
       for (std::size_t c = 0; c < columns_.size(); ++c) values_[c].push_back(value_of(columns_[c], now));
       statuses_.push_back(status);
       if (r < shown_rows())
@@ -178,22 +240,6 @@ class Runner {
         break;
       }
     }
-  }
-
-  // Whether the row stands at a change point that the branch passes or ends at.
-  bool at_change(const InputMotion& input, const LinkageMotion& motion) const {
-    if (!branch_ || branch_->status != Status::done || motion.status != Status::singular) return false;
-    const auto here = [&](const RangeEnd& e) {
-      const double apart = input.value - e.value;
-      return e.kind == EndKind::change_point &&
-             std::abs(limits_->closed ? std::remainder(apart, 2 * pi) : apart) < 1e-6;
-    };
-    return here(branch_->low) || here(branch_->high) ||
-           std::any_of(branch_->change_points.begin(), branch_->change_points.end(), here);
-  }
-  static void forget_rates(LinkageMotion& motion) {
-    for (PartState<double>& s : motion.parts)
-      s.velocity = s.acceleration = {nan, nan}, s.speed = s.angular_acceleration = nan;
   }
 
   void collect(std::size_t r, const LinkageMotion& motion, const LinkageForces& forces, bool dynamic) {
@@ -237,24 +283,6 @@ class Runner {
     result_.tables.push_back(std::move(table));
   }
 
-  // Ranges of the one input of a linkage in closed form, and the branch that the rows follow through change
-  // points. More than 64 combinations of modes are not listed.
-  void find_limits() {
-    modes_ = LinkageMotion(s_.plan).modes;
-    const auto pairs = std::count_if(s_.plan.groups.begin(), s_.plan.groups.end(),
-                                     [](const Group& g) { return traits_of(g).has_modes; });
-    if (!s_.plan.closed_form()) limits_ = assembly_.limits();
-    if (s_.plan.inputs() != 1 || over_time() || !s_.plan.closed_form() || pairs > 6) return;
-    const InputSamples& axis = std::get<InputGrid>(s_.sweep).inputs[0];
-    const std::vector<double> inputs{axis.from};
-    const bool turn = s_.plan.rotary[0] && periodic(s_.plan, 0);
-    const double low = std::min(axis.from, axis.to), high = std::max(axis.from, axis.to);
-    limits_ = turn ? input_limits(s_.plan, inputs, 0, -pi, pi) : input_limits(s_.plan, inputs, 0, low, high);
-    const bool choice = std::any_of(limits_->ranges.begin(), limits_->ranges.end(), [](const InputRange& r) {
-      return r.from.kind == EndKind::change_point || r.to.kind == EndKind::change_point;
-    });
-    if (choice) branch_ = branch_path(s_.plan, inputs, 0, modes_, low, high, s_.at_change_point);
-  }
   std::vector<std::string> columns_ending(std::string_view ending, std::size_t most) const {
     std::vector<std::string> out;
     for (const LinkageColumn& c : columns_)
@@ -520,7 +548,9 @@ class Runner {
   RunContext& context_;
   std::vector<LinkageColumn> columns_;
   LinkageRows rows_;
-  LinkageAssembly assembly_;
+  RowSolver solver_;
+  const std::optional<InputLimits>& limits_;
+  const std::optional<BranchPath>& branch_;
   std::vector<std::vector<double>> values_;
   std::vector<Status> statuses_;
   std::vector<bool> passed_;  // rows at change points that hold what is known there
@@ -530,8 +560,6 @@ class Runner {
   std::vector<study::Extreme> drives_, joints_;
   std::size_t weakest_ = 0;
   int failed_group_ = -1;
-  std::optional<InputLimits> limits_;
-  std::optional<BranchPath> branch_;
   std::vector<double> modes_;
   study::Result result_;
 };
@@ -545,26 +573,14 @@ Table linkage_table(const LinkageStudy& s, std::span<const std::string> wanted) 
       return std::find(wanted.begin(), wanted.end(), c.key) == wanted.end();
     });
   const LinkageRows rows = rows_of(s);
-  LinkageAssembly assembly(s.plan, reach_of(rows.inputs), s.at_change_point,
-                           std::holds_alternative<study::TimeSamples>(s.sweep));
-  LinkageMotion motion(s.plan);
-  LinkageForces forces;
-  LinkageInstant now{.motion = &motion, .forces = &forces};
+  RowSolver solver(s, rows);
   Table table{.name = "sweep"};
   for (const LinkageColumn& c : columns)
     table.add(c.key, c.label, std::vector<double>(rows.inputs.size(), nan));
   for (std::size_t r = 0; r < rows.inputs.size(); ++r) {
-    now.time = rows.time[r];
-    now.inputs = rows.inputs[r];
-    assembly.place(now.inputs, motion);
-    solve_velocity(s.plan, now.inputs, motion);
-    solve_acceleration(s.plan, now.inputs, motion);
-    if (s.quantities.dynamic())
-      solve_forces(s.linkage, s.plan, motion, now.time, now.inputs[0].value, forces);
-    const Status status =
-        s.quantities.dynamic() && motion.status == Status::done ? forces.status : motion.status;
-    for (std::size_t c = 0; c < columns.size(); ++c) table.columns[c].values[r] = value_of(columns[c], now);
-    table.status.emplace_back(to_string(status));
+    table.status.emplace_back(to_string(solver.solve(r)));
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      table.columns[c].values[r] = value_of(columns[c], solver.now);
   }
   for (std::size_t c = 0; c < columns.size(); ++c)
     if (columns[c].angle) math::unwrap_angles(table.columns[c].values);
