@@ -37,6 +37,7 @@
 #include "linkwright/planar/linkage/linkage.h"
 #include "linkwright/planar/linkage/modes.h"
 #include "linkwright/planar/linkage/motion.h"
+#include "linkwright/planar/linkage/open_pose.h"
 #include "linkwright/planar/linkage/plan.h"
 #include "linkwright/planar/linkage/quality.h"
 #include "linkwright/planar/linkage/reactions.h"

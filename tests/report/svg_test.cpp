@@ -185,6 +185,23 @@ TEST(Svg, UnassembledSamplesAreLeftOut) {
   EXPECT_EQ(count(picture, "class=\"body\""), 2u);
 }
 
+TEST(Svg, AGapIsDashedAndSaysHowLongItIs) {
+  study::Scene scene;
+  scene.input = {0, 1};
+  scene.status = {"no_assembly", "done"};
+  scene.points = {{"A", {0, nan}, {0, nan}}, {"B", {0.3, nan}, {0.4, nan}}, {"O", {-1}, {-1}}};
+  scene.bodies = {{"rod cannot close", {0, 1}, study::Scene::BodyStyle::gap}};
+  SvgOptions options;
+  options.sample = 0;
+  const std::string open = svg(scene, options);
+  EXPECT_EQ(test::fault_of_xml(open), "");
+  EXPECT_THAT(open, HasSubstr("<title>rod cannot close</title>"));
+  EXPECT_THAT(open, HasSubstr("stroke-dasharray=\"6 5\""));
+  EXPECT_THAT(open, HasSubstr(">gap 500 mm</text>"));
+  options.sample = 1;
+  EXPECT_THAT(svg(scene, options), Not(HasSubstr("cannot close")));
+}
+
 TEST(Svg, HostileNamesStayText) {
   auto result = test::sample_result();
   auto& scene = result.scenes[0];

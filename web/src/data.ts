@@ -23,7 +23,7 @@ export interface Scene {
   moments: Moment[];
 }
 
-export type BodyStyle = "ground" | "bar" | "plate" | "spring" | "damper" | "guide" | "axis";
+export type BodyStyle = "ground" | "bar" | "plate" | "spring" | "damper" | "guide" | "axis" | "gap";
 
 /** A wheel about the line from its centre to another point. */
 export interface Disc {

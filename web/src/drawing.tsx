@@ -66,7 +66,7 @@ function Traces({ scene }: { scene: Scene }) {
   return (
     <g class="traces">
       {scene.traces.map((trace, k) => {
-        const places = scene.input.map((_, i) => screen(placeAt(scene, trace.point, i)));
+        const places = scene.input.map((_, i) => (state.motion.value.ok[i] ? screen(placeAt(scene, trace.point, i)) : null));
         const whole = pathOf(places, trace.closed);
         if (!coloured) return <path class="trace" d={whole}><title>{trace.name}</title></path>;
         const strokes = cividis.map(() => "");
@@ -160,6 +160,19 @@ function Circles({ scene, at }: { scene: Scene; at: number }) {
 
 const symbolWidth = 18; // px
 
+/** What does not close, with its length. */
+function Gap({ name, ends: [a, b] }: { name: string; ends: Place[] }) {
+  const [p, q] = [screen(a)!, screen(b)!];
+  const unit = lengthUnit(extent.value);
+  return (
+    <g class="gap" data-body={name}>
+      <title>{name}</title>
+      <path d={pathOf([p, q], false)} />
+      <text x={(p.x + q.x) / 2 + 8} y={(p.y + q.y) / 2 - 8}>{`gap ${format(Math.hypot(b.x - a.x, b.y - a.y) * unit.factor, 4)} ${unit.symbol}`}</text>
+    </g>
+  );
+}
+
 /** Bodies of one kind: plates lie under the traces, bars above them. */
 function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boolean }) {
   const colours = bodyColours(scene.bodies);
@@ -177,6 +190,7 @@ function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boole
         const d = pathOf(places, plate);
         if (body.style === "ground") return <path class="ground" d={d}><title>{body.name}</title></path>;
         if (body.style === "axis") return <path class="ground axis" d={pathOf(beyond(places as Place[]), false)}><title>{body.name}</title></path>;
+        if (body.style === "gap") return <Gap name={body.name} ends={[0, 1].map((end) => placeNear(scene, body.points[end], at)!)} />;
         return (
           <g class="link" data-body={body.name}>
             <title>{body.name}</title>

@@ -2,7 +2,7 @@
 import { extentOf, isSymbol, symbolLines } from "./arrows";
 import type { Scene, Table } from "./data";
 import { isSpatial } from "./grid";
-import { placeAt, type Place } from "./motion";
+import { analyse, placeAt, type Place } from "./motion";
 import { beyond, helix, wheelCircle } from "./space_view";
 import { targetErrors } from "./view";
 
@@ -70,6 +70,7 @@ export function dxf(scene: Scene, sample: number): string {
   for (const [name, colour, type] of layers) put(0, "LAYER", 2, name, 70, 0, 62, colour, 6, type);
   put(0, "ENDTAB", 0, "ENDSEC", 0, "SECTION", 2, "ENTITIES");
   for (const body of scene.bodies) {
+    if (body.style === "gap") continue;
     const places = body.points.map((p) => placeAt(scene, p, sample)).filter((p): p is Place => p !== null);
     if (places.length < body.points.length) continue;
     const layer = body.style === "ground" || body.style === "guide" ? "GROUND" : "LINKS";
@@ -105,6 +106,7 @@ export function dxf(scene: Scene, sample: number): string {
     if (joint.style === "ground_pivot" && !spatial)
       polyline("GROUND", [p, { x: p.x - 2 * symbol, y: p.y - 3 * symbol }, { x: p.x + 2 * symbol, y: p.y - 3 * symbol }], true);
   }
+  const { ok } = analyse(scene);
   for (const trace of scene.traces) {
     let run: Place[] = [];
     let whole = true;
@@ -114,7 +116,7 @@ export function dxf(scene: Scene, sample: number): string {
     };
     scene.input.forEach((_, i) => {
       const p = placeAt(scene, trace.point, i);
-      if (p) run.push(p);
+      if (p && ok[i]) run.push(p);
       else {
         whole = false;
         flush(false);

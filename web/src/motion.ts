@@ -1,6 +1,5 @@
 // How a scene moves: positions are fractional sample numbers, 0 to samples - 1.
 import type { Num, Scene } from "./data";
-import { isSpatial } from "./grid";
 import type { Turn } from "./rows";
 import { unitOf } from "./units";
 
@@ -33,8 +32,8 @@ export function placeAt(scene: Scene, point: number, sample: number): Place | nu
 
 export function analyse(scene: Scene): Motion {
   const samples = scene.input.length;
-  // In space a mark such as a roll centre may be without a place while the mechanism stands.
-  const byStatus = isSpatial(scene) && scene.status.length > 0;
+  // A mark such as a roll centre or a gap may be without a place while the mechanism stands.
+  const byStatus = scene.status.length > 0;
   const ok = scene.input.map(
     (_, i) =>
       (scene.status[i] === undefined || scene.status[i] === "done") &&

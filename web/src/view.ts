@@ -135,7 +135,7 @@ export function bodyColours(bodies: readonly { name: string; style: string }[]):
   const known = new Map<string, number>();
   let used = 0;
   return bodies.map(({ name, style }) => {
-    if (style === "ground" || style === "axis") return 0;
+    if (style === "ground" || style === "axis" || style === "gap") return 0;
     const before = name === "" ? undefined : known.get(name);
     if (before !== undefined) return before;
     const colour = used++ % 6;

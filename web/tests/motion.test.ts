@@ -21,6 +21,11 @@ describe("motion", () => {
     expect(broken.runs).toEqual([[0, 99], [103, 360]]);
   });
 
+  it("takes a mechanism for assembled as its status says, whatever marks have no place", () => {
+    const marked = { ...circle(4, [1, 2]), status: ["done", "done", "no_assembly", "done"] };
+    expect(analyse(marked).ok).toEqual([true, true, false, true]);
+  });
+
   it("converts inputs and positions both ways, rising and falling", () => {
     const m = analyse(circle(361));
     expect(inputAt(m, positionOf(m, 1.2345))).toBeCloseTo(1.2345, 12);

@@ -152,8 +152,8 @@ std::vector<std::vector<Place>> symbol_lines(study::Scene::BodyStyle style, cons
 
 bool assembled(const study::Scene& scene, std::size_t sample) {
   if (sample < scene.status.size() && scene.status[sample] != "done") return false;
-  // In space a mark such as a roll centre may be without a place while the mechanism stands.
-  if (scene.spatial() && !scene.status.empty()) return true;
+  // A mark such as a roll centre or a gap may be without a place while the mechanism stands.
+  if (!scene.status.empty()) return true;
   for (int i = 0; i < static_cast<int>(scene.points.size()); ++i)
     if (!place(scene, i, sample).finite()) return false;
   return true;

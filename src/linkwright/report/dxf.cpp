@@ -150,6 +150,7 @@ void write_header(Writer& w, const Scene& scene, const Box& box) {
 
 void write_body(Writer& w, const Scene& scene, const Scene::Body& body, std::size_t sample,
                 const DxfLayers& layers, double symbol) {
+  if (body.style == Scene::BodyStyle::gap) return;
   const bool ground = body.style == Scene::BodyStyle::ground || body.style == Scene::BodyStyle::guide;
   if (!(ground ? layers.ground : layers.links)) return;
   const std::string_view layer = ground ? "GROUND" : "LINKS";
@@ -187,7 +188,7 @@ void write_trace(Writer& w, const Scene& scene, const Scene::Trace& trace) {
   };
   for (std::size_t i = 0; i < scene.samples(); ++i) {
     const Place p = place(scene, trace.point, i);
-    if (p.finite()) {
+    if (p.finite() && assembled(scene, i)) {
       run.push_back(p);
     } else {
       whole = false;

@@ -19,6 +19,7 @@
 #include "linkwright/report/drawing.h"
 #include "linkwright/report/markup.h"
 #include "linkwright/report/spatial.h"
+#include "linkwright/report/units.h"
 
 namespace linkwright::report {
 namespace {
@@ -143,6 +144,16 @@ void draw_body(std::string& out, const Canvas& canvas, const Scene& scene, const
         path_of(canvas, beyond(places), false), error_colour);
     return;
   }
+  if (body.style == Scene::BodyStyle::gap) {
+    const Place &a = places[0], &b = places[1];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    put(out, "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"6 5\"/>",
+        path, error_colour);
+    put(out, "<text x=\"{:.2f}\" y=\"{:.2f}\" fill=\"{}\">gap {}</text></g>\n",
+        (canvas.x(a.x) + canvas.x(b.x)) / 2 + 8, (canvas.y(a.y) + canvas.y(b.y)) / 2 - 8, error_colour,
+        quantity(length, display_unit("_m", length)));
+    return;
+  }
   if (plate) put(out, "<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.24\"/>", path, colour);
   // A rounded bar with an outline is a thick line under a slightly thinner one.
   const double inside = (bar_width - 2.6) * canvas.thickness();
@@ -202,12 +213,13 @@ double usual_length(const Scene& scene, std::size_t sample) {
 // Plates lie under the traces, bars above them, so that traces and pins stay in sight.
 void draw_bodies(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample,
                  bool plates) {
-  // Bodies of one name are one body and have one colour; ground and axes have none.
+  // Bodies of one name are one body and have one colour; ground, axes and gaps have none.
   std::map<std::string_view, std::size_t> known;
   std::size_t used = 0;
   for (const auto& body : scene.bodies) {
     std::size_t colour = 0;
-    if (body.style != Scene::BodyStyle::ground && body.style != Scene::BodyStyle::axis) {
+    using Style = Scene::BodyStyle;
+    if (body.style != Style::ground && body.style != Style::axis && body.style != Style::gap) {
       const auto before = body.name.empty() ? known.end() : known.find(body.name);
       colour = before != known.end() ? before->second : used++;
       known.emplace(body.name, colour);
@@ -220,7 +232,8 @@ void draw_bodies(std::string& out, const Canvas& canvas, const Scene& scene, std
 void draw_traces(std::string& out, const Canvas& canvas, const Scene& scene) {
   for (const auto& trace : scene.traces) {
     std::vector<Place> places;
-    for (std::size_t i = 0; i < scene.samples(); ++i) places.push_back(place(scene, trace.point, i));
+    for (std::size_t i = 0; i < scene.samples(); ++i)
+      places.push_back(assembled(scene, i) ? place(scene, trace.point, i) : Place{nan, nan});
     put(out,
         "<path class=\"trace\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" "
         "stroke-linejoin=\"round\"><title>{}</title></path>\n",

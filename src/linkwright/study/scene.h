@@ -13,8 +13,9 @@ namespace linkwright::study {
 /// to them. Lengths in metres; plane x right, y up, or, when points have a z, space with z up. Reports, SVG
 /// and DXF draw this and know no mechanism.
 struct Scene {
-  /// A point of the drawing: one entry a sample, or a single entry for a point that does not move. NaN = not
-  /// assembled.
+  /// A point of the drawing: one entry a sample, or a single entry for a point that does not move. NaN =
+  /// without a place. Whether the mechanism is assembled its status says; without status, that all points
+  /// have one.
   struct Point {
     std::string name;
     std::vector<double> x, y;
@@ -22,8 +23,10 @@ struct Scene {
   };
   /// spring, damper and guide run from each of their points to the next: a zigzag, a cylinder with its
   /// piston, a thin line hatched on its right. They are symbols of constant width. An axis is a thin
-  /// dash-dotted line that runs beyond both of its points: no body, but a line about which something turns.
-  enum class BodyStyle { ground, bar, plate, spring, damper, guide, axis };
+  /// dash-dotted line that runs beyond both of its points: no body, but a line about which something turns. A
+  /// gap is a dashed line with its length between two points that ought to be one: it has places only where
+  /// the mechanism does not assemble.
+  enum class BodyStyle { ground, bar, plate, spring, damper, guide, axis, gap };
   struct Body {
     std::string name;         ///< "crank"
     std::vector<int> points;  ///< indices of points; a plate is the polygon of them
@@ -96,7 +99,7 @@ struct Scene {
   std::string second_key;
   std::string second_label;
   std::vector<double> second;
-  std::vector<std::string> status;  ///< one a sample; empty = all done
+  std::vector<std::string> status;  ///< one a sample; empty = done where all points have a place
   std::vector<Point> points;
   std::vector<Body> bodies;
   std::vector<Joint> joints;
@@ -113,7 +116,7 @@ struct Scene {
   }
 };
 
-constexpr std::array<EnumName<Scene::BodyStyle>, 7> names(Scene::BodyStyle) {
+constexpr std::array<EnumName<Scene::BodyStyle>, 8> names(Scene::BodyStyle) {
   using Style = Scene::BodyStyle;
   return {{{Style::ground, "ground"},
            {Style::bar, "bar"},
@@ -121,7 +124,8 @@ constexpr std::array<EnumName<Scene::BodyStyle>, 7> names(Scene::BodyStyle) {
            {Style::spring, "spring"},
            {Style::damper, "damper"},
            {Style::guide, "guide"},
-           {Style::axis, "axis"}}};
+           {Style::axis, "axis"},
+           {Style::gap, "gap"}}};
 }
 constexpr std::array<EnumName<Scene::JointStyle>, 3> names(Scene::JointStyle) {
   using Style = Scene::JointStyle;

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <complex>
 
 #include "linkwright/planar/linkage/samples.h"
+#include "planar/studies.h"
 
 namespace linkwright::planar {
 namespace {
@@ -47,6 +49,48 @@ TEST(LinkageScene, DrawsBodiesJointsTracesAndArrows) {
     return std::hypot(a.x[i] - b.x[i], a.y[i] - b.y[i]);
   };
   for (std::size_t i = 1; i < 37; ++i) EXPECT_NEAR(length(i), length(0), 1e-14);
+}
+
+TEST(LinkageScene, DrawsWhatDoesNotCloseWithItsGap) {
+  const study::Result r = test::run_text(R"(schema = 1
+kind = "analysis"
+[mechanism]
+type = "planar.four_bar"
+[mechanism.parameters]
+crank_mm   = 100
+coupler_mm = 80
+rocker_mm  = 90
+ground_mm  = 400
+[drive]
+speed_rpm = 60
+[sweep.crank_angle]
+from_deg = 0
+to_deg   = 90
+samples  = 4
+[output]
+quantities = ["position"]
+)");
+  EXPECT_EQ(r.headline,
+            "The linkage assembles nowhere in the sweep: coupler + rocker cannot close, a gap of 130 mm is "
+            "left at 0°.");
+  const study::Scene& s = r.scenes.at(0);
+  ASSERT_EQ(s.bodies.back().style, study::Scene::BodyStyle::gap);
+  EXPECT_EQ(s.bodies.back().name, "coupler + rocker cannot close");
+  const auto there = [&](int point, std::size_t i) {
+    const auto& p = s.points[static_cast<std::size_t>(point)];
+    return std::complex<double>(p.x[p.x.size() == 1 ? 0 : i], p.y[p.y.size() == 1 ? 0 : i]);
+  };
+  const std::vector<int>& ends = s.bodies.back().points;
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(s.status[i], "no_assembly");
+    const double apart = std::abs(std::polar(0.1, static_cast<double>(i) * pi / 6) - 0.4);
+    EXPECT_NEAR(std::abs(there(ends[0], i) - there(ends[1], i)), apart - 0.17, 1e-15);
+  }
+  // Each body ends at its side of the gap.
+  for (const study::Scene::Body& b : s.bodies)
+    if (b.name == "coupler") {
+      EXPECT_LE(std::abs(there(b.points[1], 1) - there(ends[0], 1)), 1e-15);
+    }
 }
 
 TEST(LinkageScene, DrawsSlidersAsBlocksOnTheirGuides) {

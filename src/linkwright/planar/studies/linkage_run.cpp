@@ -232,8 +232,7 @@ class Runner {
       for (std::size_t c = 0; c < columns_.size(); ++c) values_[c].push_back(value_of(columns_[c], now));
       statuses_.push_back(status);
       if (r < shown_rows())
-        recorded_.push_back(record_of(s_.linkage, s_.plan, motion, dynamic ? &forces : nullptr,
-                                      over_time() ? now.time : now.inputs[scene_axis()].value));
+        recorded_.push_back(record(dynamic, over_time() ? now.time : now.inputs[scene_axis()].value));
       collect(r, motion, forces, dynamic && status == Status::done);
       if (r % 256 == 255 && context_.interrupted()) {
         interruption_ = context_.interruption();
@@ -242,8 +241,17 @@ class Runner {
     }
   }
 
+  LinkageRecord record(bool dynamic, double input) {
+    return solver_.motion.status == Status::no_assembly
+               ? open_record_of(s_.linkage, s_.plan, solver_.now.inputs, solver_.motion, input)
+               : record_of(s_.linkage, s_.plan, solver_.motion, dynamic ? &solver_.forces : nullptr, input);
+  }
+
   void collect(std::size_t r, const LinkageMotion& motion, const LinkageForces& forces, bool dynamic) {
-    if (motion.status == Status::no_assembly) gap_.largest(motion.gap, r);
+    if (motion.status == Status::no_assembly) {
+      gap_.largest(motion.gap, r);
+      nearest_.least(motion.gap, r);
+    }
     if (motion.status != Status::done || passed_.back()) {
       if (!passed_.back() && failed_group_ < 0) failed_group_ = motion.failed_group;
       return;
@@ -368,9 +376,12 @@ class Runner {
   void facts() {
     using Verdict = study::Fact::Verdict;
     const study::AddFact fact{result_.facts};
-    if (s_.four_bar)
-      fact("type", fmt::format("{}, {}", in_words(classify(s_.four_bar->linkage).type),
-                               name_of(s_.four_bar->linkage.branch)));
+    if (s_.four_bar) {
+      const FourBarClass c = classify(s_.four_bar->linkage);
+      fact("type", c.circuits == 0
+                       ? "cannot be assembled: one link is longer than the others together"
+                       : fmt::format("{}, {}", in_words(c.type), name_of(s_.four_bar->linkage.branch)));
+    }
     fact("degrees of freedom", fmt::format("{}, {} driven", mobility(s_.linkage), s_.plan.inputs()));
     std::string order;
     for (const Group& g : s_.plan.groups)
@@ -524,9 +535,16 @@ class Runner {
   void headline() {
     const auto good = std::count(statuses_.begin(), statuses_.end(), Status::done);
     if (good == 0) {
+      const bool open =
+          std::all_of(statuses_.begin(), statuses_.end(), [](Status s) { return s == Status::no_assembly; });
       result_.headline =
-          "No position of the sweep has an answer: the linkage does not assemble or stands at "
-          "dead points.";
+          open && failed_group_ >= 0 && nearest_.any() && nearest_.value > 0
+              ? fmt::format(
+                    "The linkage assembles nowhere in the sweep: {} cannot close, a gap of {} is left at {}.",
+                    s_.plan.groups[at(failed_group_)].name, s_.units.text(nearest_.value, Dimension::length),
+                    where(nearest_.row))
+              : "No position of the sweep has an answer: the linkage does not assemble or stands at "
+                "dead points.";
       return;
     }
     std::string text;
@@ -556,7 +574,7 @@ class Runner {
   std::vector<bool> passed_;  // rows at change points that hold what is known there
   std::vector<LinkageRecord> recorded_;
   Status interruption_ = Status::done;
-  study::Extreme gap_, closure_, transmission_, shaking_, power_, balance_;
+  study::Extreme gap_, nearest_, closure_, transmission_, shaking_, power_, balance_;
   std::vector<study::Extreme> drives_, joints_;
   std::size_t weakest_ = 0;
   int failed_group_ = -1;

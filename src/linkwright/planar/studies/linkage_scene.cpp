@@ -9,6 +9,7 @@
 
 #include "linkwright/core/numbers.h"
 #include "linkwright/planar/link_mass.h"
+#include "linkwright/planar/linkage/open_pose.h"
 
 namespace linkwright::planar {
 namespace {
@@ -63,6 +64,7 @@ class Artist {
     joints();
     springs();
     masses();
+    gaps();
     for (const BodyPoint& t : traces) trace(t);
     forces();
     return std::move(scene_);
@@ -162,6 +164,7 @@ class Artist {
       const Vec<double> there =
           point_on(r.bodies[at(runner.body)], vec(l_.bodies[at(runner.body)].points[at(runner.point)].at));
       const double way = dot(along, rotate_inverse(s.direction, there - s.origin) - vec(start));
+      if (std::isnan(way)) continue;
       low = any ? std::min(low, way) : way;
       high = any ? std::max(high, way) : way;
       any = true;
@@ -176,6 +179,28 @@ class Artist {
     for (const LinearSpring& s : l_.springs)
       scene_.bodies.push_back(
           {s.name, {point(s.first), point(s.second)}, s.stiffness > 0 ? Style::spring : Style::damper});
+  }
+
+  // What does not close, a line for each group that fails somewhere.
+  void gaps() {
+    std::vector<int> open;
+    for (const LinkageRecord& r : records_)
+      if (r.open_group >= 0 && std::find(open.begin(), open.end(), r.open_group) == open.end())
+        open.push_back(r.open_group);
+    for (const int group : open) {
+      std::vector<int> ends;
+      for (const std::size_t end : {0u, 1u}) {
+        study::Scene::Point p;
+        for (const LinkageRecord& r : records_) {
+          const Vec<double> v = r.open_group == group ? r.gap[end] : Vec<double>{nan, nan};
+          p.x.push_back(v.x), p.y.push_back(v.y);
+        }
+        ends.push_back(static_cast<int>(scene_.points.size()));
+        scene_.points.push_back(std::move(p));
+      }
+      scene_.bodies.push_back(
+          {fmt::format("{} cannot close", plan_.groups[at(group)].name), std::move(ends), Style::gap});
+    }
   }
 
   // Counterweights and payloads.
@@ -302,6 +327,22 @@ LinkageRecord record_of(const Linkage& linkage, const LinkagePlan& plan, const L
     r.drives = forces->drives;
     r.shaking_force = forces->shaking_force;
   }
+  return r;
+}
+
+LinkageRecord open_record_of(const Linkage& linkage, const LinkagePlan& plan,
+                             std::span<const InputMotion> inputs, LinkageMotion& motion, double input) {
+  LinkageRecord r{.status = motion.status, .input = input};
+  if (motion.status != Status::no_assembly || motion.failed_group < 0) return r;
+  const auto ends = lay_open(plan, inputs, motion);
+  std::vector<bool> placed(plan.parts.size(), false);
+  placed[0] = true;
+  for (std::size_t k = 0; k < at(motion.failed_group) + (ends ? 1 : 0); ++k)
+    for (const int part : plan.groups[k].parts) placed[at(part)] = true;
+  constexpr PartState<double> nowhere{{nan, nan}, {nan, nan}, {nan, nan}, nan, {nan, nan}, nan};
+  for (int b = 0; b < static_cast<int>(linkage.bodies.size()); ++b)
+    r.bodies.push_back(placed[at(plan.bodies[at(b)].part)] ? body_state(plan, motion, b) : nowhere);
+  if (ends) r.gap = *ends, r.open_group = motion.failed_group;
   return r;
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/planar/linkage/reactions.h"
 #include "linkwright/study/scene.h"
 
@@ -12,14 +15,22 @@ namespace linkwright::planar {
 struct LinkageRecord {
   Status status = Status::done;
   double input = 0;
-  std::vector<PartState<double>> bodies;  ///< one a body; empty when not assembled
-  std::vector<JointReaction> joints;      ///< empty without forces
+  /// One a body; empty when not assembled and nothing is known. NaN for bodies without a place.
+  std::vector<PartState<double>> bodies;
+  std::array<Vec<double>, 2> gap{{{nan, nan}, {nan, nan}}};  ///< what does not close (lay_open)
+  int open_group = -1;                                       ///< the group that does not
+  std::vector<JointReaction> joints;                         ///< empty without forces
   std::vector<double> drives;
   Vec<double> shaking_force{0, 0};  ///< only with forces
 };
 /// `forces` may be null.
 LinkageRecord record_of(const Linkage& linkage, const LinkagePlan& plan, const LinkageMotion& motion,
                         const LinkageForces* forces, double input);
+
+/// The record where a linkage does not assemble: the bodies that have a place, and those that do not close as
+/// near as they come, in `motion`, too (lay_open).
+LinkageRecord open_record_of(const Linkage& linkage, const LinkagePlan& plan,
+                             std::span<const InputMotion> inputs, LinkageMotion& motion, double input);
 
 /// Drawing of a linkage in motion, named "motion": bodies as bars and plates, sliders as blocks on their
 /// guides, springs, traces, and arrows of joint forces, shaking force and velocities of the traced points.
