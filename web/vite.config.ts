@@ -21,18 +21,20 @@ const viewer = {
 };
 // What draws scenes in space is large, and only reports that have one carry it.
 const space = { entry: "src/space.ts", name: "linkwrightSpace", file: "space", parts: "three.js, (c) 2010-2026 three.js authors." };
+// What unpacks these and the data of the report.
+const boot = { entry: "src/boot.ts", name: "linkwrightBoot", file: "boot", parts: "" };
 
 // One script and one style sheet that run from disk in any current browser.
 export default defineConfig(({ mode }) => {
-  const bundle = mode === "space" ? space : viewer;
+  const bundle = mode === "space" ? space : mode === "boot" ? boot : viewer;
   return {
     define: { "process.env.NODE_ENV": '"production"' },
-    esbuild: { jsx: "automatic", jsxImportSource: "preact", legalComments: "none" },
+    esbuild: { jsx: "automatic", jsxImportSource: "preact", legalComments: "inline" },
     build: {
       target: "es2020",
       reportCompressedSize: false,
       lib: { entry: bundle.entry, name: bundle.name, formats: ["iife"], fileName: () => `${bundle.file}.js`, cssFileName: bundle.file },
-      rollupOptions: { output: { banner: notices(bundle.parts) } },
+      rollupOptions: { output: { banner: bundle.parts && notices(bundle.parts) } },
     },
     // A test reads the units of the printed form.
     server: { fs: { allow: [".."] } },

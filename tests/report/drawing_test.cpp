@@ -26,6 +26,22 @@ TEST(Drawing, BoundsLeaveOutWhatDoesNotExist) {
   EXPECT_EQ(box.y_max, 5);
 }
 
+TEST(Drawing, LinesLoseOnlyWhatLiesOnThem) {
+  const auto xs = [](const std::vector<Place>& line) {
+    std::vector<double> out;
+    for (const Place& p : line) out.push_back(p.x);
+    return out;
+  };
+  const std::vector<Place> bent = {{0, 0}, {1, 0.05}, {2, 0}, {3, 1}, {4, 0}, {5, 0}};
+  EXPECT_EQ(xs(simplified(bent, 0.1)), (std::vector<double>{0, 2, 3, 4, 5}));
+  EXPECT_EQ(xs(simplified(bent, 0.01)), (std::vector<double>{0, 1, 2, 3, 4, 5}));
+  // There and back again: what lies beyond the ends of a line is not on it.
+  EXPECT_EQ(xs(simplified({{0, 0}, {5, 0}, {2, 0}}, 0.1)), (std::vector<double>{0, 5, 2}));
+  EXPECT_EQ(xs(simplified({{0, 0}, {5, 0}, {-4, 0}, {0, 0}}, 0.1)), (std::vector<double>{0, 5, -4, 0}));
+  EXPECT_EQ(xs(simplified({{0, 0}, {0, 0}}, 0.1)), (std::vector<double>{0, 0}));
+  EXPECT_TRUE(simplified({}, 0.1).empty());
+}
+
 TEST(Drawing, CirclesTakeTheirRadius) {
   study::Scene scene;
   scene.input = {0, 1};

@@ -37,9 +37,5 @@ TEST(Markup, ValuesForPeople) {
   EXPECT_EQ(display(Value()), "–");
 }
 
-TEST(Markup, ScriptSafeJsonHasNoOpeningBracket) {
-  EXPECT_EQ(script_safe("{\"a\":\"</script><!--\"}"), "{\"a\":\"\\u003c/script>\\u003c!--\"}");
-}
-
 }  // namespace
 }  // namespace linkwright::report

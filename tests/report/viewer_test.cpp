@@ -24,6 +24,8 @@ TEST(Viewer, ScriptIsThereWhenItWasBuiltAndStaysSmall) {
   EXPECT_LT(viewer_js().size(), 400'000u);
   EXPECT_EQ(space_js().empty(), !LINKWRIGHT_HAS_VIEWER);
   EXPECT_LT(space_js().size(), 800'000u);
+  EXPECT_EQ(boot_js().empty(), !LINKWRIGHT_HAS_VIEWER);
+  EXPECT_LT(boot_js().size(), 4'000u);
 }
 
 }  // namespace

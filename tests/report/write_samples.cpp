@@ -1,6 +1,6 @@
 // Writes what the report tests outside C++ look at: write_samples DIR makes DIR/report.html,
 // DIR/simulation.html, DIR/spatial.html, DIR/maps.html, DIR/diagrams.html, DIR/hostile.html, DIR/empty.html,
-// DIR/scene.dxf and DIR/scene.svg.
+// DIR/scene.dxf, DIR/scene.svg, and DIR/report.json with the tables of the first report as CSV.
 
 #include <filesystem>
 #include <fstream>
@@ -36,6 +36,8 @@ int main(int count, char** arguments) {
                     .command = "linkwright run fourbar-18-points.toml --out out/fourbar-18",
                     .result_json = report::test::sample_json(result)};
   write(folder / "report.html", html(input));
+  write(folder / "report.json", input.result_json);
+  for (const Table& table : result.tables) write(folder / (table.name + ".csv"), to_csv(table));
   write(folder / "scene.svg", svg(result.scenes.front()));
   write(folder / "scene.dxf", dxf(result.scenes.front()));
 

@@ -1,5 +1,6 @@
 // The data that the report file carries; null = missing (NaN or no bound).
-export type Num = number | null;
+import type { Num } from "./packed";
+export type { Num };
 
 export interface Scene {
   name: string;
@@ -160,9 +161,12 @@ export interface Result {
   }[];
 }
 
-const text = (id: string) => document.getElementById(id)?.textContent ?? "null";
-export const resultText = () => text("result-data");
-export const readView = (): View => JSON.parse(text("view-data"));
+// What the report carries, unpacked by boot.ts; a result of null = it carries none.
+declare const linkwright: { view: View; result: Partial<Omit<Result, "tables">> & { tables?: RawTable[] } | null; resultText: () => string };
+/** The text of result.json as the program writes it. */
+export const resultText = () => linkwright.resultText();
+export const hasResult = () => linkwright.result !== null;
+export const readView = () => linkwright.view;
 
 type RawTable = { name: string; names?: string[]; columns: { key: string; label: string }[]; data: (Num | string)[][] };
 
@@ -181,7 +185,7 @@ export function readTable({ name, names, columns, data }: RawTable): Table {
 }
 
 export const readResult = (): Result => {
-  const result = JSON.parse(resultText()) ?? {};
+  const result = linkwright.result ?? {};
   return {
     checks: result.checks ?? [],
     solutions: result.solutions ?? [],

@@ -1,6 +1,7 @@
 // Files that the report gives away.
 import { extentOf, isSymbol, symbolLines } from "./arrows";
-import type { Scene, Table } from "./data";
+import type { Num, Scene, Table } from "./data";
+import { decimal } from "./decimal";
 import { isSpatial } from "./grid";
 import { analyse, placeAt, type Place } from "./motion";
 import { beyond, helix, wheelCircle } from "./space_view";
@@ -11,9 +12,10 @@ const quote = (text: string) => (/[",\r\n]/.test(text) ? `"${text.replace(/"/g, 
 /** RFC 4180 text of a table: shortest digits that read back the same, missing values empty, status last. */
 export function csv(table: Table): string {
   const rows = table.data[0]?.length ?? 0;
-    const lines = [[...(table.names ? ["name"] : []), ...table.columns.map((c) => quote(c.key)), "status"].join(",")];
+  const number = (value: Num | undefined) => (value == null ? "" : decimal(value));
+  const lines = [[...(table.names ? ["name"] : []), ...table.columns.map((c) => quote(c.key)), "status"].join(",")];
   for (let row = 0; row < rows; ++row)
-    lines.push([...(table.names ? [quote(table.names[row])] : []), ...table.data.map((c) => c[row] ?? ""), quote(table.status[row] ?? "done")].join(","));
+    lines.push([...(table.names ? [quote(table.names[row])] : []), ...table.data.map((c) => number(c[row])), quote(table.status[row] ?? "done")].join(","));
   return lines.join("\r\n") + "\r\n";
 }
 

@@ -1,7 +1,7 @@
 // Everything on the page that is text and tables.
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
-import { isObject, resultText, type Change, type Json, type JsonObject, type Num, type Table } from "./data";
+import { hasResult, isObject, resultText, type Change, type Json, type JsonObject, type Num, type Table } from "./data";
 import { Copy } from "./controls";
 import { csv, drawingSvg, dxf, png, save, slug, targetTable } from "./exports";
 import { isAssembled, positionOfTurn } from "./motion";
@@ -316,7 +316,7 @@ export function Data() {
   return (
     <Section title="Data" id="data">
       <div class="downloads">
-        {resultText() !== "null" && <button type="button" class="get" data-download="result.json" onClick={() => save("result.json", resultText(), "application/json")}>Result (JSON)</button>}
+        {hasResult() && <button type="button" class="get" data-download="result.json" onClick={() => save("result.json", resultText(), "application/json")}>Result (JSON)</button>}
         {view.study_toml && <button type="button" class="get" data-download="study.toml" onClick={() => save("study.toml", view.study_toml)}>Study (TOML)</button>}
         {shown && <>
           <button type="button" class="get" data-download="svg" onClick={() => save(`${name}.svg`, svg(), "image/svg+xml")}>Drawing (SVG)</button>

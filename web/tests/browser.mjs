@@ -168,7 +168,7 @@ test("another solution can be shown; what does not assemble is hatched", async (
   assert.ok((await page.locator(".gap").count()) >= 1);
   assert.match(await page.locator("#h-parameters").innerText(), /solution 3/);
   assert.equal(await page.locator('[data-plot="transmission"] canvas').count(), 1);
-  const missing = await page.evaluate(() => JSON.parse(document.getElementById("view-data").textContent).scenes[2].status.indexOf("no_assembly"));
+  const missing = await page.evaluate(() => linkwright.view.scenes[2].status.indexOf("no_assembly"));
   await page.locator("#scrub").fill(String(missing));
   assert.match(await page.locator(".title-block").innerText(), /no assembly/);
   assert.equal(await page.locator("#drawing .link").count(), 1);
@@ -186,7 +186,9 @@ test("downloads have their content", async () => {
   const lines = readFileSync(table.path, "utf8").trimEnd().split("\r\n");
   assert.equal(lines[0], "crank_angle_rad,coupler_x_m,coupler_y_m,transmission_angle_rad,status");
   assert.equal(lines.length, 362);
-  assert.equal(JSON.parse(readFileSync((await download(page, "result.json")).path, "utf8")).status, "done");
+  // Bit for bit what the program writes, although the report carries it in another form.
+  assert.equal(readFileSync(table.path, "utf8"), readFileSync(join(samples, "motion of solution-1.csv"), "utf8"));
+  assert.equal(readFileSync((await download(page, "result.json")).path, "utf8"), readFileSync(join(samples, "report.json"), "utf8"));
   assert.match(readFileSync((await download(page, "study.toml")).path, "utf8"), /^schema = 1/);
   assert.match(readFileSync((await download(page, "svg")).path, "utf8"), /^<svg[^]*<\/svg>$/);
   assert.equal(readFileSync((await download(page, "png")).path).subarray(1, 4).toString(), "PNG");
@@ -219,7 +221,7 @@ test("reduced motion is respected", async () => {
 });
 
 // Rows of the table that the report carries; components of an arrow on the screen in pixels, y up.
-const rows = (page) => page.evaluate(() => JSON.parse(document.getElementById("result-data").textContent).tables[0].data);
+const rows = (page) => page.evaluate(() => linkwright.result.tables[0].data);
 const tipOf = async (page, pick) => {
   const [x, y] = (await page.locator(`#drawing [data-pick="${pick}"]`).getAttribute("data-tip")).split(" ").map(Number);
   return [x, -y];
@@ -623,6 +625,16 @@ test("without scripts there are drawings and tables", async () => {
   assert.match(await page.locator("#static .diagrams").textContent(), /crank angle \(°\)/);
   assert.doesNotMatch(await page.locator("#static .diagrams").textContent(), /\(rad\)/);
   await close();
+});
+
+test("what cannot be unpacked leaves the form without scripts on the page", async () => {
+  for (const broken of ["delete window.DecompressionStream", "window.atob = () => { throw new Error('no base64'); }"]) {
+    const { page, close } = await open("report.html", {}, broken);
+    await until(async () => (await page.locator("html").getAttribute("class")) === "");
+    assert.ok(await page.locator("#static figure svg").first().isVisible());
+    assert.ok(!(await page.locator("#app").isVisible()));
+    await close();
+  }
 });
 
 test("hostile text stays text", async () => {

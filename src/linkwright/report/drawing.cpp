@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
+#include <vector>
 
 #include "linkwright/core/numbers.h"
 
@@ -164,6 +166,38 @@ std::size_t reference_sample(const study::Scene& scene) {
   for (std::size_t i = 0; i < scene.samples(); ++i)
     if (assembled(scene, i)) return i;
   return 0;
+}
+
+std::vector<Place> simplified(const std::vector<Place>& line, double tolerance) {
+  if (line.size() < 3) return line;
+  std::vector<bool> kept(line.size());
+  kept.front() = kept.back() = true;
+  std::vector<std::pair<std::size_t, std::size_t>> parts = {{0, line.size() - 1}};
+  while (!parts.empty()) {
+    const auto [from, to] = parts.back();
+    parts.pop_back();
+    const std::complex<double> start(line[from].x, line[from].y);
+    const std::complex<double> way = std::complex<double>(line[to].x, line[to].y) - start;
+    std::size_t farthest = from;
+    double most = tolerance;
+    for (std::size_t i = from + 1; i < to; ++i) {
+      // Seen from the start, along and across the way; without a way all is across.
+      const std::complex<double> p = std::complex<double>(line[i].x, line[i].y) - start;
+      const double length = std::abs(way);
+      const std::complex<double> seen = length > 0 ? p * std::conj(way) / length : p;
+      const double beyond = std::max({0.0, -seen.real(), seen.real() - length});
+      const double off = length > 0 ? std::hypot(seen.imag(), beyond) : std::abs(p);
+      if (off > most) most = off, farthest = i;
+    }
+    if (farthest == from) continue;
+    kept[farthest] = true;
+    parts.emplace_back(from, farthest);
+    parts.emplace_back(farthest, to);
+  }
+  std::vector<Place> out;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (kept[i]) out.push_back(line[i]);
+  return out;
 }
 
 double nice_step(double span, double divisions) {

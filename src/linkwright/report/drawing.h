@@ -57,6 +57,10 @@ bool assembled(const study::Scene& scene, std::size_t sample);
 /// input, the one of these whose inputs are nearest to zero, measured by their ranges. 0 when none is.
 std::size_t reference_sample(const study::Scene& scene);
 
+/// The polyline with as few of its points as keep it within `tolerance` of all of them (Douglas and Peucker
+/// 1973); its ends stay. All places must be finite.
+std::vector<Place> simplified(const std::vector<Place>& line, double tolerance);
+
 /// The largest of 1, 2, 5 times a power of ten that is not above `span / divisions`; 1 for a span of 0 or
 /// NaN.
 double nice_step(double span, double divisions);

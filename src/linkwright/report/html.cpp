@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "linkwright/report/markup.h"
+#include "linkwright/report/packed.h"
 #include "linkwright/report/static_page.h"
 #include "linkwright/report/view_data.h"
 #include "linkwright/report/viewer.h"
@@ -22,26 +23,39 @@ std::string html(const ReportInput& input) {
       "'unsafe-inline'; "
       "style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'\">\n";
   out += "<meta name=\"generator\" content=\"" + escape(input.tool) + "\">\n";
+  // What is to be replaced is not shown first.
+  if (!script.empty())
+    out +=
+        "<style>.starting #static { display: none }</style>\n"
+        "<script>document.documentElement.className = \"starting\"</script>\n";
   out += "<title>" + escape(input.title) + "</title>\n<style>\n";
   out += report_css();
   out += viewer_css();
   out += "</style>\n</head>\n<body>\n";
   out += "<main id=\"static\" class=\"page\">\n" + static_page(input) + "</main>\n";
   if (!script.empty()) {
-    out +=
-        "<main id=\"app\" class=\"page\" hidden></main>\n<script type=\"application/json\" "
-        "id=\"result-data\">";
-    out += script_safe(input.result_json.empty() ? std::string("null") : input.result_json);
-    out += "</script>\n<script type=\"application/json\" id=\"view-data\">";
-    out += script_safe(study::to_json(view_data(input)));
-    out += "</script>\n<script>\n";
+    out += "<main id=\"app\" class=\"page\" hidden></main>\n";
+    const auto carry = [&out](std::string_view id, std::string_view bytes) {
+      out.append("<script type=\"text/plain\" id=\"").append(id).append("\">").append(packed(bytes));
+      out += "</script>\n";
+    };
+    NumberPack numbers;
+    carry("result-data", numbers.take(input.result_json.empty() ? "null" : input.result_json, ", "));
+    carry("view-data", numbers.take(study::to_json(view_data(input)), ","));
+    carry("numbers-index", numbers.index());
+    carry("numbers", numbers.bytes());
+    // Licences ask for their notices in every copy, so that these stay readable.
+    std::string notices;
+    const auto carry_script = [&](std::string_view id, std::string_view code) {
+      if (const std::size_t from = code.find("/*!"); from != std::string_view::npos)
+        notices.append(code.substr(from, code.find("*/", from) + 2 - from)).append("\n");
+      carry(id, code);
+    };
     const auto& scenes = input.result.scenes;
-    if (std::any_of(scenes.begin(), scenes.end(), [](const study::Scene& s) { return s.spatial(); })) {
-      out += space_js();
-      out += "</script>\n<script>\n";
-    }
-    out += script;
-    out += "</script>\n";
+    if (std::any_of(scenes.begin(), scenes.end(), [](const study::Scene& s) { return s.spatial(); }))
+      carry_script("space-script", space_js());
+    carry_script("viewer-script", script);
+    out.append("<script>\n").append(notices).append(boot_js()).append("</script>\n");
   }
   out += "</body>\n</html>\n";
   return out;

@@ -87,16 +87,4 @@ std::string display(const Value& value) {
   return out;
 }
 
-std::string script_safe(std::string json) {
-  std::string out;
-  out.reserve(json.size());
-  for (const char c : json) {
-    if (c == '<')
-      out += "\\u003c";
-    else
-      out += c;
-  }
-  return out;
-}
-
 }  // namespace linkwright::report

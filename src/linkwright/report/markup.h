@@ -21,7 +21,4 @@ std::string number(double value, int digits = 6);
 /// A scalar for people: text as it is, numbers by number(), "yes"/"no"; arrays and objects joined by commas.
 std::string display(const Value& value);
 
-/// JSON text that cannot end a script element nor open a comment in it: every < is written as an escape.
-std::string script_safe(std::string json);
-
 }  // namespace linkwright::report

@@ -247,19 +247,12 @@ void draw_axes(std::string& out, const Axes& axes, const std::string& x_label, c
 }
 
 std::string path_of(const Axes& axes, const Curve& curve, bool points) {
+  std::vector<Place> line;
+  for (const Place& p : curve.points) line.push_back({axes.x(p.x), axes.y(p.y)});
+  if (!points) return path_data(line, false);
   std::string path;
-  bool down = false;
-  for (const Place& p : curve.points) {
-    if (!p.finite()) {
-      down = false;
-      continue;
-    }
-    if (points)
-      put(path, "M{:.1f} {:.1f}h0", axes.x(p.x), axes.y(p.y));
-    else
-      put(path, "{}{:.1f} {:.1f}", down ? 'L' : 'M', axes.x(p.x), axes.y(p.y));
-    down = true;
-  }
+  for (const Place& p : line)
+    if (p.finite()) put(path, "M{:.1f} {:.1f}h0", p.x, p.y);
   return path;
 }
 

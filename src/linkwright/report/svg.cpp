@@ -37,18 +37,9 @@ constexpr double pin_radius = 4.6;   // px
 constexpr double symbol_width = 18;  // px, across springs
 
 std::string path_of(const Canvas& canvas, const std::vector<Place>& places, bool closed) {
-  std::string path;
-  bool pen_down = false, whole = true;
-  for (const Place& p : places) {
-    if (!p.finite()) {
-      pen_down = whole = false;
-      continue;
-    }
-    put(path, "{}{:.2f} {:.2f}", pen_down ? 'L' : 'M', canvas.x(p.x), canvas.y(p.y));
-    pen_down = true;
-  }
-  if (closed && whole && !path.empty()) path += 'Z';
-  return path;
+  std::vector<Place> line;
+  for (const Place& p : places) line.push_back({canvas.x(p.x), canvas.y(p.y), p.z});
+  return path_data(line, closed);
 }
 
 // Coordinates along the sheet that grow to the left, and their names, as the views of a spatial scene have

@@ -1,29 +1,29 @@
 #include "linkwright/report/view_data.h"
 
-#include <fmt/core.h>
-
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "linkwright/core/status.h"
 #include "linkwright/study/answer.h"
+#include "linkwright/study/extremes.h"
 
 namespace linkwright::report {
 namespace {
 
 using study::Scene;
 
-// Nine digits are a millionth of a pixel and halve the size of the file.
-double rounded(double value) {
-  return std::isfinite(value) ? std::strtod(fmt::format("{:.9g}", value).c_str(), nullptr) : value;
-}
-
+// Nine digits of the largest are a millionth of a pixel, and whole numbers in four bytes (packed.h).
 Value coordinates(const std::vector<double>& values) {
+  const double largest = study::largest_size(values);
+  const int decimals =
+      largest > 0 && std::isfinite(largest) ? 8 - static_cast<int>(std::floor(std::log10(largest))) : 0;
   Value out = Value::array();
-  for (const double v : values) out.push_back(rounded(v));
+  // Powers of ten up to here are doubles.
+  const double power = std::pow(10.0, std::clamp(decimals, 0, 22));
+  for (const double v : values) out.push_back(std::nearbyint(v * power) / power + 0.0);  // no -0
   return out;
 }
 
@@ -56,11 +56,11 @@ Value scene_data(const Scene& scene) {
   out["title"] = scene.title;
   out["input_key"] = scene.input_key;
   out["input_label"] = scene.input_label;
-  out["input"] = coordinates(scene.input);
+  out["input"] = Value(scene.input);
   if (!scene.second.empty()) {
     out["second_key"] = scene.second_key;
     out["second_label"] = scene.second_label;
-    out["second"] = coordinates(scene.second);
+    out["second"] = Value(scene.second);
   }
   out["status"] = texts(scene.status);
   out["points"] = list(scene.points, [](Value& o, const Scene::Point& p) {
@@ -91,7 +91,7 @@ Value scene_data(const Scene& scene) {
     // Not rounded: their differences are the errors, which may be tiny.
     o["achieved_x"] = t.achieved_x;
     o["achieved_y"] = t.achieved_y;
-    o["achieved_input"] = coordinates(t.achieved_input);
+    o["achieved_input"] = Value(t.achieved_input);
     o["closed"] = t.closed;
   });
   out["circles"] = list(scene.circles, [](Value& o, const Scene::Circle& c) {
@@ -104,8 +104,8 @@ Value scene_data(const Scene& scene) {
       o["name"] = d.name;
       o["centre"] = d.centre;
       o["axis"] = d.axis;
-      o["radius"] = rounded(d.radius);
-      o["width"] = rounded(d.width);
+      o["radius"] = d.radius;
+      o["width"] = d.width;
     });
   out["vectors"] = list(scene.vectors, [](Value& o, const Scene::Vector& v) {
     o["name"] = v.name;

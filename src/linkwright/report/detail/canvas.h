@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "linkwright/report/drawing.h"
 #include "linkwright/report/svg.h"
@@ -61,6 +62,34 @@ class Canvas {
 template <class... Args>
 void put(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
+}
+
+/// Path data of a line in the picture; places without coordinates interrupt it, and then it is not closed
+/// either. Points that move it by less than can be seen are left out.
+inline std::string path_data(const std::vector<Place>& line, bool closed) {
+  constexpr double unseen = 0.1;  // px
+  std::string path;
+  bool whole = true;
+  std::vector<Place> run;
+  const auto flush = [&] {
+    char command = 'M';
+    for (const Place& p : simplified(run, unseen)) {
+      put(path, "{}{:.2f} {:.2f}", command, p.x, p.y);
+      command = 'L';
+    }
+    run.clear();
+  };
+  for (const Place& p : line) {
+    if (p.finite()) {
+      run.push_back(p);
+      continue;
+    }
+    whole = false;
+    flush();
+  }
+  flush();
+  if (closed && whole && !path.empty()) path += 'Z';
+  return path;
 }
 
 }  // namespace linkwright::report

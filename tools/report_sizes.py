@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Sizes of the reports of all examples and templates and, with --chromium, how long they take to open.
+
+    tools/report_sizes.py LINKWRIGHT FOLDER [--time-limit S] [--chromium PROGRAM] [--most MB]
+
+Writes the reports into FOLDER, where those that are there already are kept, and a line for each: bytes, and the
+milliseconds until something of it was painted and until the viewer stood. Exit code 1 when a report is larger than MB.
+"""
+
+import argparse
+import json
+import statistics
+import subprocess
+import sys
+from pathlib import Path
+
+from compare_results import ROOT, studies
+
+
+def reports(options):
+    """(name, path) of each report; what ends without an answer has one, too."""
+    folder = Path(options.folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, study in studies(options.program):
+        report = folder / name / "report.html"
+        if not report.exists():
+            path = study
+            if isinstance(study, str):
+                path = folder / f"{name}.toml"
+                path.write_text(study)
+            subprocess.run([options.program, "run", str(path), "--out", str(report.parent), "--time-limit",
+                            str(options.time_limit), "--set", "output.formats=['html']"], capture_output=True, check=False)
+        if report.exists():
+            yield name, report
+
+
+def load_times(chromium, files):
+    """[first paint, viewer] in ms for each file."""
+    out = subprocess.run(["node", "tests/load_times.mjs", chromium], input="\n".join(str(f.resolve()) for f in files),
+                         capture_output=True, text=True, check=True, cwd=ROOT / "web")
+    return json.loads(out.stdout)
+
+
+def at_share(values, share):
+    return sorted(values)[min(len(values) - 1, int(share * len(values)))]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", metavar="LINKWRIGHT")
+    parser.add_argument("folder", metavar="FOLDER")
+    parser.add_argument("--time-limit", type=float, default=8, metavar="S", help="seconds for each study (8)")
+    parser.add_argument("--chromium", metavar="PROGRAM", help="opens each report in this browser, headless")
+    parser.add_argument("--most", type=float, default=2.5, metavar="MB", help="the largest size that is allowed (2.5)")
+    options = parser.parse_args()
+    found = list(reports(options))
+    sizes = [report.stat().st_size for _, report in found]
+    times = load_times(options.chromium, [report for _, report in found]) if options.chromium else [None] * len(found)
+    for (name, _), size, time in sorted(zip(found, sizes, times), key=lambda row: -row[1]):
+        print(f"{size / 1e6:7.2f} MB  {'' if time is None else f'{time[0]:6.0f} ms {time[1]:6.0f} ms  '}{name}")
+
+    def line(what, values, unit, digits):
+        print(f"{what}: median {statistics.median(values):.{digits}f} {unit}, 95 % {at_share(values, 0.95):.{digits}f} {unit}, "
+              f"largest {max(values):.{digits}f} {unit}")
+
+    line(f"size of {len(found)} reports", [s / 1e6 for s in sizes], "MB", 2)
+    if options.chromium:
+        line("first paint", [t[0] for t in times], "ms", 0)
+        line("viewer", [t[1] for t in times], "ms", 0)
+    return 1 if max(sizes) > options.most * 1e6 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,59 @@
+// The small form in which a report carries its data; the program writes it (src/linkwright/report/packed.h).
+import { jsonNumber } from "./decimal";
+
+export type Num = number | null;
+
+/** What base64 of raw deflate stands for. */
+export async function inflate(base64: string): Promise<ArrayBuffer> {
+  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).arrayBuffer();
+}
+
+type Entry = [count: number, order: number, decimals: number | null];
+const missingWhole = -(2 ** 31);
+
+/** Lists of numbers from their bytes: see NumberPack. */
+export function unpackLists(index: Entry[], bytes: Uint8Array): Num[][] {
+  let at = 0;
+  return index.map(([count, order, decimals]) => {
+    const words = decimals === null ? 2 : 1;
+    const [low, high] = [0, 1].map((word) => {
+      const out = new Uint32Array(word < words ? count : 0);
+      for (let byte = 0; byte < 4; ++byte) for (let i = 0; i < out.length; ++i) out[i] |= bytes[at++] << (8 * byte);
+      return out;
+    });
+    const odd = (i: number) => -(low[i] & 1);
+    for (let i = 0; i < count; ++i) {
+      const sign = odd(i);
+      low[i] = ((low[i] >>> 1) | (words === 2 ? high[i] << 31 : 0)) ^ sign;
+      if (words === 2) high[i] = (high[i] >>> 1) ^ sign;
+    }
+    for (let k = 0; k < order; ++k)
+      for (let i = 1; i < count; ++i) {
+        const sum = low[i] + low[i - 1];
+        low[i] = sum;
+        if (words === 2) high[i] += high[i - 1] + (sum > 0xffffffff ? 1 : 0);
+      }
+    if (decimals !== null) {
+      const power = Number(`1e${decimals}`); // exact, which 10 ** n need not be
+      return Array.from(new Int32Array(low.buffer), (whole) => (whole === missingWhole ? null : whole / power));
+    }
+    const both = new DataView(new ArrayBuffer(8));
+    return Array.from({ length: count }, (_, i) => {
+      both.setUint32(0, high[i]);
+      both.setUint32(4, low[i]);
+      const value = both.getFloat64(0);
+      return Number.isNaN(value) ? null : value;
+    });
+  });
+}
+
+// A text in JSON escapes its quotes, and the program writes no member without a name.
+const place = /\{"":(\d+)\}/g;
+
+/** A text of JSON whose long lists were taken out. */
+export const parseWith = (lists: Num[][], text: string) =>
+  JSON.parse(text, (_, value) => (typeof value?.[""] === "number" ? lists[value[""]] : value));
+
+/** The same text with its lists, as the program writes files. */
+export const textWith = (lists: Num[][], text: string) => text.replace(place, (_, i) => `[${lists[i].map(jsonNumber).join(", ")}]`);
