@@ -17,7 +17,7 @@ const viewer = {
   entry: "src/main.tsx",
   name: "linkwrightReport",
   file: "viewer",
-  parts: "Preact, (c) 2015-present Jason Miller; @preact/signals, (c) 2022-present Preact Team; uPlot, (c) 2022 Leon Sorokin.",
+  parts: "Preact, (c) 2015-present Jason Miller; @preact/signals, (c) 2022-present Preact Team; uPlot, (c) 2022 Leon Sorokin; gifenc, (c) 2017 Matt DesLauriers.",
 };
 // What draws scenes in space is large, and only reports that have one carry it.
 const space = { entry: "src/space.ts", name: "linkwrightSpace", file: "space", parts: "three.js, (c) 2010-2026 three.js authors." };

@@ -53,6 +53,24 @@ TEST(Study, CanonicalHoldsEverythingInSiUnits) {
       R"("check":[{"quantity":"best.height_mm","equals":400.0,"tolerance":1e-09}]})");
 }
 
+// The drawing of a report names what it shows.
+TEST(Study, ScenesWithoutATitleGetThatOfTheStudy) {
+  Prepare p(sample::example);
+  ASSERT_TRUE(p.study) << p.messages;
+  p.study->run = [](RunContext&) {
+    Result result;
+    result.scenes.resize(2);
+    result.scenes[1].title = "2: double rocker";
+    return result;
+  };
+  RunContext context;
+  const Result result = run_study(*p.study, context);
+  EXPECT_EQ(result.scenes[0].title, "A lever");
+  EXPECT_EQ(result.scenes[1].title, "2: double rocker");
+  p.study->common.title.clear();
+  EXPECT_EQ(run_study(*p.study, context).scenes[0].title, name_of(*p.study->kind));
+}
+
 // A canonical study is itself a study, and stands for the same thing.
 TEST(Study, CanonicalReadsBackToItself) {
   const Prepare first(sample::example);

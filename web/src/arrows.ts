@@ -61,12 +61,15 @@ export function arrowScale(scene: Scene, quantity: Quantity): number {
   return (shareOfScene * extent) / Math.min(sizes[sizes.length - 1], outstanding * sizes[sizes.length >> 1]);
 }
 
-/** The scene's box with the arrows of the quantities at all samples; one that stands out counts up to a third of the scene. */
+/** The scene's box with the arrows of the quantities at all samples; one that stands out counts up to a third of the scene, and of
+ *  a flat scene less across it, which would else be a line in an empty drawing. */
 export function boundsWith(scene: Scene, scales: { quantity: Quantity; scale: number }[]): Box | null {
   const box = bounds(scene);
   if (!box) return null;
   const out = { ...box };
-  const most = sized(box) / 3;
+  const [width, height] = [box.right - box.left, box.top - box.bottom];
+  const most = { x: Math.max(width, height / 4) / 3, y: Math.max(height, width / 4) / 3 };
+  const within = (v: number, most: number) => Math.min(most, Math.max(-most, v));
   for (const { quantity, scale } of scales)
     for (const vector of scene.vectors)
       if (vector.quantity === quantity && scale > 0)
@@ -74,11 +77,12 @@ export function boundsWith(scene: Scene, scales: { quantity: Quantity; scale: nu
           const p = placeNear(scene, vector.point, i);
           const v = componentsNear(vector, i);
           if (!p || !v) return;
-          const share = Math.min(1, most / (scale * Math.hypot(v.x, v.y) || 1)) * scale;
-          out.left = Math.min(out.left, p.x + share * v.x);
-          out.right = Math.max(out.right, p.x + share * v.x);
-          out.bottom = Math.min(out.bottom, p.y + share * v.y);
-          out.top = Math.max(out.top, p.y + share * v.y);
+          const x = p.x + within(scale * v.x, most.x);
+          const y = p.y + within(scale * v.y, most.y);
+          out.left = Math.min(out.left, x);
+          out.right = Math.max(out.right, x);
+          out.bottom = Math.min(out.bottom, y);
+          out.top = Math.max(out.top, y);
         });
   return out;
 }

@@ -1,11 +1,13 @@
 // What part of the plane is on the screen, and how large things are drawn there.
 import { computed, signal } from "@preact/signals";
 import { arrowScale, boundsWith, extentOf, quantities } from "./arrows";
+import { isSpatial } from "./grid";
 import { placeAt, type Place } from "./motion";
 import * as state from "./state";
 import { fit, toScreen, zoom, type Camera } from "./view";
 
 export const size = signal({ width: 760, height: 520 });
+const margin = (width: number) => Math.min(58, 0.1 * width); // px around the scene
 export const moved = signal<Camera | null>(null); // null = everything in view
 /** Metres in the drawing for a value of 1, a quantity. */
 export const scales = computed(() => {
@@ -13,7 +15,24 @@ export const scales = computed(() => {
   return quantities.map((quantity) => ({ quantity, scale: scene ? arrowScale(scene, quantity) : 0 }));
 });
 const box = computed(() => state.scene.value && boundsWith(state.scene.value, scales.value.filter((s) => state.showArrows[s.quantity].value)));
-const fitted = computed<Camera>(() => (box.value ? fit(box.value, size.value, Math.min(58, 0.1 * size.value.width)) : { x: 0, y: 0, scale: 100 }));
+const fitted = computed<Camera>(() => (box.value ? fit(box.value, size.value, margin(size.value.width)) : { x: 0, y: 0, scale: 100 }));
+
+/** Height of the drawing at a width: the shape of the largest of the scenes, so that it stays when another one is chosen, but
+ *  never so much that the controls leave the first screen. */
+export function heightAt(width: number): number {
+  const around = 2 * margin(width);
+  const most = 0.6 * innerHeight;
+  const least = Math.min(220, most);
+  const wanted = (tallest.value ?? 0.6) * (width - around) + around;
+  return Math.round(Math.min(most, Math.max(least, wanted)));
+}
+const tallest = computed(() => state.view.scenes.reduce<number | null>((most, scene) => {
+  const box = isSpatial(scene) ? null : boundsWith(scene, quantities.map((quantity) => ({ quantity, scale: arrowScale(scene, quantity) })).filter((s) => state.showArrows[s.quantity].peek()));
+  if (!box) return most;
+  const shape = (box.top - box.bottom) / Math.max(1e-9, box.right - box.left);
+  return Math.max(most ?? 0, shape);
+}, null));
+
 /** Pixels for a metre of an arrow: arrows keep their length on the screen when the drawing is zoomed. */
 export const arrowPixels = computed(() => fitted.value.scale);
 export const camera = computed(() => moved.value ?? fitted.value);

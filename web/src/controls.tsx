@@ -1,5 +1,5 @@
 import type { Signal } from "@preact/signals";
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 
 export const toggle = (flag: Signal<boolean>) => (flag.value = !flag.value);
 
@@ -7,6 +7,27 @@ export function Switch({ flag, text, hint }: { flag: Signal<boolean>; text: stri
   return (
     <button type="button" class="switch" aria-pressed={flag.value} title={hint} onClick={() => toggle(flag)}>{text}</button>
   );
+}
+
+/** Says over the stage it stands on that the wheel zooms with Ctrl: without, the wheel scrolls the page, here as elsewhere. */
+export function WheelHint() {
+  const box = useRef<HTMLParagraphElement>(null);
+  const [shown, setShown] = useState(false);
+  useEffect(() => {
+    const stage = box.current!.parentElement!;
+    let timer: ReturnType<typeof setTimeout>;
+    const wheel = (event: WheelEvent) => {
+      setShown(!event.ctrlKey && !event.metaKey);
+      clearTimeout(timer);
+      timer = setTimeout(() => setShown(false), 1500);
+    };
+    stage.addEventListener("wheel", wheel, { capture: true, passive: true });
+    return () => {
+      clearTimeout(timer);
+      stage.removeEventListener("wheel", wheel, { capture: true });
+    };
+  }, []);
+  return <p ref={box} class={shown ? "wheel-hint shown" : "wheel-hint"} aria-hidden="true">Ctrl + wheel zooms</p>;
 }
 
 /** Button that copies a text; one that changes is asked for when it is pressed. */

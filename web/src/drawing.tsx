@@ -3,14 +3,15 @@ import { computed } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { isSymbol, symbolLines } from "./arrows";
-import { camera, extent, fitView, moved, screen, size, thickness, zoomBy } from "./camera";
+import { camera, extent, fitView, heightAt, moved, screen, size, thickness, zoomBy } from "./camera";
+import { WheelHint } from "./controls";
 import type { Scene } from "./data";
 import { Arrows, Card, Key } from "./forces";
 import { isAssembled, isFixed, nearestSample, placeAt, placeNear, speeds, type Place } from "./motion";
 import { beyond } from "./space_view";
 import * as state from "./state";
 import { format, lengthUnit } from "./units";
-import { bodyColours, bounds, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, type Camera } from "./view";
+import { bodyColours, niceStep, pathOf, targetErrors, ticks, toScreen, toWorld, whiskerScale, type Camera } from "./view";
 
 /** How many times larger the whiskers are drawn. */
 export const whiskerFactor = computed(() => {
@@ -259,11 +260,12 @@ export function Drawing(): JSX.Element {
     const element = box.current!;
     const measure = () => {
       const width = element.clientWidth || 760;
-      size.value = { width, height: Math.round(Math.min(600, Math.max(300, width * 0.66))) };
+      size.value = { width, height: document.fullscreenElement ? element.clientHeight : heightAt(width) };
     };
     measure();
     const observer = new ResizeObserver(measure);
     observer.observe(element);
+    addEventListener("resize", measure);
     const wheel = (event: WheelEvent) => {
       if (!event.ctrlKey && !event.metaKey) return;
       event.preventDefault();
@@ -271,7 +273,10 @@ export function Drawing(): JSX.Element {
       zoomBy(Math.exp(-event.deltaY * 0.0025), { x: event.clientX - at.left, y: event.clientY - at.top });
     };
     element.addEventListener("wheel", wheel, { passive: false });
-    return () => observer.disconnect();
+    return () => {
+      observer.disconnect();
+      removeEventListener("resize", measure);
+    };
   }, []);
   const scene = state.scene.value;
   const here = (event: PointerEvent): Place => {
@@ -310,7 +315,7 @@ export function Drawing(): JSX.Element {
         onDblClick={fitView}>
         <rect class="paper" width={width} height={height} />
         <Grid />
-        {scene && bounds(scene) ? (
+        {scene && (
           <>
             <Ghosts scene={scene} />
             <Pose scene={scene} under />
@@ -320,11 +325,10 @@ export function Drawing(): JSX.Element {
             <Arrows scene={scene} />
             <Key scene={scene} />
           </>
-        ) : (
-          <text class="empty" x={width / 2} y={height / 2} text-anchor="middle">Nothing to draw: the mechanism assembles at no input.</text>
         )}
       </svg>
       <Card />
+      <WheelHint />
     </div>
   );
 }

@@ -177,7 +177,8 @@ export function drawingSvg(drawing: SVGSVGElement): string {
   return new XMLSerializer().serializeToString(copy);
 }
 
-export async function png(svg: string, scale = 2): Promise<Blob> {
+/** A drawing as pixels. */
+export async function pictureOf(svg: string, scale = 1): Promise<HTMLCanvasElement> {
   const image = new Image();
   image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
   await image.decode();
@@ -185,6 +186,11 @@ export async function png(svg: string, scale = 2): Promise<Blob> {
   canvas.width = image.naturalWidth * scale;
   canvas.height = image.naturalHeight * scale;
   canvas.getContext("2d")!.drawImage(image, 0, 0, canvas.width, canvas.height);
+  return canvas;
+}
+
+export async function png(svg: string): Promise<Blob> {
+  const canvas = await pictureOf(svg, 2);
   return new Promise((resolve, reject) =>
     canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the picture could not be made")))),
   );

@@ -271,7 +271,7 @@ export function Values() {
   return (
     <details class="values" onToggle={(e) => setOpen(e.currentTarget.open)}>
       <summary>Forces and motion at this instant</summary>
-      {open && <>
+      {(open || state.printing.value) && <>
         <div class="scroll"><table>
           <thead><tr><th scope="col">arrow</th><th scope="col" class="num">size</th><th scope="col" class="num">x</th><th scope="col" class="num">y</th><th scope="col" class="num">{last}</th></tr></thead>
           <tbody>

@@ -1,23 +1,20 @@
 import { render } from "preact";
-import { Banner, Changes, Checks, Comparisons, Data, Errors, Parameters, Remarks, Reproduce, Runs, SolutionPicker, Solutions } from "./panels";
+import { Banner, Changes, Checks, Comparisons, Data, Errors, Facts, Parameters, Remarks, Reproduce, Runs, SolutionPicker, Solutions } from "./panels";
+import { follow } from "./link";
 import { Machine } from "./player";
 import { Fronts, Plots } from "./plots";
 import { keepStills } from "./space_stage";
-import { scene, start } from "./state";
+import { nowhere, scene, start } from "./state";
 import "./viewer.css";
 
 function Report() {
   return (
     <>
       <Banner />
-      {scene.value ? (
-        <div class="hero">
-          <Machine />
-          <div class="aside"><SolutionPicker /><Errors /><Checks /></div>
-        </div>
-      ) : (
-        <Checks />
-      )}
+      <div class={scene.value && !nowhere ? "hero" : "hero alone"}>
+        <Machine />
+        <div class="aside"><Facts /><SolutionPicker /><Errors /><Checks /></div>
+      </div>
       <Fronts />
       <Changes />
       <Plots />
@@ -37,6 +34,8 @@ const app = document.getElementById("app")!;
 const plain = document.getElementById("static")!;
 keepStills(plain);
 start();
+follow();
+addEventListener("hashchange", follow);
 render(<Report />, app);
 app.hidden = false;
 plain.remove();

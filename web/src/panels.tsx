@@ -1,33 +1,62 @@
 // Everything on the page that is text and tables.
 import type { ComponentChildren } from "preact";
-import { useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { hasResult, isObject, resultText, type Change, type Json, type JsonObject, type Num, type Table } from "./data";
 import { Copy } from "./controls";
-import { csv, drawingSvg, dxf, png, save, slug, targetTable } from "./exports";
-import { isAssembled, positionOfTurn } from "./motion";
+import { csv, save, slug, targetTable } from "./exports";
+import { positionOfTurn } from "./motion";
 import { Convergence, Dots, hasHistogram, hasLoosePlots, LoosePlots } from "./plots";
-import { motion, position, result, runs, scene, sceneIndex, sceneOf, scrub, showScene, spatial, view } from "./state";
+import { motion, reason, result, runs, scene, sceneIndex, sceneOf, scrub, showScene, spatial, view } from "./state";
 import { format, nameOf, quantity, unitOf } from "./units";
-import { space, still } from "./space_stage";
 import { targetErrors } from "./view";
 
 const failed = result.checks.filter((c) => !c.passed).length;
 
-export function Banner() {
+const marks = { passed: "✓", doubtful: "!", incomplete: "!", failed: "✗" };
+
+/** A text of which a long one shows two lines until one asks for the rest. */
+function Fold({ text }: { text: string }) {
+  const box = useRef<HTMLSpanElement>(null);
+  const [open, setOpen] = useState(false);
+  const [cut, setCut] = useState(false);
+  useLayoutEffect(() => {
+    const element = box.current!;
+    const measure = () => setCut(element.scrollHeight > element.clientHeight + 1);
+    measure();
+    const observer = new ResizeObserver(measure);
+    observer.observe(element);
+    return () => observer.disconnect();
+  }, []);
   return (
-    <header>
-      <p class="kicker">Linkwright report</p>
-      <h1>{view.title}</h1>
-      {view.source && <p class="source">{view.source}</p>}
-      <div class={`verdict ${view.verdict}`} role="status">
-        <strong>{view.headline}</strong>
-        <span><b class="mark" aria-hidden="true">{view.verdict === "passed" ? "✓" : "!"}</b>status {view.status.replace(/_/g, " ")}
-          {result.checks.length > 0 && ` · ${result.checks.length - failed} of ${result.checks.length} checks passed`}</span>
+    <>
+      <span ref={box} class={open ? "fold open" : "fold"}>{text}</span>
+      {(cut || open) && <button type="button" class="link screen-only" aria-expanded={open} onClick={() => setOpen(!open)}>{open ? "less" : "more"}</button>}
+    </>
+  );
+}
+
+/** What was studied and how it ended: one strip, so that the mechanism stands on the first screen. */
+export function Banner() {
+  const checks = result.checks.length > 0 && ` · ${result.checks.length - failed} of ${result.checks.length} checks passed`;
+  return (
+    <header class={`verdict ${view.verdict}`}>
+      <b class="mark" aria-hidden="true">{marks[view.verdict]}</b>
+      <div class="words">
+        <h1>{view.title}</h1>
+        <p class="headline" role="status"><Fold text={view.headline} /></p>
       </div>
-      {view.facts.length > 0 && (
-        <dl class="facts">{view.facts.map((f) => <div class={f.verdict}><dt>{f.label}</dt><dd>{f.text}</dd></div>)}</dl>
-      )}
+      <span>status {view.status.replace(/_/g, " ")}{checks}</span>
     </header>
+  );
+}
+
+/** The key figures, beside the mechanism. */
+export function Facts() {
+  if (!view.facts.length) return null;
+  return (
+    <dl class="facts">
+      {view.facts.map((f) => <div class={`${f.verdict}${f.text.length > 34 ? " long" : ""}`}><dt>{f.label}</dt><dd><Fold text={f.text} /></dd></div>)}
+    </dl>
   );
 }
 
@@ -221,7 +250,7 @@ export function Runs() {
   return (
     <Section title={runs.length ? "Search" : "Overview"} id="search">
       <div class="grid-2"><LoosePlots /><Convergence runs={runs} /><Distribution /></div>
-      {statistics.length > 0 && <dl class="facts">{statistics.map(([k, v]) => <div><dt>{nameOf(k)}</dt><dd>{display(k, v)}</dd></div>)}</dl>}
+      {statistics.length > 0 && <dl class="facts across">{statistics.map(([k, v]) => <div><dt>{nameOf(k)}</dt><dd>{display(k, v)}</dd></div>)}</dl>}
       {runs.length > 0 && (
         <details>
           <summary>Table of the runs</summary>
@@ -270,11 +299,13 @@ export function Comparisons() {
   );
 }
 
+const remarks = result.diagnostics.filter((d) => d !== reason); // it stands where the mechanism would
+
 export function Remarks() {
-  if (!result.diagnostics.length) return null;
+  if (!remarks.length) return null;
   return (
     <Section title="Remarks" id="remarks">
-      <ul class="remarks">{result.diagnostics.map((d) => (
+      <ul class="remarks">{remarks.map((d) => (
         <li class={d.severity}><b>{d.severity}</b><span>{d.key && <code>{d.key}</code>} {d.message}{d.hint && <small>{d.hint}</small>}</span></li>))}</ul>
     </Section>
   );
@@ -302,39 +333,26 @@ function DataTable({ table }: { table: Table }) {
 }
 
 export function Data() {
-  const name = slug(view.title);
-  const shown = scene.value;
-  const missed = shown && targetTable(shown);
+  const missed = scene.value && targetTable(scene.value);
   const tables = missed ? [...result.tables, missed] : result.tables;
-  // In space the drawing is the three views of the printed page, and the picture what is on the screen.
-  const svg = () => (spatial.value ? new XMLSerializer().serializeToString(still()!) : drawingSvg(document.querySelector<SVGSVGElement>("#drawing")!));
-  const picture = () => (spatial.value && space.value ? space.value.picture() : png(svg()));
-  const sample = () => {
-    const at = Math.round(position.value);
-    return isAssembled(motion.value, at) ? at : (motion.value.runs[0]?.[0] ?? 0);
-  };
   return (
     <Section title="Data" id="data">
       <div class="downloads">
         {hasResult() && <button type="button" class="get" data-download="result.json" onClick={() => save("result.json", resultText(), "application/json")}>Result (JSON)</button>}
         {view.study_toml && <button type="button" class="get" data-download="study.toml" onClick={() => save("study.toml", view.study_toml)}>Study (TOML)</button>}
-        {shown && <>
-          <button type="button" class="get" data-download="svg" onClick={() => save(`${name}.svg`, svg(), "image/svg+xml")}>Drawing (SVG)</button>
-          <button type="button" class="get" data-download="png" onClick={async () => save(`${name}.png`, await picture())}>Drawing (PNG)</button>
-          <button type="button" class="get" data-download="dxf" onClick={() => save(`${name}.dxf`, dxf(shown, sample()), "application/dxf")}>Drawing (DXF, 1:1 mm)</button>
-        </>}
       </div>
       {tables.map((t) => <DataTable key={t.name} table={t} />)}
     </Section>
   );
 }
 
-const planarKeys = "space plays, ← → step (shift: 10), T trace, V speed, E targets, G ghosts, N names, F forces, W velocities, A accelerations, B bounce, + − 0 zoom; drag a moving joint to move the mechanism";
-const spatialKeys = "space plays, ← → step (shift: 10), comma and full stop step the second input, 1 to 5 fixed views, P parallel projection, + − 0 zoom, T traces, N names, R ground, F forces, W velocities, A accelerations, B bounce; in the drawing drag to turn, drag with the right button or shift to move, Ctrl + wheel to zoom, arrow keys turn (shift: move); click a joint, a body or a wheel for its coordinates";
+const planarKeys = "space plays, ← → step (shift: 10), T trace, V speed, E targets, G ghosts, N names, F forces, W velocities, A accelerations, B bounce, + − 0 zoom, M full screen; drag a moving joint to move the mechanism";
+const spatialKeys = "space plays, ← → step (shift: 10), comma and full stop step the second input, 1 to 5 fixed views, P parallel projection, + − 0 zoom, M full screen, T traces, N names, R ground, F forces, W velocities, A accelerations, B bounce; in the drawing drag to turn, drag with the right button or shift to move, Ctrl + wheel to zoom, arrow keys turn (shift: move); click a joint, a body or a wheel for its coordinates";
 
 export function Reproduce() {
   return (
     <Section title="How to reproduce" id="reproduce">
+      {view.source && <p class="source">Source of the study: {view.source}</p>}
       {view.command && <div class="copyable"><pre>{view.command}</pre><Copy text={view.command} /></div>}
       {view.study_toml && <details><summary>The study</summary><div class="copyable"><pre>{view.study_toml}</pre><Copy text={view.study_toml} /></div></details>}
       <footer>{view.tool}<span class="screen-only"> · keys: {spatial.value ? spatialKeys : planarKeys}</span></footer>

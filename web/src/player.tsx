@@ -3,6 +3,7 @@ import { useEffect } from "preact/hooks";
 import { extent, fitView, zoomBy } from "./camera";
 import { Switch, toggle } from "./controls";
 import { Drawing, SpeedLegend, whiskerFactor } from "./drawing";
+import { ExportMenu } from "./export_menu";
 import { ArrowBar, Values } from "./forces";
 import { rowsOf } from "./grid";
 import { gaps, inputAt, isAssembled, placeNear, positionOfTurn, spanOf, step } from "./motion";
@@ -19,6 +20,11 @@ const zoom = (factor: number) => (state.spatial.value ? space.value?.zoom(factor
 const fit = () => (state.spatial.value ? look(viewName.value) : fitView());
 function project(): void {
   if (state.spatial.value) space.value?.parallel(toggle(state.parallel));
+}
+
+function fullScreen(): void {
+  if (document.fullscreenElement) void document.exitFullscreen();
+  else void document.querySelector(".machine")?.requestFullscreen?.();
 }
 
 const keys: Record<string, (event: KeyboardEvent) => void> = {
@@ -47,6 +53,7 @@ const keys: Record<string, (event: KeyboardEvent) => void> = {
   a: () => toggle(state.showArrows.acceleration),
   Escape: () => (state.picked.value = ""),
   b: () => toggle(state.bounce),
+  m: fullScreen,
 };
 
 function onKey(event: KeyboardEvent) {
@@ -113,12 +120,23 @@ function Readout() {
   const even = unit.symbol === "°" || motion.timed; // as many digits at every instant
   return (
     <dl class="title-block">
-      <div class="wide"><dt>mechanism</dt><dd>{scene.title}</dd></div>
+      <div class="wide"><dt>mechanism</dt><dd>{state.view.title || scene.title}</dd></div>
+      {state.view.title && scene.title !== state.view.title && <div class="mid"><dt>drawing</dt><dd>{scene.title}</dd></div>}
       <div><dt>{scene.input_label || "input"}</dt><dd id="input-value">{even ? value.toFixed(decimals).replace("-", "−") : format(value, 5)}{unit.symbol === "°" ? "°" : ` ${unit.symbol}`}</dd></div>
       {rowsOf(state.whole.value!) > 1 && <div><dt>{scene.second_label || "second input"}</dt><dd id="second-value">{quantity(scene.second_key ?? "", scene.second![state.row.value], 5)}</dd></div>}
       {tracer && <div class="mid"><dt>{`point ${tracer.name}`}</dt><dd>{p ? `${[p.x, p.y, ...(p.z === undefined ? [] : [p.z])].map((v) => format(v * length.factor, 5)).join(", ")} ${length.symbol}` : "–"}</dd></div>}
       <div><dt>state</dt><dd class={good ? "ok" : "fail"}>{good ? "assembled" : (scene.status[Math.round(at)] ?? "no assembly").replace(/_/g, " ")}</dd></div>
     </dl>
+  );
+}
+
+/** Instead of the drawing, the controls and the diagrams: why there are none. */
+function Nowhere() {
+  return (
+    <section class="machine card nowhere" aria-label="Mechanism">
+      <h2>Nothing to draw: the mechanism assembles at no input.</h2>
+      {state.reason && <p>{state.reason.message}{state.reason.hint && <small>{state.reason.hint}</small>}</p>}
+    </section>
   );
 }
 
@@ -129,10 +147,27 @@ export function Machine() {
   }, []);
   const scene = state.scene.value;
   if (!scene) return null;
+  if (state.nowhere) return <Nowhere />;
   const still = state.motion.value.samples < 2;
   const spatial = state.spatial.value;
   return (
     <section class="machine card" aria-label="Mechanism">
+      {spatial ? <SpaceDrawing /> : <><Drawing /><SpeedLegend /></>}
+      {!still && (
+        <div class="controls">
+          <button type="button" id="play" class="play" aria-label={state.playing.value ? "Pause" : "Play"} title="Play or pause (space)" onClick={play}>
+            <svg viewBox="0 0 20 20" aria-hidden="true"><path d={state.playing.value ? "M5 3h4v14H5zM11 3h4v14h-4z" : "M5 2.5L17 10 5 17.5z"} /></svg>
+          </button>
+          <button type="button" aria-label="Step back" title="One step back (←, with shift 10)" onClick={() => walk(-1)}>◂</button>
+          <button type="button" aria-label="Step forward" title="One step forward (→, with shift 10)" onClick={() => walk(1)}>▸</button>
+          <TimeLine />
+          <select id="speed" aria-label="Speed" value={String(state.speed.value)} onChange={(e) => (state.speed.value = Number(e.currentTarget.value))}>
+            {[0.1, 0.25, 0.5, 1, 2, 5, 10].map((s) => <option value={String(s)}>{`${s}×`}</option>)}
+          </select>
+          <Switch flag={state.bounce} text="⇄" hint="Bounce: back and forth instead of round (B)" />
+        </div>
+      )}
+      <SecondInput />
       <div class="toolbar">
         {scene.traces.length > 0 && <Switch flag={state.showTrace} text="Trace" hint="Path of the traced point (T)" />}
         {scene.traces.length > 0 && !spatial && <Switch flag={state.showSpeed} text="Speed" hint="Trace coloured by the speed of the point (V)" />}
@@ -154,24 +189,10 @@ export function Machine() {
         <button type="button" title="Zoom out (−)" aria-label="Zoom out" onClick={() => zoom(0.8)}>−</button>
         <button type="button" title="Zoom in (+, or Ctrl + wheel)" aria-label="Zoom in" onClick={() => zoom(1.25)}>+</button>
         <button type="button" title="Everything in view (0 or double click)" onClick={fit}>Fit</button>
+        {document.fullscreenEnabled && <button type="button" id="full-screen" title="Full screen (M)" aria-label="Full screen" onClick={fullScreen}>⛶</button>}
+        <ExportMenu />
       </div>
       <ArrowBar />
-      {spatial ? <SpaceDrawing /> : <><Drawing /><SpeedLegend /></>}
-      {!still && (
-        <div class="controls">
-          <button type="button" id="play" class="play" aria-label={state.playing.value ? "Pause" : "Play"} title="Play or pause (space)" onClick={play}>
-            <svg viewBox="0 0 20 20" aria-hidden="true"><path d={state.playing.value ? "M5 3h4v14H5zM11 3h4v14h-4z" : "M5 2.5L17 10 5 17.5z"} /></svg>
-          </button>
-          <button type="button" aria-label="Step back" title="One step back (←, with shift 10)" onClick={() => walk(-1)}>◂</button>
-          <button type="button" aria-label="Step forward" title="One step forward (→, with shift 10)" onClick={() => walk(1)}>▸</button>
-          <TimeLine />
-          <select id="speed" aria-label="Speed" value={String(state.speed.value)} onChange={(e) => (state.speed.value = Number(e.currentTarget.value))}>
-            {[0.1, 0.25, 0.5, 1, 2, 5, 10].map((s) => <option value={String(s)}>{`${s}×`}</option>)}
-          </select>
-          <Switch flag={state.bounce} text="⇄" hint="Bounce: back and forth instead of round (B)" />
-        </div>
-      )}
-      <SecondInput />
       <Readout />
       <Positions />
       <Values />

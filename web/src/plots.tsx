@@ -103,8 +103,8 @@ export function Chart({ label, options, data, link, units = [], emphasise, pick,
       new uPlot(
         {
           ...options(),
-          // Two plots stand side by side on an A4 page; its layout comes too late to be measured.
-          width: state.printing ? 310 : element.clientWidth || 500,
+          // Three plots stand side by side on an A4 page; its layout comes too late to be measured.
+          width: state.printing.peek() ? 300 : element.clientWidth || 500,
           height,
           legend: { show: false },
           hooks: {
@@ -397,10 +397,13 @@ export function Dots({ values, names, label }: { values: Num[]; names: string[];
   );
 }
 
+/** Of the plots, those that have anything to show. */
 const withTable = (plots: Plot[]) =>
   plots.flatMap((plot) => {
     const table = state.result.tables.find((t) => t.name === plot.table);
-    return table ? [{ plot, table }] : [];
+    const keys = plot.style === "map" ? plot.y.slice(1) : plot.y;
+    const shown = table?.columns.some((c, i) => keys.includes(c.key) && table.data[i].some((v) => v !== null));
+    return table && shown ? [{ plot, table }] : [];
   });
 
 const Cards = ({ plots }: { plots: Plot[] }) => (
@@ -417,11 +420,14 @@ const Cards = ({ plots }: { plots: Plot[] }) => (
 /** Plots over the input of the scene that is shown. */
 export function Plots() {
   const shown = state.view.plots.filter((p) => p.scene !== "" && p.scene === state.scene.value?.name);
-  if (withTable(shown).length === 0) return null;
+  const drawn = withTable(shown).map(({ plot }) => plot);
+  if (drawn.length === 0) return null;
+  const without = shown.filter((p) => !drawn.includes(p));
   return (
     <section aria-labelledby="h-plots">
       <h2 id="h-plots">Over the motion</h2>
       <p class="note screen-only">Point at a diagram and the mechanism moves there.</p>
+      {without.length > 0 && <p class="note">Without values, and so not drawn: {without.map((p) => p.title).join(", ")}.</p>}
       <div class="grid-2"><Cards plots={shown} /></div>
     </section>
   );

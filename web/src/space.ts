@@ -33,6 +33,8 @@ export interface SpaceView {
   zoom: (factor: number) => void;
   recolour: () => void;
   picture: () => Promise<Blob>;
+  /** What is on the screen, with the names: for pictures that move. */
+  frame: () => HTMLCanvasElement;
   close: () => void;
 }
 
@@ -328,6 +330,25 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
     picture: () => {
       draw();
       return new Promise((resolve, reject) => canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the picture could not be made")))));
+    },
+    frame: () => {
+      cancelAnimationFrame(frame); // what is asked for is drawn here
+      draw();
+      const [out, scale] = [document.createElement("canvas"), canvas.width / Math.max(1, host.clientWidth)];
+      [out.width, out.height] = [canvas.width, canvas.height];
+      const paint = out.getContext("2d")!;
+      paint.drawImage(canvas, 0, 0);
+      paint.scale(scale, scale);
+      paint.textBaseline = "top";
+      const { left, top } = host.getBoundingClientRect();
+      for (const { element, text } of names) {
+        if (element.hidden) continue;
+        const [place, style] = [element.getBoundingClientRect(), getComputedStyle(element)];
+        paint.font = `${style.fontStyle} ${style.fontSize} ${style.fontFamily}`;
+        paint.fillStyle = style.color;
+        paint.fillText(text, place.left - left, place.top - top);
+      }
+      return out;
     },
     close: () => {
       cancelAnimationFrame(frame);

@@ -2,7 +2,7 @@
 import { effect, signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { extent } from "./camera";
-import { Copy } from "./controls";
+import { Copy, WheelHint } from "./controls";
 import { Card, coordinates, instant, SpaceKey } from "./forces";
 import { placeNear } from "./motion";
 import type { SpaceView } from "./space";
@@ -99,6 +99,7 @@ export function SpaceDrawing() {
           aria-label={`Mechanism in space: ${whole.title}. Arrow keys turn the view, with shift they move it, plus and minus zoom, 1 to 5 are fixed views`} />
         {!flat && <SpaceKey scene={whole} />}
         <Card />
+        <WheelHint />
       </div>
       <Still />
     </>
@@ -129,7 +130,7 @@ export function Positions() {
   return (
     <details class="values positions" onToggle={(e) => setOpen(e.currentTarget.open)}>
       <summary>Positions of the joints at this instant</summary>
-      {open && <>
+      {(open || state.printing.value) && <>
         <div class="scroll"><table>
           <thead><tr><th scope="col">joint</th>{["x", "y", "z"].map((axis) => <th scope="col" class="num">{`${axis} (${unit.symbol})`}</th>)}</tr></thead>
           <tbody>

@@ -1,5 +1,6 @@
 // What the reader has chosen; the data of the report never change.
 import { batch, computed, effect, signal, type Signal } from "@preact/signals";
+import { extentOf } from "./arrows";
 import { readResult, readView, type Quantity, type Scene } from "./data";
 import { isSpatial, middleRow, rowOf, rowsOf } from "./grid";
 import { advance, analyse, isAssembled, spanOf, type Motion } from "./motion";
@@ -8,6 +9,9 @@ import { readLog } from "./log";
 export const view = readView();
 export const result = readResult();
 export const runs = readLog(result.log);
+/** There are scenes, and nothing of them exists: the mechanism assembles nowhere. */
+export const nowhere = view.scenes.length > 0 && view.scenes.every((s) => extentOf(s) === null);
+export const reason = nowhere ? result.diagnostics[0] : undefined;
 
 export const sceneIndex = signal(0);
 /** Which value of the second input is shown. */
@@ -52,9 +56,14 @@ export const whisker = signal<number | "auto">("auto");
 export const theme = signal(0);
 for (const query of ["(prefers-color-scheme: dark)", "print"])
   matchMedia(query).addEventListener("change", () => theme.value++);
-export let printing = false;
+/** Paper has no controls: what can be unfolded is, but for tables of a thousand rows. */
+export const printing = signal(false);
+const unfolded: HTMLDetailsElement[] = [];
 const print = (now: boolean) => {
-  printing = now;
+  printing.value = now;
+  if (now) unfolded.push(...document.querySelectorAll<HTMLDetailsElement>("#app details:not([open], .menu, .data-table details)"));
+  for (const details of unfolded) details.open = now;
+  if (!now) unfolded.length = 0;
   if (now) document.documentElement.dataset.theme = "light";
   else delete document.documentElement.dataset.theme;
   theme.value++;

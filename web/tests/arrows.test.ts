@@ -30,6 +30,15 @@ describe("arrows", () => {
     const box = boundsWith(scene, [{ quantity: "force", scale: arrowScale(scene, "force") }])!;
     expect(box.right).toBe(2); // the long one is held to a third of the scene
   });
+  it("keeps a flat scene flat", () => {
+    const scene = pulled();
+    const flat = bounds(scene)!;
+    scene.points = scene.points.map((p) => ({ ...p, y: p.y.map((y) => (y === null ? null : y / 100)) }));
+    scene.vectors = [vector("force", 0, [0], [1e9])];
+    const box = boundsWith(scene, [{ quantity: "force", scale: 1 }])!;
+    expect(box.top - bounds(scene)!.top).toBeLessThanOrEqual((flat.right - flat.left) / 12);
+    expect(box.top).toBeGreaterThan(bounds(scene)!.top);
+  });
   it("takes in the tips", () => {
     const box = boundsWith(pulled(), [{ quantity: "force", scale: 0.01 / 8 }])!;
     expect(box.bottom).toBe(0);

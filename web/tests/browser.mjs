@@ -1,5 +1,5 @@
 // Opens the sample reports from disk in a headless browser without network and uses them as a reader would.
-// node browser.mjs SAMPLES CHROMIUM PYTHON CHECK_DXF [SCREENSHOTS]
+// node browser.mjs SAMPLES CHROMIUM PYTHON CHECK_DXF [SCREENSHOTS]; ONLY=WORDS in the environment picks tests by their names
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync } from "node:fs";
@@ -42,7 +42,8 @@ const pause = async (page) => {
   if ((await page.locator("#play").getAttribute("aria-label")) === "Pause") await page.locator("#play").click();
 };
 async function download(page, key) {
-  const [file] = await Promise.all([page.waitForEvent("download"), page.locator(`[data-download="${key}"]`).first().click()]);
+  if (await page.locator(`.menu:not([open]) [data-download="${key}"]`).count()) await page.locator(".menu summary").click();
+  const [file] = await Promise.all([page.waitForEvent("download", { timeout: 120_000 }), page.locator(`[data-download="${key}"]`).first().click()]);
   return { name: file.suggestedFilename(), path: await file.path() };
 }
 
@@ -203,7 +204,7 @@ test("it prints in light colours and returns to the screen", async () => {
   const width = await page.locator(".chart canvas").first().evaluate((e) => e.clientWidth);
   await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
   assert.equal(await page.locator("html").getAttribute("data-theme"), "light");
-  assert.equal(await page.locator(".uplot").first().evaluate((e) => e.clientWidth), 310);
+  assert.equal(await page.locator(".uplot").first().evaluate((e) => e.clientWidth), 300);
   await page.evaluate(() => dispatchEvent(new Event("afterprint")));
   assert.equal(await page.locator(".chart canvas").first().evaluate((e) => e.clientWidth), width);
   assert.equal((await page.pdf({ format: "A4" })).subarray(0, 4).toString(), "%PDF");
@@ -593,6 +594,7 @@ test("no accessibility violations", async () => {
       await page.locator(".values tbody button").first().click();
     }
     if (name === "spatial.html") for (const summary of await page.locator(".values summary").all()) await summary.click();
+    if (await page.locator(".menu").count()) await page.locator(".menu summary").click();
     await page.addScriptTag({ content: axe });
     const found = await page.evaluate(() => axe.run(document));
     assert.deepEqual(found.violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target).join(" ")}`), [], `${name} ${JSON.stringify(options)}`);
@@ -655,6 +657,123 @@ test("a result without anything still makes a report", async () => {
   await close();
 });
 
+const screens = [[1366, 768], [390, 844]];
+test("the first screen has the verdict, the mechanism and its controls", async () => {
+  for (const [width, height] of screens)
+    for (const name of ["report.html", "simulation.html", "spatial.html", "diagrams.html"]) {
+      const { page, close } = await open(name, { reducedMotion: "reduce", viewport: { width, height } });
+      const bottom = async (part) => page.locator(part).first().evaluate((e) => e.getBoundingClientRect().bottom);
+      for (const part of ["#play", "#scrub", ".stage"]) assert.ok((await bottom(part)) <= height, `${part} of ${name} ends at ${await bottom(part)} of ${height}`);
+      assert.ok((await page.locator(".stage").boundingBox()).height <= 0.6 * height + 1);
+      const strip = await page.locator("header.verdict").boundingBox();
+      assert.ok(strip.height <= (width < 500 ? 200 : 80), `the verdict of ${name} takes ${strip.height}`);
+      assert.ok((await page.locator("header.verdict h1").innerText()).length > 0);
+      assert.ok((await page.locator("header.verdict .headline").innerText()).length > 0);
+      const [stage, facts] = [await page.locator(".machine").boundingBox(), page.locator(".aside .facts")];
+      if (width > 940 && (await facts.count())) assert.ok((await facts.boundingBox()).x > stage.x + stage.width, "facts stand beside the mechanism");
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${name} is too wide for ${width}`);
+      await close();
+    }
+});
+
+test("the title block names what is drawn", async () => {
+  const { page, close } = await open("report.html", { reducedMotion: "reduce" });
+  assert.match(await page.locator(".title-block").innerText(), /mechanism\s+Four-bar through 18 points/i);
+  await close();
+});
+
+test("a link leads to the place it was taken from", async () => {
+  for (const [name, second] of [["report.html", false], ["spatial.html", true]]) {
+    const { page, errors, close } = await open(name, { reducedMotion: "reduce", permissions: ["clipboard-read", "clipboard-write"] });
+    if (!second) await page.locator('[data-solution="1"]').click();
+    await page.locator("#scrub").fill("33");
+    if (second) await page.locator("body").press(".");
+    const shown = () => page.locator(".title-block").innerText();
+    const before = await shown();
+    await page.locator(".menu summary").click();
+    await page.locator('[data-export="link"]').click();
+    await until(async () => (await page.locator(".said").innerText()) === "link copied");
+    const link = await page.evaluate(() => navigator.clipboard.readText());
+    assert.match(link, second ? /#scene=[^&]+&input=[^&]+&second=/ : /#scene=solution-2&input=[^&]+$/);
+    await page.goto("about:blank");
+    await page.goto(link);
+    await page.locator("#scrub").waitFor();
+    assert.equal(await shown(), before);
+    assert.equal(await page.locator("#scrub").inputValue(), "33");
+    assert.equal(await page.locator("#play").getAttribute("aria-label"), "Play");
+    // In the same page too.
+    await page.locator("#scrub").fill("5");
+    await page.evaluate(() => (location.hash = "#section"));
+    assert.equal(await page.locator("#scrub").inputValue(), "5", "other fragments are not for the mechanism");
+    await page.evaluate((to) => (location.href = to), link);
+    await until(async () => (await shown()) === before);
+    assert.deepEqual(errors, []);
+    await close();
+  }
+});
+
+test("the motion can be taken along as GIF and as WebM", async () => {
+  for (const name of ["simulation.html", "spatial.html"]) {
+    const { page, errors, close } = await open(name, { reducedMotion: "reduce", viewport: { width: 500, height: 500 } });
+    await page.locator("#speed").selectOption("10");
+    if ((await page.getByText("⇄").getAttribute("aria-pressed")) === "true") await page.locator("body").press("b");
+    await page.locator("#scrub").fill("7");
+    const picture = readFileSync((await download(page, "gif")).path);
+    assert.equal(picture.subarray(0, 6).toString(), "GIF89a");
+    // Graphic control extensions, one a picture.
+    const pictures = picture.toString("latin1").split("\x21\xf9\x04").length - 1;
+    assert.ok(pictures >= 12, `${pictures} pictures`);
+    assert.equal(await page.locator("#scrub").inputValue(), "7", "the report stands where it stood");
+    const film = readFileSync((await download(page, "webm")).path);
+    assert.equal(film.subarray(0, 4).toString("hex"), "1a45dfa3");
+    assert.ok(film.length > 5000, `${film.length} bytes`);
+    assert.deepEqual(errors, []);
+    await close();
+  }
+});
+
+test("the stage fills the screen and gives it back", async () => {
+  const { page, errors, close } = await open("report.html", { reducedMotion: "reduce" });
+  const height = () => page.locator(".stage").evaluate((e) => e.clientHeight);
+  const before = await height();
+  await page.locator("#full-screen").click();
+  await until(async () => (await height()) > before + 50);
+  await page.locator("body").press("m");
+  await until(async () => (await height()) === before);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("the wheel says how it zooms, and the menu closes on Escape", async () => {
+  for (const [name, stage] of [["report.html", "#drawing"], ["spatial.html", "#space"]]) {
+    const { page, errors, close } = await open(name, { reducedMotion: "reduce" });
+    const opacity = () => page.locator(".wheel-hint").evaluate((e) => Number(getComputedStyle(e).opacity));
+    assert.equal(await opacity(), 0);
+    await page.locator(stage).hover();
+    await page.mouse.wheel(0, 10);
+    await until(async () => (await opacity()) === 1);
+    await until(async () => (await opacity()) === 0);
+    await page.locator(".menu summary").click();
+    assert.ok(await page.locator(".choices").isVisible());
+    await page.keyboard.press("Escape");
+    assert.ok(!(await page.locator(".choices").isVisible()));
+    assert.equal(await page.evaluate(() => document.activeElement.textContent), "Export");
+    assert.deepEqual(errors, []);
+    await close();
+  }
+});
+
+test("paper shows what is folded on the screen", async () => {
+  const { page, errors, close } = await open("simulation.html", { reducedMotion: "reduce" });
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  await until(async () => (await page.locator(".values tbody tr").count()) > 0);
+  assert.equal(await page.locator("details:not([open], .menu, .data-table details)").count(), 0);
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  assert.equal(await page.locator("#app details[open]").count(), 0);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 if (pictures)
   test("pictures", async () => {
     mkdirSync(pictures, { recursive: true });
@@ -684,6 +803,7 @@ if (pictures)
 
 let failures = 0;
 for (const { name, run } of tests) {
+  if (!name.includes(process.env.ONLY ?? "")) continue;
   try {
     await run();
     console.log(`ok      ${name}`);

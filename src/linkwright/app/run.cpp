@@ -121,7 +121,7 @@ std::vector<fs::path> write_results(const study::Study& study, const RunOutcome&
   if (wants(study, study::Format::html))
     write("report.html", report::html({.result = result,
                                        .study_toml = study::to_toml(study.canonical),
-                                       .title = study.common.title,
+                                       .title = study::title_of(study),
                                        .source = study.common.source,
                                        .tool = fmt::format("linkwright {}", version()),
                                        .command = outcome.command,

@@ -54,28 +54,33 @@ void write_banner(std::string& out, const ReportInput& input) {
   const auto& result = input.result;
   const auto failed =
       std::count_if(result.checks.begin(), result.checks.end(), [](const auto& c) { return !c.passed; });
-  put(out, "<header><p class=\"kicker\">Linkwright report</p><h1>{}</h1>", escape(input.title));
-  if (!input.source.empty()) put(out, "<p class=\"source\">{}</p>", escape(input.source));
-  put(out, "<div class=\"verdict {}\"><strong>{}</strong><span>status {}",
-      linkwright::name_of(study::answer_of(result).verdict), escape(result.headline),
-      to_string(result.status));
+  put(out, "<header class=\"verdict {}\"><div class=\"words\"><h1>{}</h1><p class=\"headline\">{}</p></div>",
+      linkwright::name_of(study::answer_of(result).verdict), escape(input.title), escape(result.headline));
+  put(out, "<span>status {}", to_string(result.status));
   if (!result.checks.empty())
     put(out, " · {} of {} checks passed", result.checks.size() - static_cast<std::size_t>(failed),
         result.checks.size());
-  out += "</span></div></header>\n";
-  if (!result.facts.empty()) {
-    out += "<dl class=\"facts\">";
-    for (const auto& fact : result.facts)
-      put(out, "<div><dt>{}</dt><dd>{}</dd></div>", escape(fact.label), escape(fact.text));
-    out += "</dl>\n";
-  }
-  if (!result.checks.empty()) {
-    heading(out, "Checks");
-    Sheet sheet(out, {"quantity", "at", "value", "limit", "outcome"});
-    for (const auto& check : result.checks)
-      sheet.row({check.quantity, check.at, check.message.empty() ? number(check.value, 9) : check.message,
-                 check.limit, check.passed ? "passed" : "failed"});
-  }
+  out += "</span></header>\n";
+}
+
+constexpr std::size_t longest_beside = 34;  // letters of a fact that stand beside its name
+
+void write_facts(std::string& out, const study::Result& result) {
+  if (result.facts.empty()) return;
+  out += "<dl class=\"facts\">";
+  for (const auto& fact : result.facts)
+    put(out, "<div{}><dt>{}</dt><dd>{}</dd></div>",
+        fact.text.size() > longest_beside ? " class=\"long\"" : "", escape(fact.label), escape(fact.text));
+  out += "</dl>\n";
+}
+
+void write_checks(std::string& out, const study::Result& result) {
+  if (result.checks.empty()) return;
+  heading(out, "Checks");
+  Sheet sheet(out, {"quantity", "at", "value", "limit", "outcome"});
+  for (const auto& check : result.checks)
+    sheet.row({check.quantity, check.at, check.message.empty() ? number(check.value, 9) : check.message,
+               check.limit, check.passed ? "passed" : "failed"});
 }
 
 // One of the inputs of a scene.
@@ -97,19 +102,24 @@ std::string shown_at(const study::Scene& scene) {
   return fmt::format("{} {}{}", scene.spatial() ? ", at" : ", arrows at", text, second);
 }
 
-void write_drawings(std::string& out, const study::Result& result) {
-  for (std::size_t i = 0; i < result.scenes.size(); ++i) {
-    const study::Scene& scene = result.scenes[i];
-    const bool spatial = scene.spatial();
-    SvgOptions options;
-    // Poses and arrows, or poses in three views, are too much.
-    options.ghosts = scene.vectors.empty() && scene.moments.empty() && !spatial ? 8 : 0;
-    options.labels = scene.joints.size() <= most_named_joints;
-    // The viewer takes the drawing of a spatial scene for print, and for browsers that cannot draw in space.
-    put(out, "<figure class=\"drawing\"{}>{}<figcaption>{}</figcaption></figure>\n",
-        spatial ? fmt::format(" data-scene=\"{}\"", i) : "", svg(scene, options),
-        escape(scene.title + (options.ghosts == 0 ? shown_at(scene) : "")));
-  }
+void write_drawing(std::string& out, const study::Scene& scene, std::size_t index) {
+  const bool spatial = scene.spatial();
+  SvgOptions options;
+  // Poses and arrows, or poses in three views, are too much.
+  options.ghosts = scene.vectors.empty() && scene.moments.empty() && !spatial ? 8 : 0;
+  options.labels = scene.joints.size() <= most_named_joints;
+  // The viewer takes the drawing of a spatial scene for print, and for browsers that cannot draw in space.
+  put(out, "<figure class=\"drawing\"{}>{}<figcaption>{}</figcaption></figure>\n",
+      spatial ? fmt::format(" data-scene=\"{}\"", index) : "", svg(scene, options),
+      escape(scene.title + (options.ghosts == 0 ? shown_at(scene) : "")));
+}
+
+// The first drawing with the key figures beside it.
+void write_first(std::string& out, const study::Result& result) {
+  out += "<div class=\"first\">\n";
+  if (!result.scenes.empty()) write_drawing(out, result.scenes.front(), 0);
+  write_facts(out, result);
+  out += "</div>\n";
 }
 
 void write_plots(std::string& out, const study::Result& result) {
@@ -218,7 +228,9 @@ void write_tables(std::string& out, const study::Result& result) {
 std::string static_page(const ReportInput& input) {
   std::string out;
   write_banner(out, input);
-  write_drawings(out, input.result);
+  write_first(out, input.result);
+  write_checks(out, input.result);
+  for (std::size_t i = 1; i < input.result.scenes.size(); ++i) write_drawing(out, input.result.scenes[i], i);
   write_plots(out, input.result);
   write_solutions(out, input.result);
   write_changes(out, input.result);
@@ -233,6 +245,8 @@ std::string static_page(const ReportInput& input) {
   }
   write_tables(out, input.result);
   heading(out, "How to reproduce");
+  if (!input.source.empty())
+    put(out, "<p class=\"source\">Source of the study: {}</p>\n", escape(input.source));
   if (!input.command.empty()) put(out, "<pre>{}</pre>\n", escape(input.command));
   if (!input.study_toml.empty()) put(out, "<pre class=\"study\">{}</pre>\n", escape(input.study_toml));
   put(out, "<footer>{}</footer>\n", escape(input.tool));

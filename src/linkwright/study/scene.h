@@ -90,7 +90,7 @@ struct Scene {
   };
 
   std::string name;           ///< identifies it: "solution-1"
-  std::string title;          ///< for people
+  std::string title;          ///< what is to be seen: "2: double rocker"; empty = what the study is called
   std::string input_key;      ///< "crank_angle_rad"; one in seconds ("time_s") is played in real time
   std::string input_label;    ///< "crank angle"
   std::vector<double> input;  ///< one value a sample, monotonous, in radians, metres or seconds

@@ -232,6 +232,10 @@ std::optional<Study> prepare(const Value& given, const std::string& file, const 
   return study;
 }
 
+std::string title_of(const Study& study) {
+  return study.common.title.empty() ? name_of(*study.kind) : study.common.title;
+}
+
 Result run_study(const Study& study, RunContext& context) {
   Result result;
   try {
@@ -240,6 +244,8 @@ Result run_study(const Study& study, RunContext& context) {
     result.status = why.status();
     result.headline = "Interrupted before there was anything to report.";
   }
+  for (Scene& scene : result.scenes)
+    if (scene.title.empty()) scene.title = title_of(study);
   for (Table& table : result.tables) make_unique(table, result.diagnostics);
   for (const CheckRequest& check : study.common.checks) result.checks.push_back(evaluate(check, result));
   return result;

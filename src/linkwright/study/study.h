@@ -31,8 +31,11 @@ std::optional<Study> prepare(const Value& document, const std::string& file,
                              const std::filesystem::path& folder, std::span<const Kind> kinds,
                              Diagnostics& diagnostics);
 
+/// The title of a study; of one without a title, what its kind is called.
+std::string title_of(const Study& study);
+
 /// Runs a study and compares the result with its checks. A cancelled run or one out of time keeps its checks
-/// too.
+/// too. Scenes without a title get that of the study.
 Result run_study(const Study& study, RunContext& context);
 
 /// JSON Schema (2020-12) of the studies of one kind.

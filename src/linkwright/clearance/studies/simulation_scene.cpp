@@ -25,7 +25,7 @@ study::Scene clearance_scene(const ClearanceStudy& s, const ClearanceRecording& 
   double largest = 0;
   for (std::size_t k = 0; k < s.pins(); ++k) largest = std::max(largest, s.clearance_of(k));
   const double scale = study::drawn_scale(largest, 0.05 * s.plan.size);
-  scene.title = fmt::format("motion, clearance drawn {:g} x", scale);
+  scene.title = fmt::format("clearance drawn {:g} x", scale);
 
   const auto point = [&](const planar::BodyPoint& p) {
     int out = p.point;

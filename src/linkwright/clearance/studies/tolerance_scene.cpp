@@ -34,7 +34,7 @@ study::Scene tolerance_scene(const ToleranceStudy& s, const ToleranceRecording& 
   study::Scene scene = planar::linkage_scene(
       l, s.motion.plan, r.records, s.outputs.points, tolerance_input_key(s),
       time ? "time" : driven + (s.motion.plan.rotary[axis] ? " angle" : " displacement"));
-  scene.title = fmt::format("motion; clearances and bands drawn {:g} x", scale);
+  scene.title = fmt::format("clearances and bands drawn {:g} x", scale);
   // The two edges of each band, as far as the worst error across the path carries the point.
   for (std::size_t p = 0; p < bands.size(); ++p) {
     const std::size_t i = r.quantities[p].first;

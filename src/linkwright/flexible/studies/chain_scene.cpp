@@ -33,8 +33,8 @@ study::Scene chain_scene(const ArmChain& arm, std::span<const std::string> names
   const double drawn = scale.value_or(study::drawn_scale(largest_displacement(chain, run), seen * size));
   Scene scene;
   scene.name = "motion";
-  scene.title = drawn == 1 ? "motion, bending to scale; dash-dotted: the rigid arm"
-                           : fmt::format("motion, bending drawn {:g} x; dash-dotted: the rigid arm", drawn);
+  scene.title = drawn == 1 ? "bending to scale; dash-dotted: the rigid arm"
+                           : fmt::format("bending drawn {:g} x; dash-dotted: the rigid arm", drawn);
   scene.input_key = "time_s";
   scene.input_label = "time";
 

@@ -30,7 +30,7 @@ class ElasticArtist {
     std::vector<LinkageRecord> rigid;
     for (const ElasticRecord& r : records_) rigid.push_back(r.record);
     scene_ = linkage_scene(l_, plan_, rigid, traces_, "time_s", "time");
-    scene_.title = scale_ == 1 ? "motion" : fmt::format("motion, deflections drawn {:g} x", scale_);
+    if (scale_ != 1) scene_.title = fmt::format("deflections drawn {:g} x", scale_);
     for (std::size_t e = 0; e < pieces_.size(); ++e) bend(e);
     return std::move(scene_);
   }

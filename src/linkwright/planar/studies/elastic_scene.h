@@ -27,7 +27,7 @@ ElasticRecord elastic_record(const Linkage& rigid, const ElasticLinkage& elastic
 /// The scene of the rigid linkage (see linkage_scene) with bent bodies as lines through their nodes, each
 /// beside the line that it has unbent. What lies away across that line is drawn `scale` times as far; without
 /// a scale the largest of 1, 2, 5, 10, ... is taken with which it stays within a twentieth of the size of the
-/// linkage. The title says so: "motion, deflections drawn 20 x".
+/// linkage. The title says so: "deflections drawn 20 x".
 study::Scene elastic_scene(const Linkage& rigid, const LinkagePlan& plan,
                            const std::vector<ElasticPieces>& pieces,
                            const std::vector<ElasticRecord>& records, const std::vector<BodyPoint>& traces,

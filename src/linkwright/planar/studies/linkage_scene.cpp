@@ -52,7 +52,6 @@ class Artist {
 
   study::Scene draw(const std::vector<BodyPoint>& traces, std::string key, std::string label) {
     scene_.name = "motion";
-    scene_.title = "motion";
     scene_.input_key = std::move(key);
     scene_.input_label = std::move(label);
     for (const LinkageRecord& r : records_) {

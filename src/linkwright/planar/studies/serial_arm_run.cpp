@@ -173,7 +173,6 @@ study::Scene arm_scene(const SerialArmStudy& s, const std::vector<Row>& rows) {
   const std::vector<ArmLinkEntry>& links = s.mechanism.links;
   study::Scene scene;
   scene.name = scene_name;
-  scene.title = "motion over time";
   scene.input_key = "time_s";
   scene.input_label = "time";
   scene.input = column(rows, [](const Row& r) { return r.time; });

@@ -1,0 +1,73 @@
+// What can be taken out of the report at the place where it stands.
+import { useEffect, useRef, useState } from "preact/hooks";
+import { gif, hasVideo, webm } from "./animation";
+import { drawingSvg, dxf, png, save, slug } from "./exports";
+import { fragment } from "./link";
+import { isAssembled } from "./motion";
+import { space, still } from "./space_stage";
+import { motion, position, scene, spatial, view } from "./state";
+
+// In space the drawing is the three views of the printed page, and the picture what is on the screen.
+const svg = () => (spatial.value ? new XMLSerializer().serializeToString(still()!) : drawingSvg(document.querySelector<SVGSVGElement>("#drawing")!));
+const picture = () => (spatial.value && space.value ? space.value.picture() : png(svg()));
+const sample = () => {
+  const at = Math.round(position.value);
+  return isAssembled(motion.value, at) ? at : (motion.value.runs[0]?.[0] ?? 0);
+};
+
+/** The address shows the link too, for where the clipboard is out of reach. */
+async function copyLink(): Promise<string> {
+  history.replaceState(null, "", fragment());
+  await navigator.clipboard.writeText(location.href);
+  return "link copied";
+}
+
+export function ExportMenu() {
+  const box = useRef<HTMLDetailsElement>(null);
+  const [said, say] = useState("");
+  const [busy, setBusy] = useState(false);
+  useEffect(() => {
+    const outside = (event: PointerEvent) => {
+      if (!box.current?.contains(event.target as Node)) box.current!.open = false;
+    };
+    document.addEventListener("pointerdown", outside);
+    return () => document.removeEventListener("pointerdown", outside);
+  }, []);
+  const name = slug(view.title);
+  /** Runs a choice; the menu closes, and what went wrong is said beside it. */
+  const choose = async (act: () => string | void | Promise<string | void>) => {
+    box.current!.open = false;
+    box.current!.querySelector("summary")!.focus();
+    setBusy(true);
+    try {
+      say((await act()) ?? "");
+    } catch (error) {
+      say(`not possible: ${error instanceof Error ? error.message : error}`);
+    }
+    setBusy(false);
+  };
+  const film = (make: typeof gif, type: string) => async () =>
+    save(`${name}.${type}`, await make((share) => say(`${type === "gif" ? "GIF" : "WebM"} ${Math.round(100 * share)} %`)));
+  const moves = motion.value.samples > 1 && motion.value.runs.length > 0 && (!spatial.value || space.value !== null);
+  return (
+    <>
+      <span class="said" role="status">{said}</span>
+      <details class="menu" ref={box} onKeyDown={(e) => {
+        if (e.key !== "Escape" || !box.current!.open) return;
+        e.stopPropagation();
+        box.current!.open = false;
+        box.current!.querySelector("summary")!.focus();
+      }}>
+        <summary aria-disabled={busy} onClick={(e) => busy && e.preventDefault()}>Export</summary>
+        <div class="choices">
+          <button type="button" data-export="link" onClick={() => choose(copyLink)}>Copy link to this position</button>
+          <button type="button" class="get" data-download="svg" onClick={() => choose(() => save(`${name}.svg`, svg(), "image/svg+xml"))}>Drawing (SVG)</button>
+          <button type="button" class="get" data-download="png" onClick={() => choose(async () => save(`${name}.png`, await picture()))}>Picture (PNG)</button>
+          <button type="button" class="get" data-download="dxf" onClick={() => choose(() => save(`${name}.dxf`, dxf(scene.value!, sample()), "application/dxf"))}>Drawing (DXF, 1:1 mm)</button>
+          {moves && <button type="button" class="get" data-download="gif" onClick={() => choose(film(gif, "gif"))}>Animation (GIF)</button>}
+          {moves && hasVideo() && <button type="button" class="get" data-download="webm" onClick={() => choose(film(webm, "webm"))}>Animation (WebM)</button>}
+        </div>
+      </details>
+    </>
+  );
+}
