@@ -12,7 +12,6 @@ import concurrent.futures
 import csv
 import json
 import math
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -25,12 +24,10 @@ def studies(program):
     """(name, text or path) of every example and every template."""
     for path in sorted((ROOT / "examples").glob("*/*.toml")):
         yield f"{path.parent.name}-{path.stem}", path
-    kinds = subprocess.run([program, "catalogue"], capture_output=True, text=True, check=True).stdout
-    for line in kinds.splitlines():
-        if re.match(r"^[a-z_]+/", line):
-            kind = line.split()[0]
-            text = subprocess.run([program, "new", kind, "-"], capture_output=True, text=True, check=True).stdout
-            yield "template-" + kind.replace("/", "-"), text
+    kinds = subprocess.run([program, "catalogue", "--json"], capture_output=True, text=True, check=True).stdout
+    for kind in [one["name"] for one in json.loads(kinds)]:
+        text = subprocess.run([program, "new", kind, "-"], capture_output=True, text=True, check=True).stdout
+        yield "template-" + kind.replace("/", "-"), text
 
 
 def keep(options):

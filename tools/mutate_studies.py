@@ -225,8 +225,8 @@ def read_corpus(program):
     for folder in ("studies", "robots", "suspension"):
         for path in sorted((ROOT / "examples" / folder).glob("*.toml")):
             corpus[str(path.relative_to(ROOT))] = (path.read_bytes(), path.parent)
-    kinds = subprocess.run([program, "catalogue"], capture_output=True, text=True, check=True).stdout
-    for kind in [line for line in kinds.splitlines() if line and not line.startswith(" ")]:
+    kinds = subprocess.run([program, "catalogue", "--json"], capture_output=True, text=True, check=True).stdout
+    for kind in [one["name"] for one in json.loads(kinds)]:
         text = subprocess.run([program, "new", kind, "-"], capture_output=True, check=True).stdout
         corpus[f"template {kind}"] = (text, None)
     return corpus

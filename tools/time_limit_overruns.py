@@ -9,6 +9,7 @@ Without studies: the template of every kind of the catalogue, and all of example
 """
 
 import argparse
+import json
 import os
 import pathlib
 import subprocess
@@ -37,10 +38,8 @@ def processor_seconds(command, patience):
 
 
 def templates(program, folder):
-    listed = subprocess.run([program, "catalogue"], check=True, capture_output=True, text=True).stdout
-    for name in listed.splitlines():
-        if not name or name.startswith(" "):
-            continue
+    listed = subprocess.run([program, "catalogue", "--json"], check=True, capture_output=True, text=True).stdout
+    for name in [one["name"] for one in json.loads(listed)]:
         file = pathlib.Path(folder) / (name.replace("/", "-") + ".toml")
         text = subprocess.run([program, "new", name, "-"], check=True, capture_output=True, text=True).stdout
         file.write_text(text, encoding="utf-8")

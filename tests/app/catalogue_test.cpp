@@ -27,12 +27,33 @@ TEST(Catalogue, FindsKindsByNameAndUnambiguousBeginning) {
   EXPECT_EQ(find("synthesis/sample.lever/angle"), "synthesis/sample.lever/angle");
   EXPECT_EQ(find("analysis"), "analysis/sample.wheel");
   EXPECT_EQ(find("synthesis/sample.lever"),
-            "error: several kinds of study begin with 'synthesis/sample.lever'; write one of: "
-            "synthesis/sample.lever/angle, synthesis/sample.lever/point");
+            "error: several kinds of study fit 'synthesis/sample.lever'; write one of:\n"
+            "  synthesis/sample.lever/angle\n      Turns a lever.\n"
+            "  synthesis/sample.lever/point\n      Turns a lever.");
+  EXPECT_EQ(find("wheel"), "analysis/sample.wheel");
+  EXPECT_EQ(find("lever/point"), "synthesis/sample.lever/point");
   EXPECT_THAT(
       find("analysis/sample.weel"),
       HasSubstr("there is no kind of study 'analysis/sample.weel'; did you mean 'analysis/sample.wheel'?"));
-  EXPECT_THAT(find("x"), HasSubstr("there is: synthesis/sample.lever/angle, analysis/sample.wheel"));
+  EXPECT_EQ(find("x"), "error: there is no kind of study 'x'; `linkwright catalogue` lists them");
+  EXPECT_EQ(find(""), "error: there is no kind of study ''; `linkwright catalogue` lists them");
+}
+
+TEST(Catalogue, EveryKindHasAGroup) {
+  EXPECT_EQ(group_of("balancing", "planar.four_bar"), "Balancing");
+  EXPECT_EQ(group_of("analysis", "suspension.corner"), "Wheel suspensions");
+  EXPECT_EQ(group_of("analysis", "sample.wheel"), "Other studies");
+  EXPECT_LT(place_of_group("Balancing"), place_of_group("Wheel suspensions"));
+  EXPECT_LT(place_of_group("Flexible links"), place_of_group("Other studies"));
+  for (const study::Kind& kind : catalogue())
+    EXPECT_NE(group_of(kind.kind, kind.mechanism), "Other studies") << study::name_of(kind);
+}
+
+TEST(Catalogue, ListsHoldEveryWordWhateverItsCase) {
+  const std::vector<std::string> words = {"FOUR", "path"};
+  EXPECT_TRUE(holds_words(words, {"synthesis/planar.four_bar", "traces a Path"}));
+  EXPECT_FALSE(holds_words(words, {"synthesis/planar.four_bar", "balances"}));
+  EXPECT_TRUE(holds_words({}, {"anything"}));
 }
 
 TEST(Catalogue, EveryExampleReadsAndThoseOfSuspensionsPassTheirChecks) {

@@ -29,18 +29,55 @@ TEST(Arguments, Run) {
   EXPECT_EQ(parse({"run", "--set", "a=[1, 2]", "s.toml"}).set, std::vector<std::string>{"a=[1, 2]"});
 }
 
+TEST(Arguments, ShortOptions) {
+  const Arguments a = parse({"run", "s.toml", "-o", "d", "-j", "2", "-q", "--open"});
+  EXPECT_EQ(a.command, Command::run) << a.text;
+  EXPECT_EQ(a.out, "d");
+  EXPECT_EQ(a.threads, 2);
+  EXPECT_TRUE(a.quiet);
+  EXPECT_TRUE(a.open);
+}
+
+TEST(Arguments, AStudyAloneIsRun) {
+  for (const char* study : {"s.toml", "s.json", "-"}) {
+    const Arguments a = parse({study, "-q"});
+    EXPECT_EQ(a.command, Command::run) << a.text;
+    EXPECT_EQ(a.study, study);
+    EXPECT_TRUE(a.quiet);
+  }
+}
+
 TEST(Arguments, TheOtherCommands) {
   EXPECT_EQ(parse({"check", "s.toml"}).command, Command::check);
   EXPECT_EQ(parse({"new", "analysis", "f.toml"}).file, "f.toml");
   EXPECT_EQ(parse({"schema"}).command, Command::schema);
+  EXPECT_EQ(parse({"schema", "-o", "x.json"}).out, "x.json");
   EXPECT_EQ(parse({"catalogue"}).command, Command::catalogue);
+  EXPECT_EQ(parse({"catalogue", "four", "path"}).words, (std::vector<std::string>{"four", "path"}));
+  EXPECT_EQ(parse({"samples", "leg"}).command, Command::samples);
+  const Arguments copy = parse({"examples", "--copy", "hoeken", "here"});
+  EXPECT_EQ(copy.command, Command::examples);
+  EXPECT_TRUE(copy.copy);
+  EXPECT_EQ(copy.example, "hoeken");
+  EXPECT_EQ(copy.folder, "here");
+  const Arguments compare = parse({"compare", "a", "b", "c", "-o", "d"});
+  EXPECT_EQ(compare.command, Command::compare);
+  EXPECT_EQ(compare.inputs, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(compare.out, "d");
+  EXPECT_EQ(parse({"completion", "zsh"}).shell, "zsh");
+  EXPECT_EQ(parse({"help", "--man"}).command, Command::manual);
   EXPECT_EQ(parse({"reproduce"}).command, Command::reproduce);
   EXPECT_EQ(parse({"reproduce", "all", "--json"}).table, "all");
 }
 
 TEST(Arguments, HelpAndVersionAreNoErrors) {
   EXPECT_EQ(parse({"--version"}).text, "linkwright 0.1.0\n");
+  EXPECT_EQ(parse({"-V"}).text, "linkwright 0.1.0\n");
   EXPECT_EQ(parse({"--version"}).exit_code, 0);
+  EXPECT_EQ(parse({"help"}).text, parse({"--help"}).text);
+  EXPECT_EQ(parse({"help"}).exit_code, 0);
+  EXPECT_EQ(parse({"help", "run"}).text, parse({"run", "--help"}).text);
+  EXPECT_THAT(parse({"help", "new"}).text, HasSubstr("KIND (required)"));
   EXPECT_EQ(parse({"run", "--help"}).exit_code, 0);
   EXPECT_THAT(parse({"--help"}).text, HasSubstr("Exit codes: 0 done"));
 }
@@ -52,13 +89,56 @@ TEST(Arguments, WrongUsage) {
     EXPECT_EQ(a.exit_code, 2);
     return a.text;
   };
-  EXPECT_THAT(wrong({}), HasSubstr("A subcommand is required"));
+  EXPECT_EQ(wrong({"help", "rnu"}), "error: there is no command 'rnu'; did you mean 'run'?\n");
+  EXPECT_EQ(wrong({"help", "x"}), "error: there is no command 'x'; `linkwright help` lists the commands\n");
+  EXPECT_THAT(wrong({"run", "s.toml", "--json", "--quiet"}), HasSubstr("--json excludes --quiet"));
+  EXPECT_THAT(wrong({"compare", "a"}), HasSubstr("RESULT: At least 2 required but received 1"));
+  EXPECT_THAT(wrong({"completion", "csh"}), HasSubstr("SHELL: csh not in {bash,zsh,fish}"));
   EXPECT_THAT(wrong({"rnu", "s.toml"}), HasSubstr("did you mean 'run'?"));
   EXPECT_THAT(wrong({"run", "s.toml", "--thread", "3"}), HasSubstr("did you mean '--threads'?"));
   EXPECT_THAT(wrong({"run", "s.toml", "--seed", "-3"}), HasSubstr("--seed: Value -3 not in range"));
   EXPECT_THAT(wrong({"run", "s.toml", "--seed", "x"}), HasSubstr("--seed: Value x not in range"));
   EXPECT_THAT(wrong({"run", "s.toml", "--time-limit", "0"}), HasSubstr("--time-limit: Value 0 not in range"));
   EXPECT_THAT(wrong({"run"}), HasSubstr("STUDY is required"));
+}
+
+TEST(Arguments, WithoutACommandTheyAreListed) {
+  const Arguments a = parse({});
+  EXPECT_EQ(a.exit_code, 2);
+  EXPECT_EQ(a.text,
+            "Linkwright analyses, balances and synthesises mechanisms from study files.\n\n"
+            "  run         run a study and write its results\n"
+            "  check       read and validate a study, without running it\n"
+            "  compare     put the results of several studies of one kind side by side\n"
+            "  examples    list the examples that come with the program, or copy one\n"
+            "  new         write a study of a kind, to start from\n"
+            "  catalogue   list the kinds of studies\n"
+            "  samples     list the built-in linkages and wheel suspensions\n"
+            "  schema      print the JSON Schema of studies, or of result.json (`schema result`)\n"
+            "  reproduce   recompute published tables: published value, ours, verdict\n"
+            "  completion  print a script that completes commands in a shell\n"
+            "  help        describe the program or a command\n\n"
+            "To begin: linkwright examples; for the options of a command: linkwright help COMMAND\n");
+}
+
+TEST(Arguments, CommandsDescribeThemselves) {
+  const std::vector<CommandHelp> commands = command_help();
+  ASSERT_EQ(commands.size(), 11u);
+  const CommandHelp& run = commands.front();
+  EXPECT_EQ(run.name, "run");
+  ASSERT_EQ(run.positionals.size(), 1u);
+  EXPECT_EQ(run.positionals[0].name, "STUDY");
+  EXPECT_TRUE(run.positionals[0].required);
+  const auto out = std::find_if(run.options.begin(), run.options.end(),
+                                [](const CommandHelp::Option& o) { return o.long_name == "--out"; });
+  ASSERT_NE(out, run.options.end());
+  EXPECT_EQ(out->short_name, "-o");
+  EXPECT_EQ(out->value, "FOLDER");
+  EXPECT_EQ(commands[2].name, "compare");
+  EXPECT_TRUE(commands[2].positionals.at(0).repeated);
+  // What is for the installation alone is not described.
+  for (const CommandHelp& command : commands)
+    for (const CommandHelp::Option& o : command.options) EXPECT_NE(o.long_name, "--man");
 }
 
 }  // namespace

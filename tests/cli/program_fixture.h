@@ -46,8 +46,8 @@ class ProgramFixture : public ::testing::Test {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    if (::chdir(folder_.c_str()) != 0 || !std::freopen("stdout", "w", stdout) ||
-        !std::freopen("stderr", "w", stderr))
+    if (::chdir(folder_.c_str()) != 0 || !std::freopen(input_.c_str(), "r", stdin) ||
+        !std::freopen("stdout", "w", stdout) || !std::freopen("stderr", "w", stderr))
       ::_exit(99);
     ::execv(program_.c_str(), arguments.data());
     ::_exit(98);
@@ -70,6 +70,7 @@ class ProgramFixture : public ::testing::Test {
 
   const std::filesystem::path folder_;
   const std::string program_;
+  std::string input_ = "/dev/null";  ///< the file on standard input
   std::string out_, err_;
 };
 

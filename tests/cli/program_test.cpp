@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <thread>
 
@@ -16,7 +17,6 @@ namespace linkwright::cli {
 namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 class Program : public test::ProgramFixture {
  protected:
@@ -43,7 +43,8 @@ TEST_F(Program, RunWritesAndSummarises) {
             "results in out/s:\n"
             "  result.json\n"
             "  sweep.csv\n"
-            "  report.html\n");
+            "  report.html\n"
+            "open out/s/report.html\n");
   EXPECT_EQ(result("out/s/result.json").find("status")->as_string(), "done");
 }
 
@@ -51,6 +52,63 @@ TEST_F(Program, JsonIsTheResultFileAndNothingElse) {
   EXPECT_EQ(run({"run", "s.toml", "--out", "there", "--json"}), 0);
   EXPECT_EQ(out_, text_of(folder_ / "there/result.json"));
   EXPECT_EQ(err_, "");
+}
+
+TEST_F(Program, QuietPrintsErrorsOnly) {
+  EXPECT_EQ(run({"run", "s.toml", "--quiet"}), 0);
+  EXPECT_EQ(out_ + err_, "");
+  EXPECT_EQ(run({"run", "none.toml", "-q"}), 2);
+  EXPECT_EQ(err_, "none.toml: error: there is no such file\n");
+}
+
+TEST_F(Program, AStudyAloneOrFromStandardInputIsRun) {
+  EXPECT_EQ(run({"s.toml", "--quiet"}), 0) << err_;
+  EXPECT_TRUE(fs::exists(folder_ / "out/s/report.html"));
+  input_ = "s.toml";
+  EXPECT_EQ(run({"run", "-"}), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("\nopen out/standard-input/report.html\n"));
+  EXPECT_EQ(run({"check", "-"}), 0) << err_;
+  EXPECT_EQ(out_, "standard input: good, synthesis/sample.lever/angle\n");
+  write("bad.toml",
+        "schema = 1\nkind = 'synthesis'\nmechanism = { type = 'sample.lever', lenth_m = 1 }\ntarget = { type "
+        "= 'angle', to_rad = 1 }\n");
+  input_ = "bad.toml";
+  EXPECT_EQ(run({"run", "-"}), 2);
+  EXPECT_EQ(err_, "standard input:3:38: error: mechanism.lenth_m: unknown key; did you mean 'length_m'?\n");
+}
+
+TEST_F(Program, OpensTheReportIfItCan) {
+  write("xdg-open", "#!/bin/sh\necho \"$1\" >\"$(dirname \"$0\")/opened\"\n");
+  fs::permissions(folder_ / "xdg-open", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", (folder_.string() + ":" + path).c_str(), 1);
+  EXPECT_EQ(run({"run", "s.toml", "--open", "-q"}), 0);
+  EXPECT_EQ(err_, "");
+  const std::string expected = (fs::canonical(folder_) / "out/s/report.html").string() + "\n";
+  for (int wait = 0; wait < 1000 && text_of(folder_ / "opened") != expected; ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(text_of(folder_ / "opened"), expected);
+  ::setenv("PATH", "/nowhere", 1);
+  EXPECT_EQ(run({"run", "s.toml", "--open", "-q"}), 0);
+  EXPECT_EQ(err_,
+            "the report was not opened: there is no 'xdg-open' on this machine; open out/s/report.html in a "
+            "browser\n");
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(run({"run", "s.toml", "--open", "-q", "--set", "output.formats=['csv']"}), 0);
+  EXPECT_EQ(err_, "there is no report to open: output.formats of the study does not list html\n");
+}
+
+TEST_F(Program, ColoursOnDemandOnly) {
+  ::setenv("CLICOLOR_FORCE", "1", 1);
+  EXPECT_EQ(run({"run", "s.toml"}), 0);
+  EXPECT_THAT(out_, HasSubstr("  status  \033[32mdone\033[0m\n"));
+  EXPECT_EQ(run({"run", "none.toml"}), 2);
+  EXPECT_EQ(err_, "none.toml: \033[1;31merror:\033[0m there is no such file\n");
+  ::setenv("NO_COLOR", "1", 1);
+  EXPECT_EQ(run({"run", "none.toml"}), 2);
+  EXPECT_EQ(err_, "none.toml: error: there is no such file\n");
+  ::unsetenv("NO_COLOR");
+  ::unsetenv("CLICOLOR_FORCE");
 }
 
 TEST_F(Program, FailedCheckIsOne) {
@@ -117,35 +175,6 @@ TEST_F(Program, CheckOnlyReads) {
             "--set kind=sinthesis: error: kind: is 'sinthesis', must be one of: synthesis, analysis; did you "
             "mean 'synthesis'?\n");
   EXPECT_EQ(files(), 0u);
-}
-
-TEST_F(Program, NewWritesAnExampleOnce) {
-  EXPECT_EQ(run({"new", "synthesis/sample.lever/angle"}), 0) << err_;
-  EXPECT_EQ(text_of(folder_ / "synthesis-sample.lever-angle.toml"), study::sample::example);
-  EXPECT_EQ(run({"check", "synthesis-sample.lever-angle.toml"}), 0);
-  EXPECT_EQ(run({"new", "synthesis/sample.lever/angle", "s.toml"}), 2);
-  EXPECT_EQ(err_, "s.toml: error: already exists and is left unchanged\n");
-  EXPECT_EQ(run({"new", "analysis", "-"}), 0);
-  EXPECT_EQ(out_, study::sample::example);
-  EXPECT_EQ(run({"new", "analisis/sample.wheel"}), 2);
-  EXPECT_THAT(err_, HasSubstr("did you mean 'analysis/sample.wheel'?"));
-}
-
-TEST_F(Program, SchemaAndCatalogue) {
-  EXPECT_EQ(run({"catalogue"}), 0);
-  EXPECT_THAT(out_, HasSubstr("analysis/sample.wheel\n    Turns a wheel.\n"));
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"schema"}, {"schema", "analysis"}}) {
-    EXPECT_EQ(run(words), 0);
-    Diagnostics diagnostics;
-    EXPECT_TRUE(study::read_text(out_, study::Syntax::json, "schema", diagnostics).is_object());
-  }
-}
-
-TEST_F(Program, ReproduceListsAndRefuses) {
-  EXPECT_EQ(run({"reproduce"}), 0);
-  EXPECT_EQ(out_, "");  // this program has no tables
-  EXPECT_EQ(run({"reproduce", "table-1"}), 2);
-  EXPECT_THAT(err_, HasSubstr("there is no published table 'table-1'"));
 }
 
 }  // namespace

@@ -93,6 +93,15 @@ TEST_F(Resume, AfterControlCAndTheTimeLimit) {
   EXPECT_TRUE(result_text("stopped") == result_text("whole"));
 }
 
+TEST_F(Resume, AnInterruptedRunSaysHowItGoesOn) {
+  const auto words = command("fourbar-18-points.toml",
+                             {"--set", "optimiser.seeds.count=100000", "--time-limit", "0.5", "--out", "a"});
+  EXPECT_EQ(run(words), 0);
+  EXPECT_EQ(err_, "a/checkpoint.jsonl: the same command with --resume continues from here\n");
+  EXPECT_EQ(run(with(words, {"--quiet"})), 0);
+  EXPECT_EQ(err_, "");
+}
+
 TEST_F(Resume, WithoutACheckpointTheRunBeginsAnew) {
   const auto words = command("fourbar-18-points.toml", {"--set", "optimiser.seeds.count=2"});
   EXPECT_EQ(run(with(words, {"--out", "a", "--resume"})), 0);

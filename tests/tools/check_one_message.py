@@ -4,6 +4,7 @@
 usage: check_one_message.py LINKWRIGHT [EVERY]
 EVERY = n takes each n-th value only (default 1).
 """
+import json
 import pathlib
 import re
 import subprocess
@@ -33,8 +34,7 @@ def spoilt(text):
 
 
 def main():
-    kinds = [line.split()[0] for line in run("catalogue").stdout.splitlines()
-             if re.match(r"^[a-z_]+/", line)]
+    kinds = [one["name"] for one in json.loads(run("catalogue", "--json").stdout)]
     count = failures = 0
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "study.toml"

@@ -5,7 +5,6 @@ usage: check_results.py LINKWRIGHT [KIND...]      without kinds: the template of
 """
 import json
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
@@ -23,8 +22,7 @@ def main():
     schema = json.loads(run("schema", "result").stdout)
     Draft202012Validator.check_schema(schema)
     validator = Draft202012Validator(schema)
-    kinds = sys.argv[2:] or [line.split()[0] for line in run("catalogue").stdout.splitlines()
-                             if re.match(r"^[a-z_]+/", line)]
+    kinds = sys.argv[2:] or [one["name"] for one in json.loads(run("catalogue", "--json").stdout)]
     failures = 0
     with tempfile.TemporaryDirectory() as folder:
         for kind in kinds:

@@ -13,7 +13,7 @@ const [program, folder, executablePath] = process.argv.slice(2);
 const call = promisify(execFile);
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
-const kinds = (await call(program, ["catalogue"])).stdout.split("\n").filter((line) => line && !line.startsWith(" "));
+const kinds = JSON.parse((await call(program, ["catalogue", "--json"])).stdout).map((one) => one.name);
 assert.ok(kinds.length > 20, "the catalogue is short");
 
 /** Makes the report of a template; a study that ends without an answer has one, too. */

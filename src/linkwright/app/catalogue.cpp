@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <iterator>
 #include <string>
@@ -26,6 +27,32 @@ namespace {
 
 using Kinds = std::vector<study::Kind>;
 
+/// In the order of lists; of a kind and mechanism, the first that fits counts.
+struct Group {
+  std::string_view kind;       ///< empty = any
+  std::string_view mechanism;  ///< its beginning
+  std::string_view title;
+};
+constexpr Group groups[] = {
+    {"synthesis", "planar.", "Linkages for a path"},
+    {"analysis", "planar.", "Linkages: motion and forces"},
+    {"simulation", "planar.", "Linkages that move under forces"},
+    {"speed_fluctuation", "planar.", "Linkages that move under forces"},
+    {"balancing", "planar.", "Balancing"},
+    {"", "suspension.", "Wheel suspensions"},
+    {"", "parallel.", "Parallel robots and Pi-joints"},
+    {"", "clearance.", "Joint clearance and tolerances"},
+    {"", "flexible.", "Flexible links"},
+};
+constexpr std::string_view no_group = "Other studies";
+
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
 Kinds join(std::initializer_list<Kinds> domains) {
   Kinds all;
   for (const Kinds& kinds : domains) all.insert(all.end(), kinds.begin(), kinds.end());
@@ -41,27 +68,50 @@ std::span<const study::Kind> catalogue() {
   return kinds;
 }
 
+std::string_view group_of(std::string_view kind, std::string_view mechanism) {
+  for (const Group& group : groups)
+    if ((group.kind.empty() || group.kind == kind) && mechanism.starts_with(group.mechanism))
+      return group.title;
+  return no_group;
+}
+
+std::size_t place_of_group(std::string_view title) {
+  const auto* place = std::find_if(std::begin(groups), std::end(groups),
+                                   [&](const Group& group) { return group.title == title; });
+  return static_cast<std::size_t>(place - std::begin(groups));
+}
+
+bool holds_words(std::span<const std::string> words, std::initializer_list<std::string_view> texts) {
+  return std::all_of(words.begin(), words.end(), [&](const std::string& word) {
+    return std::any_of(texts.begin(), texts.end(), [&](std::string_view text) {
+      return lower_case(text).find(lower_case(word)) != std::string::npos;
+    });
+  });
+}
+
 const study::Kind* find_kind(std::string_view name, std::span<const study::Kind> kinds,
                              Diagnostics& diagnostics) {
   const std::string today = study::todays_kind(name);
-  std::vector<const study::Kind*> fitting;
+  std::vector<const study::Kind*> fitting, with_part;
   std::vector<std::string> names;
   for (const study::Kind& kind : kinds) {
     names.push_back(name_of(kind));
     if (names.back() == today) return &kind;
     if (names.back().starts_with(today + "/")) fitting.push_back(&kind);
+    if (names.back().find(today) != std::string::npos) with_part.push_back(&kind);
   }
+  if (fitting.empty()) fitting = with_part;
   if (fitting.size() == 1) return fitting.front();
   Diagnostic problem;
-  if (fitting.empty()) {
+  if (fitting.empty() || today.empty()) {
     problem.message = fmt::format("there is no kind of study '{}'", name);
     const std::vector<std::string_view> allowed(names.begin(), names.end());
-    problem.hint = did_you_mean(name, allowed, fmt::format("there is: {}", fmt::join(names, ", ")));
+    problem.hint = did_you_mean(name, allowed, "`linkwright catalogue` lists them");
   } else {
-    std::vector<std::string> several;
-    for (const study::Kind* kind : fitting) several.push_back(name_of(*kind));
-    problem.message = fmt::format("several kinds of study begin with '{}'", name);
-    problem.hint = fmt::format("write one of: {}", fmt::join(several, ", "));
+    problem.message = fmt::format("several kinds of study fit '{}'", name);
+    problem.hint = "write one of:";
+    for (const study::Kind* kind : fitting)
+      problem.hint += fmt::format("\n  {}\n      {}", name_of(*kind), kind->summary);
   }
   diagnostics.push_back(std::move(problem));
   return nullptr;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <initializer_list>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,8 +15,17 @@ namespace linkwright::app {
 /// Every kind of study that this program can run: the one list of all domains' kinds.
 std::span<const study::Kind> catalogue();
 
-/// The kind with a name as `name_of` gives it, or with the beginning of one that fits no other ("synthesis",
-/// "synthesis/planar.four_bar"). nullptr and a diagnostic if there is none or several.
+/// What users call the studies of a kind and a mechanism: "Wheel suspensions".
+std::string_view group_of(std::string_view kind, std::string_view mechanism);
+/// Where a group stands in lists.
+std::size_t place_of_group(std::string_view group);
+
+/// Whether each of the words is part of one of the texts, whatever its case.
+bool holds_words(std::span<const std::string> words, std::initializer_list<std::string_view> texts);
+
+/// The kind with a name as `name_of` gives it, with the beginning of one that fits no other ("synthesis",
+/// "synthesis/planar.four_bar"), or else with a part of one ("pi_joint/"). nullptr and a diagnostic if there
+/// is none or several.
 const study::Kind* find_kind(std::string_view name, std::span<const study::Kind> kinds,
                              Diagnostics& diagnostics);
 

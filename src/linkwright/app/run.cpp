@@ -40,12 +40,24 @@ std::string host_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : std::string();
 }
 
+/// A study file as a document; of standard input, its messages have a name that people know.
+Value read_document(const fs::path& file, Diagnostics& diagnostics) {
+  if (file != standard_input) return study::read_file(file, diagnostics);
+  const std::size_t before = diagnostics.size();
+  const std::string text = study::load_file("/dev/stdin", diagnostics);
+  Value document;
+  if (diagnostics.size() == before)
+    document = study::read_text(text, study::syntax_of({}, text), standard_input_name, diagnostics);
+  for (std::size_t i = before; i < diagnostics.size(); ++i) diagnostics[i].file = standard_input_name;
+  return document;
+}
+
 }  // namespace
 
 std::optional<study::Study> load_study(const fs::path& file, const RunOptions& options,
                                        std::span<const study::Kind> kinds, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
-  Value document = study::read_file(file, diagnostics);
+  Value document = read_document(file, diagnostics);
   std::vector<Override> changes;
   for (const std::string& text : options.set) {
     Override change;
@@ -57,7 +69,8 @@ std::optional<study::Study> load_study(const fs::path& file, const RunOptions& o
   if (diagnostics.size() != before) return std::nullopt;
   for (const Override& change : changes) apply_override(document, change, diagnostics);
   if (diagnostics.size() != before) return std::nullopt;
-  auto study = study::prepare(document, file.string(), file.parent_path(), kinds, diagnostics);
+  const std::string name = file == standard_input ? standard_input_name : file.string();
+  auto study = study::prepare(document, name, file.parent_path(), kinds, diagnostics);
   name_overrides(diagnostics, changes);
   return study;
 }
@@ -65,7 +78,7 @@ std::optional<study::Study> load_study(const fs::path& file, const RunOptions& o
 fs::path output_folder(const study::Study& study, const fs::path& file, const RunOptions& options) {
   if (!options.out.empty()) return options.out;
   if (!study.common.output.dir.empty()) return study.common.output.dir;
-  return fs::path("out") / file.stem();
+  return fs::path("out") / (file == standard_input ? fs::path("standard-input") : file.stem());
 }
 
 bool prepare_folder(const fs::path& folder, Diagnostics& diagnostics) {

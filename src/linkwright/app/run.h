@@ -21,13 +21,17 @@ struct RunOptions {
   std::vector<std::string> set;      ///< "key=value", applied before validation
 };
 
-/// Reads and validates a study file. All problems are appended to `diagnostics`; nothing is returned if there
-/// is an error.
+/// The file that stands for standard input, and what messages call it.
+inline constexpr const char* standard_input = "-";
+inline constexpr const char* standard_input_name = "standard input";
+
+/// Reads and validates a study file, or standard input. All problems are appended to `diagnostics`; nothing
+/// is returned if there is an error.
 std::optional<study::Study> load_study(const std::filesystem::path& file, const RunOptions& options,
                                        std::span<const study::Kind> kinds, Diagnostics& diagnostics);
 
 /// Folder for the results of a study: options.out, output.dir of the study, or "out/" and the name of its
-/// file.
+/// file ("out/standard-input" without one).
 std::filesystem::path output_folder(const study::Study& study, const std::filesystem::path& file,
                                     const RunOptions& options);
 

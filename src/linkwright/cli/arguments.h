@@ -3,20 +3,41 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace linkwright::cli {
 
 /// The command line, taken apart.
 struct Arguments {
-  enum class Command { nothing, run, check, make, schema, catalogue, reproduce };
+  enum class Command {
+    nothing,
+    run,
+    check,
+    compare,
+    make,
+    examples,
+    samples,
+    catalogue,
+    schema,
+    reproduce,
+    manual,
+    completion
+  };
   Command command = Command::nothing;
 
-  std::string study;  ///< run, check: the file
+  std::string study;  ///< run, check: the file; "-" = standard input
   std::string kind;   ///< make, schema
   std::string file;   ///< make: empty = named after the kind, "-" = standard output
 
+  std::vector<std::string> inputs;  ///< compare: folders, results and studies
+  std::vector<std::string> words;   ///< catalogue, samples: what each line of the list must hold
+  std::string example;              ///< examples: name or a part of it; empty = all
+  std::string folder;               ///< examples --copy: where to; empty = here
+  bool copy = false;                ///< of examples
+
   std::string table;  ///< reproduce: id, beginning of ids or "all"; empty = list them
+  std::string shell;  ///< completion: bash, zsh, fish
 
   std::string out;
   std::optional<std::int64_t> seed;
@@ -25,6 +46,8 @@ struct Arguments {
   std::optional<double> time_limit;  ///< s
   bool resume = false;
   bool json = false;
+  bool quiet = false;
+  bool open = false;     ///< the report, when it is written
   bool renamed = false;  ///< of catalogue
 
   std::string text;   ///< for nothing: what to print (help, version or what is wrong)
@@ -34,5 +57,48 @@ struct Arguments {
 /// Never throws for what users write: a wrong command line comes back as `nothing` with exit code 2 and a
 /// text.
 Arguments parse_arguments(int argc, const char* const* argv);
+
+/// A command as the manual and the completions of shells describe it; what stands in the place of a value
+/// (STUDY, FOLDER, KIND) says what it is.
+struct CommandHelp {
+  struct Option {
+    std::string short_name;  ///< "-o"; empty = none
+    std::string long_name;   ///< "--out"
+    std::string value;       ///< "FOLDER"; empty = a switch
+    std::string summary;
+  };
+  struct Positional {
+    std::string name;  ///< "STUDY"
+    std::string summary;
+    bool required = false;
+    bool repeated = false;
+  };
+  std::string name;  ///< "run"
+  std::string summary;
+  std::vector<Positional> positionals;
+  std::vector<Option> options;
+};
+
+/// All commands, in the order in which help lists them.
+std::vector<CommandHelp> command_help();
+
+/// What the program is, in one sentence.
+inline constexpr const char* about =
+    "Linkwright analyses, balances and synthesises mechanisms from study files.";
+
+inline constexpr int bad_input = 2;
+inline constexpr int cancelled = 4;
+inline constexpr int internal_error = 70;
+/// What the program's exit codes mean.
+struct ExitCode {
+  int code;
+  std::string_view meaning;
+};
+inline constexpr ExitCode exit_codes[] = {{0, "done"},
+                                          {1, "a check failed"},
+                                          {bad_input, "bad input or usage"},
+                                          {3, "numeric failure"},
+                                          {cancelled, "cancelled"},
+                                          {internal_error, "internal error"}};
 
 }  // namespace linkwright::cli

@@ -1,0 +1,86 @@
+#include "linkwright/app/examples.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "linkwright/app/catalogue.h"
+#include "linkwright/study/read.h"
+
+namespace linkwright::app {
+namespace {
+
+std::string_view folder_of(std::string_view path) { return path.substr(0, path.rfind('/') + 1); }
+std::string_view file_of(std::string_view path) { return path.substr(path.rfind('/') + 1); }
+
+/// A text of a document; empty if it has none.
+std::string text_at(const Value* value) { return value && value->is_string() ? value->as_string() : ""; }
+
+Example example_of(const EmbeddedFile& file) {
+  Diagnostics diagnostics;
+  const Value document =
+      study::read_text(file.text, study::Syntax::toml, std::string(file.path), diagnostics);
+  const Value* mechanism = document.find("mechanism");
+  std::string_view name = file_of(file.path);
+  name.remove_suffix(std::string_view(".toml").size());
+  Example example{std::string(name),
+                  text_at(document.find("title")),
+                  std::string(group_of(text_at(document.find("kind")),
+                                       mechanism ? text_at(mechanism->find("type")) : "")),
+                  file.text,
+                  {}};
+  // A study names what it reads as a text of its own.
+  for (const EmbeddedFile& other : example_files())
+    if (folder_of(other.path) == folder_of(file.path) && !other.path.ends_with(".toml") &&
+        file.text.find("\"" + std::string(file_of(other.path)) + "\"") != std::string_view::npos)
+      example.beside.push_back({file_of(other.path), other.text});
+  return example;
+}
+
+}  // namespace
+
+std::span<const Example> examples() {
+  static const auto all = [] {
+    std::vector<Example> found;
+    for (const EmbeddedFile& file : example_files())
+      if (file.path.ends_with(".toml")) found.push_back(example_of(file));
+    std::stable_sort(found.begin(), found.end(), [](const Example& a, const Example& b) {
+      return place_of_group(a.group) < place_of_group(b.group);
+    });
+    return found;
+  }();
+  return all;
+}
+
+std::vector<const Example*> find_examples(std::string_view text) {
+  std::vector<const Example*> found;
+  for (const Example& example : examples()) {
+    if (example.name == text) return {&example};
+    if (holds_words({{std::string(text)}}, {example.name, example.title})) found.push_back(&example);
+  }
+  return found;
+}
+
+Copied write_new(const std::string& file, std::string_view text, Diagnostics& diagnostics) {
+  const auto refuse = [&](std::string message) {
+    diagnostics.push_back({Diagnostic::Severity::error, file, {}, {}, std::move(message), {}});
+    return Copied::refused;
+  };
+  // "x": the file must not exist; asked and made in one step.
+  std::FILE* stream = std::fopen(file.c_str(), "wbx");
+  if (!stream && errno == EEXIST) {
+    std::ifstream there(file, std::ios::binary);
+    const std::string old((std::istreambuf_iterator<char>(there)), {});
+    return there && old == text ? Copied::unchanged : refuse("already exists and is left unchanged");
+  }
+  if (!stream) return refuse(std::strerror(errno));
+  const bool whole = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
+  if (std::fclose(stream) != 0 || !whole)
+    return refuse(std::string("cannot be written: ") + std::strerror(errno));
+  return Copied::written;
+}
+
+}  // namespace linkwright::app

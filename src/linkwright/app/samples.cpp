@@ -1,0 +1,17 @@
+#include "linkwright/app/samples.h"
+
+#include "linkwright/planar/linkage/samples.h"
+#include "linkwright/suspension/guide/samples.h"
+
+namespace linkwright::app {
+
+std::vector<Sample> samples() {
+  std::vector<Sample> all;
+  for (const planar::LinkageSample& sample : planar::linkage_samples())
+    all.push_back({sample.name, sample.summary, {"planar.linkage", "clearance.linkage"}, "Planar linkages"});
+  for (const suspension::GuideSample& sample : suspension::guide_samples())
+    all.push_back({sample.name, sample.summary, {"suspension.corner"}, "Wheel suspensions"});
+  return all;
+}
+
+}  // namespace linkwright::app

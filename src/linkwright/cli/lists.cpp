@@ -1,0 +1,317 @@
+#include "linkwright/cli/lists.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/app/catalogue.h"
+#include "linkwright/app/examples.h"
+#include "linkwright/app/result_json.h"
+#include "linkwright/app/result_schema.h"
+#include "linkwright/app/samples.h"
+#include "linkwright/app/write_whole.h"
+#include "linkwright/cli/terminal.h"
+#include "linkwright/study/renamed.h"
+#include "linkwright/study/study.h"
+#include "linkwright/study/write.h"
+
+namespace linkwright::cli {
+namespace fs = std::filesystem;
+namespace {
+
+/// One line of a list, under the heading of its group.
+struct Entry {
+  std::string group, name, text;
+};
+
+/// Entries of a group stand together, in the order in which they come. `beside`: name and text in one line,
+/// the texts in a column; else the text below the name.
+std::string grouped(const std::vector<Entry>& entries, bool beside) {
+  const bool colours = wants_colours(Stream::out);
+  std::size_t width = 0;
+  for (const Entry& entry : entries) width = std::max(width, entry.name.size());
+  std::string text, group;
+  for (const Entry& entry : entries) {
+    if (entry.group != group)
+      text += (text.empty() ? "" : "\n") + paint(entry.group, Colour::bold, colours) + "\n";
+    group = entry.group;
+    text += beside ? fmt::format("  {:<{}}  {}\n", entry.name, width, entry.text)
+                   : fmt::format("  {}\n      {}\n", entry.name, entry.text);
+  }
+  return text;
+}
+
+std::string with_dashes(std::string name) {
+  std::replace(name.begin(), name.end(), '/', '-');
+  return name;
+}
+
+int nothing_holds(const std::vector<std::string>& words, std::string_view command) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : " ") + word;
+  Diagnostic problem;
+  problem.message = fmt::format("nothing in the list holds '{}'", all);
+  problem.hint = fmt::format("`linkwright {}` lists all", command);
+  print_diagnostics({problem});
+  return bad_input;
+}
+
+int renamed(bool json) {
+  if (json) {
+    Value::Array all;
+    for (const study::Renamed& r : study::renamed()) {
+      Value one;
+      one["of"] = name_of(r.of);
+      one["before"] = r.before;
+      one["now"] = r.now;
+      if (!r.mechanism.empty()) one["mechanism"] = std::string(r.mechanism) + "*";
+      if (!r.kinds.empty()) one["kinds"] = r.kinds;
+      all.push_back(std::move(one));
+    }
+    fmt::print("{}", study::to_json_readable(Value(std::move(all))));
+    return 0;
+  }
+  for (const study::Renamed& r : study::renamed())
+    fmt::print("{:<10} {:<24} is now {:<24}{}\n", name_of(r.of), r.before, r.now,
+               r.mechanism.empty()
+                   ? std::string()
+                   : fmt::format(" in {}{}{}*", r.kinds, r.kinds.empty() ? "" : " of ", r.mechanism));
+  return 0;
+}
+
+int copy_example(const Arguments& arguments) {
+  const auto refuse = [](std::string message, std::string hint) {
+    print_diagnostics({{Diagnostic::Severity::error, {}, {}, {}, std::move(message), std::move(hint)}});
+    return bad_input;
+  };
+  const std::vector<const app::Example*> found = app::find_examples(arguments.example);
+  if (arguments.example.empty())
+    return refuse("--copy needs the name of an example", "`linkwright examples` lists them");
+  if (found.empty())
+    return refuse(fmt::format("there is no example '{}'", arguments.example),
+                  "`linkwright examples` lists them");
+  if (found.size() > 1) {
+    std::string hint = "write one of:";
+    for (const app::Example* example : found)
+      hint += fmt::format("\n  {}: {}", example->name, example->title);
+    return refuse(fmt::format("several examples fit '{}'", arguments.example), hint);
+  }
+  Diagnostics diagnostics;
+  std::error_code error;
+  if (!arguments.folder.empty()) fs::create_directories(arguments.folder, error);
+  if (error) return refuse(fmt::format("'{}' cannot be made: {}", arguments.folder, error.message()), {});
+  const app::Example& example = *found.front();
+  std::vector<app::EmbeddedFile> files = example.beside;
+  const std::string study = example.name + ".toml";
+  files.push_back({study, example.text});
+  for (const app::EmbeddedFile& file : files) {
+    const std::string path = (fs::path(arguments.folder) / file.path).string();
+    switch (app::write_new(path, file.text, diagnostics)) {
+      case app::Copied::written:
+        fmt::print("{} written\n", path);
+        break;
+      case app::Copied::unchanged:
+        fmt::print("{} is here already\n", path);
+        break;
+      case app::Copied::refused:
+        print_diagnostics(diagnostics);
+        return bad_input;
+    }
+  }
+  fmt::print("run it with: linkwright run {}\n", (fs::path(arguments.folder) / study).string());
+  return 0;
+}
+
+/// The file in which editors find the schema of a kind, beside its studies.
+std::string schema_file(const study::Kind& kind) { return with_dashes(name_of(kind)) + ".schema.json"; }
+
+/// Columns as wide as their longest cell; numbers to the right.
+std::string aligned(const std::vector<study::Comparison>& rows) {
+  std::vector<std::array<std::string, 5>> cells = {{"", "published", "ours", "verdict", "note"}};
+  for (const study::Comparison& c : rows)
+    cells.push_back({c.item, std::isnan(c.published) ? "-" : fmt::format("{:.9g}", c.published),
+                     std::isnan(c.ours) ? "-" : fmt::format("{:.9g}", c.ours), c.verdict, c.note});
+  std::array<std::size_t, 5> width{};
+  for (const auto& row : cells)
+    for (std::size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], row[k].size());
+  std::string text;
+  for (const auto& row : cells) {
+    std::string line = fmt::format("  {:<{}}  {:>{}}  {:>{}}  {:<{}}  {}", row[0], width[0], row[1], width[1],
+                                   row[2], width[2], row[3], width[3], row[4]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+int list_catalogue(const Arguments& arguments, std::span<const study::Kind> kinds) {
+  if (arguments.renamed) return renamed(arguments.json);
+  std::vector<Entry> entries;
+  Value::Array json;
+  for (const study::Kind& kind : kinds) {
+    const std::string group(app::group_of(kind.kind, kind.mechanism)), name = name_of(kind);
+    if (!app::holds_words(arguments.words, {group, name, kind.summary})) continue;
+    entries.push_back({group, name, kind.summary});
+    Value one;
+    one["name"] = name;
+    one["group"] = group;
+    one["summary"] = kind.summary;
+    json.push_back(std::move(one));
+  }
+  if (arguments.json) {
+    fmt::print("{}", study::to_json_readable(Value(std::move(json))));
+    return 0;
+  }
+  if (entries.empty()) return nothing_holds(arguments.words, "catalogue");
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return app::place_of_group(a.group) < app::place_of_group(b.group);
+  });
+  fmt::print("{}\nTo begin with one: linkwright new KIND\n", grouped(entries, false));
+  return 0;
+}
+
+int list_samples(const Arguments& arguments) {
+  std::vector<Entry> entries;
+  Value::Array json;
+  for (const app::Sample& sample : app::samples()) {
+    if (!app::holds_words(arguments.words, {sample.group, sample.name, sample.summary})) continue;
+    entries.push_back(
+        {fmt::format("{} (type = \"{}\")", sample.group, fmt::join(sample.mechanisms, "\" or \"")),
+         sample.name, sample.summary});
+    Value one;
+    one["name"] = sample.name;
+    one["mechanisms"] = Value::array();
+    for (const std::string& mechanism : sample.mechanisms) one["mechanisms"].push_back(mechanism);
+    one["summary"] = sample.summary;
+    json.push_back(std::move(one));
+  }
+  if (arguments.json) {
+    fmt::print("{}", study::to_json_readable(Value(std::move(json))));
+    return 0;
+  }
+  if (entries.empty()) return nothing_holds(arguments.words, "samples");
+  fmt::print("{}\n`sample = \"NAME\"` in [mechanism] takes one of them, with its dimensions and masses.\n",
+             grouped(entries, true));
+  return 0;
+}
+
+int list_examples(const Arguments& arguments) {
+  if (arguments.copy) return copy_example(arguments);
+  std::vector<Entry> entries;
+  Value::Array json;
+  for (const app::Example* example : app::find_examples(arguments.example)) {
+    entries.push_back({example->group, example->name, example->title});
+    Value one;
+    one["name"] = example->name;
+    one["title"] = example->title;
+    one["group"] = example->group;
+    json.push_back(std::move(one));
+  }
+  if (arguments.json) {
+    fmt::print("{}", study::to_json_readable(Value(std::move(json))));
+    return 0;
+  }
+  if (entries.empty()) return nothing_holds({arguments.example}, "examples");
+  fmt::print("{}\nTo try one: linkwright examples --copy NAME\n", grouped(entries, true));
+  return 0;
+}
+
+int make_study(const Arguments& arguments, std::span<const study::Kind> kinds) {
+  Diagnostics diagnostics;
+  const study::Kind* kind = app::find_kind(arguments.kind, kinds, diagnostics);
+  if (!kind) {
+    print_diagnostics(diagnostics);
+    return bad_input;
+  }
+  const std::string schema = schema_file(*kind);
+  const std::string text = fmt::format("#:schema ./{}\n{}", schema, kind->example);
+  if (arguments.file == "-") {
+    fmt::print("{}", text);
+    return 0;
+  }
+  const std::string file = arguments.file.empty() ? with_dashes(name_of(*kind)) + ".toml" : arguments.file;
+  const app::Copied copied = app::write_new(file, text, diagnostics);
+  print_diagnostics(diagnostics);
+  if (copied == app::Copied::refused) return bad_input;
+  fmt::print("{} {}; run it with: linkwright run {}\n", file,
+             copied == app::Copied::written ? "written" : "is here already", file);
+  const fs::path beside = fs::path(file).parent_path() / schema;
+  if (!fs::exists(beside))
+    fmt::print("for keys completed by your editor: linkwright schema {} -o {}\n", name_of(*kind),
+               beside.string());
+  return 0;
+}
+
+int print_schema(const Arguments& arguments, std::span<const study::Kind> kinds) {
+  Value schema;
+  if (arguments.kind == "result") {
+    schema = app::result_schema();
+  } else if (arguments.kind.empty()) {
+    schema = study::schema_of(kinds);
+  } else {
+    Diagnostics diagnostics;
+    const study::Kind* kind = app::find_kind(arguments.kind, kinds, diagnostics);
+    print_diagnostics(diagnostics);
+    if (!kind) return bad_input;
+    schema = study::schema_of(*kind);
+  }
+  const std::string text = study::to_json_readable(schema);
+  if (arguments.out.empty()) {
+    fmt::print("{}", text);
+    return 0;
+  }
+  const std::string problem = app::write_whole(arguments.out, text);
+  if (problem.empty()) {
+    fmt::print("{} written\n", arguments.out);
+    return 0;
+  }
+  print_diagnostics(
+      {{Diagnostic::Severity::error, arguments.out, {}, {}, "cannot be written: " + problem, {}}});
+  return bad_input;
+}
+
+int reproduce(const Arguments& arguments, std::span<const study::Reproduction> all) {
+  if (arguments.table.empty()) {
+    for (const study::Reproduction& r : all) fmt::print("{}\n    {}\n", r.id, r.title);
+    if (!all.empty())
+      fmt::print(
+          "\nWhich table of which source each one is, and why a few are not here: "
+          "docs/published-tables.md\n");
+    return 0;
+  }
+  Diagnostics diagnostics;
+  const auto chosen = app::find_reproductions(arguments.table, all, diagnostics);
+  if (chosen.empty()) {
+    print_diagnostics(diagnostics);
+    return bad_input;
+  }
+  RunContext context;
+  const Interruptible guard(context);
+  context.set_threads(arguments.threads);
+  Value json = Value::array();
+  for (const study::Reproduction* r : chosen) {
+    const std::vector<study::Comparison> rows = r->run(context);
+    if (arguments.json) {
+      json.push_back(app::reproduction_json(*r, rows));
+    } else {
+      fmt::print("{}: {}\n  {}\n\n{}", r->id, r->title, r->source, aligned(rows));
+      for (const std::string& note : r->notes) fmt::print("\n  {}\n", note);
+      fmt::print("\n");
+      std::fflush(stdout);
+    }
+    if (context.interrupted()) return cancelled;
+  }
+  if (arguments.json) fmt::print("{}", study::to_json_readable(json));
+  return 0;
+}
+
+}  // namespace linkwright::cli

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "linkwright/study/result.h"
+
+namespace linkwright::cli {
+
+/// What a run says on standard output: title, answer, facts, checks, remarks and the files that were written;
+/// the last line says which report to open, if there is one.
+std::string summary(std::string_view title, const study::Result& result,
+                    const std::vector<std::filesystem::path>& written, bool colours);
+
+}  // namespace linkwright::cli

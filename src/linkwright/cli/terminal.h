@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "linkwright/core/diagnostic.h"
+#include "linkwright/core/run_context.h"
+
+/// What the program has to do with the terminal and the desktop that it is called from.
+namespace linkwright::cli {
+
+enum class Stream { out, err };
+
+/// Whether a stream is a terminal.
+bool is_terminal(Stream stream);
+/// Columns of the terminal behind standard error; 80 if it is none or does not say.
+std::size_t terminal_width();
+
+/// Whether to write colours to a stream: to a terminal that knows them. NO_COLOR, if set and not empty,
+/// forbids them; else CLICOLOR_FORCE, if set and not "0", demands them, also in pipes and files.
+bool wants_colours(Stream stream);
+
+enum class Colour { red, green, yellow, bold, pale };
+/// The text in a colour; as it is without `on`.
+std::string paint(std::string_view text, Colour colour, bool on);
+/// to_string(diagnostic) with the word "error" or "warning" in its colour.
+std::string painted(const Diagnostic& diagnostic, bool on);
+
+/// Writes diagnostics to standard error, with their number if there are several errors.
+void print_diagnostics(const Diagnostics& diagnostics);
+
+/// Opens a file as a double click would and does not wait for it. Returns why it could not, empty if nothing
+/// went wrong.
+std::string open_on_desktop(const std::filesystem::path& file);
+
+/// While it lives, the first SIGINT or SIGTERM cancels the run, and a second one kills the program.
+class Interruptible {
+ public:
+  explicit Interruptible(RunContext& context);
+  ~Interruptible();
+  Interruptible(const Interruptible&) = delete;
+  Interruptible& operator=(const Interruptible&) = delete;
+};
+
+}  // namespace linkwright::cli
