@@ -132,22 +132,28 @@ Table motion_table(const PathDesign& design, std::string name, int samples) {
   return table;
 }
 
-Table point_table(const PathProblem& problem, const PathDesign& design, std::string name) {
+Table table_of(PathPoints points, std::string name) {
   Table table;
   table.name = std::move(name);
-  const PathErrors errors = path_errors(problem, design);
   std::vector<double> number;
-  for (std::size_t k = 0; k < problem.x.size(); ++k) {
+  for (std::size_t k = 0; k < points.target_x.size(); ++k) {
     number.push_back(static_cast<double>(k + 1));
-    table.status.emplace_back(std::isfinite(errors.distance[k]) ? "done" : "no_assembly");
+    table.status.emplace_back(std::isfinite(points.distance[k]) ? "done" : "no_assembly");
   }
   table.add("point", "point", std::move(number));
-  table.add("crank_angle_rad", "crank angle (rad)", design.angles);
-  table.add("target_x_m", "target x (m)", problem.x);
-  table.add("target_y_m", "target y (m)", problem.y);
-  table.add("x_m", "reached x (m)", errors.x);
-  table.add("y_m", "reached y (m)", errors.y);
-  table.add("distance_m", "distance (m)", errors.distance);
+  table.add("crank_angle_rad", "crank angle (rad)", std::move(points.angles));
+  table.add("target_x_m", "target x (m)", std::move(points.target_x));
+  table.add("target_y_m", "target y (m)", std::move(points.target_y));
+  table.add("x_m", "reached x (m)", std::move(points.x));
+  table.add("y_m", "reached y (m)", std::move(points.y));
+  table.add("distance_m", "distance (m)", std::move(points.distance));
+  return table;
+}
+
+Table point_table(const PathProblem& problem, const PathDesign& design, std::string name) {
+  const PathErrors errors = path_errors(problem, design);
+  Table table =
+      table_of({design.angles, problem.x, problem.y, errors.x, errors.y, errors.distance}, std::move(name));
   if (!problem.tolerance.empty()) {
     table.add("tolerance_m", "tolerance (m)", problem.tolerance);
     table.add("excess_m", "distance beyond the tolerance (m)", errors.excess);

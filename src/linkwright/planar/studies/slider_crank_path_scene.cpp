@@ -9,6 +9,7 @@
 #include "linkwright/planar/linkage/motion.h"
 #include "linkwright/planar/path/slider_crank_defects.h"
 #include "linkwright/planar/studies/linkage_scene.h"
+#include "linkwright/planar/studies/path_scene.h"
 
 namespace linkwright::planar {
 
@@ -77,22 +78,9 @@ Table slider_motion_table(const SliderPathDesign& design, std::string name, int 
 }
 
 Table slider_point_table(const SliderPathProblem& problem, const SliderPathDesign& design, std::string name) {
-  Table table;
-  table.name = std::move(name);
   const SliderPathErrors errors = path_errors(problem, design);
-  std::vector<double> number;
-  for (std::size_t k = 0; k < problem.x.size(); ++k) {
-    number.push_back(static_cast<double>(k + 1));
-    table.status.emplace_back(std::isfinite(errors.distance[k]) ? "done" : "no_assembly");
-  }
-  table.add("point", "point", std::move(number));
-  table.add("crank_angle_rad", "crank angle (rad)", design.angles);
-  table.add("target_x_m", "target x (m)", problem.x);
-  table.add("target_y_m", "target y (m)", problem.y);
-  table.add("x_m", "reached x (m)", errors.x);
-  table.add("y_m", "reached y (m)", errors.y);
-  table.add("distance_m", "distance (m)", errors.distance);
-  return table;
+  return table_of({design.angles, problem.x, problem.y, errors.x, errors.y, errors.distance},
+                  std::move(name));
 }
 
 }  // namespace linkwright::planar
