@@ -113,6 +113,35 @@ TEST(Drawing, TicksAreMultiplesOfTheStep) {
   EXPECT_EQ(ticks(1, std::nextafter(1.0, 2.0), 1e-300).size(), 40u);
 }
 
+TEST(Drawing, StepsOfAnglesArePartsOfATurn) {
+  EXPECT_EQ(degree_step(360, 6), 90);
+  EXPECT_EQ(degree_step(360, 8), 45);
+  EXPECT_EQ(degree_step(120, 5), 30);
+  EXPECT_EQ(degree_step(60, 6), 10);
+  EXPECT_DOUBLE_EQ(degree_step(20, 6), 5);
+  EXPECT_DOUBLE_EQ(degree_step(12, 6), 2);
+  EXPECT_DOUBLE_EQ(degree_step(0.45, 6), 0.1);
+  EXPECT_EQ(degree_step(7200, 6), 1800);
+}
+
+TEST(Drawing, BodiesOfOneRoleHaveOneNumber) {
+  const auto numbers = [](std::initializer_list<const char*> names) {
+    study::Scene scene;
+    for (const char* name : names)
+      scene.bodies.push_back({name,
+                              {},
+                              std::string_view(name) == "base" ? study::Scene::BodyStyle::ground
+                                                               : study::Scene::BodyStyle::bar});
+    return role_numbers(scene);
+  };
+  using Numbers = std::vector<std::size_t>;
+  EXPECT_EQ(numbers({"base", "arm", "rod", "rod", "", "", "arm"}), (Numbers{0, 0, 1, 1, 2, 3, 0}));
+  EXPECT_EQ(numbers({"right wishbone", "right tie rod", "left wishbone", "left tie rod"}),
+            (Numbers{0, 1, 0, 1}));
+  EXPECT_EQ(numbers({"arm 1", "rod 1", "arm 2", "rod 2", "platform"}), (Numbers{0, 1, 0, 1, 2}));
+  EXPECT_EQ(numbers({"link 1", "link 2", "link 3"}), (Numbers{0, 1, 2}));
+}
+
 TEST(Drawing, UnitsFollowTheSize) {
   EXPECT_EQ(length_unit(0.3).symbol, "mm");
   EXPECT_EQ(length_unit(2).symbol, "m");

@@ -212,6 +212,7 @@ study::Result sample_spatial() {
   steer.x = "rack_m";
   steer.y = {"toe_rad"};
   steer.group = "travel_m";
+  toe.upright = true;
   result.plots = {toe, camber, steer};
   result.scenes = {scene};
   return result;

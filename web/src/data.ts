@@ -86,6 +86,7 @@ export interface Plot {
   group?: string; // column whose values split the rows into curves
   bands?: { lower: string; upper: string; label: string }[];
   baseline?: string; // table drawn pale behind
+  upright?: boolean; // x points up
 }
 
 export interface Change {

@@ -8,5 +8,23 @@ export const lookOf = (index: number): { stroke: string; dash: number[] } => ({
   dash: dashes[(index + Math.floor(index / strokes.length)) % dashes.length],
 });
 
-/** More curves than this are one bundle: one colour, no legend, a name where one points. */
-export const mostNamed = 7;
+/** More curves than this are a bundle: those that are chosen have a look and a name of their own, the others are pale. */
+export const mostNamed = 6;
+
+/** Which look each chosen curve has. */
+export type Choice = ReadonlyMap<number, number>;
+
+/** All curves when there are few, or else the first; of a bundle that is one family none. */
+export const firstChoice = (count: number, family: boolean): Choice =>
+  new Map(Array.from({ length: count <= mostNamed ? count : family ? 0 : mostNamed }, (_, i) => [i, i]));
+
+/** A choice with or without a curve. The others keep their looks, and the new one gets the first that is free. */
+export function chosen(before: Choice, curve: number, on: boolean): Choice {
+  const after = new Map(before);
+  after.delete(curve);
+  if (!on) return after;
+  const used = new Set(after.values());
+  let look = 0;
+  while (used.has(look)) ++look;
+  return after.set(curve, look);
+}

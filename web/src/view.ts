@@ -130,16 +130,27 @@ export function whiskerScale(worst: number, size: number): number {
   return Math.max(1, niceStep((0.06 * size) / worst));
 }
 
-/** Colour of each body, 0 to 5 in turn: bodies of one name are one body and have one colour; ground and axes have none. */
+/** What each body is, whichever side or leg it belongs to: "left tie rod" and "right tie rod" are "tie rod"; "rod 1" and "rod 2" are "rod"
+ *  where legs are repeated, that is when their numbers are those of another role, too. */
+export function roles(names: readonly string[]): string[] {
+  const parts = names.map((name) => {
+    const bare = name.replace(/^(left|right) /, "");
+    return { bare, ...(/^(?<role>.+) (?<leg>\d+)$/.exec(bare)?.groups as { role?: string; leg?: string } | undefined) };
+  });
+  return parts.map(({ bare, role, leg }) => (role && parts.some((p) => p.leg === leg && p.role !== role) ? role : bare));
+}
+
+/** Colour of each body, 0 to 5 in turn: bodies of one role have one colour; ground and axes, and springs and dampers, have none. */
 export function bodyColours(bodies: readonly { name: string; style: string }[]): number[] {
   const known = new Map<string, number>();
   let used = 0;
-  return bodies.map(({ name, style }) => {
-    if (style === "ground" || style === "axis" || style === "gap") return 0;
-    const before = name === "" ? undefined : known.get(name);
+  const role = roles(bodies.map((b) => b.name));
+  return bodies.map(({ style }, i) => {
+    if (["ground", "axis", "gap", "spring", "damper", "guide"].includes(style)) return 0;
+    const before = role[i] === "" ? undefined : known.get(role[i]);
     if (before !== undefined) return before;
     const colour = used++ % 6;
-    known.set(name, colour);
+    known.set(role[i], colour);
     return colour;
   });
 }

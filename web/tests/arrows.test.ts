@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { arcPaths, arcTurn, arrowPaths, arrowScale, boundsWith, componentsNear, headOf, keyValue, largestMoment, lineOf, readMoment, readVector, symbolLines, valueNear } from "../src/arrows";
-import { curvesOf, frameOf, nameOfPair, nearestPoint } from "../src/curves";
+import { boxOf, curvesOf, frameOf, nameOfPair, nearestPoint } from "../src/curves";
 import type { Plot, Scene, Table, Vector } from "../src/data";
 import { dxf } from "../src/exports";
 import { analyse } from "../src/motion";
@@ -127,7 +127,7 @@ describe("polar diagrams", () => {
     expect(unit.symbol).toBe("N");
     expect(curves).toHaveLength(1);
     for (const [w, h] of [[600, 300], [300, 600]]) {
-      const frame = frameOf(curves, w, h, { left: 40, right: 10, top: 10, bottom: 30 })!;
+      const frame = frameOf(boxOf(curves, true)!, w, h, { left: 40, right: 10, top: 10, bottom: 30 });
       expect(frame.x(100) - frame.x(0)).toBeCloseTo(frame.y(0) - frame.y(100), 9);
       for (const [x, y] of [[0, 0], [300, 50], [0, -100]]) {
         expect(frame.x(x)).toBeGreaterThan(40);
@@ -140,6 +140,6 @@ describe("polar diagrams", () => {
     }
   });
   it("says when there is nothing", () => {
-    expect(frameOf([{ label: "", x: [null], y: [1] }], 100, 100, { left: 0, right: 0, top: 0, bottom: 0 })).toBeNull();
+    expect(boxOf([{ label: "", x: [null], y: [1] }], true)).toBeNull();
   });
 });

@@ -422,14 +422,22 @@ test("curves over a turn go from its beginning to its end", async () => {
 
 test("curves with a legend can be told apart, others tell their names", async () => {
   const { page, errors, close } = await open("diagrams.html", { reducedMotion: "reduce" });
-  for (const plot of ["seven", "roses"]) {
+  for (const [plot, count] of [["seven", 6], ["roses", 7]]) {
     const looks = await page.locator(`[data-plot="${plot}"] .legend path`).evaluateAll((all) => all.map((e) => `${getComputedStyle(e).stroke} ${getComputedStyle(e).strokeDasharray}`));
-    assert.equal(looks.length, 7);
-    assert.equal(new Set(looks).size, 7, looks.join("; "));
+    assert.equal(looks.length, count);
+    assert.equal(new Set(looks).size, count, looks.join("; "));
   }
   const card = page.locator('[data-plot="nine"]');
-  assert.match(await card.innerText(), /9 curves; point at one/);
+  assert.match(await card.locator(".chooser summary").innerText(), /^9 curves, 6 with a name; point at one, or choose$/);
+  assert.equal(await card.locator(".legend > span").count(), 6);
+  await card.locator(".chooser summary").click();
+  await card.locator(".chooser button", { hasText: "none" }).click();
   assert.equal(await card.locator(".legend").count(), 0);
+  await card.getByLabel("wave 8").check();
+  assert.match(await card.locator(".legend").innerText(), /^wave 8/);
+  await card.locator(".chooser button", { hasText: "all" }).click();
+  const all = await card.locator(".legend path").evaluateAll((paths) => paths.map((e) => `${getComputedStyle(e).stroke} ${getComputedStyle(e).strokeDasharray}`));
+  assert.equal(new Set(all).size, 9, all.join("; "));
   const over = card.locator(".u-over");
   await over.scrollIntoViewIfNeeded();
   const box = await over.boundingBox();
@@ -443,6 +451,78 @@ test("curves with a legend can be told apart, others tell their names", async ()
   for (const name of names) assert.match(name, /^wave \d$/);
   await page.mouse.move(2, 2);
   await until(async () => !(await card.locator(".curve-name").isVisible()));
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+/** Numbers on the axes of a chart are painted; its scales are seen by the values at the ends of its width. */
+const zoomTo = async (page, over, from, to) => {
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + box.width * from, box.y + 60);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * to, box.y + 64, { steps: 4 });
+  await page.mouse.up();
+};
+
+test("diagrams are zoomed and moved by pointer and by keys", async () => {
+  const { page, errors, close } = await open("report.html", { reducedMotion: "reduce" });
+  const card = page.locator('[data-plot="transmission"]');
+  const over = card.locator(".u-over");
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  const at = async (share) => {
+    await page.mouse.move(box.x + box.width * share, box.y + 90);
+    await page.waitForTimeout(60);
+    return position(page);
+  };
+  assert.equal(await card.locator(".reset").count(), 0);
+  await zoomTo(page, over, 0.25, 0.5);
+  // A quarter of the turn is as wide as the whole diagram now, and the mechanism still follows.
+  await until(async () => Math.abs((await at(0.02)) - 92) < 4);
+  assert.ok(Math.abs((await at(0.98)) - 178) < 4);
+  await page.keyboard.down("Shift");
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.48, box.y + 90, { steps: 4 });
+  await page.mouse.up();
+  await page.keyboard.up("Shift");
+  await until(async () => Math.abs((await at(0.5)) - 180) < 4);
+  await card.locator(".reset").click();
+  assert.equal(await card.locator(".reset").count(), 0);
+  await until(async () => Math.abs((await at(0.75)) - 270) < 4);
+  await zoomTo(page, over, 0.25, 0.5);
+  await over.dblclick({ position: { x: 100, y: 50 } });
+  assert.equal(await card.locator(".reset").count(), 0);
+  assert.equal(await card.locator(".mark-line").count(), 0);
+  await card.locator(".chart").focus();
+  const before = await position(page);
+  await page.keyboard.press("+");
+  assert.equal(await card.locator(".reset").count(), 1);
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await position(page), before, "the arrow belongs to the diagram that is zoomed");
+  await page.keyboard.press("0");
+  assert.equal(await card.locator(".reset").count(), 0);
+  await page.keyboard.press("ArrowRight");
+  assert.notEqual(await position(page), before);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("a fixed cursor shows differences", async () => {
+  const { page, errors, close } = await open("diagrams.html", { reducedMotion: "reduce" });
+  const card = page.locator('[data-plot="angle"]');
+  const over = card.locator(".u-over");
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  await page.mouse.click(box.x + box.width * 0.25, box.y + 40);
+  await page.mouse.move(box.x + box.width * 0.75, box.y + 40);
+  await until(async () => /^A (89|90|91) ° → B (269|27[01])(\.\d+)? °: Δ 1(79|8[01])(\.\d+)? °/.test(await card.locator(".mark-line").innerText()));
+  assert.match(await card.locator(".legend").innerText(), /(269|27[01])(\.\d+)? ° \(Δ 1(79|8[01])(\.\d+)? °\)/);
+  assert.ok(await card.locator(".fixed").isVisible());
+  await card.locator(".chart").focus();
+  await page.keyboard.press("Escape");
+  assert.equal(await card.locator(".mark-line").count(), 0);
+  assert.ok(!(await card.locator(".fixed").isVisible()));
+  assert.doesNotMatch(await card.locator(".legend").innerText(), /Δ/);
   assert.deepEqual(errors, []);
   await close();
 });

@@ -136,4 +136,11 @@ describe("colours of bodies", () => {
     const bodies = ["base", "arm", "rod", "rod", "", "", "arm"].map((name) => ({ name, style: name === "base" ? "ground" : "bar" }));
     expect(bodyColours(bodies)).toEqual([0, 0, 1, 1, 2, 3, 0]);
   });
+  it("are those of their roles: both sides of an axle and all legs alike", () => {
+    const colours = (names: string[]) => bodyColours(names.map((name) => ({ name, style: name.endsWith("spring") ? "spring" : "bar" })));
+    expect(colours(["right wishbone", "right spring", "right tie rod", "left wishbone", "left spring", "left tie rod"])).toEqual([0, 0, 1, 0, 0, 1]);
+    expect(colours(["arm 1", "rod 1", "arm 2", "rod 2", "platform"])).toEqual([0, 1, 0, 1, 2]);
+    // Numbers of one name alone are no legs.
+    expect(colours(["link 1", "link 2", "link 3"])).toEqual([0, 1, 2]);
+  });
 });

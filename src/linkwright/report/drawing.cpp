@@ -1,8 +1,11 @@
 #include "linkwright/report/drawing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
+#include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +23,20 @@ Place reach_of(const study::Scene& scene, const study::Scene::Disc& disc, std::s
     return disc.radius * std::sqrt(std::max(0.0, 1 - share * share)) + disc.width / 2 * std::abs(share);
   };
   return {reach(x), reach(y), reach(z)};
+}
+
+struct RoleName {
+  std::string_view name, leg;  // the name without side and number, and the number
+};
+
+RoleName role_name(std::string_view name) {
+  for (const std::string_view side : {"left ", "right "})
+    if (name.starts_with(side)) name.remove_prefix(side.size());
+  const std::size_t space = name.rfind(' ');
+  if (space == 0 || space == std::string_view::npos || space + 1 == name.size() ||
+      name.find_first_not_of("0123456789", space + 1) != std::string_view::npos)
+    return {name, {}};
+  return {name.substr(0, space), name.substr(space)};
 }
 
 std::size_t middle_sample(const study::Scene& scene) {
@@ -208,6 +225,15 @@ double nice_step(double span, double divisions) {
   return (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1) * decade;
 }
 
+double degree_step(double span, double divisions) {
+  constexpr std::array steps{10.,  15.,   30.,   45.,   90.,    180.,   360.,
+                             720., 1800., 3600., 7200., 18000., 36000., 72000.};
+  const double least = span / divisions * (1 - 1e-12);
+  if (!(least > 5) || least > steps.back())
+    return nice_step(span, divisions) < least ? nice_step(2.5 * span, divisions) : nice_step(span, divisions);
+  return *std::lower_bound(steps.begin(), steps.end(), least);
+}
+
 std::vector<double> ticks(double low, double high, double step) {
   constexpr int most = 40;
   std::vector<double> out;
@@ -216,6 +242,31 @@ std::vector<double> ticks(double low, double high, double step) {
     const double i = first + k;
     if (!(i * step <= high)) break;
     out.push_back(i == 0 ? 0 : i * step);
+  }
+  return out;
+}
+
+std::vector<std::size_t> role_numbers(const study::Scene& scene) {
+  std::vector<RoleName> names;
+  for (const auto& body : scene.bodies) names.push_back(role_name(body.name));
+  std::map<std::string, std::size_t> known;
+  std::size_t used = 0;
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    using Style = study::Scene::BodyStyle;
+    const Style style = scene.bodies[i].style;
+    if (style == Style::ground || style == Style::axis || style == Style::gap || is_symbol(style)) {
+      out.push_back(0);
+      continue;
+    }
+    const bool of_leg =
+        !names[i].leg.empty() && std::any_of(names.begin(), names.end(), [&](const RoleName& n) {
+          return n.leg == names[i].leg && n.name != names[i].name;
+        });
+    const std::string role = std::string(names[i].name) + (of_leg ? "" : std::string(names[i].leg));
+    const auto before = role.empty() ? known.end() : known.find(role);
+    out.push_back(before != known.end() ? before->second : used++);
+    known.emplace(role, out.back());
   }
   return out;
 }

@@ -50,6 +50,12 @@ std::vector<std::vector<Place>> symbol_lines(study::Scene::BodyStyle style, cons
 /// Whether a body is drawn by symbol_lines.
 bool is_symbol(study::Scene::BodyStyle style);
 
+/// Number of the role of each body, in the order in which roles appear; bodies of one role are drawn alike. A
+/// role is the name without the side ("left tie rod") and, where legs are repeated, without their number:
+/// "rod 2" when another role has a 2, too. Bodies without a name have a role each; ground, axes and symbols
+/// have 0.
+std::vector<std::size_t> role_numbers(const study::Scene& scene);
+
 /// True when every point of the scene exists at the sample; in space its status alone decides, if it has one.
 bool assembled(const study::Scene& scene, std::size_t sample);
 
@@ -64,6 +70,10 @@ std::vector<Place> simplified(const std::vector<Place>& line, double tolerance);
 /// The largest of 1, 2, 5 times a power of ten that is not above `span / divisions`; 1 for a span of 0 or
 /// NaN.
 double nice_step(double span, double divisions);
+
+/// The smallest step of an axis in degrees that is not below `span / divisions`: 1, 2 or 5 times a power of
+/// ten up to 10, then parts of a turn (15, 30, 45, 90, 180, 360) and whole turns.
+double degree_step(double span, double divisions);
 
 /// Multiples of the step (> 0) from low to high, 40 at most: far from zero neighbours can be the same number.
 std::vector<double> ticks(double low, double high, double step);

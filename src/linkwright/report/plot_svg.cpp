@@ -28,8 +28,8 @@ using Style = study::Plot::Style;
 constexpr double width = 640, left = 74, right = 16, top = 14, foot = 46;  // px
 constexpr double line_height = 20;                                         // px, of the legend
 constexpr std::size_t most_points = 3000;                                  // a curve; more cannot be seen
-constexpr std::size_t most_named_curves = 7;                               // more curves are one bundle
-constexpr double rounding = 1e-16;  // of the largest: less than this is zero on a logarithmic axis
+constexpr std::size_t most_named_curves = 6;  // more curves are a bundle, of which the first have names
+constexpr double rounding = 1e-16;            // of the largest: less than this is zero on a logarithmic axis
 // Okabe and Ito's colours; dashes distinguish the curves without them, and those of one colour, too.
 constexpr std::array<std::string_view, 6> colours = {"#0072B2", "#D55E00", "#009E73",
                                                      "#CC79A7", "#E69F00", "#56B4E9"};
@@ -79,6 +79,12 @@ Shown shown_of(const study::Plot& plot, const Table& table) {
   if (!plot.y.empty()) out.y = display_unit(plot.y.front(), most);
   if (plot.style == Style::polar) out.x = out.y;
   return out;
+}
+
+// Whether a polar diagram shows where points go, so that its origin is a place like any other.
+bool is_path(const study::Plot& plot) {
+  return std::all_of(plot.y.begin(), plot.y.end(),
+                     [](const std::string& key) { return key.ends_with("_m") && !key.ends_with("_N_m"); });
 }
 
 std::vector<Curve> curves_of(const study::Plot& plot, const Table& table, const Shown& shown) {
@@ -187,16 +193,16 @@ struct Axes {
   double y(double v) const { return top + (box.y_max - v) / box.height() * inner_height(); }
 };
 
-Axes axes_of(std::initializer_list<const std::vector<Curve>*> drawn, Style style) {
+Axes axes_of(std::initializer_list<const std::vector<Curve>*> drawn, Style style, bool origin, bool upright) {
   Axes axes;
-  axes.height = style == Style::polar ? 420 : 260;
+  axes.height = style == Style::polar || upright ? 420 : 260;
   for (const auto* curves : drawn)
     for (const auto& curve : *curves)
       for (const Place& p : curve.points)
         if (p.finite()) axes.box.add(p.x, p.y);
   if (axes.box.empty()) return axes;
   Box& box = axes.box;
-  if (style == Style::polar) box.add(0, 0);
+  if (origin) box.add(0, 0);
   const auto widen = [](double& low, double& high, double by) { low -= by, high += by; };
   if (style == Style::polar) {
     const double per_pixel =
@@ -216,29 +222,38 @@ Axes axes_of(std::initializer_list<const std::vector<Curve>*> drawn, Style style
   return axes;
 }
 
-void draw_axes(std::string& out, const Axes& axes, const std::string& x_label, const std::string& y_label,
-               bool logarithmic, bool origin) {
+// What stands along an axis.
+struct Side {
+  std::string label;
+  bool degrees = false, logarithmic = false;
+  double step(double span, double divisions) const {
+    if (degrees) return degree_step(span, divisions);
+    return logarithmic ? std::max(1.0, nice_step(span, divisions)) : nice_step(span, divisions);
+  }
+  std::string at(double v) const { return number(logarithmic ? std::pow(10, v) : v); }
+};
+
+void draw_axes(std::string& out, const Axes& axes, const Side& across, const Side& up, bool origin) {
   const double bottom = axes.height - foot;
   std::string lines, texts;
-  for (const double v : ticks(axes.box.x_min, axes.box.x_max, nice_step(axes.box.width(), 6))) {
+  for (const double v : ticks(axes.box.x_min, axes.box.x_max, across.step(axes.box.width(), 6))) {
     put(lines, "M{:.1f} {:.0f}V{:.0f}", axes.x(v), top, bottom);
     put(texts, "<text x=\"{:.1f}\" y=\"{:.0f}\" text-anchor=\"middle\">{}</text>", axes.x(v), bottom + 16,
-        number(v));
+        across.at(v));
   }
-  const double step = nice_step(axes.box.height(), 5);
-  for (const double v : ticks(axes.box.y_min, axes.box.y_max, logarithmic ? std::max(1.0, step) : step)) {
+  for (const double v : ticks(axes.box.y_min, axes.box.y_max, up.step(axes.box.height(), 5))) {
     put(lines, "M{:.0f} {:.1f}H{:.0f}", left, axes.y(v), width - right);
     put(texts, "<text x=\"{:.0f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", left - 6, axes.y(v) + 4,
-        number(logarithmic ? std::pow(10, v) : v));
+        up.at(v));
   }
   put(out, "<path d=\"{}\" stroke=\"#dfe5ea\" fill=\"none\"/><g fill=\"#526170\" font-size=\"11\">{}\n",
       lines, texts);
   put(out, "<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\" font-size=\"12\">{}</text>",
-      (left + width - right) / 2, axes.height - 10, escape(x_label));
+      (left + width - right) / 2, axes.height - 10, escape(across.label));
   put(out,
       "<text transform=\"translate(14,{:.0f}) rotate(-90)\" text-anchor=\"middle\" "
       "font-size=\"12\">{}</text></g>\n",
-      (top + bottom) / 2, escape(y_label));
+      (top + bottom) / 2, escape(up.label));
   if (origin)
     put(out,
         "<path class=\"origin\" d=\"M{0:.1f} {1:.0f}V{2:.0f}M{3:.0f} {4:.1f}H{5:.0f}\" stroke=\"#526170\" "
@@ -283,16 +298,15 @@ void draw_baseline(std::string& out, const Axes& axes, const Curve& curve, std::
       path_of(axes, curve, false), pale, escape(fmt::format("{}: {}", name, curve.label)));
 }
 
-void draw_curve(std::string& out, const Axes& axes, const Curve& curve, std::size_t index, bool bundle,
+void draw_curve(std::string& out, const Axes& axes, const Curve& curve, const Look& look, bool faint,
                 bool points) {
   const std::string path = path_of(axes, curve, points);
-  const Look look = look_of(bundle ? 0 : index);
   put(out,
       "<path class=\"curve\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
       "stroke-dasharray=\"{}\" "
       "stroke-linejoin=\"round\" stroke-linecap=\"{}\" stroke-opacity=\"{}\"><title>{}</title></path>\n",
       path, look.colour, points ? 6 : 1.8, points ? "none" : look.dash, points ? "round" : "butt",
-      bundle ? 0.5 : 1.0, escape(curve.label));
+      faint ? 0.5 : 1.0, escape(curve.label));
 }
 
 }  // namespace
@@ -310,22 +324,35 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
         bands.push_back(std::move(edges));
   if (baseline && !counts) before = curves_of(plot, *baseline, shown);
   const bool raised = plot.logarithmic_y && !polar && !counts && take_logarithms({&curves, &bands, &before});
-  const Axes axes = axes_of({&curves, &bands, &before}, plot.style);
+  const bool upright = plot.upright && !polar && !counts, origin = polar && !is_path(plot);
+  if (upright)
+    for (auto* drawn : {&curves, &bands, &before})
+      for (auto& curve : *drawn)
+        for (Place& p : curve.points) std::swap(p.x, p.y);
+  const Axes axes = axes_of({&curves, &bands, &before}, plot.style, origin, upright);
   const bool bundle = curves.size() > most_named_curves, empty = axes.box.empty();
-  const bool named = !bundle && !counts && (polar || curves.size() > 1);
+  const bool points = plot.style == Style::points;
+  // Of a bundle the first have a name; one that is a family has none but those of its ends.
+  const std::size_t named = counts || (!polar && curves.size() == 1) ? 0
+                            : !bundle                                ? curves.size()
+                            : plot.group.empty()                     ? most_named_curves
+                                                                     : 0;
   struct Sign {
     std::string look, text;
   };
   std::vector<Sign> legend;
-  if (named)
-    for (std::size_t i = 0; i < curves.size(); ++i)
-      legend.push_back({fmt::format("stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"",
-                                    look_of(i).colour, look_of(i).dash),
-                        curves[i].label});
-  else if (bundle && !plot.group.empty())
-    legend.push_back(
-        {fmt::format("stroke=\"{}\" stroke-width=\"2.4\"", colours[0]),
-         fmt::format("{} curves, {} to {}", curves.size(), curves.front().label, curves.back().label)});
+  for (std::size_t i = 0; i < named; ++i)
+    legend.push_back({points ? fmt::format("stroke=\"{}\" stroke-width=\"7\" stroke-linecap=\"round\" "
+                                           "stroke-dasharray=\"0 17\"",
+                                           look_of(i).colour)
+                             : fmt::format("stroke=\"{}\" stroke-width=\"2.4\" stroke-dasharray=\"{}\"",
+                                           look_of(i).colour, look_of(i).dash),
+                      curves[i].label});
+  const std::string_view faint = named ? pale : colours[0];  // of the curves without a name
+  if (bundle)
+    legend.push_back({fmt::format("stroke=\"{}\" stroke-width=\"2.4\"", faint),
+                      fmt::format("{} {}curves, {} to {}", curves.size() - named, named ? "more " : "",
+                                  curves[named].label, curves.back().label)});
   for (const auto& band : bands)
     legend.push_back(
         {fmt::format("stroke=\"{}\" stroke-width=\"12\" stroke-opacity=\"0.16\"", band_colour), band.label});
@@ -365,11 +392,14 @@ std::string plot_svg(const study::Plot& plot, const Table& table, const Table* b
       : counts ? "count"
       : one ? (curves.size() == 1 && plot.group.empty() ? curves.front().label : label_with(*first, shown.y))
             : unit;
-  draw_axes(out, axes, x_label, y_label, plot.logarithmic_y && !polar, polar);
+  const Side along_x{x_label, shown.x.symbol == "°"},
+      along_y{y_label, shown.y.symbol == "°" && !counts, plot.logarithmic_y && !polar};
+  draw_axes(out, axes, upright ? along_y : along_x, upright ? along_x : along_y, origin);
   for (const auto& band : bands) draw_band(out, axes, band);
   for (const auto& curve : before) draw_baseline(out, axes, curve, baseline->name);
   for (std::size_t i = 0; i < curves.size(); ++i)
-    draw_curve(out, axes, curves[i], i, bundle, plot.style == Style::points);
+    draw_curve(out, axes, curves[i], i < named || !bundle ? look_of(i) : Look{faint, "none"},
+               bundle && i >= named, points);
   for (std::size_t i = 0; i < legend.size(); ++i) {
     const double y = axes.height + line_height * (static_cast<double>(i) + 0.5);
     put(out,

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -26,7 +25,7 @@ namespace {
 
 using study::Scene;
 
-// Okabe and Ito's colours, which stay apart for the colour-blind; bodies take them in turn by their names.
+// Okabe and Ito's colours, which stay apart for the colour-blind; bodies take them in turn by their roles.
 constexpr std::array<std::string_view, 6> body_colours = {"#0072B2", "#E69F00", "#009E73",
                                                           "#CC79A7", "#56B4E9", "#D55E00"};
 constexpr std::string_view trace_colour = "#0072B2";
@@ -204,18 +203,10 @@ double usual_length(const Scene& scene, std::size_t sample) {
 // Plates lie under the traces, bars above them, so that traces and pins stay in sight.
 void draw_bodies(std::string& out, const Canvas& canvas, const Scene& scene, std::size_t sample,
                  bool plates) {
-  // Bodies of one name are one body and have one colour; ground, axes and gaps have none.
-  std::map<std::string_view, std::size_t> known;
-  std::size_t used = 0;
-  for (const auto& body : scene.bodies) {
-    std::size_t colour = 0;
-    using Style = Scene::BodyStyle;
-    if (body.style != Style::ground && body.style != Style::axis && body.style != Style::gap) {
-      const auto before = body.name.empty() ? known.end() : known.find(body.name);
-      colour = before != known.end() ? before->second : used++;
-      known.emplace(body.name, colour);
-    }
-    const std::string_view fill = body_colours[colour % body_colours.size()];
+  const std::vector<std::size_t> colours = role_numbers(scene);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const auto& body = scene.bodies[i];
+    const std::string_view fill = body_colours[colours[i] % body_colours.size()];
     if ((body.style == Scene::BodyStyle::plate) == plates) draw_body(out, canvas, scene, body, sample, fill);
   }
 }

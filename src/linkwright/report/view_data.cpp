@@ -180,6 +180,7 @@ Value view_data(const ReportInput& input) {
         b["label"] = band.label;
       });
     if (!p.baseline.empty()) o["baseline"] = p.baseline;
+    if (p.upright) o["upright"] = true;
   });
   out["changes"] = list(result.changes, [](Value& o, const study::Change& c) {
     o["quantity"] = c.quantity;

@@ -72,6 +72,8 @@ struct Plot {
   std::vector<Band> bands = {};
   /// Table with the same columns whose curves are drawn pale behind: the design before; empty = none.
   std::string baseline = {};
+  /// x points up, as the travel of a wheel does in a bump-steer diagram; for lines and points.
+  bool upright = false;
 };
 constexpr std::array<EnumName<Plot::Style>, 5> names(Plot::Style) {
   using Style = Plot::Style;

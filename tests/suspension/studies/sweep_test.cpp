@@ -84,6 +84,26 @@ TEST(SweepStudy, RowsThatAreNotReachedHaveNoExtremes) {
   for (const study::Fact& f : result.facts) EXPECT_THAT(f.label, Not(HasSubstr("over the travel")));
 }
 
+TEST(SweepStudy, TablesBumpSteerWithTheRackInItsMiddle) {
+  const study::Result result = run_text(sample("5US", sweep + racks));
+  const Table* bump = result.table("bump");
+  ASSERT_NE(bump, nullptr);
+  ASSERT_EQ(bump->rows(), 5U);
+  const std::vector<double>&toe = column(result, "toe_rad"), &camber = column(result, "camber_rad"),
+        &travel = column(result, "travel_m");
+  for (std::size_t i = 0; i < 5; ++i) {  // the second of three racks is 0, the third of five travels, too
+    EXPECT_EQ(bump->find("travel_m")->values[i], travel[5 + i]);
+    EXPECT_EQ(bump->find("toe_change_rad")->values[i], toe[5 + i] - toe[7]);
+    EXPECT_EQ(bump->find("camber_change_rad")->values[i], camber[5 + i] - camber[7]);
+  }
+  EXPECT_EQ(travel[7], 0);
+  ASSERT_GE(result.plots.size(), 2U);
+  EXPECT_EQ(result.plots[0].title, "Bump steer: change of toe from static, rack 0 mm");
+  EXPECT_EQ(result.plots[1].title, "Change of camber from static, rack 0 mm");
+  EXPECT_TRUE(result.plots[0].upright && result.plots[1].upright && !result.plots[2].upright);
+  EXPECT_EQ(run_text(sample("5US", sweep + "[output]\nquantities = [\"track\"]\n")).table("bump"), nullptr);
+}
+
 TEST(SweepStudy, LaysAnotherGuideBehindTheCurves) {
   const std::string text = sample("2RS-US", sweep) + "[baseline.mechanism]\nsample = \"RS-SP-US\"\n";
   const study::Result result = run_text(text), other = run_text(sample("RS-SP-US", sweep));
@@ -91,7 +111,8 @@ TEST(SweepStudy, LaysAnotherGuideBehindTheCurves) {
                                      [](const Table& t) { return t.name == "baseline"; });
   ASSERT_NE(baseline, result.tables.end());
   EXPECT_EQ(baseline->find("toe_rad")->values, column(other, "toe_rad"));
-  for (const study::Plot& plot : result.plots) EXPECT_EQ(plot.baseline, "baseline") << plot.name;
+  for (const study::Plot& plot : result.plots)
+    EXPECT_EQ(plot.baseline, plot.table == "bump" ? "baseline bump" : "baseline") << plot.name;
   // From the study that it stands in, too.
   const auto folder = std::filesystem::temp_directory_path() / "linkwright_sweep_study";
   std::filesystem::create_directories(folder);

@@ -313,7 +313,7 @@ class Runner {
     if (q.reactions) {
       std::vector<std::string> sizes;
       for (const LinkageJoint& j : s_.linkage.joints)
-        if (j.type != JointType::gear && sizes.size() < 8) sizes.push_back(identifier(j.name) + "_N");
+        if (j.type != JointType::gear) sizes.push_back(identifier(j.name) + "_N");
       plot("reactions", "Joint forces", sizes);
     }
     if (q.shaking) {
@@ -327,7 +327,7 @@ class Runner {
     if (q.reactions && linked) {
       std::vector<std::string> pairs;
       for (const LinkageJoint& j : s_.linkage.joints)
-        if (j.type != JointType::gear && pairs.size() < 12) {
+        if (j.type != JointType::gear) {
           pairs.push_back(identifier(j.name) + "_x_N");
           pairs.push_back(identifier(j.name) + "_y_N");
         }

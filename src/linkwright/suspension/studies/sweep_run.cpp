@@ -81,6 +81,30 @@ Table sweep_table(const Grid& grid, std::string name) {
   return table;
 }
 
+/// Toe and camber less those of the static position, with the rack at or next to its middle: steering would
+/// hide them. Without rows when the static position is missing.
+Table bump_table(const Grid& grid, std::string name) {
+  Table table{.name = std::move(name)};
+  const std::size_t rack = next_to_zero(grid.study.racks), count = grid.study.travels.size();
+  if (rack >= grid.racks) return table;
+  const std::size_t first = rack * count, still = first + next_to_zero(grid.study.travels);
+  if (grid.solved.positions[still].status != Status::done) return table;
+  const WheelAngles& at_rest = grid.solved.wheels[still].angles;
+  std::vector<double> toe, camber;
+  for (std::size_t i = first; i < first + count; ++i) {
+    const bool there = grid.solved.positions[i].status == Status::done;
+    const WheelAngles& now = grid.solved.wheels[i].angles;
+    toe.push_back(there ? now.toe - at_rest.toe : WheelParameters::missing);
+    camber.push_back(there ? now.camber - at_rest.camber : WheelParameters::missing);
+  }
+  table.add("travel_m", "travel (m)", grid.study.travels);
+  for (const GuideColumn* c : columns_of(grid.study)) {
+    if (c->key == "toe_rad") table.add("toe_change_rad", "change of toe (rad)", toe);
+    if (c->key == "camber_rad") table.add("camber_change_rad", "change of camber (rad)", camber);
+  }
+  return table;
+}
+
 Table limits_table(const std::vector<double>& racks, const std::vector<TravelLimits>& limits) {
   Table table{.name = "limits"};
   std::vector<double> low, high;
@@ -153,6 +177,15 @@ void add_assemblies(study::Result& result, const SweepStudy& s, const GuidePlan&
 }
 
 void add_plots(study::Result& result, const SweepStudy& s) {
+  // As the trade draws them: travel upwards.
+  if (s.travels.size() > 1) {
+    const study::AddPlot from_static{
+        result, {.table = "bump", .x = "travel_m", .scene = scene_name, .upright = true}};
+    const double rack = s.racks[next_to_zero(s.racks)];
+    const std::string at = s.racks.size() > 1 ? fmt::format(", rack {:.4g} mm", 1e3 * rack) : "";
+    from_static("bump-steer", "Bump steer: change of toe from static" + at, {"toe_change_rad"});
+    from_static("bump-camber", "Change of camber from static" + at, {"camber_change_rad"});
+  }
   const study::AddPlot over_travel{
       result,
       {.table = "sweep", .x = "travel_m", .scene = scene_name, .group = s.racks.size() > 1 ? "rack_m" : ""}};
@@ -186,12 +219,15 @@ void add_baseline(study::Result& result, const SweepStudy& s, RunContext& contex
   if (positions == 0) return;
   other = with_travels_of(std::move(other), solved);
   const Grid grid{other, std::move(solved), positions / other.travels.size()};
-  Table table = sweep_table(grid, "baseline");
-  for (study::Plot& plot : result.plots)
-    if (plot.table == "sweep" &&
-        std::all_of(plot.y.begin(), plot.y.end(), [&](const std::string& key) { return table.find(key); }))
-      plot.baseline = table.name;
-  result.tables.push_back(std::move(table));
+  for (const auto& [of, make] : {std::pair{"sweep", &sweep_table}, std::pair{"bump", &bump_table}}) {
+    Table table = make(grid, of == std::string_view("sweep") ? "baseline" : "baseline bump");
+    if (table.columns.size() < 2) continue;
+    for (study::Plot& plot : result.plots)
+      if (plot.table == of &&
+          std::all_of(plot.y.begin(), plot.y.end(), [&](const std::string& key) { return table.find(key); }))
+        plot.baseline = table.name;
+    result.tables.push_back(std::move(table));
+  }
 }
 
 std::string degrees(double radians) { return fmt::format("{:.3f}°", math::degrees(radians)); }
@@ -369,6 +405,8 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
   }
   if (s.assemblies) add_assemblies(result, s, plan);
   result.tables.push_back(hard_point_table(points_of(s.description.guide)));
+  if (Table bump = bump_table(grid, "bump"); bump.columns.size() > 1)
+    result.tables.push_back(std::move(bump));
   add_plots(result, s);
   if (s.baseline) add_baseline(result, s, context);
   add_facts(result, s, grid, centred);
