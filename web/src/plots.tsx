@@ -103,9 +103,9 @@ export function Chart({ label, options, data, link, units = [], emphasise, pick,
       new uPlot(
         {
           ...options(),
-          // Three plots stand side by side on an A4 page; its layout comes too late to be measured.
+          // Three plots stand side by side on an A4 page, in two rows; its layout comes too late to be measured.
           width: state.printing.peek() ? 300 : element.clientWidth || 500,
-          height,
+          height: state.printing.peek() ? 160 : height,
           legend: { show: false },
           hooks: {
             ready: [
