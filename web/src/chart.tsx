@@ -209,9 +209,9 @@ export function Chart({ label, data, curves, x, y, link, present, presentName, b
       return peak && !withPeak && low !== null && high !== null ? base(Math.max(low, peak.low), Math.min(high, peak.high)) : base(low, high);
     };
     const options = (): uPlot.Options => ({
-      // Three plots stand side by side on an A4 page; its layout comes too late to be measured.
+      // Three plots stand side by side on an A4 page, in two rows; its layout comes too late to be measured.
       width: state.printing.peek() ? 300 : element.clientWidth || 500,
-      height,
+      height: state.printing.peek() ? 160 : height,
       legend: { show: false },
       scales: {
         x: { time: false, ori: upright ? 1 : 0, range: (_, low, high) => zoom.current.x ?? [low, high] },

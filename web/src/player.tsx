@@ -124,7 +124,7 @@ function Readout() {
       {state.view.title && scene.title !== state.view.title && <div class="mid"><dt>drawing</dt><dd>{scene.title}</dd></div>}
       <div><dt>{scene.input_label || "input"}</dt><dd id="input-value">{even ? value.toFixed(decimals).replace("-", "−") : format(value, 5)}{unit.symbol === "°" ? "°" : ` ${unit.symbol}`}</dd></div>
       {rowsOf(state.whole.value!) > 1 && <div><dt>{scene.second_label || "second input"}</dt><dd id="second-value">{quantity(scene.second_key ?? "", scene.second![state.row.value], 5)}</dd></div>}
-      {tracer && <div class="mid"><dt>{`point ${tracer.name}`}</dt><dd>{p ? `${[p.x, p.y, ...(p.z === undefined ? [] : [p.z])].map((v) => format(v * length.factor, 5)).join(", ")} ${length.symbol}` : "–"}</dd></div>}
+      {tracer && <div class="mid"><dt>{`point ${tracer.name}`}</dt><dd>{p ? `${[p.x, p.y, ...(p.z === undefined ? [] : [p.z])].map((v) => format(Math.abs(v) < 1e-12 * extent.value ? 0 : v * length.factor, 5)).join(", ")} ${length.symbol}` : "–"}</dd></div>}
       <div><dt>state</dt><dd class={good ? "ok" : "fail"}>{good ? "assembled" : (scene.status[Math.round(at)] ?? "no assembly").replace(/_/g, " ")}</dd></div>
     </dl>
   );
@@ -186,11 +186,13 @@ export function Machine() {
         <span class="spring" />
         {spatial && <ViewBar />}
         {spatial && <button type="button" class="switch" id="parallel" aria-pressed={state.parallel.value} title="Parallel projection instead of perspective (P)" onClick={project}>Parallel</button>}
+        <span class="together">
         <button type="button" title="Zoom out (−)" aria-label="Zoom out" onClick={() => zoom(0.8)}>−</button>
         <button type="button" title="Zoom in (+, or Ctrl + wheel)" aria-label="Zoom in" onClick={() => zoom(1.25)}>+</button>
         <button type="button" title="Everything in view (0 or double click)" onClick={fit}>Fit</button>
-        {document.fullscreenEnabled && <button type="button" id="full-screen" title="Full screen (M)" aria-label="Full screen" onClick={fullScreen}>⛶</button>}
+        {document.fullscreenEnabled && <button type="button" id="full-screen" title="Full screen (M)" aria-label="Full screen" onClick={fullScreen}><svg viewBox="0 0 14 14" aria-hidden="true"><path d="M1 5V1h4M9 1h4v4M13 9v4H9M5 13H1V9" /></svg></button>}
         <ExportMenu />
+        </span>
       </div>
       <ArrowBar />
       <Readout />

@@ -54,7 +54,7 @@ export interface Size {
 export function fit(box: Box, size: Size, margin = 58): Camera {
   const width = box.right - box.left;
   const height = box.top - box.bottom;
-  const least = Math.max(width, height, 1e-9) / 5;
+  const least = Math.max(width, height, 1e-9) / 10;
   return {
     x: (box.left + box.right) / 2,
     y: (box.bottom + box.top) / 2,
