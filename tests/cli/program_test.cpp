@@ -111,6 +111,48 @@ TEST_F(Program, ColoursOnDemandOnly) {
   ::unsetenv("CLICOLOR_FORCE");
 }
 
+TEST_F(Program, CompareWritesOneReportOfSeveral) {
+  EXPECT_EQ(run({"run", "s.toml", "-q"}), 0);
+  std::string text(study::sample::example);
+  text.replace(text.find("A lever"), 7, "A longer lever");
+  text.replace(text.find("= 400"), 5, "= 500");
+  text.replace(text.find("equals = 400"), 12, "equals = 500");
+  write("long.toml", text);
+  EXPECT_EQ(run({"compare", "out/s", "long.toml"}), 0) << err_;
+  EXPECT_EQ(out_,
+            "A lever | A longer lever\n"
+            "  2 compared: 1 of 2 figures differ.\n"
+            "  status  done\n"
+            "  1       A lever: done\n"
+            "  2       A longer lever: done\n"
+            "  length  0.4 m\n"
+            "checks: 2 passed, 0 failed\n"
+            "  passed  best.height_mm at A lever = 400  (equals 400 within 1e-09)\n"
+            "  passed  best.height_mm at A longer lever = 500  (equals 500 within 1e-09)\n"
+            "results in compare:\n"
+            "  result.json\n"
+            "  figures.csv\n"
+            "  report.html\n"
+            "open compare/report.html\n");
+  EXPECT_EQ(result("compare/result.json").find("study")->find("compare")->as_array().size(), 2u);
+  EXPECT_EQ(text_of(folder_ / "compare/figures.csv"),
+            "name,study_1,study_2,difference_2_to_1,status\r\n"
+            "length (m),0.4,0.4,0,done\r\n"
+            "height_m,0.4,0.5,0.09999999999999998,done\r\n");
+  EXPECT_EQ(run({"new", "wheel", "wheel.toml"}), 0);
+  text.replace(text.find("kind = \"synthesis\""), 18, "kind = \"analysis\"");
+  text.replace(text.find("sample.lever"), 12, "sample.wheel");
+  text.erase(text.find("[optimiser]"), text.find("[[check]]") - text.find("[optimiser]"));
+  text.erase(text.find("type = \"angle\"\n"), 15);
+  write("wheel.toml", text);
+  EXPECT_EQ(run({"compare", "s.toml", "wheel.toml"}), 2);
+  EXPECT_EQ(err_,
+            "wheel.toml: error: is a study of analysis/sample.wheel, but s.toml is one of "
+            "synthesis/sample.lever/angle; only studies of one kind are compared\n");
+  EXPECT_EQ(run({"compare", "compare", "s.toml"}), 2);
+  EXPECT_EQ(err_, "compare/result.json: error: is a comparison; compare the studies that it is made of\n");
+}
+
 TEST_F(Program, FailedCheckIsOne) {
   EXPECT_EQ(run({"run", "s.toml", "--set", "check[0].equals=1"}), 1);
   EXPECT_THAT(

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "linkwright/app/checkpoint_file.h"
+#include "linkwright/app/compare.h"
 #include "linkwright/app/result_json.h"
 #include "linkwright/app/run.h"
 #include "linkwright/cli/arguments.h"
@@ -69,6 +70,18 @@ void open_report(const std::vector<fs::path>& written) {
   fmt::print(stderr, "there is no report to open: output.formats of the study does not list html\n");
 }
 
+/// The end of a run: what there is to say, and the report on the screen if that is wanted.
+void print_outcome(const Arguments& arguments, const study::Study& study, const app::RunOutcome& outcome,
+                   const std::vector<fs::path>& written, const Diagnostics& problems) {
+  if (arguments.json)
+    fmt::print("{}", study::to_json_readable(app::result_json(study, outcome.result, outcome.record)));
+  else if (!arguments.quiet)
+    fmt::print("{}", summary(study.common.title, outcome.result, written, wants_colours(Stream::out)));
+  std::fflush(stdout);  // the answer stands before what is said about it
+  print_diagnostics(problems);
+  if (arguments.open) open_report(written);
+}
+
 int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   RunContext context;
   const Interruptible guard(context);
@@ -103,14 +116,86 @@ int run(const Arguments& arguments, std::span<const study::Kind> kinds) {
   outcome.result.diagnostics.insert(outcome.result.diagnostics.begin(), diagnostics.begin(),
                                     diagnostics.end());
   const std::vector<fs::path> written = app::write_results(*study, outcome, folder, problems);
-  if (arguments.json)
-    fmt::print("{}", study::to_json_readable(app::result_json(*study, outcome.result, outcome.record)));
-  else if (!arguments.quiet)
-    fmt::print("{}", summary(study->common.title, outcome.result, written, wants_colours(Stream::out)));
-  std::fflush(stdout);  // the answer stands before what is said about it
-  print_diagnostics(problems);
+  print_outcome(arguments, *study, outcome, written, problems);
   if (!arguments.quiet) offer_to_resume(outcome.result, checkpoint, folder);
-  if (arguments.open) open_report(written);
+  return has_errors(problems) ? bad_input : app::exit_code(outcome.result);
+}
+
+/// What the run of a result that is computed again finds in its folder; nothing is kept there.
+class KeptBefore final : public Checkpoint {
+ public:
+  explicit KeptBefore(const app::CheckpointFile& kept) : kept_(kept) {}
+  Value find(std::string_view name) const override { return kept_.find(name); }
+  void keep(std::string_view, const Value&) override {}
+  std::chrono::duration<double> interval() const override { return std::chrono::hours(1); }
+
+ private:
+  const app::CheckpointFile& kept_;
+};
+
+/// Runs a study for a comparison, with what a run has left in its folder, if it is of the same study.
+app::RunOutcome run_compared(const app::ComparisonInput& input, RunContext& context) {
+  app::CheckpointFile kept(input.folder / app::checkpoint_name, app::checkpoint_owner(input.study));
+  Diagnostics unused;
+  const bool usable = !input.folder.empty() && kept.load(unused) && kept.size() > 0;
+  KeptBefore before(kept);
+  context.set_checkpoint(usable ? &before : nullptr);
+  try {
+    return app::run_and_record(input.study, context);
+  } catch (const CheckpointError&) {
+    context.set_checkpoint(nullptr);
+    return app::run_and_record(input.study, context);
+  }
+}
+
+int compare(const Arguments& arguments, std::span<const study::Kind> kinds) {
+  RunContext context;
+  const Interruptible guard(context);
+  context.set_threads(arguments.threads);
+  Diagnostics diagnostics;
+  const std::vector<fs::path> paths(arguments.inputs.begin(), arguments.inputs.end());
+  std::vector<app::ComparisonInput> inputs;
+  for (const fs::path& path : paths)
+    if (auto input = app::load_compared(path, kinds, diagnostics)) inputs.push_back(std::move(*input));
+  const bool read = inputs.size() == paths.size();
+  for (std::size_t i = 1; read && i < inputs.size(); ++i)
+    if (inputs[i].study.kind != inputs[0].study.kind)
+      diagnostics.push_back(
+          {Diagnostic::Severity::error,
+           paths[i].string(),
+           {},
+           {},
+           fmt::format("is a study of {}, but {} is one of {}", name_of(*inputs[i].study.kind),
+                       paths[0].string(), name_of(*inputs[0].study.kind)),
+           "only studies of one kind are compared"});
+  const fs::path folder = arguments.out.empty() ? fs::path("compare") : fs::path(arguments.out);
+  if (!read || has_errors(diagnostics) || !app::prepare_folder(folder, diagnostics)) {
+    print_diagnostics(diagnostics);
+    return bad_input;
+  }
+  print_diagnostics(diagnostics);
+
+  std::vector<const study::Study*> studies;
+  for (const app::ComparisonInput& input : inputs) studies.push_back(&input.study);
+  const std::vector<std::string> names = app::names_of(paths, studies);
+  std::vector<app::Compared> all;
+  app::RunOutcome outcome;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const ProgressBar bar(context, arguments.quiet);
+    app::RunOutcome own = run_compared(inputs[i], context);
+    if (i == 0)
+      outcome.record = own.record;
+    else
+      outcome.record.seconds += own.record.seconds;
+    all.push_back({names[i], inputs[i].study, std::move(own.result)});
+  }
+  outcome.result = app::compare(all);
+  outcome.command = "linkwright compare";
+  for (const std::string& input : arguments.inputs) outcome.command += " " + input;
+  Diagnostics problems;
+  const study::Study study = app::comparison_study(all);
+  const std::vector<fs::path> written = app::write_results(study, outcome, folder, problems);
+  print_outcome(arguments, study, outcome, written, problems);
   return has_errors(problems) ? bad_input : app::exit_code(outcome.result);
 }
 
@@ -141,7 +226,7 @@ int program(int argc, const char* const* argv, std::span<const study::Kind> kind
     case Command::check:
       return check(arguments, kinds);
     case Command::compare:
-      return bad_input;
+      return compare(arguments, kinds);
     case Command::make:
       return make_study(arguments, kinds);
     case Command::examples:

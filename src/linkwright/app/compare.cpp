@@ -1,0 +1,493 @@
+#include "linkwright/app/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "linkwright/app/run.h"
+#include "linkwright/core/check.h"
+#include "linkwright/core/status.h"
+#include "linkwright/core/units.h"
+#include "linkwright/study/answer.h"
+#include "linkwright/study/read.h"
+
+namespace linkwright::app {
+namespace fs = std::filesystem;
+namespace {
+
+using study::Fact;
+using study::Plot;
+using study::Scene;
+
+/// More curves than this in one diagram are a bundle; then each column gets a diagram of its own.
+constexpr std::size_t most_curves = 6;
+
+bool same(double a, double b, double scale) {
+  return std::isnan(a) ? std::isnan(b) : std::abs(a - b) <= 1e-9 * scale;
+}
+bool same(const std::vector<double>& a, const std::vector<double>& b) {
+  double scale = 0;
+  for (const double v : a)
+    if (std::isfinite(v)) scale = std::max(scale, std::abs(v));
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(), [&](double x, double y) { return same(x, y, scale); });
+}
+
+/// "toe_deg" of the second study -> "toe_2_deg"; the unit stays at the end.
+std::string key_with(std::string_view key, std::string_view tag) {
+  const auto parts = split_unit(key);
+  return parts ? fmt::format("{}_{}_{}", parts->base, tag, parts->unit->suffix)
+               : fmt::format("{}_{}", key, tag);
+}
+
+/// The unit of a text such as "N m"; nothing when it is none that keys have.
+std::optional<UnitKey> unit_in(const std::string& text) {
+  for (const Dimension dimension : all_dimensions())
+    for (const Unit& unit : units(dimension))
+      if (readable_unit(unit.suffix) == text) return UnitKey{{}, &unit, dimension};
+  return std::nullopt;
+}
+
+/// A number with its unit, also as a symbol ("67.6°", "0.3 m²"); nothing when more follows ("3 mm at point
+/// 5").
+std::optional<study::FactValue> number_of(const Fact& fact) {
+  double value = 0;
+  const char* const end = fact.text.data() + fact.text.size();
+  const auto [behind, error] = std::from_chars(fact.text.data(), end, value);
+  if (error != std::errc()) return std::nullopt;
+  const std::string unit(behind + (behind != end && *behind == ' '), end);
+  constexpr std::size_t longest_symbol = 8;  // "mm/s²"
+  const bool words = unit.size() > longest_symbol || unit.find_first_of("0123456789,;(") != std::string::npos;
+  if (words && !unit_in(unit)) return std::nullopt;
+  return study::FactValue{value, unit};
+}
+
+/// The number of a fact in a unit; NaN if it has no number or another dimension.
+double value_in(const Fact& fact, const std::string& unit) {
+  const auto value = number_of(fact);
+  if (!value) return nan;
+  if (value->unit == unit) return value->value;
+  const auto from = unit_in(value->unit), to = unit_in(unit);
+  if (!from || !to || from->dimension != to->dimension) return nan;
+  return to->unit->from_si(from->unit->to_si(value->value));
+}
+
+const Fact* find_fact(const study::Result& result, std::string_view label) {
+  for (const Fact& fact : result.facts)
+    if (fact.label == label) return &fact;
+  return nullptr;
+}
+
+std::string percent(double value, double first) {
+  const double share = 100 * (value / first - 1);
+  return std::isfinite(share) && value != first ? fmt::format(" ({:+.3g} %)", share) : std::string();
+}
+
+class Merger {
+ public:
+  explicit Merger(std::span<const Compared> all) : all_(all), first_(all.front().result) {}
+
+  study::Result merged() {
+    studies();
+    facts();
+    objectives();
+    for (const Scene& scene : first_.scenes) scenes(scene);
+    for (const Plot& plot : first_.plots)
+      if (plot.scene.empty() || drawn(plot.scene)) diagrams(plot);
+    solutions();
+    checks();
+    out_.headline =
+        fmt::format("{} compared: {} of {} figures differ.", all_.size(), different_, figures_.names.size());
+    if (!figures_.names.empty()) out_.tables.insert(out_.tables.begin(), figures());
+    for (Table& table : differences_) out_.tables.push_back(std::move(table));
+    return std::move(out_);
+  }
+
+ private:
+  static std::string tag(std::size_t study) { return std::to_string(study + 1); }
+
+  bool drawn(std::string_view scene) const {
+    return std::any_of(out_.scenes.begin(), out_.scenes.end(),
+                       [&](const Scene& s) { return s.name == scene; });
+  }
+
+  /// What each study is and how it came out; the comparison is as good as the worst of them.
+  void studies() {
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      const study::Result& result = all_[i].result;
+      const study::Verdict verdict = study::answer_of(result).verdict;
+      out_.facts.push_back({tag(i), fmt::format("{}: {}", all_[i].name, to_string(result.status)),
+                            verdict == study::Verdict::passed   ? Fact::Verdict::good
+                            : verdict == study::Verdict::failed ? Fact::Verdict::bad
+                                                                : Fact::Verdict::plain});
+      if (out_.status == Status::done) out_.status = result.status;
+      for (Diagnostic d : result.diagnostics) {
+        d.message = fmt::format("{}: {}", all_[i].name, d.message);
+        out_.diagnostics.push_back(std::move(d));
+      }
+    }
+  }
+
+  void figure(std::string label, const std::vector<double>& values) {
+    figures_.names.push_back(std::move(label));
+    values_.push_back(values);
+    different_ += std::any_of(values.begin(), values.end(), [&](double v) { return v != values.front(); });
+  }
+
+  /// Equal texts once, different ones side by side, with the difference to the first.
+  void facts() {
+    std::vector<std::string> labels;
+    for (const Compared& one : all_)
+      for (const Fact& fact : one.result.facts)
+        if (std::find(labels.begin(), labels.end(), fact.label) == labels.end()) labels.push_back(fact.label);
+    for (const std::string& label : labels) {
+      Fact fact{label, {}, Fact::Verdict::plain};
+      std::set<std::string> texts;
+      std::string unit;
+      std::vector<double> values;
+      for (const Compared& one : all_) {
+        const Fact* own = find_fact(one.result, label);
+        texts.insert(own ? own->text : "");
+        if (own && own->verdict == Fact::Verdict::bad) fact.verdict = Fact::Verdict::bad;
+        if (own && values.empty())
+          if (const auto value = number_of(*own)) unit = value->unit;
+        values.push_back(own ? value_in(*own, unit) : nan);
+        fact.text += values.size() == 1 ? "" : " | ";
+        fact.text += own ? own->text : "-";
+        fact.text += percent(values.back(), values.front());
+      }
+      if (texts.size() == 1) fact.text = *texts.begin();
+      out_.facts.push_back(fact);
+      if (!std::isnan(values.front()))
+        figure(unit.empty() ? label : fmt::format("{} ({})", label, unit), values);
+    }
+  }
+
+  void objectives() {
+    if (first_.solutions.empty() || !first_.solutions.front().objectives.is_object()) return;
+    for (const Value::Member& member : first_.solutions.front().objectives.as_object()) {
+      std::vector<double> values;
+      for (const Compared& one : all_) {
+        const Value* v = one.result.solutions.empty() || !one.result.solutions.front().objectives.is_object()
+                             ? nullptr
+                             : one.result.solutions.front().objectives.find(member.key);
+        values.push_back(v && v->is_number() ? v->as_number() : nan);
+      }
+      if (!std::isnan(values.front())) figure(member.key, values);
+    }
+  }
+
+  Table figures() {
+    figures_.name = "figures";
+    const auto add = [&](std::string key, std::string label, auto&& value) {
+      std::vector<double> column;
+      for (const std::vector<double>& row : values_) column.push_back(value(row));
+      figures_.add(std::move(key), std::move(label), std::move(column));
+    };
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      add("study_" + tag(i), all_[i].name, [&](const auto& row) { return row[i]; });
+    for (std::size_t i = 1; i < all_.size(); ++i)
+      add(fmt::format("difference_{}_to_1", tag(i)), fmt::format("{} minus {}", all_[i].name, all_[0].name),
+          [&](const auto& row) { return row[i] - row[0]; });
+    return std::move(figures_);
+  }
+
+  Table& made(std::vector<Table>& tables, const std::string& name) {
+    for (Table& table : tables)
+      if (table.name == name) return table;
+    tables.push_back({.name = name});
+    return tables.back();
+  }
+
+  static void put(Table& table, std::string key, std::string label, std::vector<double> values) {
+    if (!table.find(key)) table.add(std::move(key), std::move(label), std::move(values));
+  }
+
+  /// The columns of a key, one of each study; empty if a study lacks it.
+  std::vector<const Column*> columns(const std::string& table, const std::string& key) const {
+    std::vector<const Column*> found;
+    for (const Compared& one : all_) {
+      const Table* own = one.result.table(table);
+      const Column* column = own ? own->find(key) : nullptr;
+      if (!column) return {};
+      found.push_back(column);
+    }
+    return found;
+  }
+
+  bool agree(const std::string& table, const std::string& key) const {
+    const auto found = columns(table, key);
+    return !found.empty() && std::all_of(found.begin(), found.end(), [&](const Column* column) {
+      return same(found.front()->values, column->values);
+    });
+  }
+
+  /// Curves of all studies over each other: side by side in one table where they have the same inputs, else
+  /// row after row with the study as a column. Maps and histograms cannot lie over each other.
+  void diagrams(const Plot& plot) {
+    if (plot.style == Plot::Style::map || plot.style == Plot::Style::histogram) return;
+    std::vector<std::string> keys;
+    const std::size_t step = plot.style == Plot::Style::polar ? 2 : 1;
+    for (std::size_t k = 0; k + step <= plot.y.size(); k += step) {
+      bool all_have_it = true;
+      for (std::size_t j = k; j < k + step; ++j)
+        all_have_it = all_have_it && !columns(plot.table, plot.y[j]).empty();
+      if (all_have_it) keys.insert(keys.end(), plot.y.begin() + k, plot.y.begin() + k + step);
+    }
+    if (keys.empty()) return;
+    const std::vector<std::string> inputs = [&] {
+      std::vector<std::string> out;
+      for (const std::string& key : {plot.x, plot.group})
+        if (!key.empty()) out.push_back(key);
+      return out;
+    }();
+    const bool aligned = !inputs.empty() && std::all_of(inputs.begin(), inputs.end(), [&](const auto& key) {
+      return agree(plot.table, key);
+    });
+    const bool stackable =
+        step == 1 && plot.group.empty() && !plot.x.empty() && !columns(plot.table, plot.x).empty();
+    if (!aligned && !stackable) return;
+
+    const bool split = keys.size() / step * all_.size() > most_curves;
+    for (std::size_t k = 0; k < keys.size(); k += split ? step : keys.size()) {
+      Plot own = plot;
+      const std::vector<std::string> some(keys.begin() + k, keys.begin() + (split ? k + step : keys.size()));
+      if (split) {
+        own.name += "-" + some.front();
+        std::string label = columns(plot.table, some.front()).front()->label;
+        own.title += ": " + label.substr(0, label.rfind(" ("));
+      }
+      own.bands.clear();
+      own.baseline.clear();
+      if (aligned)
+        side_by_side(own, inputs, some, step);
+      else
+        stacked(own, some);
+      out_.plots.push_back(std::move(own));
+    }
+  }
+
+  void side_by_side(Plot& plot, const std::vector<std::string>& inputs, const std::vector<std::string>& keys,
+                    std::size_t step) {
+    Table& table = made(out_.tables, plot.table);
+    Table& difference = made(differences_, plot.table + "-differences");
+    if (table.columns.empty()) statuses(table, plot.table);
+    difference.status = table.status;
+    for (const std::string& key : inputs) {
+      const Column* column = columns(plot.table, key).front();
+      put(table, key, column->label, column->values);
+      put(difference, key, column->label, column->values);
+    }
+    plot.y.clear();
+    for (std::size_t k = 0; k < keys.size(); k += step)
+      for (std::size_t i = 0; i < all_.size(); ++i)
+        for (std::size_t j = k; j < k + step; ++j) {
+          const auto found = columns(plot.table, keys[j]);
+          const std::string key = key_with(keys[j], tag(i));
+          put(table, key, fmt::format("{}: {}", all_[i].name, found[i]->label), found[i]->values);
+          plot.y.push_back(key);
+          if (i == 0) continue;
+          std::vector<double> values;
+          for (std::size_t row = 0; row < found[i]->values.size(); ++row)
+            values.push_back(found[i]->values[row] - found[0]->values[row]);
+          put(difference, key_with(keys[j], fmt::format("{}_minus_1", tag(i))),
+              fmt::format("{} minus {}: {}", all_[i].name, all_[0].name, found[i]->label), std::move(values));
+        }
+  }
+
+  /// A row is done where it is so in all studies.
+  void statuses(Table& table, const std::string& name) {
+    for (const Compared& one : all_) {
+      const std::vector<std::string>& own = one.result.table(name)->status;
+      if (table.status.empty()) table.status = own;
+      for (std::size_t row = 0; row < own.size() && row < table.status.size(); ++row)
+        if (table.status[row] == "done") table.status[row] = own[row];
+    }
+  }
+
+  void stacked(Plot& plot, const std::vector<std::string>& keys) {
+    const std::string source = plot.table;
+    plot.table += "-of-each";
+    plot.group = "study";
+    plot.y = keys;
+    plot.scene.clear();
+    Table& table = made(out_.tables, plot.table);
+    std::vector<std::string> all_keys = keys;
+    all_keys.insert(all_keys.begin(), plot.x);
+    if (table.columns.empty()) {
+      std::vector<double> study;
+      for (std::size_t i = 0; i < all_.size(); ++i) {
+        const Table& own = *all_[i].result.table(source);
+        study.insert(study.end(), own.rows(), static_cast<double>(i + 1));
+        for (std::size_t row = 0; row < own.rows(); ++row)
+          table.status.push_back(own.status.empty() ? "done" : own.status[row]);
+      }
+      table.add("study", "study", std::move(study));
+    }
+    for (const std::string& key : all_keys) {
+      std::vector<double> values;
+      const auto found = columns(source, key);
+      for (const Column* column : found)
+        values.insert(values.end(), column->values.begin(), column->values.end());
+      put(table, key, found.front()->label, std::move(values));
+    }
+  }
+
+  /// The scene of another study that shows the same: that of its best solution, or of the same name.
+  const Scene* counterpart(const Scene& scene, const study::Result& other) const {
+    const bool best = !first_.solutions.empty() && first_.solutions.front().scene == scene.name;
+    if (best && other.solutions.empty()) return nullptr;
+    const std::string& name = best ? other.solutions.front().scene : scene.name;
+    for (const Scene& s : other.scenes)
+      if (s.name == name) return &s;
+    return nullptr;
+  }
+
+  /// A scene of the first study with the others behind it; those with other inputs get a scene of their own.
+  void scenes(const Scene& scene) {
+    // Of several solutions, the best ones are compared.
+    if (!first_.solutions.empty() && !first_.solutions.front().scene.empty() &&
+        first_.solutions.front().scene != scene.name)
+      return;
+    Scene together = scene;
+    std::vector<Scene> apart;
+    for (std::size_t i = 1; i < all_.size(); ++i) {
+      const Scene* other = counterpart(scene, all_[i].result);
+      if (!other) continue;
+      if (same(scene.input, other->input) && same(scene.second, other->second) &&
+          scene.spatial() == other->spatial()) {
+        add_lines_of(together, *other, all_[i].name);
+      } else {
+        Scene alone = *other;
+        alone.name = fmt::format("{}-{}", scene.name, tag(i));
+        alone.title = all_[i].name;
+        apart.push_back(std::move(alone));
+      }
+    }
+    together.title = apart.size() + 1 == all_.size()
+                         ? all_[0].name
+                         : fmt::format("{}, the others dash-dotted", all_[0].name);
+    out_.scenes.push_back(std::move(together));
+    for (Scene& alone : apart) out_.scenes.push_back(std::move(alone));
+  }
+
+  static void add_lines_of(Scene& scene, const Scene& other, const std::string& name) {
+    const int before = static_cast<int>(scene.points.size());
+    scene.points.insert(scene.points.end(), other.points.begin(), other.points.end());
+    for (Scene::Body body : other.bodies) {
+      if (body.style != Scene::BodyStyle::bar && body.style != Scene::BodyStyle::plate) continue;
+      if (body.style == Scene::BodyStyle::plate && body.points.size() > 2)
+        body.points.push_back(body.points.front());  // its outline
+      for (int& point : body.points) point += before;
+      body.name = fmt::format("{} of {}", body.name, name);
+      body.style = Scene::BodyStyle::ground;  // thin, grey and dash-dotted
+      scene.bodies.push_back(std::move(body));
+    }
+    for (Scene::Trace trace : other.traces) {
+      trace.point += before;
+      trace.name = fmt::format("{} of {}", trace.name, name);
+      scene.traces.push_back(std::move(trace));
+    }
+  }
+
+  void solutions() {
+    for (const Compared& one : all_) {
+      if (one.result.solutions.empty()) continue;
+      study::Solution best = one.result.solutions.front();
+      best.label = best.label.empty() ? one.name : fmt::format("{}: {}", one.name, best.label);
+      best.scene = out_.scenes.empty() ? "" : out_.scenes.front().name;
+      out_.solutions.push_back(std::move(best));
+    }
+  }
+
+  void checks() {
+    for (const Compared& one : all_)
+      for (study::Check check : one.result.checks) {
+        check.at = check.at.empty() ? one.name : fmt::format("{}, {}", one.name, check.at);
+        out_.checks.push_back(std::move(check));
+      }
+  }
+
+  std::span<const Compared> all_;
+  const study::Result& first_;
+  study::Result out_;
+  Table figures_;                            ///< its rows
+  std::vector<std::vector<double>> values_;  ///< of the rows, one a study
+  std::size_t different_ = 0;                ///< rows
+  std::vector<Table> differences_;
+};
+
+}  // namespace
+
+std::optional<ComparisonInput> load_compared(const fs::path& path, std::span<const study::Kind> kinds,
+                                             Diagnostics& diagnostics) {
+  const auto refuse = [&](const fs::path& file, std::string message, std::string hint) {
+    diagnostics.push_back(
+        {Diagnostic::Severity::error, file.string(), {}, {}, std::move(message), std::move(hint)});
+    return std::nullopt;
+  };
+  const bool folder = fs::is_directory(path);
+  const fs::path file = folder ? path / "result.json" : path;
+  if (folder && !fs::exists(file))
+    return refuse(path, "holds no result.json", "name the folder of a run, or a study, which is then run");
+  if (folder || file.extension() == ".json") {
+    const std::size_t before = diagnostics.size();
+    const Value document = study::read_file(file, diagnostics);
+    if (diagnostics.size() != before) return std::nullopt;
+    const Value *own = document.find("study"), *status = document.find("status");
+    if (own && own->is_object() && document.find("study_sha256") && status && status->is_string()) {
+      if (own->find("compare"))
+        return refuse(file, "is a comparison", "compare the studies that it is made of");
+      if (status->as_string() == to_string(Status::deadline) ||
+          status->as_string() == to_string(Status::cancelled))
+        return refuse(file, "was stopped before its end and cannot be computed again",
+                      "let it end with --resume, or compare its study");
+      auto study = study::prepare(*own, file.string(), file.parent_path(), kinds, diagnostics);
+      if (!study) return std::nullopt;
+      return ComparisonInput{std::move(*study), file.parent_path()};
+    }
+  }
+  auto study = load_study(path, {}, kinds, diagnostics);
+  if (!study) return std::nullopt;
+  return ComparisonInput{std::move(*study), {}};
+}
+
+std::vector<std::string> names_of(std::span<const fs::path> paths,
+                                  std::span<const study::Study* const> studies) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::string& title = studies[i]->common.title;
+    const auto with_it = std::count_if(studies.begin(), studies.end(), [&](const study::Study* other) {
+      return other->common.title == title;
+    });
+    names.push_back(title.empty() || with_it > 1 ? paths[i].string() : title);
+  }
+  return names;
+}
+
+study::Result compare(std::span<const Compared> all) {
+  LINKWRIGHT_REQUIRE(all.size() >= 2, "a comparison needs two results, got {}", all.size());
+  return Merger(all).merged();
+}
+
+study::Study comparison_study(std::span<const Compared> all) {
+  LINKWRIGHT_REQUIRE(!all.empty(), "a comparison of nothing");
+  study::Study study;
+  study.kind = all.front().study.kind;
+  study.common.units = all.front().study.common.units;
+  study.common.output.units = all.front().study.common.output.units;
+  study.common.output.digits = all.front().study.common.output.digits;
+  study.canonical["compare"] = Value::array();
+  for (const Compared& one : all) {
+    study.common.title += (study.common.title.empty() ? "" : " | ") + one.name;
+    study.canonical["compare"].push_back(one.study.canonical);
+  }
+  return study;
+}
+
+}  // namespace linkwright::app
