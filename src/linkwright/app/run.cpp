@@ -59,6 +59,10 @@ std::optional<study::Study> load_study(const fs::path& file, const RunOptions& o
   if (diagnostics.size() != before) return std::nullopt;
   auto study = study::prepare(document, file.string(), file.parent_path(), kinds, diagnostics);
   name_overrides(diagnostics, changes);
+  if (options.seed)
+    for (Diagnostic& d : diagnostics)
+      if (d.file == changes.back().origin && d.message == "unknown key")
+        d = {d.severity, d.file, {}, {}, "this kind of study has no seeds", "leave out --seed"};
   return study;
 }
 

@@ -57,7 +57,12 @@ Arguments parse_arguments(int argc, const char* const* argv) {
       ->check(CLI::Range(0, 4096));
   run->add_option("--time-limit", arguments.time_limit,
                   "time limit in seconds, after which the best result so far is the answer")
-      ->check(CLI::PositiveNumber);
+      ->check([](const std::string& text) {
+        double seconds = 0;
+        return CLI::detail::lexical_cast(text, seconds) && seconds > 0
+                   ? std::string()
+                   : "is '" + text + "', must be a number of seconds, more than 0";
+      });
   run->add_flag("--resume", arguments.resume,
                 "continue an interrupted run of the same study in the same folder; without it, start again");
   run->add_flag("--json", arguments.json, "print result.json instead of the summary");
