@@ -98,7 +98,8 @@ TEST(Arguments, WrongUsage) {
   EXPECT_THAT(wrong({"run", "s.toml", "--thread", "3"}), HasSubstr("did you mean '--threads'?"));
   EXPECT_THAT(wrong({"run", "s.toml", "--seed", "-3"}), HasSubstr("--seed: Value -3 not in range"));
   EXPECT_THAT(wrong({"run", "s.toml", "--seed", "x"}), HasSubstr("--seed: Value x not in range"));
-  EXPECT_THAT(wrong({"run", "s.toml", "--time-limit", "0"}), HasSubstr("--time-limit: Value 0 not in range"));
+  EXPECT_THAT(wrong({"run", "s.toml", "--time-limit", "0"}),
+              HasSubstr("--time-limit: is '0', must be a number of seconds, more than 0"));
   EXPECT_THAT(wrong({"run"}), HasSubstr("STUDY is required"));
 }
 

@@ -63,7 +63,7 @@ TEST(ReadCsv, TellsWhatIsWrongAndWhere) {
   EXPECT_THAT(problems("status\ndone\n"), HasSubstr("the header names no column of numbers"));
   EXPECT_THAT(problems("x\x01_m,y_m\n"), HasSubstr("where a column key is expected"));
   EXPECT_THAT(problems("x_m\ninf\n"), HasSubstr("'inf' is not finite"));
-  EXPECT_THAT(problems("x_m,x_m\n"), HasSubstr("this column stands twice"));
+  EXPECT_THAT(problems("x_m,x_m\n"), HasSubstr("x_m: duplicate column"));
   EXPECT_THAT(problems("x_m\n\"1\n"), HasSubstr("a quote is not closed"));
 }
 

@@ -192,6 +192,9 @@ TEST(Bind, UnknownKeysComeWithASuggestion) {
               HasSubstr("s.toml:2:1: error: xyzzy: unknown key; allowed here: crank_m, angle_rad, limit_kg"));
   EXPECT_THAT(messages("crank_m = 1\n[[link]]\nname = 'x'\nbdy_m = {}\n"),
               HasSubstr("s.toml:4:1: error: link[0].bdy_m: unknown key; did you mean 'body_m'?"));
+  // In another language.
+  EXPECT_EQ(messages("kurbel_mm = 100\n"),
+            "s.toml:1:1: error: kurbel_mm: unknown key; did you mean 'crank_mm'?\n");
   EXPECT_THAT(messages("crank_m = {min = 1, max = 2, mid = 3}"), HasSubstr("crank_m.mid: unknown key"));
   // A key of another choice is unknown here.
   EXPECT_THAT(messages("crank_m = 1\nmethod = 'grey_wolf'\nstep = 1.0\n"),
@@ -231,6 +234,13 @@ TEST(Bind, NumbersAndTheirLimits) {
             "s.toml:1:12: error: crank_mm: min is 2 mm, larger than max, which is 1 mm\n");
   EXPECT_EQ(messages("crank_m = { min = 2 }\n"), "s.toml:1:11: error: crank_m.max: this key is missing\n");
   EXPECT_EQ(read_sample("{\"crank_m\": 1, \"population\": 40.0}", Syntax::json).messages, "");
+}
+
+TEST(Bind, AnglesOfManyTurnsInRadiansAreDoubtful) {
+  EXPECT_EQ(messages("crank_m = 1\nangle_rad = 360\n"),
+            "s.toml:2:13: warning: angle_rad: is 360 rad, 57 turns; if degrees are meant, write angle_deg\n");
+  EXPECT_EQ(messages("crank_m = 1\nangle_rad = 125\n"), "");
+  EXPECT_EQ(messages("crank_m = 1\nangle_deg = 36000\n"), "");
 }
 
 TEST(Bind, WrongTypes) {
@@ -356,11 +366,11 @@ TEST(Bind, PathsHaveNoEmptyKeys) {
   DocumentReader reader(document, "s.toml", diagnostics);
   ObjectReader root = reader.root();
   root.table("a")->error("", "is of no use");
-  root.error("", "nothing is asked for");
+  root.error("", "nothing is requested");
   reader.finish();
   const std::string out = test::lines_of(diagnostics);
   EXPECT_THAT(out, HasSubstr("error: a: is of no use"));
-  EXPECT_THAT(out, HasSubstr("error: nothing is asked for"));
+  EXPECT_THAT(out, HasSubstr("error: nothing is requested"));
   EXPECT_THAT(out, HasSubstr("error: '': unknown key"));
   EXPECT_THAT(out, HasSubstr("error: a.'': unknown key"));
 }

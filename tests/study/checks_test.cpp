@@ -79,7 +79,7 @@ TEST(Checks, WhatCannotBeFoundFailsAndSaysWhy) {
   EXPECT_THAT(message("best.path_error_sum_m2"),
               HasSubstr("there is no number of the best solution 'path_error_sum_m2'; did you mean "
                         "'path_error_sum_sq_m2'?"));
-  EXPECT_THAT(message("best.type"), HasSubstr("'type' is no number"));
+  EXPECT_THAT(message("best.type"), HasSubstr("'type' is not a number"));
   EXPECT_THAT(message("swep.toe_rad.max"), HasSubstr("there is no table 'swep'; did you mean 'sweep'?"));
   EXPECT_THAT(message("sweep.toe_mm.max"), HasSubstr("there is no column of 'sweep' 'toe_mm'"));
   EXPECT_THAT(message("sweep.toe_rad.maximum"), HasSubstr("there is no statistic 'maximum'"));

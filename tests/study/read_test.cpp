@@ -87,13 +87,35 @@ TEST(ReadJson, PositionsOfEveryKeyAndValue) {
   EXPECT_EQ(v.as_object()[2].value.position.column, 5);
 }
 
+TEST(ReadText, FrequentMistakesComeWithTheRemedy) {
+  EXPECT_EQ(messages("a_mm = 100,5 # long\n"),
+            "s.toml:1:11: error: '100,5' is not a number; write the decimal point: 100.5\n");
+  EXPECT_EQ(messages("a_mm = 100,5 mm\n"),
+            "s.toml:1:11: error: '100,5 mm' is not a number; the unit is in the key: a_mm = 100.5\n");
+  EXPECT_EQ(messages("a_m = -1.5e3 mm\n"),
+            "s.toml:1:14: error: '-1.5e3 mm' is not a number; the unit is in the key: a_mm = -1.5e3\n");
+  EXPECT_EQ(messages("a = 5 mm\n"),
+            "s.toml:1:7: error: '5 mm' is not a number; the unit is in the key: a_mm = 5\n");
+  EXPECT_EQ(messages("a_mm = 5 furlongs\n"),
+            "s.toml:1:10: error: '5 furlongs' is not a number; the unit is in the key: a_mm = 5\n");
+  EXPECT_EQ(messages("a = 1\ntitle = My linkage # so\n"),
+            "s.toml:2:9: error: text needs quotes; write title = \"My linkage\"\n");
+  EXPECT_EQ(messages("dir = \"C:\\Users\\me\"\n"),
+            "s.toml:1:7: error: in double quotes a backslash begins a special character; use / in paths, or "
+            "single quotes: dir = 'C:\\Users\\me'\n");
+  EXPECT_THAT(messages("a = [\n  1,\n  2\nb = 3\n"),
+              HasSubstr("is a ] or a comma missing in the list that begins in line 1?"));
+  // A line that says nothing of the kind keeps the words of the parser.
+  EXPECT_THAT(messages("a = 1\na = 2\n"), HasSubstr("s.toml:2:5: error: the key 'a' is given twice\n"));
+}
+
 TEST(ReadText, SyntaxErrorsSayWhereAndWhat) {
   EXPECT_THAT(messages("a = 1\nb = \n"), HasSubstr("s.toml:2:5: error: is not valid TOML"));
   EXPECT_THAT(messages("a = 1\n["),
               HasSubstr("s.toml:2:2: error: the file ends in the middle of a table header"));
   EXPECT_THAT(messages("[\n"), HasSubstr("s.toml:1:2: error: is not valid TOML"));
   EXPECT_THAT(messages("a = \"text\nb = 2"), HasSubstr("s.toml:1:10: error: is not valid TOML: in a string"));
-  EXPECT_THAT(messages("crank = 0.4 m\n"),
+  EXPECT_THAT(messages("crank = 0.4 ]\n"),
               HasSubstr("s.toml:1:13: error: is not valid TOML: in a key-value pair"));
   EXPECT_THAT(messages("{\"a\": 1,}", Syntax::json),
               HasSubstr("s.toml:1:9: error: is not valid JSON: syntax error"));

@@ -115,7 +115,7 @@ TEST(Study, RefusesMoreCandidatesThanThereIsMemoryFor) {
 TEST(Study, VersionOfTheGrammar) {
   EXPECT_EQ(messages("schema = 1", "schema = 2"),
             "s.toml:2:10: error: schema: is 2, must be 1; this program reads studies of that version\n");
-  EXPECT_EQ(messages("schema = 1", ""), "s.toml:1:1: error: schema: this key is missing\n");
+  EXPECT_EQ(messages("schema = 1", ""), "s.toml:1:1: error: schema: this key is missing; add schema = 1\n");
   EXPECT_EQ(messages("schema = 1", "schema = '1'"),
             "s.toml:2:10: error: schema: is the text '1', must be a whole number\n");
 }

@@ -72,6 +72,10 @@ std::optional<study::Study> load_study(const fs::path& file, const RunOptions& o
   const std::string name = file == standard_input ? standard_input_name : file.string();
   auto study = study::prepare(document, name, file.parent_path(), kinds, diagnostics);
   name_overrides(diagnostics, changes);
+  if (options.seed)
+    for (Diagnostic& d : diagnostics)
+      if (d.file == changes.back().origin && d.message == "unknown key")
+        d = {d.severity, d.file, {}, {}, "this kind of study has no seeds", "leave out --seed"};
   return study;
 }
 

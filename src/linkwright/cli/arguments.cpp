@@ -78,7 +78,14 @@ class Grammar {
     threads(run);
     value(run, "--time-limit", arguments_.time_limit,
           "time limit, after which the best result so far is the answer", "SECONDS")
-        ->check(CLI::PositiveNumber.description(""));
+        ->check(
+            [](const std::string& text) {
+              double seconds = 0;
+              return CLI::detail::lexical_cast(text, seconds) && seconds > 0
+                         ? std::string()
+                         : "is '" + text + "', must be a number of seconds, more than 0";
+            },
+            "");
     run.add_flag("--resume", arguments_.resume,
                  "continue an interrupted run of the same study in the same folder; without it, start again");
     report(run);

@@ -309,8 +309,12 @@ class NumberReader {
 
 }  // namespace
 
+bool is_workbook(std::string_view bytes) {
+  return bytes.starts_with("PK\x03\x04") || bytes.starts_with("\xD0\xCF\x11\xE0");
+}
+
 std::optional<std::string> to_utf8(std::string_view bytes, std::string& problem) {
-  if (bytes.starts_with("PK\x03\x04")) {
+  if (is_workbook(bytes)) {
     problem = "this is an Excel workbook or another packed file; save it as CSV or plain text";
     return std::nullopt;
   }
@@ -389,7 +393,7 @@ std::optional<Table> read_csv(std::string_view bytes, const std::string& file, D
               fmt::format("the header has '{}' where a column key is expected", shown(key)),
               "the first line names the columns, for example x_mm,y_mm");
     else if (table.find(key))
-      problem(cells[c].position, shown(key), "this column stands twice");
+      problem(cells[c].position, shown(key), "duplicate column");
     table.add(key, key);
   }
   if (table.columns.empty())
@@ -414,6 +418,7 @@ std::optional<Table> read_csv(std::string_view bytes, const std::string& file, D
               fmt::format("{} values, the header has {} column{}", cells.size(), expected,
                           expected == 1 ? "" : "s"),
               decimals ? "with decimal commas separate the columns by semicolons" : std::string());
+      if (decimals) return std::nullopt;  // so has every line
       continue;
     }
     if (lines) lines->push_back(line);

@@ -6,13 +6,18 @@
 #include <cmath>
 #include <set>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/study/bind_schema.h"
+#include "linkwright/study/trade_words.h"
 
 namespace linkwright::study {
 namespace {
 
 // A file with more unknown keys than this is no study; the rest of them would only hide the first.
 constexpr std::size_t most_unknown_keys = 50;
+
+// An angle in radians beyond it is probably one in degrees.
+constexpr double most_turns = 20;
 
 bool is_bare_key(std::string_view key) {
   return !key.empty() && key.size() <= 60 && std::all_of(key.begin(), key.end(), [](char c) {
@@ -188,10 +193,16 @@ void DocumentReader::finish_object(const Value& value, const std::vector<const V
     // Known, but the reader gave up before it came to it.
     if (!described.empty()) continue;
     if (++unknown_ > most_unknown_keys) continue;
-    // "crnk_mm" is compared as "crnk" and comes back with its own unit when that fits.
+    // "crnk_mm" is compared as "crnk" and comes back with its own unit when that fits. A key that is missing
+    // is more likely than one that may be left out.
     const auto parts = split_unit(member.key);
-    std::string_view base = nearest_word(member.key, bases);
-    if (parts && base.empty()) base = nearest_word(parts->base, bases);
+    std::vector<std::string_view> missing_bases;
+    for (const Known& missing : record.missing) missing_bases.push_back(missing.base);
+    std::string base;
+    for (const auto* among : {&missing_bases, &bases}) {
+      if (parts && base.empty()) base = meant_word(parts->base, *among);
+      if (base.empty()) base = meant_word(member.key, *among);
+    }
     std::string hint = allowed.empty() ? std::string() : "allowed here: " + allowed;
     if (!base.empty()) {
       const auto known = std::find_if(record.known.begin(), record.known.end(),
@@ -216,7 +227,7 @@ void DocumentReader::finish_object(const Value& value, const std::vector<const V
     poison(join_path(record.path, missing.base));
     report(Diagnostic::Severity::error, value.position,
            join_path(record.path, si_key(missing.base, missing.dimension)), "this key is missing",
-           bare ? std::string() : "write " + keys_with_units(missing.base, missing.dimension));
+           bare ? missing.hint : "write " + keys_with_units(missing.base, missing.dimension));
   }
 }
 
@@ -352,6 +363,10 @@ bool ObjectReader::is_table(const Field& field) {
   return member && member->value.is_object();
 }
 
+void ObjectReader::missing(const Field& field, std::string hint) {
+  record_->missing.push_back({std::string(field.key), key_dimension(field), std::move(hint)});
+}
+
 void ObjectReader::report_at(std::string_view key, std::string message, std::string hint) {
   Position position = object_->position;
   std::string path = join_path(record_->path, key);
@@ -443,6 +458,13 @@ bool ObjectReader::number(const Found& found, const Field& field, double& result
     problem(found, fmt::format("{}, must be at most {}", what, with_unit(field.maximum, found.unit)));
     return false;
   }
+  if (found.unit && found.unit->suffix == "rad" && std::abs(value) > most_turns * 2 * pi) {
+    std::string key = found.path.substr(found.path.rfind('.') + 1);
+    key = key.substr(0, key.find('['));
+    document_->report(Diagnostic::Severity::warning, found.value->position, found.path,
+                      fmt::format("{}, {:.0f} turns", what, std::abs(value) / (2 * pi)),
+                      fmt::format("if degrees are meant, write {}_deg", key.substr(0, key.rfind('_'))));
+  }
   result = value;
   return true;
 }
@@ -486,13 +508,19 @@ std::optional<std::size_t> ObjectReader::one_of(const Found& found, std::span<co
             fmt::format("is {}, must be one of: {}", describe_value(*found.value, nullptr), list_of(words)));
     return std::nullopt;
   }
+  const std::string& given = found.value->as_string();
   std::vector<std::string_view> names;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i].name == found.value->as_string()) return i;
+    if (words[i].name == given) return i;
     names.push_back(words[i].name);
   }
-  problem(found, fmt::format("is '{}', must be one of: {}", shown(found.value->as_string()), list_of(words)),
-          did_you_mean(found.value->as_string(), names));
+  std::string hint = suggestion(given, names);
+  // A word that does not look like the given one: what it means.
+  if (const std::string_view meant = meant_word(given, names); meant != nearest_word(given, names))
+    for (const Word& word : words)
+      if (word.name == meant && !word.summary.empty())
+        hint = fmt::format("did you mean '{}' ({})?", meant, word.summary);
+  problem(found, fmt::format("is '{}', must be one of: {}", shown(given), list_of(words)), hint);
   return std::nullopt;
 }
 

@@ -68,6 +68,7 @@ class DocumentReader {
   struct Known {
     std::string base;
     Dimension dimension;
+    std::string hint = {};  // of a missing one
   };
   struct Record {  // what became of one table of the document
     std::string path;
@@ -116,6 +117,8 @@ class ObjectReader {
   /// error).
   std::optional<ObjectReader> table(const Field& field);
   std::optional<ObjectReader> table(std::string_view key) { return table(Field{.key = key, .summary = {}}); }
+  /// Notes that a key which is not there is missing, and what to write.
+  void missing(const Field& field, std::string hint);
   /// The tables of `[[key]]`; empty when absent.
   std::vector<ObjectReader> tables(const Field& field);
   std::vector<ObjectReader> tables(std::string_view key) { return tables(Field{.key = key, .summary = {}}); }

@@ -60,7 +60,7 @@ Resolved member(const Value& object, std::string_view what, std::string_view key
       if (!factor) continue;
       if (m.value.is_number()) return {m.value.as_number() * *factor, {}};
       if (m.value.is_bool()) return {m.value.as_bool() ? 1.0 : 0.0, {}};
-      return {nan, fmt::format("'{}' is no number", key)};
+      return {nan, fmt::format("'{}' is not a number", key)};
     }
   }
   return unknown(what, key, keys);

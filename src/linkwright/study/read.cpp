@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "linkwright/core/csv.h"
 #include "linkwright/study/read_syntax.h"
 
 namespace linkwright::study {
@@ -48,6 +49,11 @@ Value read_text(std::string_view text, Syntax syntax, const std::string& file, D
   if (text.size() > largest_document) {
     refuse(diagnostics, file,
            fmt::format("the text has {} bytes; a study may have at most {}", text.size(), largest_document));
+    return {};
+  }
+  if (is_workbook(text)) {
+    refuse(diagnostics, file, "this is an Excel workbook or another packed file, a study is a text file",
+           "save its tables as CSV and name them in a study");
     return {};
   }
   if (std::all_of(text.begin(), text.end(), blank)) {

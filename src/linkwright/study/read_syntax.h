@@ -15,6 +15,9 @@ namespace linkwright::study {
 Diagnostics check_characters(std::string_view text, Syntax syntax);
 
 Value parse_toml(std::string_view text, Diagnostics& diagnostics);
+/// Says what to write instead, where the line of a syntax error shows a frequent mistake: a decimal comma, a
+/// unit behind a number, text without quotes, backslashes, a list that is not closed.
+void explain_toml(std::string_view text, Diagnostic& error);
 Value parse_json(std::string_view text, Diagnostics& diagnostics);
 
 /// Forgets where a value came from.

@@ -78,12 +78,18 @@ std::string plain_words(std::string_view description) {
   if (const std::size_t at = description.find(": ");
       description.starts_with("Error while parsing") && at != std::string_view::npos) {
     const std::string_view what = description.substr(20, at - 20);
-    std::string_view why = description.substr(at + 2);
+    const std::string_view why = description.substr(at + 2);
     if (why.starts_with("cannot redefine existing"))  // ... integer 'a' ...
       if (const std::size_t name = why.find('\''); name != std::string_view::npos)
         return fmt::format("the key {} is given twice", why.substr(name));
-    if (why == "encountered end-of-file") return fmt::format("the file ends in the middle of a {}", what);
-    return fmt::format("is not valid TOML: in a {}, {}", what, why);
+    const std::string_view article =
+        std::string_view("aeiou").find(what.front()) != std::string_view::npos ? "an" : "a";
+    if (why == "encountered end-of-file")
+      return fmt::format("the file ends in the middle of {} {}", article, what);
+    std::string reason(why);
+    if (const std::size_t end = reason.find("saw '\\n'"); end != std::string::npos)
+      reason.replace(end, 8, "saw the end of the line");
+    return fmt::format("is not valid TOML: in {} {}, {}", article, what, reason);
   }
   return fmt::format("is not valid TOML: {}", description);
 }
@@ -94,12 +100,10 @@ Value parse_toml(std::string_view text, Diagnostics& diagnostics) {
   try {
     return Converter(diagnostics).convert(toml::parse(text), 0);
   } catch (const toml::parse_error& error) {
-    diagnostics.push_back({Diagnostic::Severity::error,
-                           {},
-                           to_position(error.source().begin),
-                           {},
-                           plain_words(error.description()),
-                           {}});
+    Diagnostic problem{Diagnostic::Severity::error,      {}, to_position(error.source().begin), {},
+                       plain_words(error.description()), {}};
+    explain_toml(text, problem);
+    diagnostics.push_back(std::move(problem));
     return {};
   }
 }

@@ -14,13 +14,14 @@
 #include "linkwright/study/bind_write.h"
 #include "linkwright/study/memory.h"
 #include "linkwright/study/renamed.h"
+#include "linkwright/study/trade_words.h"
 
 namespace linkwright::study {
 namespace {
 
 const Field kind_field{.key = "kind", .summary = "what the study does", .required = true};
 const Field type_field{.key = "type", .summary = {}, .required = true};
-const Field schema_field{.key = "schema", .summary = "version of the study grammar", .required = true};
+const Field schema_field{.key = "schema", .summary = "version of the study grammar"};
 const Field title_field{.key = "title", .summary = "one line for people"};
 const Field source_field{.key = "source", .summary = "where the numbers come from"};
 const Field output_field{.key = "output", .summary = "what is written, and where"};
@@ -44,7 +45,7 @@ void choose(std::vector<const Kind*>& kinds, std::string Kind::*part, ObjectRead
   if (const auto index = table.word(field, words)) {
     chosen = names[*index];
   } else if (const Value* value = table.value().find(field.key); value && value->is_string()) {
-    chosen = nearest_word(value->as_string(), names);
+    chosen = meant_word(value->as_string(), names);
   }
   std::erase_if(kinds, [&](const Kind* kind) { return kind->*part != chosen; });
 }
@@ -76,6 +77,10 @@ void read_output(ObjectReader& root, const Kind* kind, Output& output) {
   auto table = root.table(output_field);
   if (!table) return;
   table->read(output);
+  if (std::any_of(output.dir.begin(), output.dir.end(),
+                  [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
+    table->error("dir", "has a special character in it, which a backslash in double quotes makes",
+                 "use / in paths, or single quotes");
   if (!kind) {
     table->members();
     return;
@@ -93,7 +98,9 @@ void read_output(ObjectReader& root, const Kind* kind, Output& output) {
 
 void read_schema_version(ObjectReader& root) {
   std::int64_t version = 0;
-  if (root(schema_field, version) && version != schema_version)
+  if (!root.has(schema_field))
+    root.missing(schema_field, fmt::format("add schema = {}", schema_version));
+  else if (root(schema_field, version) && version != schema_version)
     root.error("schema", fmt::format("is {}, must be {}", version, schema_version),
                "this program reads studies of that version");
 }
@@ -255,7 +262,9 @@ Value schema_of(const Kind& kind) {
   SchemaWriter writer;
   Value version;
   version["const"] = schema_version;
-  writer.property(schema_field, std::move(version));
+  Field required_schema = schema_field;
+  required_schema.required = true;
+  writer.property(required_schema, std::move(version));
   writer.property(kind_field, constant(kind.kind));
   Value text;
   text["type"] = "string";

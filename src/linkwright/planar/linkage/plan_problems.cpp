@@ -29,6 +29,14 @@ std::string driven_names(const PlanDraft& d) {
   return quoted_list(names);
 }
 
+// "the linkage has 1 degree of freedom and 2 drives"
+std::string freedoms_and_drives(const PlanDraft& d) {
+  const int freedoms = mobility(d.linkage);
+  const std::size_t drives = d.linkage.driven.size();
+  return fmt::format("the linkage has {} degree{} of freedom and {} drive{}", freedoms,
+                     freedoms == 1 ? "" : "s", drives, drives == 1 ? "" : "s");
+}
+
 // Why parts stay without a place.
 void name_loose_parts(PlanDraft& d, const std::vector<int>& unknown) {
   const auto names = [&](const std::vector<int>& of) {
@@ -66,23 +74,21 @@ void name_loose_parts(PlanDraft& d, const std::vector<int>& unknown) {
               "join it to another body, or leave it out");
     else if (!held)
       d.error(key, fmt::format("{} are joined to each other but not to the ground", names(component)),
-              "join one of them to the ground or to a body that stands on it");
+              "join one of them to the ground or to a body that is fixed to it");
     else if (rows < 0)
       continue;  // the gear has been named
     else if (free > 0)
       d.error(key,
               fmt::format("{} keep{} {} degree{} of freedom without a drive", names(component),
                           component.size() == 1 ? "s" : "", free, free == 1 ? "" : "s"),
-              fmt::format("the linkage has {} degree(s) of freedom and {} drive(s): drive one more joint, or "
-                          "add a joint",
-                          mobility(d.linkage), d.linkage.driven.size()));
+              freedoms_and_drives(d) + ": drive one more joint, or add a joint");
     else if (free < 0 && d.linkage.driven.size() > 1 &&
              mobility(d.linkage) < static_cast<int>(d.linkage.driven.size()))
-      d.error("drive",
-              fmt::format("two drives on one freedom: with the drives of {} nothing is left to place {}",
-                          driven_names(d), names(component)),
-              fmt::format("the linkage has {} degree(s) of freedom and {} drive(s): remove one drive",
-                          mobility(d.linkage), d.linkage.driven.size()));
+      d.error(
+          "drive",
+          fmt::format("two drives on one degree of freedom: with the drives of {} no freedom is left for {}",
+                      driven_names(d), names(component)),
+          freedoms_and_drives(d) + ": remove one drive");
     else if (free < 0)
       d.error(
           key,
@@ -107,15 +113,15 @@ void find_problems(PlanDraft& d) {
     if (joint.input >= 0)
       d.error(
           "drive",
-          fmt::format("two drives on one freedom: '{}' and '{}', which joint '{}' would drive, are placed "
-                      "by other drives already",
-                      d.body_name(j.first.body), d.body_name(j.second.body), j.name),
-          fmt::format("the linkage has {} degree(s) of freedom and {} drive(s): remove one drive",
-                      mobility(d.linkage), d.linkage.driven.size()));
+          fmt::format(
+              "two drives on one degree of freedom: '{}' and '{}', which joint '{}' would drive, are placed "
+              "by other drives already",
+              d.body_name(j.first.body), d.body_name(j.second.body), j.name),
+          freedoms_and_drives(d) + ": remove one drive");
     else
       d.error("joint." + j.name,
               fmt::format("a redundant constraint: '{}' and '{}' are placed by other joints already, so the "
-                          "joint fits by chance only",
+                          "linkage closes for special dimensions only",
                           d.body_name(j.first.body), d.body_name(j.second.body)),
               "leave the joint out, or one of the links beside it");
   }

@@ -82,7 +82,7 @@ void report(study::ObjectReader& document, study::ObjectReader& mechanism, const
   }
 }
 
-const Field sample_field{.key = "sample", .summary = "a canned linkage in the place of bodies and joints"};
+const Field sample_field{.key = "sample", .summary = "built-in linkage, instead of bodies and joints"};
 const Field sample_count_field{.key = "sample_count",
                                .summary = "links of the sample arm, loops of the sample four_bar_chain",
                                .minimum = 1,
@@ -92,7 +92,7 @@ std::optional<LinkageSample> sample_named(study::ObjectReader& mechanism) {
   const std::span<const LinkageSample> all = linkage_samples();
   std::vector<Word> words;
   for (const LinkageSample& s : all) words.push_back({s.name, s.summary});
-  const auto index = mechanism.word(Field{.key = "sample", .summary = "a canned linkage"}, words);
+  const auto index = mechanism.word(Field{.key = "sample", .summary = "built-in linkage"}, words);
   if (!index) return std::nullopt;
   std::optional<int> count;
   mechanism(sample_count_field, count);
@@ -102,6 +102,20 @@ std::optional<LinkageSample> sample_named(study::ObjectReader& mechanism) {
   mechanism.error("sample_count", fmt::format("the sample '{}' comes in one size", words[*index].name),
                   "leave the key out; it is for arm and four_bar_chain");
   return std::nullopt;
+}
+
+/// What else names one of two is not to be read.
+template <class Form>
+void require_own_names(study::ObjectReader& mechanism, std::string_view list,
+                       const std::vector<Form>& forms) {
+  std::vector<study::ObjectReader> entries = mechanism.tables(list);
+  for (std::size_t i = 0; i < std::min(forms.size(), entries.size()); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (forms[k].name == forms[i].name && !forms[i].name.empty()) {
+        entries[i].unreadable("name", fmt::format("the name '{}' is given twice", forms[i].name),
+                              fmt::format("give every {} a name of its own", list));
+        break;
+      }
 }
 
 /// Names become parts of column keys: two columns of one key would hide each other.
@@ -168,6 +182,8 @@ std::optional<LinkageDescription> read_linkage(study::ObjectReader& document, Li
   } else {
     LinkageForm form;
     mechanism->read(form);
+    require_own_names(*mechanism, "body", form.bodies);
+    require_own_names(*mechanism, "joint", form.joints);
     if (document.document().has_errors()) return std::nullopt;
     std::vector<FormProblem> problems;
     l = linkage_of(form, problems);

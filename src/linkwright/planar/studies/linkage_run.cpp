@@ -28,6 +28,7 @@ namespace {
 
 // Below it a dyad is said to transmit force badly: reactions grow like the reciprocal of its sine.
 constexpr double poor_transmission = 5 * pi / 180;
+constexpr double work_rounding = 1e-12;  // of the absolute work
 
 bool over_time(const LinkageStudy& s) { return std::holds_alternative<study::TimeSamples>(s.sweep); }
 
@@ -407,7 +408,7 @@ class Runner {
     if (s_.quantities.shaking && shaking_.any())
       fact("largest shaking force", fmt::format("{:.5g} N at {}", shaking_.value, where(shaking_.row)));
     if (transmission_.any())
-      fact("least transmission angle",
+      fact("minimum transmission angle",
            fmt::format("{:.1f}° of {} at {}", math::degrees(transmission_.value),
                        s_.plan.groups[weakest_].name, where(transmission_.row)),
            transmission_.value < poor_transmission ? Verdict::bad : Verdict::plain);
@@ -440,13 +441,14 @@ class Runner {
     const double rms = std::sqrt(squares / static_cast<double>(torque->values.size() - 1));
     fact("drive torque, root mean square", fmt::format("{:.5g} N m", rms));
     if (s_.drives[0].acceleration == 0)
-      fact("work of the drive over the turn",
-           fmt::format("{:.2g} J of {:.4g} J back and forth", work, moved));
+      fact("net work of the drive per revolution",
+           fmt::format("{:.2g} J ({:.4g} J absolute)", std::abs(work) < work_rounding * moved ? 0 : work,
+                       moved));
   }
 
   void warnings() {
     const study::AddWarning warn{result_.diagnostics};
-    // Change points are told of by themselves.
+    // Change points have messages of their own.
     std::size_t first_row = 0;
     const auto count = [&](Status s) {
       long n = 0;
@@ -462,13 +464,13 @@ class Runner {
       const std::string place =
           fmt::format("{} of {} positions, the first at {}", n, statuses_.size(), where(first_row));
       if (s == Status::singular)
-        warn(fmt::format("{} stand at a dead point of {}: speeds and forces are not determined there", place,
+        warn(fmt::format("{} are at a dead point of {}: speeds and forces are not determined there", place,
                          group),
              {});
       else if (s == Status::no_assembly)
         warn(gap_.any() && gap_.value > 0
-                 ? fmt::format("{} do not assemble: {} would have to be longer, or shorter, by up to {}",
-                               place, group, s_.units.text(gap_.value, Dimension::length))
+                 ? fmt::format("{} do not assemble: {} cannot close, the gap is up to {}", place, group,
+                               s_.units.text(gap_.value, Dimension::length))
                  : fmt::format("{} do not assemble", place),
              assembled_ranges());
       else if (s == Status::self_locking)
@@ -511,21 +513,20 @@ class Runner {
              {});
         break;
       }
-    std::vector<double> told;
+    std::vector<double> reported;
     for (const RangeEnd& end : branch_->change_points) {
       const double value = limits_->rotary ? math::wrap_angle(end.value) : end.value;
       if (!passes(value)) continue;
-      if (std::any_of(told.begin(), told.end(), [&](double t) { return std::abs(t - value) < 1e-6; }))
+      if (std::any_of(reported.begin(), reported.end(), [&](double t) { return std::abs(t - value) < 1e-6; }))
         continue;
-      told.push_back(value);
+      reported.push_back(value);
       std::string groups;
       for (int g : end.groups) groups += (groups.empty() ? "" : ", ") + s_.plan.groups[at(g)].name;
-      warn(fmt::format(
-               "at {} the assembly modes of {} meet and cross: which way the linkage goes on there is a "
-               "choice",
-               study::angle_or_length(value, limits_->rotary, 6), groups),
+      warn(fmt::format("change point at {}: the assembly modes of {} coincide there, and the linkage can "
+                       "continue in either",
+                       study::angle_or_length(value, limits_->rotary, 6), groups),
            s_.at_change_point == AtChangePoint::smooth
-               ? "the rows go on smoothly; sweep.at_change_point = \"keep_sign\" takes the other branch"
+               ? "the rows continue smoothly; sweep.at_change_point = \"keep_sign\" takes the other branch"
            : s_.at_change_point == AtChangePoint::keep_sign
                ? "the rows take the branch with a kink; sweep.at_change_point = \"smooth\" is the other"
                : "the rows end there");
@@ -543,7 +544,7 @@ class Runner {
                     "The linkage assembles nowhere in the sweep: {} cannot close, a gap of {} is left at {}.",
                     s_.plan.groups[at(failed_group_)].name, s_.units.text(nearest_.value, Dimension::length),
                     where(nearest_.row))
-              : "No position of the sweep has an answer: the linkage does not assemble or stands at "
+              : "No position of the sweep has an answer: the linkage does not assemble or is at "
                 "dead points.";
       return;
     }

@@ -67,7 +67,7 @@ bool read_points_file(study::ObjectReader& reader, const study::Common& common, 
   if (!text) return false;
   Diagnostics problems;
   const std::optional<Table> table = read_csv(*text, (common.folder / file).string(), problems);
-  for (const Diagnostic& problem : problems) reader.unreadable("points_file", to_string(problem));
+  for (const Diagnostic& problem : problems) reader.unreadable("points_file", study::in_file(problem));
   if (!table) return false;
   LengthColumns columns(reader, file, *table);
   const bool gates =

@@ -28,7 +28,7 @@ void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, 
       s.problem.step = *t.step;
     }
   } else if (t.step) {
-    target.error("timing", fmt::format("step goes with mode equal_steps, the mode is {}", name_of(t.mode)),
+    target.error("timing", fmt::format("step is for mode equal_steps, the mode is {}", name_of(t.mode)),
                  "remove the step");
   }
   if (t.mode == Timing::given) {
@@ -82,7 +82,7 @@ void read_tolerances(study::ObjectReader& target, const PathTarget& form, PathPo
   }
   if (!form.tolerance && !form.tolerances) return;
   if (!targets.tolerance.empty()) {
-    target.error(form.tolerance ? "tolerance" : "tolerances", "the points file has tolerances, too",
+    target.error(form.tolerance ? "tolerance" : "tolerances", "the points file also has tolerances",
                  "keep the key or the column");
     return;
   }
@@ -141,7 +141,24 @@ void resolve_targets(const PathProblem& p, PathTarget& target) {
   if (!target.tolerance && !p.tolerance.empty()) target.tolerances = p.tolerance;
 }
 
-void set_bounds(study::ObjectReader& mechanism, PathStudy& s) {
+/// Lengths that never close: one link is longer than the others can be together.
+void require_closing(study::ObjectReader& mechanism, const study::DisplayUnits& units, const PathProblem& p) {
+  constexpr std::size_t lengths = 4;
+  static_assert(index(FourBarParameter::rocker) == lengths - 1);
+  double together = 0;
+  for (std::size_t j = 0; j < lengths; ++j) together += p.bounds[j].upper;
+  for (std::size_t j = 0; j < lengths; ++j)
+    if (const double others = together - p.bounds[j].upper; p.bounds[j].lower > others)
+      mechanism.error(
+          "parameters",
+          fmt::format("the bounds do not let the four-bar close: the {} is at least {} long, the other "
+                      "links together at most {}",
+                      name(FourBarParameter(j)), units.text(p.bounds[j].lower, Dimension::length),
+                      units.text(others, Dimension::length)),
+          "widen the bounds");
+}
+
+void set_bounds(study::ObjectReader& mechanism, const study::DisplayUnits& units, PathStudy& s) {
   if (s.problem.x.size() < 3 || s.problem.x.size() != s.problem.y.size()) return;
   s.problem.bounds = derive_bounds(s.problem.x, s.problem.y);
   for (std::size_t j = 0; j < four_bar_parameter_count; ++j) {
@@ -155,7 +172,8 @@ void set_bounds(study::ObjectReader& mechanism, PathStudy& s) {
   if (s.mechanism.parameters.ranges[index(FourBarParameter::start_angle)] &&
       s.problem.timing != Timing::equal_steps)
     mechanism.warning("parameters",
-                      fmt::format("start_angle has no use: the timing is {}", name_of(s.problem.timing)));
+                      fmt::format("start_angle is ignored: the timing is {}", name_of(s.problem.timing)));
+  require_closing(mechanism, units, s.problem);
 }
 
 // A fixed number or a range for each coordinate of B0; one that is left out is free.
@@ -223,7 +241,7 @@ PathStudy read_path_study(study::ObjectReader& document, const study::Common& co
                    "keep one [[objective]]");
   document(Field{.key = "constraint", .summary = "what must hold"}, s.constraints);
   if (auto optimiser = document.table("optimiser")) optimiser->read(s.optimiser);
-  if (auto mechanism = document.table("mechanism")) set_bounds(*mechanism, s);
+  if (auto mechanism = document.table("mechanism")) set_bounds(*mechanism, common.units, s);
   set_rocker_pivot(s);
   set_search(s);
   set_constraints(document, s);

@@ -122,7 +122,7 @@ class Collector {
         std::find_if(points.begin(), points.end(), [&](const HardPoint& p) { return p.name == plain; });
     if (same != points.end()) {
       if (!(same->at == at))
-        problem(line, plain, "stands twice, at different places", "give every point a name of its own");
+        problem(line, plain, "is given twice, at different places", "give every point a name of its own");
       return;
     }
     if (points.size() == most_points)
@@ -299,7 +299,20 @@ std::optional<std::vector<HardPoint>> read_hard_points(std::string_view text, co
     // The last three words are the coordinates, what is before them the name, less a number of the list.
     std::array<std::optional<double>, 3> at;
     for (std::size_t i = 0; i < 3; ++i) at[i] = number(w[w.size() - 3 + i], !words.comma_separates);
-    if (!at[0] || !at[1] || !at[2]) continue;
+    if (!at[0] || !at[1] || !at[2]) {
+      // Headings are passed over; two numbers beside something with digits are a slip.
+      if (w.size() > 3 && !number(w[0], true) && int{!at[0]} + int{!at[1]} + int{!at[2]} == 1)
+        for (std::size_t i = 0; i < 3; ++i)
+          if (const std::string& word = w[w.size() - 3 + i];
+              !at[i] && word.find_first_of("0123456789") != std::string::npos)
+            diagnostics.push_back({Diagnostic::Severity::warning,
+                                   file,
+                                   {line, 1},
+                                   plain_name(w[0]),
+                                   fmt::format("'{}' is not a number, the line is passed over", word),
+                                   {}});
+      continue;
+    }
     std::size_t begin = 0;
     if (w.size() > 4 && w[0].find_first_not_of("0123456789.:)") == std::string::npos) begin = 1;
     std::string name;

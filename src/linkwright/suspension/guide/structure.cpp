@@ -42,10 +42,10 @@ std::string count_of(const Structure& structure, int couplers) {
       return of == type || (type == LinkType::US && of == LinkType::SS);
     });
     if (count > 0)
-      out += fmt::format("{}{} {} takes {}", out.empty() ? "" : ", ", count, name_of(type),
+      out += fmt::format("{}{} {}: {}", out.empty() ? "" : ", ", count, name_of(type),
                          count * constraints(type));
   }
-  if (couplers > 0) out += fmt::format(", {} couplers take {}", couplers, couplers);
+  if (couplers > 0) out += fmt::format(", {} couplers: {}", couplers, couplers);
   return out;
 }
 
@@ -57,16 +57,16 @@ void check_rank(const WheelGuide& guide, Diagnostics& found) {
   const std::string motion = in_words(weakest.shift, weakest.turn, guide.wheel.tyre_diameter / 2);
   Diagnostic& out = found.emplace_back();
   out.key = "links";
-  out.hint = "turn or move a link so that it stands against this motion";
+  out.hint = "turn or move a link so that it resists this motion";
   if (least < no_rank) {
     out.message = fmt::format(
-        "the count is right, and yet the links leave the carrier free with the height of the wheel "
-        "centre held: {}",
+        "the count is right, yet the links do not constrain the carrier when the height of the wheel "
+        "centre is fixed: {}",
         motion);
   } else {
     out.severity = Diagnostic::Severity::warning;
     out.message = fmt::format(
-        "the links hardly hold the carrier with the height of the wheel centre held: {} (smallest "
+        "the links hardly constrain the carrier when the height of the wheel centre is fixed: {} (smallest "
         "singular value {:.2g}, good ones are above {})",
         motion, least, poor_rank);
   }
@@ -89,7 +89,7 @@ ParsedStructure parse_structure(std::string_view name) {
     const auto entry =
         std::find_if(known.begin(), known.end(), [&](const auto& of) { return of.name == word; });
     if (entry == known.end())
-      return fail(fmt::format("'{}' in '{}' is no link type; there are {}", word, name, allowed()));
+      return fail(fmt::format("'{}' in '{}' is not a link type; there are {}", word, name, allowed()));
     if (count < 1 || count > 5)
       return fail(fmt::format("'{}' in '{}': a count lies between 1 and 5", part, name));
     out.structure.insert(out.structure.end(), count, entry->value);
@@ -206,10 +206,12 @@ Diagnostics check_structure(const WheelGuide& guide) {
     const int held = 6 - freedoms;
     Diagnostic& out = found.emplace_back();
     out.key = "links";
-    out.message = fmt::format("the links take {} of the carrier's 6 freedoms ({}), 5 are to be taken", held,
-                              structure.empty() ? "there are none" : count_of(structure, couplers));
+    out.message = fmt::format(
+        "the links constrain {} of the carrier's 6 degrees of freedom ({}), 5 must be constrained", held,
+        structure.empty() ? "there are none" : count_of(structure, couplers));
     out.hint = held < 5 ? fmt::format("the wheel would have {} degrees of freedom: add links", freedoms)
-                        : "redundant links need elastic joints: rigid ones would lock, or fit by luck";
+                        : "redundant links need elastic joints: rigid ones would lock, or close for special "
+                          "dimensions only";
     return found;
   }
   check_rank(guide, found);

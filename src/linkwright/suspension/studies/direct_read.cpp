@@ -80,7 +80,7 @@ class TargetReader {
       if (const auto text = study::read_beside(target_, "file", common_.folder, file)) {
         Diagnostics problems;
         table_ = read_csv(*text, file, problems);
-        for (const Diagnostic& d : problems) target_.unreadable("file", to_string(d));
+        for (const Diagnostic& d : problems) target_.unreadable("file", study::in_file(d));
       }
     std::vector<study::ObjectReader> curves = target_.tables("curve");
     if (curves.empty() && !target_.has("curve"))
@@ -369,7 +369,7 @@ std::optional<DirectStudy> read_direct_study(study::ObjectReader& document, cons
   add_points(s);
   if (s.task.designed.empty() && !document.document().has_errors())
     document.error(
-        "design", "nothing is to be found",
+        "design", "no design variable is given",
         "add [[design]] point = \"tie rod.body\", box_mm = 40.0, or open a point of the mechanism");
   std::vector<study::ObjectReader> tables = document.tables("constraint");
   for (std::size_t i = 0; i < s.constraints.size() && i < tables.size(); ++i)
@@ -452,9 +452,9 @@ study::Kind direct_kind() {
     target.property(Field{.key = "coordinate", .summary = "what travels"}, Value());
     target.property(Field{.key = "steering_lock", .summary = "what the steering axis holds"}, Value());
     target.property(Field{.key = "file", .summary = "CSV file with values of curves"}, Value());
-    target.property(Field{.key = "curve", .summary = "what is to be reached", .required = true},
+    target.property(Field{.key = "curve", .summary = "target curves", .required = true},
                     study::schema_array(std::move(curve).finish()));
-    document.property(Field{.key = "target", .summary = "what the wheel is to do", .required = true},
+    document.property(Field{.key = "target", .summary = "what is prescribed for the wheel", .required = true},
                       std::move(target).finish());
     document.property(Field{.key = "design", .summary = "what is free"},
                       study::schema_array(study::schema_fields<DesignForm>()));

@@ -9,6 +9,7 @@
 #include "linkwright/math/angles.h"
 #include "linkwright/study/beside.h"
 #include "linkwright/study/bind_write.h"
+#include "linkwright/study/trade_words.h"
 #include "linkwright/suspension/guide/plausibility.h"
 #include "linkwright/suspension/guide/samples.h"
 #include "linkwright/suspension/guide/structure.h"
@@ -235,7 +236,7 @@ class GuideReader {
       mechanism_.error(
           "sample",
           fmt::format("there is no sample '{}'; there are: {}", form_.sample, fmt::join(known, ", ")),
-          did_you_mean(form_.sample, known));
+          study::suggestion(form_.sample, known));
       return std::nullopt;
     }
     for (const char* key : {"hard_points", "wheel", "link", "coupler", "spring", "rack"})
@@ -265,13 +266,17 @@ class GuideReader {
       if (const auto text = study::read_beside(*table, "file", common_.folder, *h.file)) {
         Diagnostics problems;
         const auto points = read_hard_points(*text, *h.file, h.unit, problems);
-        for (const Diagnostic& d : problems) table->unreadable("file", to_string(d));
+        for (const Diagnostic& d : problems)
+          if (d.severity == Diagnostic::Severity::error)
+            table->unreadable("file", study::in_file(d));
+          else
+            table->warning("file", study::in_file(d));
         if (points) hard_ = *points;
       }
     for (const auto& [name, at] : h.points) {
       const std::string plain = plain_name(name);
       if (find(plain))
-        table->error("points", fmt::format("'{}' is in the list of points, too", name), "remove one of them");
+        table->error("points", fmt::format("'{}' is also in the list of points", name), "remove one of them");
       hard_.push_back({plain, {at[0], at[1], at[2]}});
     }
     for (HardPoint& p : hard_) p.at = to_vehicle(h.frame, p.at);
@@ -358,7 +363,7 @@ class GuideReader {
     if (form.name.empty()) form.name = fmt::format("link {}", index + 1);
     for (const GuideLink& other : out_.guide.links)
       if (other.name == form.name)
-        table.error("name", fmt::format("'{}' is the name of another link, too", form.name));
+        table.error("name", fmt::format("'{}' is also the name of another link", form.name));
     const int at_body = body_points(form.type), at_carrier = carrier_points(form.type);
     if (!form.points.empty()) {
       for (const char* key : {"body", "carrier"})
@@ -406,6 +411,8 @@ class GuideReader {
       if (out_.guide.links[i].name == name) return static_cast<int>(i);
       known.emplace_back(out_.guide.links[i].name);
     }
+    for (const GuideLinkForm& form : form_.links)
+      if (form.name == name) return -1;  // it is there, and what is wrong with it has been said
     table.error(key, fmt::format("no link is called '{}'", name), did_you_mean(name, known));
     return -1;
   }
@@ -429,7 +436,7 @@ class GuideReader {
       if (!begin) return;
       if (suspension::open(point))
         return table.error("point", "is open, and only couplers on the line of their first link are searched",
-                           "give fraction or offset in the place of first_point");
+                           "give fraction or offset instead of first_point");
     }
     const bool searched = suspension::open(point) || (form.offset && !form.offset->fixed());
     if (searched && open_ == OpenPoints::none)
@@ -472,7 +479,7 @@ class GuideReader {
     out_.guide.spring = out;
     if (s.stiffness) out_.spring = SpringLaw{*s.stiffness, s.preload};
     if (!s.stiffness && table->has(Field{.key = "preload", .summary = {}, .dimension = Dimension::force}))
-      table->error("preload", "needs the stiffness beside it", "write stiffness_N_per_mm");
+      table->error("preload", "needs the stiffness as well", "write stiffness_N_per_mm");
   }
 
   void rack() {

@@ -66,7 +66,7 @@ void read_poses(study::ObjectReader& target, const study::Common& common, Indire
   target.read(form);
   if (form.file.has_value() == form.poses.has_value()) {
     target.error(form.file ? "file" : "pose",
-                 form.file ? "positions are given here, too" : "the target has no positions",
+                 form.file ? "positions are also given here" : "the target has no positions",
                  "write file = \"poses.csv\", or [[target.pose]]");
     return;
   }
@@ -77,7 +77,7 @@ void read_poses(study::ObjectReader& target, const study::Common& common, Indire
     const std::optional<Table> table = read_csv(*text, *form.file, problems);
     std::optional<CarrierTargets> targets;
     if (table) targets = carrier_targets(task.targets, *table, *form.file, problems);
-    for (const Diagnostic& d : problems) target.unreadable("file", to_string(d));
+    for (const Diagnostic& d : problems) target.unreadable("file", study::in_file(d));
     if (targets) task.targets = std::move(*targets);
   } else {
     for (const PoseEntry& p : *form.poses)
@@ -131,7 +131,7 @@ std::optional<IndirectStudy> read_indirect_study(study::ObjectReader& document, 
             "coupler",
             fmt::format("'{}' begins off the line of its first link: this synthesis takes it on the line",
                         c.name),
-            "give fraction or offset in the place of first_point");
+            "give fraction or offset instead of first_point");
     for (const GuideLink& l : guide.links)
       if (l.length)
         mechanism->error(

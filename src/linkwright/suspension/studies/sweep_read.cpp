@@ -26,7 +26,7 @@ std::optional<GuideDescription> read_baseline(study::ObjectReader& document, con
   const bool named = (*table)(Field{.key = "file", .summary = {}}, file);
   if (named == table->has("mechanism")) {
     table->error("file", named ? "the baseline is given twice" : "the baseline is missing",
-                 "write file = \"before.toml\", the study that it stands in; or [baseline.mechanism]");
+                 "write file = \"before.toml\", the study that holds it; or [baseline.mechanism]");
     return std::nullopt;
   }
   if (!named) {
@@ -48,7 +48,7 @@ std::optional<GuideDescription> read_baseline(study::ObjectReader& document, con
       table->error("file", fmt::format("'{}' has no wheel suspension", file));
   }
   for (const Diagnostic& d : problems)
-    if (d.severity == Diagnostic::Severity::error) table->unreadable("file", to_string(d));
+    if (d.severity == Diagnostic::Severity::error) table->unreadable("file", study::in_file(d));
   return out;
 }
 

@@ -1,0 +1,113 @@
+#include "linkwright/study/trade_words.h"
+
+#include <fmt/core.h>
+
+#include <array>
+
+#include "linkwright/core/diagnostic.h"
+
+namespace linkwright::study {
+namespace {
+
+struct TradeWords {
+  std::string_view ours;
+  std::string_view theirs;  ///< in small letters and digits only, separated by blanks
+};
+
+// A word of the trade may stand for several of ours; the first that is allowed counts.
+constexpr std::array trade_words{
+    TradeWords{"four_bar",
+               "4bar fourbarlinkage 4barlinkage crankrocker gelenkviereck viergelenk viergelenkgetriebe "
+               "kurbelschwinge quatrebarres cuatrobarras"},
+    TradeWords{"slider_crank",
+               "crankslider schubkurbel schubkurbelgetriebe biellemanivelle bielamanivela manivelacorredera"},
+    TradeWords{"five_bar", "5bar 5r"},
+    TradeWords{"linkage", "sixbar 6bar eightbar 8bar koppelgetriebe"},
+    TradeWords{"serial_arm", "robotarm manipulator roboterarm"},
+    TradeWords{"corner",
+               "doublewishbone macpherson mcpherson multilink suspension wheelsuspension quartercar "
+               "doppelquerlenker mehrlenker radaufhängung radaufhaengung doubletriangulation"},
+
+    TradeWords{"ground", "frame base gestell steg bâti bati bastidor"},
+    TradeWords{"crank", "kurbel antriebskurbel manivelle manivela"},
+    TradeWords{"coupler", "floatinglink connectingrod koppel bielle biela acoplador"},
+    TradeWords{"rod", "connectingrod conrod coupler pleuel koppel bielle biela"},
+    TradeWords{"rocker", "follower schwinge abtriebsschwinge balancier balancín balancin"},
+    TradeWords{"speed", "velocity drehzahl vitesse velocidad"},
+    TradeWords{"mass", "weight masse gewicht masa"},
+    TradeWords{"length", "länge laenge longueur longitud"},
+
+    TradeWords{"revolute",
+               "hinge pin pinjoint pivot pivote rotary drehgelenk gelenk scharnier charnière bisagra"},
+    TradeWords{"prismatic", "slider slide sliding translational schubgelenk glissière corredera"},
+    TradeWords{"pin_in_slot", "slot pinslot kulisse coulisse ranura"},
+    TradeWords{"fixed", "weld welded rigid fest encastrement"},
+    TradeWords{"gear", "gears gearpair zahnrad zahnradpaar engrenage engranaje"},
+
+    TradeWords{"2RS-US", "doublewishbone doppelquerlenker doubletriangulation"},
+    TradeWords{"RS-SP-US", "macpherson mcpherson"},
+    TradeWords{"5US", "multilink fivelink mehrlenker fünflenker fuenflenker"},
+    TradeWords{"RS", "wishbone aarm controlarm querlenker dreiecklenker dreieckslenker triangle triángulo"},
+    TradeWords{"US", "tierod trackrod toelink twopointlink lenker stablenker spurstange biellette tirante"},
+    TradeWords{"SP", "strut macpherson mcpherson damper federbein jambedeforce"},
+    TradeWords{"RR", "trapezoidalarm trapezlenker"},
+    TradeWords{"R", "trailingarm semitrailingarm längslenker schräglenker brastiré"},
+    TradeWords{"S", "balljoint kugelgelenk rotule rótula"},
+
+    TradeWords{"crank_rotates_fully", "grashof fullrotation umlauffähig umlauffaehig"},
+    TradeWords{"transmission_angle", "übertragungswinkel uebertragungswinkel angledetransmission"},
+    TradeWords{"synthesis", "design optimise optimize optimisation optimization auslegung"},
+    TradeWords{"simulation", "dynamics dynamik dynamique"},
+    TradeWords{"balancing", "massenausgleich équilibrage"},
+};
+
+/// In small letters, without blanks and punctuation.
+std::string letters(std::string_view word) {
+  std::string out;
+  for (const char c : word) {
+    if (c >= 'A' && c <= 'Z')
+      out += static_cast<char>(c - 'A' + 'a');
+    else if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80)
+      out += c;
+  }
+  return out;
+}
+
+/// "four_bar" of "planar.four_bar".
+std::string_view last_part(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string_view::npos ? name : name.substr(dot + 1);
+}
+
+bool lists(std::string_view words, std::string_view word) {
+  for (std::size_t from = 0; from < words.size();) {
+    const std::size_t end = std::min(words.find(' ', from), words.size());
+    if (words.substr(from, end - from) == word) return true;
+    from = end + 1;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string_view meant_word(std::string_view word, const std::vector<std::string_view>& allowed) {
+  const std::string whole = letters(word), last = letters(last_part(word));
+  if (last.empty()) return {};
+  for (const std::string_view candidate : allowed)
+    if (letters(candidate) == whole) return candidate;
+  for (const std::string_view candidate : allowed)
+    if (letters(last_part(candidate)) == last) return candidate;
+  for (const TradeWords& row : trade_words)
+    if (lists(row.theirs, last))
+      for (const std::string_view candidate : allowed)
+        if (last_part(candidate) == row.ours) return candidate;
+  return nearest_word(word, allowed);
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string_view>& allowed,
+                       std::string otherwise) {
+  const std::string_view meant = meant_word(word, allowed);
+  return meant.empty() ? otherwise : fmt::format("did you mean '{}'?", meant);
+}
+
+}  // namespace linkwright::study

@@ -1,0 +1,680 @@
+#include <gmock/gmock.h>
+
+#include <map>
+#include <utility>
+
+#include "tests/cli/program_fixture.h"
+
+// What people who write their first studies get wrong, and what the real program answers: whole messages, so
+// that each change of one is seen here.
+namespace linkwright::cli {
+namespace {
+
+constexpr const char *four_bar = "analysis/planar.four_bar", *path = "synthesis/planar.four_bar/path_points",
+                     *linkage = "analysis/planar.linkage", *corner = "analysis/suspension.corner";
+
+/// A passage of a template and what stands there instead; "a ... b" is all from a up to b.
+struct Edit {
+  std::string from, to;
+};
+struct Row {
+  std::string mistake;
+  const char* kind;  ///< the study is its template with these changes; none: only the files
+  std::vector<Edit> edits;
+  std::map<std::string, std::string> files;
+  std::string message;
+  std::vector<std::string> command = {"check", "s.toml"};
+};
+
+const std::string all_points = "points_mm = [ ... # or: points_file",
+                  all_hard_points = "[mechanism.hard_points.points_mm] ... [mechanism.wheel]";
+const std::string workbook("PK\x03\x04\x14\0\x06\0\x08\0", 10);
+
+std::string listed(const std::string& unit) {
+  return "[mechanism.hard_points]\nfile = \"points.txt\"\nunit = \"" + unit + "\"\n\n";
+}
+std::string hard_points() {
+  return "lower_front 180.0 370.0 -110.0\n"
+         "lower_rear -170.0 370.0 -100.0\n"
+         "lower_ball 8.0 715.0 -130.0\n"
+         "upper_front 120.0 440.0 165.0\n"
+         "upper_rear -140.0 440.0 150.0\n"
+         "upper_ball -22.0 665.0 215.0\n"
+         "tie_inner -125.0 415.0 -47.0\n"
+         "tie_outer -140.0 700.0 -42.0\n"
+         "spring_top -10.0 500.0 330.0\n"
+         "spring_bottom 0.0 570.0 -105.0\n"
+         "wheel_centre 0.0 760.0 0.0\n";
+}
+/// Little-endian with its mark, as spreadsheets write "Unicode text"; of ASCII.
+std::string utf16(std::string_view text) {
+  std::string out = "\xFF\xFE";
+  for (const char c : text) out += {c, '\0'};
+  return out;
+}
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t gap = from.find(" ... ");
+  const std::size_t begin = text.find(from.substr(0, gap));
+  EXPECT_NE(begin, std::string::npos) << from;
+  if (begin == std::string::npos) return text;
+  const std::size_t end =
+      gap == std::string::npos ? begin + from.size() : text.find(from.substr(gap + 5), begin);
+  return text.replace(begin, end - begin, to);
+}
+
+// Numbers, units and words of a study.
+std::vector<Row> keys_and_values() {
+  return {
+      {"no unit",
+       four_bar,
+       {{"crank_mm   = 100.0", "crank = 100"}},
+       {},
+       "s.toml:12:1: error: mechanism.parameters.crank: the unit is missing; write crank_m, crank_mm, "
+       "crank_cm, crank_um or crank_in\n"},
+      {"inches", four_bar, {{"crank_mm   = 100.0", "crank_in = 4"}}, {}, ""},
+      {"number in quotes",
+       four_bar,
+       {{"crank_mm   = 100.0", "crank_mm = \"100\""}},
+       {},
+       "s.toml:12:12: error: mechanism.parameters.crank_mm: is the text '100', must be a number\n"},
+      {"misspelt and missing",
+       four_bar,
+       {{"coupler_mm = 400.0", "cupler_mm = 400.0"}},
+       {},
+       "s.toml:13:1: error: mechanism.parameters.cupler_mm: unknown key; did you mean 'coupler_mm'?\n"},
+      {"key missing",
+       four_bar,
+       {{"rocker_mm  = 320.0\n", ""}},
+       {},
+       "s.toml:10:1: error: mechanism.parameters.rocker_m: this key is missing; write rocker_m, rocker_mm, "
+       "rocker_cm, rocker_um or rocker_in\n"},
+      {"twice with units",
+       four_bar,
+       {{"crank_mm   = 100.0", "crank_mm = 100\ncrank_m = 0.1"}},
+       {},
+       "s.toml:13:1: error: mechanism.parameters.crank_m: is given twice, as crank_mm and crank_m; keep one "
+       "of them\n"},
+      {"negative",
+       four_bar,
+       {{"crank_mm   = 100.0", "crank_mm = -100"}},
+       {},
+       "s.toml:12:12: error: mechanism.parameters.crank_mm: is -100 mm, must be more than 0 mm\n"},
+      {"zero",
+       four_bar,
+       {{"crank_mm   = 100.0", "crank_mm = 0"}},
+       {},
+       "s.toml:12:12: error: mechanism.parameters.crank_mm: is 0 mm, must be more than 0 mm\n"},
+      {"kind",
+       four_bar,
+       {{"\"analysis\"", "\"analyse\""}},
+       {},
+       "s.toml:3:10: error: kind: is 'analyse', must be one of: synthesis, analysis, simulation, "
+       "speed_fluctuation, balancing; did you mean 'analysis'?\n"},
+      {"type fourbar",
+       four_bar,
+       {{"\"planar.four_bar\"", "\"fourbar\""}},
+       {},
+       "s.toml:7:10: error: mechanism.type: is 'fourbar', must be one of: planar.four_bar, planar.linkage, "
+       "planar.slider_crank, planar.serial_arm, suspension.corner, parallel.pi_joint, parallel.delta, "
+       "parallel.hexa, parallel.five_bar, parallel.constant_orientation, parallel.serial_pi_arm, "
+       "flexible.hub_link, clearance.linkage; did you mean 'planar.four_bar'?\n"},
+      {"type 4bar",
+       four_bar,
+       {{"\"planar.four_bar\"", "\"planar.4bar\""}},
+       {},
+       "s.toml:7:10: error: mechanism.type: is 'planar.4bar', must be one of: planar.four_bar, "
+       "planar.linkage, planar.slider_crank, planar.serial_arm, suspension.corner, parallel.pi_joint, "
+       "parallel.delta, parallel.hexa, parallel.five_bar, parallel.constant_orientation, "
+       "parallel.serial_pi_arm, flexible.hub_link, clearance.linkage; did you mean 'planar.four_bar'?\n"},
+      {"samples 1",
+       four_bar,
+       {{"samples  = 361", "samples = 1"}},
+       {},
+       "s.toml:43:11: error: sweep.crank_angle.samples: is 1, must be at least 2\n"},
+      {"samples 1e9",
+       four_bar,
+       {{"samples  = 361", "samples = 1000000000"}},
+       {},
+       "s.toml:43:11: error: sweep.crank_angle.samples: is 1000000000, must be at most 100000\n"},
+      {"1e308",
+       four_bar,
+       {{"crank_mm   = 100.0", "crank_mm = 1e308"}},
+       {},
+       "s.toml:12:12: error: mechanism.parameters.crank_mm: is 1e+308 mm, must be at most 1e+12 mm\n"},
+      {"nan",
+       four_bar,
+       {{"crank_mm   = 100.0", "crank_mm = nan"}},
+       {},
+       "s.toml:12:12: error: mechanism.parameters.crank_mm: is nan, must be a finite number\n"},
+      {"kurbel",
+       four_bar,
+       {{"crank_mm   = 100.0", "kurbel_mm = 100"}},
+       {},
+       "s.toml:12:1: error: mechanism.parameters.kurbel_mm: unknown key; did you mean 'crank_mm'?\n"},
+      {"Koppel",
+       four_bar,
+       {{"coupler_mm = 400.0", "koppel_mm = 400.0"}},
+       {},
+       "s.toml:13:1: error: mechanism.parameters.koppel_mm: unknown key; did you mean 'coupler_mm'?\n"},
+      {"Open",
+       four_bar,
+       {{"\"open\"  ", "\"Open\"  "}},
+       {},
+       "s.toml:8:10: error: mechanism.branch: is 'Open', must be one of: open, crossed; did you mean "
+       "'open'?\n"},
+      {"to_rad = 360",
+       four_bar,
+       {{"to_deg   = 360.0", "to_rad = 360.0"}},
+       {},
+       "s.toml:42:10: warning: sweep.crank_angle.to_rad: is 360 rad, 57 turns; if degrees are meant, write "
+       "to_deg\n"},
+      {"speed_hz",
+       four_bar,
+       {{"speed_rpm = 300.0", "speed_hz = 5"}},
+       {},
+       "s.toml:35:1: error: drive.speed_hz: unknown key; allowed here: joint, input, speed_rad_per_s, "
+       "acceleration_rad_per_s2\n"},
+  };
+}
+
+// Syntax of a study.
+std::vector<Row> syntax() {
+  return {
+      {"decimal comma",
+       four_bar,
+       {{"crank_mm   = 100.0", "crank_mm = 100,5"}},
+       {},
+       "s.toml:12:15: error: '100,5' is not a number; write the decimal point: 100.5\n"},
+      {"unit in the value",
+       four_bar,
+       {{"crank_mm   = 100.0", "crank_mm = 100 mm"}},
+       {},
+       "s.toml:12:16: error: '100 mm' is not a number; the unit is in the key: crank_mm = 100\n"},
+      {"unit in the value, no blank",
+       four_bar,
+       {{"crank_mm   = 100.0", "crank_mm = 100mm"}},
+       {},
+       "s.toml:12:15: error: '100mm' is not a number; the unit is in the key: crank_mm = 100\n"},
+      {"no schema",
+       four_bar,
+       {{"schema = 1\n", ""}},
+       {},
+       "s.toml:1:1: error: schema: this key is missing; add schema = 1\n"},
+      {"schema 2",
+       four_bar,
+       {{"schema = 1", "schema = 2"}},
+       {},
+       "s.toml:2:10: error: schema: is 2, must be 1; this program reads studies of that version\n"},
+      {"curly quotes",
+       four_bar,
+       {{"\"Forces of my four-bar\"", "“Forces”"}},
+       {},
+       "s.toml:4:10: error: the character '“' (U+201C) is only allowed in strings and comments; use plain "
+       "ASCII characters, or quotes around the text\n"},
+      {"degree sign",
+       four_bar,
+       {{"from_deg = 0.0", "from_deg = 0°"}},
+       {},
+       "s.toml:41:13: error: the character '°' (U+00B0) is only allowed in strings and comments; use plain "
+       "ASCII characters, or quotes around the text\n"},
+      {"bracket of a table",
+       four_bar,
+       {{"[mechanism]", "[mechanism"}},
+       {},
+       "s.toml:6:11: error: is not valid TOML: in a table header, expected ']', saw the end of the line\n"},
+      {"table twice",
+       four_bar,
+       {{"[drive]", "[mechanism]\n[drive]"}},
+       {},
+       "s.toml:33:1: error: the key 'mechanism' is given twice\n"},
+      {"BOM",
+       four_bar,
+       {{"# linkwright",
+         "\xEF\xBB\xBF"
+         "# linkwright"}},
+       {},
+       ""},
+      {"UTF-16 study",
+       nullptr,
+       {},
+       {{"s.toml", utf16("schema = 1\n")}},
+       "s.toml:1:1: error: the byte 0xFF is not UTF-8 text; save the file as UTF-8\n"},
+      {"Latin-1 study",
+       four_bar,
+       {{"\"Forces of my four-bar\"",
+         "\"Kr\xE4"
+         "fte\""}},
+       {},
+       "s.toml:4:13: error: the byte 0xE4 is not UTF-8 text; save the file as UTF-8\n"},
+      {"title without quotes",
+       four_bar,
+       {{"\"Forces of my four-bar\"", "Forces of my four-bar"}},
+       {},
+       "s.toml:4:10: error: text needs quotes; write title = \"Forces of my four-bar\"\n"},
+      {"word without quotes",
+       four_bar,
+       {{"\"crank\"\n", "crank\n"}},
+       {},
+       "s.toml:34:13: error: text needs quotes; write input = \"crank\"\n"},
+      {"backslashes",
+       four_bar,
+       {{"[output] ", "[output]\ndir = \"C:\\Users\\me\"\n#"}},
+       {},
+       "s.toml:46:7: error: in double quotes a backslash begins a special character; use / in paths, or "
+       "single quotes: dir = 'C:\\Users\\me'\n"},
+      {"backslashes, allowed escapes",
+       four_bar,
+       {{"[output] ", "[output]\ndir = \"C:\\temp\\new\"\n#"}},
+       {},
+       "s.toml:46:7: error: output.dir: has a special character in it, which a backslash in double quotes "
+       "makes; use / in paths, or single quotes\n"},
+      {"empty",
+       nullptr,
+       {},
+       {{"s.toml", ""}},
+       "s.toml: error: the file is empty; write a first study with `linkwright new`\n"},
+      {"xlsx as study",
+       nullptr,
+       {},
+       {{"s.toml", workbook}},
+       "s.toml: error: this is an Excel workbook or another packed file, a study is a text file; save its "
+       "tables as CSV and name them in a study\n"},
+      {"xlsx as study by its name",
+       nullptr,
+       {},
+       {{"s.xlsx", workbook}},
+       "s.xlsx: error: this is an Excel workbook or another packed file, a study is a text file; save its "
+       "tables as CSV and name them in a study\n",
+       {"check", "s.xlsx"}},
+      {"missing bracket",
+       path,
+       {{"[500, 1100],", "[500, 1100"}},
+       {},
+       "s.toml:19:14: error: is not valid TOML: in an array, expected comma or closing ']', saw '['; is a ] "
+       "or a comma missing in the list that begins in line 18?\n"},
+      {"missing closing bracket",
+       path,
+       {{"  [200, 300], [400, 500], [600, 900],\n]\n", "  [200, 300], [400, 500], [600, 900],\n"}},
+       {},
+       "s.toml:26:3: error: is not valid TOML: in a value, could not determine value type; is a ] or a comma "
+       "missing in the list that begins in line 18?\n"},
+  };
+}
+
+// Points from a spreadsheet.
+std::vector<Row> spreadsheets() {
+  return {
+      {"xlsx as CSV",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", workbook}},
+       "s.toml:18:15: error: target.points_file: 'path.csv' cannot be read: this is an Excel workbook or "
+       "another packed file; save it as CSV or plain text\n"},
+      {"semicolons",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "x_mm;y_mm\r\n0.5;0.5\r\n100.5;50.5\r\n200.5;80.5\r\n300.5;50.5\r\n400.5;0.5\r\n"}},
+       ""},
+      {"semicolons and comma",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "x_mm;y_mm\r\n0,5;0,5\r\n100,5;50,5\r\n200,5;80,5\r\n300,5;50,5\r\n400,5;0,5\r\n"}},
+       ""},
+      {"commas and decimal comma",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "x_mm,y_mm\r\n0,5,0,5\r\n100,5,50,5\r\n200,5,80,5\r\n300,5,50,5\r\n400,5,0,5\r\n"}},
+       "s.toml:18:15: error: target.points_file: path.csv:2:1: 4 values, the header has 2 columns; with "
+       "decimal commas separate the columns by semicolons\n"},
+      {"X [mm]",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "X [mm],Y [mm]\r\n0.5,0.5\r\n100.5,50.5\r\n200.5,80.5\r\n300.5,50.5\r\n400.5,0.5\r\n"}},
+       ""},
+      {"x,y",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "x,y\r\n0.5,0.5\r\n100.5,50.5\r\n200.5,80.5\r\n300.5,50.5\r\n400.5,0.5\r\n"}},
+       "s.toml:18:15: error: target.points_file: 'path.csv' has no column x_m; name the columns x_m,y_m (or "
+       "x_mm,y_mm, ...)\ns.toml:18:15: error: target.points_file: 'path.csv' has no column y_m; name the "
+       "columns x_m,y_m (or x_mm,y_mm, ...)\n2 errors\n"},
+      {"no header",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "0,0\n100,50\n200,80\n300,50\n400,0\n"}},
+       "s.toml:18:15: error: target.points_file: path.csv:1:1: the first line holds numbers ('0'): the "
+       "header line is missing; write the column keys with their units above them, for example x_mm,y_mm\n"},
+      {"tabs",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv",
+         "x_mm\ty_mm\r\n0.5\t0.5\r\n100.5\t50.5\r\n200.5\t80.5\r\n300.5\t50.5\r\n400.5\t0.5\r\n"}},
+       ""},
+      {"sep=",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv",
+         "sep=;\r\nx_mm;y_mm\r\n0,5;0,5\r\n100,5;50,5\r\n200,5;80,5\r\n300,5;50,5\r\n400,5;0,5\r\n"}},
+       ""},
+      {"#DIV/0!",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "x_mm,y_mm\n0,0\n#DIV/0!,50\n200,80\n"}},
+       "s.toml:18:15: error: target.points_file: path.csv:3:1: x_mm: '#DIV/0!' is not a number; write "
+       "numbers like 0.25 or 1e-3, columns separated by commas\n"},
+      {"trailing columns",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "x_mm,y_mm,,\n0,0,,\n100,50,,\n200,80,,\n300,50,,\n400,0,,\n"}},
+       ""},
+      {"thousands",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "x_mm,y_mm\n\"1,000.5\",0\n100,50\n"}},
+       "s.toml:18:15: error: target.points_file: path.csv:2:1: x_mm: '1,000.5' is not a number; write "
+       "thousands without a separator, like 1000.5\n"},
+      {"empty rows",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "x_mm,y_mm\n0,0\n,\n100,50\n200,80\n300,50\n,\n400,0\n"}},
+       ""},
+      {"half a row",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "x_mm,y_mm\n0,0\n100,\n200,80\n300,50\n400,0\n"}},
+       "s.toml:18:15: error: target.points_file: 'path.csv': point 2 is incomplete; give it a number in "
+       "column y_mm\n"},
+      {"UTF-16 CSV",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv",
+         utf16("x_mm\ty_mm\r\n0,5\t0,5\r\n100,5\t50,5\r\n200,5\t80,5\r\n300,5\t50,5\r\n400,5\t0,5\r\n")}},
+       ""},
+      {"unicode minus",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "x_mm,y_mm\n0,0\n100,−50\n200,80\n300,50\n400,0\n"}},
+       ""},
+      {"column twice",
+       path,
+       {{all_points, "points_file = \"path.csv\""}},
+       {{"path.csv", "x_mm,y_mm,y_mm\n0,0,1\n"}},
+       "s.toml:18:15: error: target.points_file: path.csv:1:11: y_mm: duplicate column\n"},
+      {"missing CSV",
+       path,
+       {{all_points, "points_file = \"pfad.csv\""}},
+       {},
+       "s.toml:18:15: error: target.points_file: cannot read 'pfad.csv'; file names are relative to the "
+       "folder of the study\n"},
+  };
+}
+
+// Paths.
+std::vector<Row> paths() {
+  return {
+      {"transmission angle",
+       path,
+       {{"\"transmission_angle\"", "\"transmission angle\""}},
+       {},
+       "s.toml:31:11: error: constraint[1].type: is 'transmission angle', must be one of: "
+       "crank_rotates_fully, order, transmission_angle, packaging, no_defects; did you mean "
+       "'transmission_angle'?\n"},
+      {"two points",
+       path,
+       {{all_points, "points_mm = [[0,0],[100,50]]"}},
+       {},
+       "s.toml:18:13: error: target.points_mm: 2 points make no path, at least 3 are needed; add points "
+       "between them\n"},
+      {"repeated points",
+       path,
+       {{all_points, "points_mm = [[0,0],[100,50],[100,50],[0,0],[3,4]]"}},
+       {},
+       "s.toml:18:13: error: target.points_mm: point 3 repeats point 2: (0.1, 0.05); remove one of them\n"},
+      {"min > max",
+       path,
+       {{"[target]", "[mechanism.parameters]\ncrank_mm = { min = 200, max = 100 }\n\n[target]"}},
+       {},
+       "s.toml:15:12: error: mechanism.parameters.crank_mm: min is 200 mm, larger than max, which is 100 "
+       "mm\n"},
+      {"transmission 95",
+       path,
+       {{"min_deg = 30.0", "min_deg = 95"}},
+       {},
+       "s.toml:32:11: error: constraint[1].min_deg: is 95 deg, must be at most 90 deg\n"},
+      {"grashof",
+       path,
+       {{"\"crank_rotates_fully\"", "\"grashof\""}},
+       {},
+       "s.toml:28:8: error: constraint[0].type: is 'grashof', must be one of: crank_rotates_fully, order, "
+       "transmission_angle, packaging, no_defects; did you mean 'crank_rotates_fully' (the crank rotates "
+       "fully)?\n"},
+      {"3 coordinates",
+       path,
+       {{"[500, 1100]", "[500, 1100, 3]"}},
+       {},
+       "s.toml:19:3: error: target.points_mm[0]: has 3 numbers, must have 2\n"},
+  };
+}
+
+// Bodies, joints and drives.
+std::vector<Row> linkages() {
+  return {
+      {"unknown body",
+       linkage,
+       {{"second = \"rocker.B\"", "second = \"roker.B\""}},
+       {},
+       "s.toml:43:10: error: mechanism.joint[2].second: there is no body 'roker'; did you mean 'rocker'?\n"},
+      {"unknown point",
+       linkage,
+       {{"second = \"rocker.B\"", "second = \"rocker.C\""}},
+       {},
+       "s.toml:43:10: error: mechanism.joint[2].second: body 'rocker' has no point 'C'; there are: B0, B\n"},
+      {"unknown type of joint",
+       linkage,
+       {{"name   = \"B\"\n", "name   = \"B\"\ntype = \"hinge\"\n"}},
+       {},
+       "s.toml:42:8: error: mechanism.joint[2].type: is 'hinge', must be one of: revolute, prismatic, "
+       "pin_in_slot, fixed, gear; did you mean 'revolute' (the two points coincide)?\n"},
+      {"type pin",
+       linkage,
+       {{"name   = \"B\"\n", "name   = \"B\"\ntype = \"pin\"\n"}},
+       {},
+       "s.toml:42:8: error: mechanism.joint[2].type: is 'pin', must be one of: revolute, prismatic, "
+       "pin_in_slot, fixed, gear; did you mean 'revolute' (the two points coincide)?\n"},
+      {"joint missing",
+       linkage,
+       {{"[[mechanism.joint]]\nname   = \"B0\"\nfirst  = \"ground.B0\"\nsecond = \"rocker.B0\"\n", ""}},
+       {},
+       "s.toml:20:13: error: mechanism.body[2].name: 'coupler' and 'rocker' keep 2 degrees of freedom "
+       "without a drive; the linkage has 3 degrees of freedom and 1 drive: drive one more joint, or add a "
+       "joint\n"},
+      {"redundant joint",
+       linkage,
+       {{"# A pair of bodies",
+         "[[mechanism.joint]]\nname = \"A2\"\nfirst = \"crank.A\"\nsecond = \"coupler.A\"\n\n# A pair"}},
+       {},
+       "s.toml:51:8: error: mechanism.joint[4].name: a redundant constraint: 'crank' and 'coupler' are "
+       "placed by other joints already, so the linkage closes for special dimensions only; leave the joint "
+       "out, or one of the links beside it\n"},
+      {"no drive",
+       linkage,
+       {{"[[drive]]\njoint     = \"O\"\nspeed_rpm = 300.0\n", ""}},
+       {},
+       "s.toml:15:13: error: mechanism.body[1].name: 'crank', 'coupler' and 'rocker' keep 1 degree of "
+       "freedom without a drive; the linkage has 1 degree of freedom and 0 drives: drive one more joint, or "
+       "add a joint\n"},
+      {"drive of unknown joint",
+       linkage,
+       {{"[[drive]]\njoint     = \"O\"", "[[drive]]\njoint     = \"motor\""}},
+       {},
+       "s.toml:56:13: error: drive[0].joint: there is no joint 'motor'; there are: O, A, B, B0\n"},
+      {"two bodies of one name",
+       linkage,
+       {{"name      = \"rocker\"", "name      = \"crank\""}},
+       {},
+       "s.toml:25:13: error: mechanism.body[3].name: the name 'crank' is given twice; give every body a name "
+       "of its own\n"},
+      {"mass missing",
+       linkage,
+       {{"mass_kg   = 1.3\n", ""}},
+       {},
+       "s.toml:10:1: error: mechanism.body: forces and torques need the mass of every body: 'coupler' has "
+       "none; give mass_kg, or list quantities that need no masses: output.quantities = [\"position\", "
+       "\"rates\", \"transmission_angle\"]\n"},
+  };
+}
+
+// Hard points and links.
+std::vector<Row> suspensions() {
+  return {
+      {"hard-point typo",
+       corner,
+       {{"points   = [\"tie_inner\", \"tie_outer\"]", "points   = [\"tie_inner\", \"tie_outr\"]"}},
+       {},
+       "s.toml:45:12: error: mechanism.link[2].points: there is no hard point 'tie_outr'; there are: "
+       "lower_front, lower_rear, lower_ball, upper_front, upper_rear, upper_ball, tie_inner, tie_outer, "
+       "spring_top, spring_bottom, wheel_centre; did you mean 'tie_outer'?\n"},
+      {"link type wishbone",
+       corner,
+       {{"type   = \"RS\"\npoints = [\"lower_front\"", "type   = \"wishbone\"\npoints = [\"lower_front\""}},
+       {},
+       "s.toml:34:10: error: mechanism.link[0].type: is 'wishbone', must be one of: R, RR, S, RS, SR, SP, "
+       "US, SS; did you mean 'RS' (wishbone: hinged to the body (two points), ball joint at the carrier)?\n"},
+      {"link type A-arm",
+       corner,
+       {{"type   = \"RS\"\npoints = [\"lower_front\"", "type   = \"A-arm\"\npoints = [\"lower_front\""}},
+       {},
+       "s.toml:34:10: error: mechanism.link[0].type: is 'A-arm', must be one of: R, RR, S, RS, SR, SP, US, "
+       "SS; did you mean 'RS' (wishbone: hinged to the body (two points), ball joint at the carrier)?\n"},
+      {"too few links",
+       corner,
+       {{"[[mechanism.link]]\nname     = \"tie rod\"\ntype     = \"US\"\npoints   = [\"tie_inner\", "
+         "\"tie_outer\"]\nmoved_by = \"rack\"\n",
+         ""},
+        {"[sweep.rack]\nvalues_mm = [-60.0, -30.0, 0.0, 30.0, 60.0]", ""}},
+       {},
+       "s.toml:6:1: error: mechanism.links: the links constrain 4 of the carrier's 6 degrees of freedom (2 "
+       "RS: 4), 5 must be constrained; the wheel would have 2 degrees of freedom: add links\n"},
+      {"unit = m",
+       corner,
+       {{all_hard_points, listed("m")}},
+       {{"points.txt", hard_points()}},
+       "s.toml:12:1: error: mechanism.hard_points: the farthest point of the suspension lies 443.4 m from "
+       "the wheel centre; are these millimetres in keys of metres? check the unit in the key: _mm, _cm, _m "
+       "or _in\ns.toml:16:1: error: mechanism.wheel: the tyre's radius is 320 mm, the joints lie 379.5 m "
+       "from the wheel centre in the middle, and the track is 1520 m; check tyre_diameter and the points: "
+       "_mm, _cm, _m or _in\n2 errors\n"},
+      {"unreadable list",
+       corner,
+       {{all_hard_points, listed("mm")}},
+       {{"points.txt", replaced(hard_points(), "715.0", "7l5.0")}},
+       "s.toml:13:8: warning: mechanism.hard_points.file: points.txt:3:1: lower_ball: '7l5.0' is not a "
+       "number, the line is passed over\ns.toml:26:10: error: mechanism.link[0].points: there is no hard "
+       "point 'lower_ball'; there are: lower_front, lower_rear, upper_front, upper_rear, upper_ball, "
+       "tie_inner, tie_outer, spring_top, spring_bottom, wheel_centre; did you mean 'upper_ball'?\n"},
+      {"wrong side",
+       corner,
+       {{"[-125.0, 415.0,  -47.0]", "[-125.0, -415.0, -47.0]"},
+        {"[   0.0, 760.0,    0.0]", "[0.0, -760.0, 0.0]"}},
+       {},
+       "s.toml:25:1: error: mechanism.wheel: y of the wheel centre is -0.76 m on the left side; y points to "
+       "the left\n"},
+      {"same point twice, same place",
+       corner,
+       {{all_hard_points, listed("mm")}},
+       {{"points.txt", hard_points() + "lower_front 180.0 370.0 -110.0\n"}},
+       ""},
+      {"same point twice, other place",
+       corner,
+       {{all_hard_points, listed("mm")}},
+       {{"points.txt", hard_points() + "lower_front 1 2 3\n"}},
+       "s.toml:13:8: error: mechanism.hard_points.file: points.txt:12:1: lower_front: is given twice, at "
+       "different places; give every point a name of its own\n"},
+      {"type macpherson",
+       corner,
+       {{"\"suspension.corner\"", "\"macpherson\""}},
+       {},
+       "s.toml:7:8: error: mechanism.type: is 'macpherson', must be one of: planar.four_bar, planar.linkage, "
+       "planar.slider_crank, planar.serial_arm, suspension.corner, parallel.pi_joint, parallel.delta, "
+       "parallel.hexa, parallel.five_bar, parallel.constant_orientation, parallel.serial_pi_arm, "
+       "flexible.hub_link, clearance.linkage; did you mean 'suspension.corner'?\n"},
+      {"sample double wishbone",
+       corner,
+       {{"side = \"left\"", "side = \"left\"\nsample = \"double wishbone\""}},
+       {},
+       "s.toml:9:10: error: mechanism.sample: there is no sample 'double wishbone'; there are: R, RR-US, "
+       "S-2US, 2RS-US, RS-SR-US, RS-SP-US, 2SR-US, SR-SP-US, RS-3US, SR-3US, SP-3US, 5US, front_5US, "
+       "strut_SP-3US, interconnected, rear_5US; did you mean '2RS-US'?\n"},
+  };
+}
+
+// The command line.
+std::vector<Row> command_line() {
+  return {
+      {"bounds cannot close",
+       path,
+       {{"[target]",
+         "[mechanism.parameters]\nground_mm = { min = 1000, max = 2000 }\ncrank_mm = { min = 5, max = 20 "
+         "}\ncoupler_mm = { min = 5, max = 20 }\nrocker_mm = { min = 5, max = 20 }\n\n[target]"}},
+       {},
+       "s.toml:14:1: error: mechanism.parameters: the bounds do not let the four-bar close: the ground is at "
+       "least 1000 mm long, the other links together at most 60 mm; widen the bounds\n",
+       {"run", "s.toml"}},
+      {"--time-limit 0",
+       four_bar,
+       {},
+       {},
+       "--time-limit: is '0', must be a number of seconds, more than 0\nRun with --help for more "
+       "information.\n",
+       {"run", "s.toml", "--time-limit", "0"}},
+      {"--seed without seeds",
+       four_bar,
+       {},
+       {},
+       "--seed 3: error: this kind of study has no seeds; leave out --seed\n",
+       {"run", "s.toml", "--seed", "3"}},
+      {"folder is a file",
+       four_bar,
+       {},
+       {},
+       "s.toml: error: the folder cannot be made: Not a directory\n",
+       {"run", "s.toml", "--out", "s.toml"}},
+      {"folder in a file",
+       four_bar,
+       {},
+       {},
+       "s.toml/x: error: the folder cannot be made: Not a directory\n",
+       {"run", "s.toml", "--out", "s.toml/x"}},
+  };
+}
+class Messages : public test::ProgramFixture {
+ protected:
+  Messages() : ProgramFixture(LINKWRIGHT_PROGRAM) {}
+
+  void expect(const std::vector<Row>& rows) {
+    for (const Row& row : rows) {
+      SCOPED_TRACE(row.mistake);
+      if (row.kind) {
+        ASSERT_EQ(run({"new", row.kind, "-"}), 0);
+        std::string study = out_;
+        for (const Edit& edit : row.edits) study = replaced(std::move(study), edit.from, edit.to);
+        write("s.toml", study);
+      }
+      for (const auto& [name, text] : row.files) write(name, text);
+      const bool fails = row.message.find("error: ") != std::string::npos || row.command[0] != "check";
+      EXPECT_EQ(run(row.command), fails ? 2 : 0);
+      EXPECT_EQ(err_, row.message);
+    }
+  }
+};
+
+TEST_F(Messages, KeysAndValues) { expect(keys_and_values()); }
+TEST_F(Messages, Syntax) { expect(syntax()); }
+TEST_F(Messages, Spreadsheets) { expect(spreadsheets()); }
+TEST_F(Messages, Paths) { expect(paths()); }
+TEST_F(Messages, Linkages) { expect(linkages()); }
+TEST_F(Messages, Suspensions) { expect(suspensions()); }
+TEST_F(Messages, CommandLine) { expect(command_line()); }
+
+}  // namespace
+}  // namespace linkwright::cli
