@@ -168,6 +168,7 @@ TEST(ViewData, TheViewerHasTheSameKeys) {
   study::Plot plot;
   plot.group = plot.baseline = "some";
   plot.bands.resize(1);
+  plot.upright = true;
   result.plots = {plot};
   result.facts.resize(1);
   result.solutions.resize(1);

@@ -7,6 +7,7 @@ import { camera, extent, fitView, heightAt, moved, screen, size, thickness, zoom
 import { WheelHint } from "./controls";
 import type { Scene } from "./data";
 import { Arrows, Card, Key } from "./forces";
+import { placeLabels } from "./labels";
 import { isAssembled, isFixed, nearestSample, placeAt, placeNear, speeds, type Place } from "./motion";
 import { beyond } from "./space_view";
 import * as state from "./state";
@@ -206,10 +207,14 @@ function Bodies({ scene, at, plates }: { scene: Scene; at: number; plates: boole
 }
 
 function Joints({ scene, at }: { scene: Scene; at: number }) {
+  const before = useRef<number[]>([]);
+  const places = scene.joints.map((joint) => screen(placeNear(scene, joint.point, at)));
+  const names = state.showLabels.value ? placeLabels(places.map((p, i) => p && { ...p, text: scene.joints[i].name }), before.current) : [];
+  before.current = names.map((n) => n?.slot ?? 0);
   return (
     <>
       {scene.joints.map((joint, i) => {
-        const p = screen(placeNear(scene, joint.point, at));
+        const [p, name] = [places[i], names[i]];
         if (!p) return null;
         const cut = [0, 1, 2, 3, 4, 5].map((k) => `M${-13 + 6 * k} 18l-6 7`).join("");
         const thick = Math.max(0.45, thickness.value);
@@ -221,7 +226,8 @@ function Joints({ scene, at }: { scene: Scene; at: number }) {
             <circle r={(joint.style === "tracer" ? 5.4 : 4.6) * thick} />
             {joint.style !== "tracer" && <circle class="pin" r={1.1 * thick} />}
             <circle class="reach" r={Math.max(6, 12 * thick)} />
-            {state.showLabels.value && <text x={11} y={-9}>{joint.name}</text>}
+            {name?.far && <path class="leader" d={`M0 0L${name.x} ${name.y}`} />}
+            {name && <text x={name.x} y={name.y} text-anchor={name.anchor}>{joint.name}</text>}
           </g>
         );
       })}

@@ -6,6 +6,7 @@ import {
 import { arrowPixels, extent, scales, screen, size } from "./camera";
 import { Copy, Switch } from "./controls";
 import type { Quantity, Scene } from "./data";
+import { symbolOf } from "./labels";
 import { inputAt, placeNear, type Place } from "./motion";
 import * as state from "./state";
 import { format, lengthUnit, quantity as withUnit } from "./units";
@@ -67,7 +68,7 @@ function Vectors({ scene, quantity, at }: { scene: Scene; quantity: Quantity; at
         const from = screen(placeNear(scene, vector.point, at));
         const v = componentsNear(vector, at);
         if (!from || !v) return null;
-        return <Arrow quantity={quantity} from={from} end={{ x: from.x + v.x * scale, y: from.y - v.y * scale }} title={vector.name} symbol={vector.symbol} pick={`vector ${i}`} />;
+        return <Arrow quantity={quantity} from={from} end={{ x: from.x + v.x * scale, y: from.y - v.y * scale }} title={vector.name} symbol={symbolOf(scene, vector)} pick={`vector ${i}`} />;
       })}
     </g>
   );

@@ -3,6 +3,7 @@ import { AmbientLight, DirectionalLight, Group, OrthographicCamera, PerspectiveC
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { arrowScale, quantities, valueNear } from "./arrows";
 import type { Quantity, Scene } from "./data";
+import { placeLabels, symbolOf } from "./labels";
 import { placeAt, placeNear } from "./motion";
 import { arrowPart, bodyPart, discPart, jointPart, lines, Palette, type Part, type Places } from "./space_parts";
 import { bounds3, cloudOf, fit3, lowestTyre, middleOf, sizeOf, viewpoints, type V3, type ViewName } from "./space_view";
@@ -105,7 +106,7 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
   });
   const names = [
     ...whole.joints.map((joint, i) => ({ text: joint.name, kind: `joint ${joint.style}`, where: () => joints[i].object.visible ? joints[i].object.position : null, pick: `joint ${i}` })),
-    ...whole.vectors.map((v, i) => ({ text: v.symbol, kind: `arrow ${v.quantity}`, where: () => (arrows[i].object.visible ? tips[i] : null), pick: `vector ${i}` })),
+    ...whole.vectors.map((v, i) => ({ text: symbolOf(whole, v), kind: `arrow ${v.quantity}`, where: () => (arrows[i].object.visible ? tips[i] : null), pick: `vector ${i}` })),
   ].filter((n) => n.text).map((n) => {
     const element = labels.appendChild(document.createElement("span"));
     element.textContent = n.text;
@@ -113,6 +114,10 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
     element.dataset.name = n.text;
     return { ...n, element };
   });
+  const leaderLayer = labels.appendChild(document.createElementNS("http://www.w3.org/2000/svg", "svg"));
+  const leaders = leaderLayer.appendChild(document.createElementNS("http://www.w3.org/2000/svg", "path"));
+  leaders.setAttribute("class", "leader");
+  const slots: number[] = []; // in which each name was
   const tips: (Vector3 | null)[] = [];
 
   let scene = whole;
@@ -183,22 +188,26 @@ export function open(host: HTMLElement, whole: Scene, events: Events): SpaceView
     canvas.dataset.frames = String(++frames);
   }
 
-  /** Names of joints where they are on the screen; one that would cover another moves down. */
+  /** Names beside their places on the screen; a leader goes to those that are further away. */
   function write(): void {
     const { clientWidth: width, clientHeight: height } = host;
-    const taken: { x: number; y: number; w: number }[] = [];
-    for (const { element, where, text } of names) {
+    const places = names.map(({ where, text }) => {
       const p = shown.labels ? where()?.clone().project(camera) : undefined;
       const inside = p && Math.abs(p.x) < 1 && Math.abs(p.y) < 1 && p.z < 1;
-      element.hidden = !inside;
-      if (!inside) continue;
-      const x = ((p.x + 1) / 2) * width + 9;
-      let y = ((1 - p.y) / 2) * height - 20;
-      const w = 7.5 * text.length + 4;
-      while (taken.some((t) => Math.abs(t.y - y) < 14 && x < t.x + t.w && t.x < x + w)) y += 14;
-      taken.push({ x, y, w });
-      element.style.transform = `translate(${x.toFixed(1)}px,${y.toFixed(1)}px)`;
-    }
+      return inside ? { x: ((p.x + 1) / 2) * width, y: ((1 - p.y) / 2) * height, text } : null;
+    });
+    const placed = placeLabels(places, slots);
+    let leads = "";
+    names.forEach(({ element }, i) => {
+      const [p, name] = [places[i], placed[i]];
+      element.hidden = !p || !name;
+      if (!p || !name) return;
+      slots[i] = name.slot;
+      const [x, y] = [p.x + name.x, p.y + name.y];
+      element.style.transform = `translate(${x.toFixed(1)}px,${(y - 11).toFixed(1)}px)${name.anchor === "start" ? "" : ` translateX(${name.anchor === "end" ? -100 : -50}%)`}`;
+      if (name.far) leads += `M${p.x.toFixed(1)} ${p.y.toFixed(1)}L${x.toFixed(1)} ${y.toFixed(1)}`;
+    });
+    leaders.setAttribute("d", leads);
     const turned = (v: Vector3) => v.applyQuaternion(camera.quaternion.clone().invert());
     const axes = ["x", "y", "z"].map((name, k) => ({ name, v: turned(new Vector3(+(k === 0), +(k === 1), +(k === 2))) })).sort((a, b) => a.v.z - b.v.z);
     triad.innerHTML = `<svg viewBox="-44 -44 88 88">${axes.map(({ name, v }) =>
