@@ -56,7 +56,7 @@ Compared mechanism(std::string name, double length, std::vector<double> inputs) 
 TEST(Compare, FiguresStandSideBySideWithTheirDifference) {
   const std::vector<Compared> all = {mechanism("short", 400, {0, 1}), mechanism("long", 500, {0, 1})};
   const study::Result result = compare(all);
-  EXPECT_EQ(result.headline, "2 compared: 2 of 2 figures differ.");
+  EXPECT_EQ(result.headline, "2 studies compared: 2 of 3 results differ.");
   std::vector<std::string> facts;
   for (const study::Fact& fact : result.facts) facts.push_back(fact.label + "=" + fact.text);
   EXPECT_THAT(facts,
@@ -231,6 +231,13 @@ TEST_F(LoadCompared, WhatCannotBeHadAgainIsRefused) {
       out +
           "/result.json: error: was stopped before its end and cannot be computed again; let it end with "
           "--resume, or compare its study");
+  std::ofstream(folder_ / "out/result.json")
+      << R"({"study_sha256": "", "status": "done", "study": {"schema": 1, "kind": "none"}})";
+  EXPECT_EQ(
+      refusal(folder_ / "out"),
+      out +
+          "/result.json: error: holds a study that cannot be run again (kind: is 'none', must be one of: "
+          "synthesis, analysis); compare the study file that it comes from");
   EXPECT_EQ(refusal(folder_ / "none.toml"),
             (folder_ / "none.toml").string() + ": error: there is no such file");
 }

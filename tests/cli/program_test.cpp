@@ -121,7 +121,7 @@ TEST_F(Program, CompareWritesOneReportOfSeveral) {
   EXPECT_EQ(run({"compare", "out/s", "long.toml"}), 0) << err_;
   EXPECT_EQ(out_,
             "A lever | A longer lever\n"
-            "  2 compared: 1 of 2 figures differ.\n"
+            "  2 studies compared: 1 of 2 results differ.\n"
             "  status  done\n"
             "  1       A lever: done\n"
             "  2       A longer lever: done\n"

@@ -102,7 +102,7 @@ class Merger {
     solutions();
     checks();
     out_.headline =
-        fmt::format("{} compared: {} of {} figures differ.", all_.size(), different_, figures_.names.size());
+        fmt::format("{} studies compared: {} of {} results differ.", all_.size(), different_, compared_);
     if (!figures_.names.empty()) out_.tables.insert(out_.tables.begin(), figures());
     for (Table& table : differences_) out_.tables.push_back(std::move(table));
     return std::move(out_);
@@ -136,7 +136,6 @@ class Merger {
   void figure(std::string label, const std::vector<double>& values) {
     figures_.names.push_back(std::move(label));
     values_.push_back(values);
-    different_ += std::any_of(values.begin(), values.end(), [&](double v) { return v != values.front(); });
   }
 
   /// Equal texts once, different ones side by side, with the difference to the first.
@@ -163,6 +162,8 @@ class Merger {
       }
       if (texts.size() == 1) fact.text = *texts.begin();
       out_.facts.push_back(fact);
+      ++compared_;
+      different_ += texts.size() > 1;
       if (!std::isnan(values.front()))
         figure(unit.empty() ? label : fmt::format("{} ({})", label, unit), values);
     }
@@ -178,7 +179,10 @@ class Merger {
                              : one.result.solutions.front().objectives.find(member.key);
         values.push_back(v && v->is_number() ? v->as_number() : nan);
       }
-      if (!std::isnan(values.front())) figure(member.key, values);
+      if (std::isnan(values.front())) continue;
+      figure(member.key, values);
+      ++compared_;
+      different_ += std::any_of(values.begin(), values.end(), [&](double v) { return v != values.front(); });
     }
   }
 
@@ -416,9 +420,9 @@ class Merger {
   std::span<const Compared> all_;
   const study::Result& first_;
   study::Result out_;
-  Table figures_;                            ///< its rows
-  std::vector<std::vector<double>> values_;  ///< of the rows, one a study
-  std::size_t different_ = 0;                ///< rows
+  Table figures_;                             ///< its rows
+  std::vector<std::vector<double>> values_;   ///< of the rows, one a study
+  std::size_t compared_ = 0, different_ = 0;  ///< facts and objectives
   std::vector<Table> differences_;
 };
 
@@ -447,8 +451,13 @@ std::optional<ComparisonInput> load_compared(const fs::path& path, std::span<con
           status->as_string() == to_string(Status::cancelled))
         return refuse(file, "was stopped before its end and cannot be computed again",
                       "let it end with --resume, or compare its study");
-      auto study = study::prepare(*own, file.string(), file.parent_path(), kinds, diagnostics);
-      if (!study) return std::nullopt;
+      Diagnostics problems;
+      auto study = study::prepare(*own, file.string(), file.parent_path(), kinds, problems);
+      if (!study)
+        return refuse(file,
+                      fmt::format("holds a study that cannot be run again ({}: {})", problems.front().key,
+                                  problems.front().message),
+                      "compare the study file that it comes from");
       return ComparisonInput{std::move(*study), file.parent_path()};
     }
   }
