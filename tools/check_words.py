@@ -40,6 +40,23 @@ GIVEN_UP = [
     words("mend|mends|mended|puts? right", "fix, corrected"),
     words("wheel guides?", "wheel suspension"),
     words("rooms and floors|furniture|strangers?", "module, layer, files of a unit, untrusted input"),
+    words("anew", "again, recomputed"),
+    words("stands? (?:twice|in|on|at|above|upright|outside)", "is given, listed, mounted, fixed, vertical"),
+    words("of use", "usable, feasible"),
+    words("(?:of|has|have) no use", "ignored"),
+    words(r"(?<!here )(?:is|are) no (?!(?:larger|longer|more|less|better|worse|way|other)\b)\w+", "is not a"),
+    words("(?:is|are) put to", "assigned to"),
+    words("as long as (?:it|they) (?:is|are)", "unchanged, equally long"),
+    words(r"ways? of the (?!same\b)\w+", "displacement, path, trajectory of the"),
+    words("in the place of", "instead of, in place of"),
+    words("meets? and cross(?:es)?", "coincide"),
+    words("(?:can|cannot|will|goes) go on|goes on", "continues"),
+    words("left alone", "not interrupted, not overwritten"),
+    words("canned", "built-in"),
+    words("lever arms? of", "moment arm"),
+    words("by (?:chance only|luck)", "for special dimensions only"),
+    words("(?:is|are) to become", "is minimised"),
+    words(r"how far (?:the|they|it)\b.*\boff", "deviation"),
 ]
 # Where the old words are quoted.
 QUOTED = {"CHANGELOG.md", "src/linkwright/study/renamed.cpp"}

@@ -142,7 +142,8 @@ TEST_F(CheckpointFileTest, DamageIsToldApart) {
   EXPECT_THAT(refusal(),
               HasSubstr(": error: is truncated or damaged: 51 bytes after its first line, must be 56;"));
   write(good.substr(0, 20));
-  EXPECT_THAT(refusal(), HasSubstr(": error: is no checkpoint, or its first line is damaged; run without"));
+  EXPECT_THAT(refusal(),
+              HasSubstr(": error: is not a checkpoint, or its first line is damaged; run without"));
   std::string changed = good;
   changed[changed.size() - 3] = '9';
   write(changed);
@@ -157,7 +158,7 @@ TEST_F(CheckpointFileTest, DamageIsToldApart) {
         // Characters that would act on a terminal.
         std::string("{\"checkpoint\":1,\"tool\":\"\\u001b[2J\",\"study_sha256\":\"s\"}\n")}) {
     write(text);
-    EXPECT_THAT(refusal(), HasSubstr("is no checkpoint, or its first line is damaged;")) << text;
+    EXPECT_THAT(refusal(), HasSubstr("is not a checkpoint, or its first line is damaged;")) << text;
   }
   write("x");
   fs::resize_file(file_, largest_checkpoint + 1);  // a file with a hole: takes no room

@@ -33,7 +33,7 @@ TEST(Overrides, WhatIsWrong) {
   EXPECT_THAT(with("a..b=3"), HasSubstr("'a..b' is not the path of a key"));
   EXPECT_THAT(with("list[x].name=3"), HasSubstr("'list[x].name' is not the path of a key"));
   EXPECT_EQ(with("list[1].name=x"), "--set list[1].name=x: error: 'list' has 1 entries, counted from 0");
-  EXPECT_EQ(with("t[0]=x"), "--set t[0]=x: error: 't' is no array");
+  EXPECT_EQ(with("t[0]=x"), "--set t[0]=x: error: 't' is not an array");
   EXPECT_EQ(with("a.b=x"), "--set a.b=x: error: 'b' is not in a table");
   EXPECT_THAT(with("a=[1"), HasSubstr("--set a=[1: error: '[1' is not a value"));
 }

@@ -100,7 +100,7 @@ TEST(Dense, RefusesWhatIsNoMatrix) {
   const Numbers five(5, 1.0), four(4, 1.0);
   EXPECT_THAT(test::message([&] { singular_vectors(five, 2); }),
               HasSubstr("5 numbers do not fill 2 columns"));
-  EXPECT_THAT(test::message([&] { eigenvectors(five); }), HasSubstr("5 numbers are no square matrix"));
+  EXPECT_THAT(test::message([&] { eigenvectors(five); }), HasSubstr("5 numbers are not a square matrix"));
   EXPECT_THAT(test::message([&] { linear_fit(four, 2, five); }), HasSubstr("2 rows, 5 numbers on the right"));
 }
 

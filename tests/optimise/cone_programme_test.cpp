@@ -336,13 +336,13 @@ TEST(ConeProgramme, TellsWhatIsWrong) {
   EXPECT_THAT(message([] {
                 run({.cost = {1, 2}, .cones = {at_least(0, 0)}});
               }),
-              HasSubstr("variable 1 stands in no cone"));
+              HasSubstr("variable 1 is in no cone"));
   EXPECT_THAT(message([] { run({.cost = {1}, .cones = {at_least(2, 0)}}); }),
               HasSubstr("variable 2 of 1 in cone 0"));
   EXPECT_THAT(message([] {
                 run({.cost = {1}, .cones = {{.bound = {{0, 0}, {1, 1}, 0}, .parts = {}}}});
               }),
-              HasSubstr("variable 0 stands twice in an expression of cone 0"));
+              HasSubstr("variable 0 occurs twice in an expression of cone 0"));
   EXPECT_THAT(message([] {
                 RunContext context;
                 solve({.cost = {1}, .cones = {at_least(0, 0)}}, {.gap = 0}, context);

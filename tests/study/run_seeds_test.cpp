@@ -139,10 +139,10 @@ TEST(RunSeeds, FactsSayHowManySucceededAndWarningsHowManyAreMissing) {
   result.statistics["success_rate"] = 0.95;
   result.statistics["evaluations"] = 1234;
   EXPECT_EQ(successful_seeds(result, 20), "19 of 20");
-  add_seed_facts(result, "seeds that reached the best", 20);
-  add_seed_facts(result, "seeds that reached the best", 20, false);
+  add_seed_facts(result, "runs that reached the best solution", 20);
+  add_seed_facts(result, "runs that reached the best solution", 20, false);
   ASSERT_EQ(result.facts.size(), 4u);
-  EXPECT_EQ(result.facts[0].label, "seeds that reached the best");
+  EXPECT_EQ(result.facts[0].label, "runs that reached the best solution");
   EXPECT_EQ(result.facts[0].text, "19 of 20");
   EXPECT_EQ(result.facts[0].verdict, Fact::Verdict::good);
   EXPECT_EQ(result.facts[1].label, "evaluations");

@@ -74,7 +74,7 @@ std::optional<CheckpointLines> read_checkpoint(std::string_view text, const Chec
                     *study = printable_member(header, "study_sha256"),
                     *sum = printable_member(header, "sha256");
   if (!format || !format->is_integer() || !tool || !study) {
-    refuse(diagnostics, file, "is no checkpoint, or its first line is damaged");
+    refuse(diagnostics, file, "is not a checkpoint, or its first line is damaged");
     return std::nullopt;
   }
   if (format->as_integer() != format_version || *tool != owner.tool) {
@@ -93,7 +93,7 @@ std::optional<CheckpointLines> read_checkpoint(std::string_view text, const Chec
   }
   text.remove_prefix(end + 1);
   if (!bytes || !bytes->is_integer() || !sum) {
-    refuse(diagnostics, file, "is no checkpoint, or its first line is damaged");
+    refuse(diagnostics, file, "is not a checkpoint, or its first line is damaged");
     return std::nullopt;
   }
   if (bytes->as_integer() != static_cast<std::int64_t>(text.size())) {

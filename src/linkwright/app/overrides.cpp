@@ -95,7 +95,7 @@ bool apply_override(Value& document, const Override& change, Diagnostics& diagno
         problem(diagnostics, change,
                 at->is_array()
                     ? fmt::format("'{}' has {} entries, counted from 0", step.key, at->as_array().size())
-                    : fmt::format("'{}' is no array", step.key));
+                    : fmt::format("'{}' is not an array", step.key));
         return false;
       }
       at = &at->as_array()[index];

@@ -60,7 +60,7 @@ const std::vector<std::string>& notes() {
       "clearance of 1 mm is inferred: with it design 2 comes closest to the path of design 1.",
       "2. The mass centres of Tables 2 and 3 are in metres, not in mm as printed.",
       "3. Eqs. (3)-(7) lose the quadrant, (9)-(11) turn the wrong way, (13) and (15) lack terms with the "
-      "squared crank speed; here they are derived anew. Eqs. (24)-(28) are right.",
+      "squared crank speed; here they are derived again. Eqs. (24)-(28) are right.",
       "4. The source never asks whether pin and bush stay together: in design 1 they do not, so the peaks of "
       "its figure 4 are outside of its model. kind = \"simulation\", mechanism.type = \"clearance.linkage\" "
       "with "

@@ -25,7 +25,7 @@ void require_valid(const Linkage& l, const LinkageTolerances& t, const Tolerance
     return l.joints[at(j)];
   };
   for (const PinTolerance& p : t.pins) {
-    LINKWRIGHT_REQUIRE(joint(p.joint).type == JointType::revolute, "joint '{}' is no revolute joint",
+    LINKWRIGHT_REQUIRE(joint(p.joint).type == JointType::revolute, "joint '{}' is not a revolute joint",
                        joint(p.joint).name);
     LINKWRIGHT_REQUIRE(p.clearance >= 0 && std::isfinite(p.clearance), "joint '{}': clearance {} m",
                        joint(p.joint).name, p.clearance);

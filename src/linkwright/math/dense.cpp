@@ -23,7 +23,7 @@ MatrixView with_columns(std::span<const double> numbers, std::size_t columns) {
 
 MatrixView square(std::span<const double> numbers) {
   const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(numbers.size()))));
-  LINKWRIGHT_REQUIRE(side * side == numbers.size(), "{} numbers are no square matrix", numbers.size());
+  LINKWRIGHT_REQUIRE(side * side == numbers.size(), "{} numbers are not a square matrix", numbers.size());
   return with_columns(numbers, side);
 }
 

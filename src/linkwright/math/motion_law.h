@@ -65,7 +65,7 @@ enum class TableEnds { natural, rest, periodic };
 constexpr std::array<EnumName<TableEnds>, 3> names(TableEnds) {
   return {
       {{TableEnds::natural, "natural",
-        "no acceleration (cubic) or no jerk (quintic); goes on at the last speed"},
+        "no acceleration (cubic) or no jerk (quintic); continues at the last speed"},
        {TableEnds::rest, "rest", "no speed (quintic: and no acceleration); stays there"},
        {TableEnds::periodic, "periodic",
         "repeats smoothly; the last row is the first one a period later, where an angle may have grown"}}};

@@ -460,7 +460,7 @@ void require_good(const Affine& form, std::size_t n, std::vector<int>& used, int
     LINKWRIGHT_REQUIRE(form.variables[i] < n, "variable {} of {} in cone {}", form.variables[i], n, cone);
     LINKWRIGHT_REQUIRE(std::isfinite(form.factors[i]), "factor {} in cone {}", form.factors[i], cone);
     LINKWRIGHT_REQUIRE(used[form.variables[i]] != stamp,
-                       "variable {} stands twice in an expression of cone {}", form.variables[i], cone);
+                       "variable {} occurs twice in an expression of cone {}", form.variables[i], cone);
     used[form.variables[i]] = stamp;
   }
 }
@@ -512,7 +512,7 @@ ConeReport solve(const ConeProgramme& programme, const ConeOptions& options, Run
     require_good(programme.cones[k].bound, n, used, stamp++, k);
     for (const Affine& part : programme.cones[k].parts) require_good(part, n, used, stamp++, k);
   }
-  for (std::size_t j = 0; j < n; ++j) LINKWRIGHT_REQUIRE(used[j] >= 0, "variable {} stands in no cone", j);
+  for (std::size_t j = 0; j < n; ++j) LINKWRIGHT_REQUIRE(used[j] >= 0, "variable {} is in no cone", j);
   return Solver(programme, options).run(context);
 }
 

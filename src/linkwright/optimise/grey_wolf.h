@@ -36,7 +36,8 @@ void fields(Visitor&& visit, GreyWolfOptions& o) {
               .minimum = 1,
               .maximum = 1e9},
         o.generations);
-  visit(Field{.key = "reset_worst_half", .summary = "place the worse half of the pack anew before each move"},
+  visit(Field{.key = "reset_worst_half",
+              .summary = "place the worse half of the pack at random before each move"},
         o.reset_worst_half);
   visit(Field{.key = "absolute_value",
               .summary = "absolute value of each step as printed in Boskovic 2018 Eq. (4.25), an erratum"},

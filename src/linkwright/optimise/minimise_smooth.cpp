@@ -364,13 +364,14 @@ class EndKeeper {
     const std::vector<double> numbers = unpack_numbers(value, name_);
     const std::size_t width = dimension_ + 4;
     if (numbers.size() % width != 0 || numbers.size() / width > most)
-      throw CheckpointError(fmt::format("{}: {} numbers are no ends of this problem", name_, numbers.size()));
+      throw CheckpointError(
+          fmt::format("{}: {} numbers are not ends of this problem", name_, numbers.size()));
     for (std::size_t k = 0; k < numbers.size(); k += width) {
       const double* v = &numbers[k];
       const bool numbers_only = std::none_of(v, v + width, [](double x) { return std::isnan(x); });
       if (!numbers_only || !(v[2] >= 0 && v[2] <= static_cast<double>(LocalEnd::interrupted)) ||
           !(v[3] >= 0 && v[3] < 1e15))
-        throw CheckpointError(fmt::format("{}: is no end of a search", name_));
+        throw CheckpointError(fmt::format("{}: is not an end of a search", name_));
       ends.push_back({.cost = v[0],
                       .violation = v[1],
                       .end = static_cast<LocalEnd>(static_cast<int>(v[2])),

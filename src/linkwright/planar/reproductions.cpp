@@ -213,7 +213,7 @@ study::Comparisons design_table(std::string_view table, RunContext& context) {
         {fmt::format("{}: numbers outside the printed bounds", design.label), source, 0,
          static_cast<double>(std::count(outside.begin(), outside.end(), ',') + (outside.empty() ? 0 : 1)),
          outside.empty() ? design.repaired ? "corrected" : "reproduced" : "not reproduced", outside});
-    rows.push_back({fmt::format("{}: least transmission angle in deg", design.label), source, nan,
+    rows.push_back({fmt::format("{}: minimum transmission angle in deg", design.label), source, nan,
                     math::degrees(transmission_angles(machine.linkage).minimum), "not printed",
                     classify(machine.linkage).crank_rotates_fully ? "the crank rotates fully"
                                                                   : "the crank does not rotate fully"});

@@ -124,7 +124,7 @@ TEST(ClearanceStudy, ContinuousContactKeepsToTheReference) {
   // The pin carries the tension and nothing across it.
   const std::vector<double>&tension = column(r, "pins", "A_tension_N"), &force = column(r, "motion", "A_N");
   for (std::size_t i = 0; i < force.size(); ++i) EXPECT_NEAR(force[i], tension[i], 1e-6) << i;
-  EXPECT_THAT(fact(r, "contact of A"), HasSubstr("kept: least tension 0.63"));
+  EXPECT_THAT(fact(r, "contact of A"), HasSubstr("kept: minimum tension 0.63"));
   EXPECT_THAT(r.headline, HasSubstr("Pin and bush stay in contact"));
   EXPECT_THAT(r.diagnostics, IsEmpty());
 }
@@ -134,7 +134,7 @@ TEST(ClearanceStudy, WarnsWhereContinuousContactFails) {
   ASSERT_EQ(r.status, Status::done) << r.headline;
   EXPECT_THAT(fact(r, "contact of A"),
               ::testing::MatchesRegex(
-                  "lost at [0-9.]+ s; without contact [0-9.]+ % of the time, least tension -[0-9.]+ N"));
+                  "lost at [0-9.]+ s; without contact [0-9.]+ % of the time, minimum tension -[0-9.]+ N"));
   EXPECT_TRUE(std::any_of(r.facts.begin(), r.facts.end(), [](const study::Fact& f) {
     return f.label == "contact of A" && f.verdict == study::Fact::Verdict::bad;
   }));
@@ -166,7 +166,7 @@ TEST(ClearanceStudy, SectionsAndSpectraOfEvenDrives) {
   const std::vector<double>& turn = column(r, "section", "turn");
   ASSERT_EQ(turn.size(), 5u);  // 4.138 turns and the start
   EXPECT_NEAR(column(r, "section", "A_link_angle_rad")[1], 6.44656628 - 2 * 3.14159265358979, 1e-6);
-  EXPECT_EQ(column(r, "pins", "time_s").size(), 721u) << "sections are no rows";
+  EXPECT_EQ(column(r, "pins", "time_s").size(), 721u) << "sections are not rows";
   const std::vector<double>&frequency = column(r, "spectrum", "frequency_Hz"),
         &amplitude = column(r, "spectrum", "A_amplitude_N");
   ASSERT_EQ(frequency.size(), amplitude.size());

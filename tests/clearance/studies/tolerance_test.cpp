@@ -334,7 +334,7 @@ TEST(ToleranceStudy, NamesWhatIsWrong) {
   EXPECT_THAT(
       problem("coordinates = [\"B0\"]", "forces = [\"A\"]"),
       HasSubstr("watch.forces: forces and torques need the mass of every body: 'crank', 'coupler', 'rocker' "
-                "have none; give mass_kg, or look at coordinates and traced points only"));
+                "have none; give mass_kg, or watch coordinates and traced points only"));
   EXPECT_THAT(problem("draws = 2000", "draws = 0"),
               HasSubstr("monte_carlo.draws: is 0, must be at least 100"));
   EXPECT_THAT(problem("point    = \"coupler.P\"", "point = \"coupler.B\""),
@@ -352,13 +352,13 @@ TEST(ToleranceStudy, NamesWhatIsWrong) {
               HasSubstr("joint 'guide' is prismatic; only revolute joints have clearance"));
   // Nothing deviates, nothing is looked at.
   std::string rigid = four_bar(), blind = four_bar();
-  const auto from = rigid.find("# Clearance joints"), to = rigid.find("# What is looked at");
+  const auto from = rigid.find("# Clearance joints"), to = rigid.find("# What is reported");
   rigid.erase(from, to - from);
   EXPECT_THAT(problems_of(rigid),
               HasSubstr("no errors are given; add [[clearance]] tables for joint clearances"));
-  const auto watched = blind.find("# What is looked at");
+  const auto watched = blind.find("# What is reported");
   blind.erase(watched, blind.find("[monte_carlo]") - watched);
-  EXPECT_THAT(problems_of(blind), HasSubstr("nothing is looked at; add [[trace]] with a point"));
+  EXPECT_THAT(problems_of(blind), HasSubstr("nothing is watched; add [[trace]] with a point"));
   // A file cut off behind the ground has no inputs, and so no sweep.
   EXPECT_THAT(problems_of("schema = 1\nkind = \"analysis\"\n[mechanism]\ntype = \"clearance.linkage\"\n"
                           "[[mechanism.body]]\nname = \"ground\"\npoints_mm = { O = [0, 0] }\n"),

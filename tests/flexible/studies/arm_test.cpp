@@ -179,7 +179,7 @@ TEST(ArmStudy, TellsWhatIsWrong) {
   EXPECT_THAT(problems(replaced(example(), "link       = \"upper\"", "link       = \"fore\"")),
               HasSubstr("nothing turns the hub with link 'upper'"));
   EXPECT_THAT(problems(replaced(example(), "name                = \"fore\"", "name = \"upper\"")),
-              HasSubstr("'upper' is the name of another link, too"));
+              HasSubstr("'upper' is also the name of another link"));
   EXPECT_THAT(problems(replaced(example(), "\"fore\"\nlength", "\"hub\"\nlength")),
               HasSubstr("is 'hub', which stands for the hub itself"));
   EXPECT_THAT(problems(replaced(example(), "divisions           = 2\n\n", "divisions = 2\nhinge = {}\n")),

@@ -33,8 +33,8 @@ TEST(DexterityStudy, FindsTheSmallestDelta) {
   EXPECT_EQ(result.status, Status::done);
   EXPECT_LE(result.solutions.at(0).objectives.find("size_m")->as_number(), 1.0755939);
   EXPECT_THAT(fact(result, "held back by"), HasSubstr("constraint"));
-  EXPECT_EQ(fact(result, "least constraint index"), "0.200000");
-  EXPECT_EQ(fact(result, "whole region free of singularities"), "proven, between the nodes, too");
+  EXPECT_EQ(fact(result, "minimum constraint index"), "0.200000");
+  EXPECT_EQ(fact(result, "whole region free of singularities"), "proven, also between the nodes");
   // All of the rim is reached.
   ASSERT_EQ(result.scenes.size(), 1u);
   for (const std::string& status : result.scenes[0].status) EXPECT_EQ(status, "done");

@@ -98,7 +98,7 @@ TEST(MotionStudy, SaysWhereItFailsAndWhy) {
   const auto stiff = run_text(whole + "[limits]\ntransmission = 0.95\n");
   EXPECT_THAT(stiff.headline, HasSubstr("at least 0.950 is required"));
   const auto leaning = run_text(whole + "[limits]\nrod_swing_deg = 1\n");
-  EXPECT_THAT(leaning.headline, HasSubstr("out of the plane of its arm, allowed are 1.00 deg"));
+  EXPECT_THAT(leaning.headline, HasSubstr("out of the plane of its arm, at most 1.00 deg is allowed"));
   const auto straight = run_text(whole + "[limits]\nlargest_elbow_deg = 90\n");
   EXPECT_THAT(straight.headline, HasSubstr("at most 90.00 deg is required"));
 }

@@ -63,7 +63,7 @@ TEST(PiJointStudy, SaysWhichRequirementsClash) {
 
 TEST(PiJointStudy, TellsWhatIsWrong) {
   EXPECT_THAT(problems_of(replaced(analysis, "to_deg   = 60.0", "to_deg   = 95.0")),
-              HasSubstr("the angle goes from above -90 deg"));
+              HasSubstr("the angle must rise from above -90 deg"));
   EXPECT_THAT(problems_of(replaced(analysis, "ratio  = 0.4", "ratio  = 0")),
               HasSubstr("mechanism.ratio: is 0, must be more than 0"));
   EXPECT_THAT(problems_of("schema = 1\nkind = \"synthesis\"\n[mechanism]\ntype = "

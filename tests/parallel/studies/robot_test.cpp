@@ -40,10 +40,9 @@ TEST(RobotStudy, LegsOneByOneAreTheSameRobot) {
             "\nbase_radius_mm = 200\nplatform_radius_mm = 45\narm_mm = 350\nrod_mm = 800\n";
   const auto result = run_text(head + "type = \"parallel.delta\"\n" + legs + pose);
   EXPECT_NEAR(arm_angle(result, 3), 0.6813143205259129, 1e-12);
-  EXPECT_THAT(problems_of(delta + legs + pose),
-              HasSubstr("is given for all legs, and the legs are given one by one, too"));
+  EXPECT_THAT(problems_of(delta + legs + pose), HasSubstr("is given for all legs and for single legs"));
   EXPECT_THAT(problems_of(head + "type = \"parallel.delta\"\n" + legs.substr(0, legs.rfind("[[")) + pose),
-              HasSubstr("a DELTA has 3 legs, here are 2"));
+              HasSubstr("a DELTA has 3 legs, got 2"));
 }
 
 TEST(RobotStudy, WorkingModesMayBeChosen) {
@@ -78,8 +77,8 @@ TEST(RobotStudy, TellsWhatIsWrongWithTheRobot) {
                           "type = \"parallel.five_bar\"\n[[mechanism.leg]]\nbase_mm = [-150, 0]\narm_mm = "
                           "250\nrod_mm = 350\n" +
                           pose),
-              HasSubstr("a planar robot has 2 legs, here are 1"));
-  EXPECT_THAT(problems_of(delta), HasSubstr("nothing is asked for"));
+              HasSubstr("a planar robot has 2 legs, got 1"));
+  EXPECT_THAT(problems_of(delta), HasSubstr("nothing is requested"));
   EXPECT_THAT(problems_of(delta + "[mechanism.drive]\nlaed_mm = 3\n" + pose),
               HasSubstr("mechanism.drive.laed_mm: unknown key; did you mean 'lead_mm'?"));
 }

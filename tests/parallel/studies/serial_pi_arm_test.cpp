@@ -73,7 +73,7 @@ TEST(SerialArmStudy, TellsWhatIsWrongWithTheArm) {
               HasSubstr("1 drives for 2 joints"));
   EXPECT_THAT(problems_of(serial_mechanism + "[mechanism.drive]\nlead_mm = 5\n" + pose),
               HasSubstr("a drive of type revolute has no 'lead'"));
-  EXPECT_THAT(problems_of(serial_mechanism), HasSubstr("nothing is asked for"));
+  EXPECT_THAT(problems_of(serial_mechanism), HasSubstr("nothing is requested"));
 }
 
 TEST(SerialArmStudy, TellsWhatIsWrongWithMasses) {

@@ -117,7 +117,7 @@ TEST(ToolLayout, SaysWhichStepIsWrongAndHowToMendIt) {
 
   EXPECT_EQ(
       message_of(ToolLine{.to = {0, 0, 0}}),
-      "step 2 (line): the line goes nowhere: the tool is at (0, 0, 0) m already; give another end, another "
+      "step 2 (line): the line has no length: the tool is at (0, 0, 0) m already; give another end, another "
       "rotation, or a dwell");
   EXPECT_EQ(message_of(ToolLine{.to = {0, NAN, 0}}), "step 2 (line): to is not finite");
   EXPECT_EQ(message_of(ToolLine{.to = {0, 1, 0}, .rotation = Coordinates{0, 0, INFINITY}}),
@@ -158,7 +158,7 @@ TEST(ToolLayout, SaysWhichStepIsWrongAndHowToMendIt) {
             "step 2 (pick_and_place): dwell is -1 s, must be at least 0 s");
   EXPECT_EQ(
       message_of(PickAndPlace{.to = {1, 0, 0}, .height = 1, .back_dwell = 1}),
-      "step 2 (pick_and_place): back_dwell is the rest after the way back, but there is none; set back = "
+      "step 2 (pick_and_place): back_dwell is the dwell after the return, but there is no return; set back = "
       "true, or give dwell");
   EXPECT_EQ(message_of(ToolDwell{-1}), "step 2 (dwell): duration is -1 s, must be at least 0 s");
 }

@@ -356,7 +356,7 @@ TEST(ToolMotion, NothingIsAllocatedWhileItRuns) {
 
 TEST(ToolMotion, ThrowsTheTextOfItsProblem) {
   EXPECT_THAT(test::message([] { ToolMotion({.steps = {{ToolLine{}}}}, {}, origin); }),
-              HasSubstr("step 1 (line): the line goes nowhere"));
+              HasSubstr("step 1 (line): the line has no length"));
   EXPECT_THAT(test::message([] { ToolMotion({.steps = {{ToolDwell{}}}}, {.jerk = 0}, origin); }),
               HasSubstr("the limit jerk is 0 m/s3"));
   EXPECT_EQ(problem({.steps = {{ToolDwell{}}}}, {.jerk = 0}, origin)->key, "jerk");

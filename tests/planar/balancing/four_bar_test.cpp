@@ -288,7 +288,7 @@ TEST(FourBarBalancing, RejectsWhatHasNoMeaning) {
   EXPECT_THAT(error([](B& b) { b.crank_to = b.crank_from; }), HasSubstr("crank angles from 0 to 0"));
   EXPECT_THAT(error([](B& b) { b.crank_speed = NAN; }), HasSubstr("must be finite"));
   EXPECT_THAT(error([](B& b) { b.min_transmission_angle = 2; }),
-              HasSubstr("least transmission angle must be in [0, pi/2), got 2"));
+              HasSubstr("minimum transmission angle must be in [0, pi/2), got 2"));
   EXPECT_THAT(error([](B& b) { b.rocker_swing = {1, 0}; }), HasSubstr("rocker swing from 1 to 0"));
   EXPECT_THAT(error([](B& b) {
                 b.rocker_swing = {0, 1}, b.crank_rotates_fully = false;

@@ -193,7 +193,7 @@ TEST(BalancingSearch, WhatCannotHaveBeenKeptIsRefused) {
     }
     return std::string("accepted");
   };
-  EXPECT_THAT(refused([](Value& v) { v["feasible"] = 1; }), HasSubstr("seed 1: is no balancing run"));
+  EXPECT_THAT(refused([](Value& v) { v["feasible"] = 1; }), HasSubstr("seed 1: is not a balancing run"));
   EXPECT_THAT(refused([](Value& v) { v["designs"].as_array()[0]["x"] = pack_numbers(std::vector{1.0}); }),
               HasSubstr("seed 1: a design is none of this study"));
   EXPECT_THAT(refused([](Value& v) { v["designs"].as_array()[0]["proof"] = 3; }),

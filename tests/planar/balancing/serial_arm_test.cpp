@@ -247,7 +247,7 @@ TEST(SerialArmBalancing, TellsWhatIsWrong) {
     return message([&] { require_valid(task, design); });
   };
   EXPECT_THAT(text(published(false), {.degree = 6}),
-              HasSubstr("law 1 is no polynomial 3-4-5, degree 6 has no meaning for it"));
+              HasSubstr("law 1 is not a polynomial 3-4-5, degree 6 has no meaning for it"));
   EXPECT_THAT(text(published(true), {}), HasSubstr("there is nothing to choose: raise the degree"));
   EXPECT_THAT(text(published(true), {.degree = 3}), HasSubstr("degree 3 must be from 5 to 20"));
   EXPECT_THAT(text(published(true), {.counterweights = {{"c", 0, {0, 1}, {0, 1}, {}}}}),

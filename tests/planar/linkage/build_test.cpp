@@ -23,7 +23,7 @@ TEST(LinkageBuild, FindsPointsByName) {
   EXPECT_EQ(point_named(l, "bar.B").point, 1);
   EXPECT_EQ(point_named(l, "ground.O").body, 0);
   EXPECT_THAT(test::message([&] { point_named(l, "bar"); }),
-              HasSubstr("'bar' is no point: write body.point"));
+              HasSubstr("'bar' is not a point: write body.point"));
   EXPECT_THAT(test::message([&] { point_named(l, "rod.A"); }), HasSubstr("there is no body 'rod'"));
   EXPECT_THAT(test::message([&] { point_named(l, "bar.C"); }), HasSubstr("body 'bar' has no point 'C'"));
   const std::vector<BodyPoint> both = points_named(l, {"bar.A", "ground.O"});

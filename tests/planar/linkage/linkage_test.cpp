@@ -96,7 +96,7 @@ TEST(LinkageCheck, WantsDrivesOnPinsAndSlides) {
   EXPECT_THAT(after([](Linkage& l) { l.driven.push_back(9); }),
               ElementsAre("drive: joint number 9 does not exist; "));
   EXPECT_THAT(after([](Linkage& l) { l.driven.push_back(0); }),
-              ElementsAre("drive: joint 'O' is driven twice; one drive a joint is enough"));
+              ElementsAre("drive: joint 'O' is driven twice; one drive per joint is enough"));
   EXPECT_THAT(
       after([](Linkage& l) { l.joints[0].type = JointType::fixed; }),
       ElementsAre("drive: joint 'O' is of type fixed: only revolute and prismatic joints are driven; "));

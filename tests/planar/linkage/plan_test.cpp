@@ -239,30 +239,29 @@ TEST(LinkagePlanProblems, NameBodiesOffTheGround) {
   add_pin(l, "P", "spare.P", "second.P");
   EXPECT_THAT(problems_told(l),
               ElementsAre("body.spare: 'spare' and 'second' are joined to each other but not to the "
-                          "ground; join one of them to the ground or to a body that stands on it"));
+                          "ground; join one of them to the ground or to a body that is fixed to it"));
 }
 TEST(LinkagePlanProblems, NameFreedomsWithoutADrive) {
   Linkage l = four_bar();
   l.driven.clear();
-  EXPECT_THAT(
-      problems_told(l),
-      ElementsAre("body.crank: 'crank', 'coupler' and 'rocker' keep 1 degree of freedom without a "
-                  "drive; the linkage has 1 degree(s) of freedom and 0 drive(s): drive one more joint, "
-                  "or add a joint"));
+  EXPECT_THAT(problems_told(l),
+              ElementsAre("body.crank: 'crank', 'coupler' and 'rocker' keep 1 degree of freedom without a "
+                          "drive; the linkage has 1 degree of freedom and 0 drives: drive one more joint, "
+                          "or add a joint"));
   Linkage open = grounded({{"O", {0, 0}}});
   add_bar(open, "arm", "O", "A", 1);
   add_pin(open, "O", "ground.O", "arm.O");
   EXPECT_THAT(problems_told(open),
               ElementsAre("body.arm: 'arm' keeps 1 degree of freedom without a drive; the linkage has 1 "
-                          "degree(s) of freedom and 0 drive(s): drive one more joint, or add a joint"));
+                          "degree of freedom and 0 drives: drive one more joint, or add a joint"));
 }
 TEST(LinkagePlanProblems, NameDrivesBeyondTheFreedoms) {
   Linkage l = four_bar();
   add_drive(l, "B0");
   EXPECT_THAT(
       problems_told(l),
-      ElementsAre("drive: two drives on one freedom: with the drives of 'O' and 'B0' nothing is left to "
-                  "place 'coupler'; the linkage has 1 degree(s) of freedom and 2 drive(s): remove one "
+      ElementsAre("drive: two drives on one degree of freedom: with the drives of 'O' and 'B0' no freedom is "
+                  "left for 'coupler'; the linkage has 1 degree of freedom and 2 drives: remove one "
                   "drive"));
   Linkage two = grounded({{"O", {0, 0}}});
   add_bar(two, "arm", "O", "A", 1);
@@ -272,9 +271,9 @@ TEST(LinkagePlanProblems, NameDrivesBeyondTheFreedoms) {
   add_drive(two, "slide");
   EXPECT_THAT(
       problems_told(two),
-      ElementsAre("drive: two drives on one freedom: 'ground' and 'arm', which joint 'slide' would "
-                  "drive, are placed by other drives already; the linkage has -1 degree(s) of freedom "
-                  "and 2 drive(s): remove one drive"));
+      ElementsAre("drive: two drives on one degree of freedom: 'ground' and 'arm', which joint 'slide' would "
+                  "drive, are placed by other drives already; the linkage has -1 degrees of freedom "
+                  "and 2 drives: remove one drive"));
 }
 TEST(LinkagePlanProblems, NameRedundantConstraints) {
   Linkage l = four_bar();
@@ -287,10 +286,12 @@ TEST(LinkagePlanProblems, NameRedundantConstraints) {
                           "structure; leave out a joint or a drive"));
   Linkage doubled = four_bar();
   add_pin(doubled, "again", "ground.O", "crank.O");
-  EXPECT_THAT(problems_told(doubled),
-              ElementsAre("joint.again: a redundant constraint: 'ground' and 'crank' are placed by other "
-                          "joints already, so the joint fits by chance only; leave the joint out, or one of "
-                          "the links beside it"));
+  EXPECT_THAT(
+      problems_told(doubled),
+      ElementsAre(
+          "joint.again: a redundant constraint: 'ground' and 'crank' are placed by other "
+          "joints already, so the linkage closes for special dimensions only; leave the joint out, or one of "
+          "the links beside it"));
 }
 TEST(LinkagePlanProblems, NameAStructure) {
   Linkage l = grounded({{"A", {0, 0}}, {"B", {1, 0}}, {"C", {2, 0}}});
@@ -346,16 +347,16 @@ TEST(LinkagePlanProblems, NamePairsWithoutModes) {
   Linkage l = four_bar();
   set_mode(l, "crank", "coupler", AssemblyMode::plus);
   EXPECT_THAT(problems_told(l),
-              ElementsAre("assembly: 'crank' and 'coupler' are no pair with two assembly modes; these "
+              ElementsAre("assembly: 'crank' and 'coupler' are not a pair with two assembly modes; these "
                           "are: coupler + rocker"));
   l.modes.back() = {7, 2, AssemblyMode::plus};
   EXPECT_THAT(problems_told(l),
-              ElementsAre("assembly: '7' and 'coupler' are no pair with two assembly modes; these "
+              ElementsAre("assembly: '7' and 'coupler' are not a pair with two assembly modes; these "
                           "are: coupler + rocker"));
   Linkage arm = arm_sample(2).linkage;
   set_mode(arm, "link 1", "link 2", AssemblyMode::plus);
   EXPECT_THAT(problems_told(arm),
-              ElementsAre("assembly: 'link 1' and 'link 2' are no pair with two assembly modes; "
+              ElementsAre("assembly: 'link 1' and 'link 2' are not a pair with two assembly modes; "
                           "this linkage has no such pair"));
 }
 TEST(LinkagePlanProblems, NoGearsAllAtOnce) {

@@ -84,14 +84,14 @@ TEST(PathCheckpoint, RefusesWhatItCannotHaveMade) {
                                       {10, 0.0},
                                       {11, std::nan("")},
                                       {28, HUGE_VAL}})
-    EXPECT_EQ(with_number(index, number), "seed 3: a design is no four-bar") << index << " " << number;
+    EXPECT_EQ(with_number(index, number), "seed 3: a design is not a four-bar") << index << " " << number;
   EXPECT_EQ(refusal([](Value& v) { v["designs"].as_array()[0] = pack_numbers(std::vector<double>(28)); }),
             "seed 3: a design has 28 numbers, must be 29");
   EXPECT_EQ(refusal([](Value& v) { v["designs"] = Value(3); }), "seed 3: is not what a seed came to");
   EXPECT_EQ(refusal([](Value& v) { v["history_evaluations"].push_back(Value(3)); }),
             "seed 3: is not what a seed came to");
   EXPECT_EQ(refusal([](Value& v) { v["history_evaluations"].as_array()[0] = Value("x"); }),
-            "seed 3: entry 0 of its history is no number");
+            "seed 3: entry 0 of its history is not a number");
   // The sum over all seeds of a study must stay an integer.
   EXPECT_THAT(refusal([](Value& v) { v["evaluations"] = Value(INT64_MAX); }),
               HasSubstr("seed 3: 'evaluations' is not an integer from 0 to"));

@@ -357,7 +357,7 @@ TEST(PathProblem, RejectsWhatCannotBeSolved) {
   EXPECT_THAT(broken([](PathProblem& p) { p.bounds[3] = {-2, 0}; }), says("bounds of rocker are -2 to 0"));
   EXPECT_THAT(broken([](PathProblem& p) { p.bounds[6].upper = nan; }), says("bounds of pivot_x are"));
   EXPECT_THAT(broken([](PathProblem& p) { p.min_transmission_angle = 2; }),
-              says("least transmission angle must be at least 0 and less than pi/2, got 2"));
+              says("minimum transmission angle must be at least 0 and less than pi/2, got 2"));
   EXPECT_THAT(broken([](PathProblem& p) {
                 p.packaging = PackagingBox{1, 0, 0, 1};
               }),

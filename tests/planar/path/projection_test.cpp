@@ -200,7 +200,7 @@ TEST(PathProjection, RefusesRatiosThatAreNoLinkage) {
       [&] {
         projection.design(printed_eighteen_points(), std::vector<double>{0, 1, 1, 0});
       },
-      ThrowsMessage<ContractError>(HasSubstr("q is no linkage that assembles at every point")));
+      ThrowsMessage<ContractError>(HasSubstr("q is not a linkage that assembles at every point")));
   PathProjection any(printed_eighteen_points(), RatioKind::any, Branch::open, 1);
   EXPECT_FALSE(any.evaluate(std::vector<double>{3, 0, 0, 0}, r, {}));    // ground of 20 cranks, the rest of 1
   EXPECT_FALSE(any.evaluate(std::vector<double>{20, 20, 0, 0}, r, {}));  // ratios beyond 1e6

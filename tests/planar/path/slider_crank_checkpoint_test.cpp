@@ -59,12 +59,12 @@ TEST(SliderPathCheckpoint, RefusesWhatItCannotHaveMade) {
                                       {8, 1e300},
                                       {10, std::nan("")},
                                       {27, HUGE_VAL}})
-    EXPECT_EQ(with_number(index, number), "seed 3: a design is no slider-crank") << index << " " << number;
+    EXPECT_EQ(with_number(index, number), "seed 3: a design is not a slider-crank") << index << " " << number;
   EXPECT_EQ(refusal([](Value& v) { v["designs"].as_array()[0] = pack_numbers(std::vector<double>(27)); }),
             "seed 3: a design has 27 numbers, must be 28");
   EXPECT_EQ(refusal([](Value& v) { v["designs"] = Value(3); }), "seed 3: is not what a seed came to");
   EXPECT_EQ(refusal([](Value& v) { v["history_evaluations"].as_array()[0] = Value("x"); }),
-            "seed 3: entry 0 of its history is no number");
+            "seed 3: entry 0 of its history is not a number");
   EXPECT_THAT(refusal([](Value& v) { v["evaluations"] = Value(INT64_MAX); }),
               HasSubstr("seed 3: 'evaluations' is not an integer from 0 to"));
   EXPECT_EQ(refusal([](Value& v) { v = Value("x"); }), "seed 3: has no 'feasible'");

@@ -202,10 +202,10 @@ TEST(Simulate, StopsAtAChangePoint) {
   const SimulationRun run =
       simulated(l, p, {{{}, 1, -1}}, evenly(0, 4, 41), {.at_change_point = AtChangePoint::stop});
   EXPECT_EQ(run.report.status, Status::limit_reached);
-  EXPECT_THAT(
-      run.report.message,
-      ::testing::AllOf(::testing::StartsWith("the motion stops at 1 s with O at"),
-                       ::testing::HasSubstr("stands at a change point, where it can go on in two ways")));
+  EXPECT_THAT(run.report.message,
+              ::testing::AllOf(::testing::StartsWith("the motion stops at 1 s with O at"),
+                               ::testing::HasSubstr(
+                                   "is at a change point, where it can continue in either assembly mode")));
   EXPECT_NEAR(run.report.time, 1, 1e-9);  // no force: uniform rotation, from 1 rad to 0
   EXPECT_GE(run.rows.size(), 10u);        // and perhaps that of 1 s itself
   ASSERT_EQ(run.report.passages.size(), 1u);
@@ -262,7 +262,7 @@ TEST(Simulate, NamesTheLimitOfAMotion) {
   ASSERT_GE(run.report.group, 0);
   EXPECT_THAT(run.report.message,
               ::testing::AllOf(::testing::HasSubstr("'coupler + right' reaches its dead point at "),
-                               ::testing::HasSubstr("the linkage goes on in the other assembly mode")));
+                               ::testing::HasSubstr("the linkage continues in the other assembly mode")));
   // Where coupler and right bar are in line, |A C| = 0.4 + 0.8 (or their difference).
   const double limit = std::acos((1 + 0.64 - 1.44) / 1.6);
   ASSERT_FALSE(run.rows.empty());

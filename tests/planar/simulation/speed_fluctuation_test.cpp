@@ -169,7 +169,7 @@ TEST(SteadyCycle, TellsWhyThereIsNone) {
   const Linkage chain = four_bar_chain_sample(1).linkage;
   const SpeedFluctuation r = speed_fluctuation(chain, planned(chain), {.start = 1, .mean_speed = 2});
   EXPECT_EQ(r.status, Status::infeasible);
-  EXPECT_THAT(r.message, ::testing::HasSubstr("the cycle goes through a change point at "));
+  EXPECT_THAT(r.message, ::testing::HasSubstr("the cycle passes through a change point at "));
   const Linkage two = pendulum(2);
   const LinkagePlan plan_of_two = planned(two);
   EXPECT_THAT(test::message([&] { speed_fluctuation(two, plan_of_two, {}); }),

@@ -129,7 +129,7 @@ TEST(BalancingStudyRun, WhatIsNotConvexIsRefusedByConvex) {
   EXPECT_EQ(r.status, Status::infeasible);
   EXPECT_EQ(
       r.headline,
-      "This is no convex problem: the angle of 'crank mass 1' is limited; only a fixed one or a full turn "
+      "This is not a convex problem: the angle of 'crank mass 1' is limited; only a fixed one or a full turn "
       "is convex.");
 }
 

@@ -163,7 +163,7 @@ TEST(LinkageStudy, TellsWhereALinkageAssembles) {
   const double limit = std::acos((0.37 - 0.62 * 0.62) / 0.12) * 180 / pi;
   EXPECT_NEAR(limit, 96.9, 0.05);
   EXPECT_THAT(to_string(r.diagnostics[0]),
-              ::testing::AllOf(HasSubstr("do not assemble: coupler + rocker would have to be longer"),
+              ::testing::AllOf(HasSubstr("do not assemble: coupler + rocker cannot close, the gap is up to"),
                                HasSubstr("it assembles from -96.9 to 96.9 deg")));
   const Table& t = r.tables[0];
   EXPECT_EQ(t.status[100], "no_assembly");
@@ -194,8 +194,9 @@ TEST(LinkageStudy, GoesOnThroughChangePointsAsTheStudySays) {
   EXPECT_EQ(parallel, t.rows() - singular);
   EXPECT_THAT(
       to_string(smooth.diagnostics[1]),
-      HasSubstr("the assembly modes of coupler + rocker meet and cross: which way the linkage goes on there "
-                "is a choice; the rows go on smoothly"));
+      HasSubstr(
+          "the assembly modes of coupler + rocker coincide there, and the linkage can continue in either; "
+          "the rows continue smoothly"));
   const study::Result other =
       run_text(replaced(text, "type = \"grid\"", "type = \"grid\"\nat_change_point = \"keep_sign\""));
   const Table& u = other.tables[0];
@@ -433,7 +434,7 @@ TEST(LinkageStudy, NamesWhatIsWrongWithALinkage) {
               HasSubstr("forces and torques need the mass of every body: 'rocker' has none"));
   EXPECT_THAT(problems_of(replaced(four_bar_text, "[[drive]]\njoint = \"O1\"",
                                    "[[drive]]\njoint = \"O4\"\n[[drive]]\njoint = \"O1\"")),
-              HasSubstr("two drives on one freedom"));
+              HasSubstr("two drives on one degree of freedom"));
   const std::string no_rocker_pin =
       replaced(four_bar_text,
                "[[mechanism.joint]]\nname = \"O4\"\nfirst = \"ground.O4\"\nsecond = \"rocker.O4\"\n", "");
@@ -459,7 +460,7 @@ second = "strut.Q"
               HasSubstr("'strut' has 1 constraint too many: a rigid or overdetermined structure"));
   EXPECT_THAT(problems_of(replaced(four_bar_text, "bodies = [\"coupler\", \"rocker\"]",
                                    "bodies = [\"crank\", \"rocker\"]")),
-              HasSubstr("are no pair with two assembly modes; these are: coupler + rocker"));
+              HasSubstr("are not a pair with two assembly modes; these are: coupler + rocker"));
   EXPECT_THAT(problems_of(replaced(four_bar_text, "from_deg = 0\nto_deg = 360", "from_deg = 9\nto_deg = 9")),
               HasSubstr("the sweep ends where it begins"));
 }

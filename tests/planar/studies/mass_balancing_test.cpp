@@ -64,7 +64,7 @@ TEST(BalancingMasses, WhatIsNoMassIsSaid) {
       mass_study(balancing_study(test::replaced(test::four_bar_masses, "crank_m   = 0.1",
                                                 "crank_m = { min = 0.1, max = 0.2, initial = 0.1 }")),
                  why));
-  EXPECT_EQ(why, "'parameters.crank_m' is no mass");
+  EXPECT_EQ(why, "'parameters.crank_m' is not a mass");
   EXPECT_FALSE(
       mass_study(balancing_study(test::replaced(test::linkage_weights, "mass_kg   = 0.36",
                                                 "mass_kg   = { min = 0.1, max = 1.0, initial = 0.36 }")),

@@ -56,7 +56,7 @@ TEST(PathStudyRead, TimingMustFit) {
       problems_of(target(std::string(square) + "timing = { mode = \"given\", angles_deg = [1, 2, 3] }\n")),
       HasSubstr("3 angles for 4 points"));
   EXPECT_THAT(problems_of(target(std::string(square) + "timing = { mode = \"free\", step_deg = 10 }\n")),
-              HasSubstr("step goes with mode equal_steps, the mode is free"));
+              HasSubstr("step is for mode equal_steps, the mode is free"));
   EXPECT_THAT(
       problems_of(target(std::string(square) + "timing = { mode = \"equal_step\", step_deg = 10 }\n")),
       HasSubstr("target.timing.mode: is 'equal_step', must be one of: free, "));
@@ -304,7 +304,7 @@ TEST(PathStudyRead, ReadsGatesAndTolerancesFromCsv) {
             0.003);
   EXPECT_THAT(
       read("points_file = \"bands.csv\"\ntolerance_mm = 1\n").second,
-      HasSubstr("target.tolerance_mm: the points file has tolerances, too; keep the key or the column"));
+      HasSubstr("target.tolerance_mm: the points file also has tolerances; keep the key or the column"));
   EXPECT_THAT(read("points_file = \"half.csv\"\n").second, HasSubstr("'half.csv' has no column to_y_m"));
   EXPECT_THAT(read("points_file = \"both.csv\"\n").second, HasSubstr("'both.csv' has both points and gates"));
   EXPECT_THAT(read("points_file = \"negative.csv\"\n").second,
@@ -375,8 +375,8 @@ TEST(PathStudyRun, TheTransmissionAngleOfAnOpenPathIsThatOfThePath) {
   ASSERT_EQ(result.status, Status::done);
   for (const study::Solution& solution : result.solutions)
     EXPECT_GE(solution.classification.find("min_transmission_angle_rad")->as_number(), 0.5235987755 - 1e-6);
-  EXPECT_THAT(test::fact(result, "least transmission angle"), HasSubstr("° over the path ("));
-  EXPECT_THAT(test::fact(result, "least transmission angle"), HasSubstr("° over the whole motion)"));
+  EXPECT_THAT(test::fact(result, "minimum transmission angle"), HasSubstr("° over the path ("));
+  EXPECT_THAT(test::fact(result, "minimum transmission angle"), HasSubstr("° over the whole motion)"));
   for (const Diagnostic& d : result.diagnostics)
     EXPECT_THAT(d.message, ::testing::Not(HasSubstr("falls to")));
 }

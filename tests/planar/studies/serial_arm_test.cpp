@@ -55,9 +55,9 @@ TEST(SerialArmStudyRead, NamesWhatIsWrongWithTheLinks) {
                                HasSubstr("mechanism.link[0].mass_kg: is -1 kg, must be at least 0 kg")));
   EXPECT_THAT(
       problems({{"2 upper", "[[mechanism.link]]\nname = \"upper arm\"\nlength_m = 1\nmass_kg = 1\n"}}),
-      HasSubstr("name: is 'upper arm', must begin with a letter and hold letters, digits and _ only"));
+      HasSubstr("name: is 'upper arm', must begin with a letter and contain letters, digits and _ only"));
   EXPECT_THAT(problems({{"2 upper", "[[mechanism.link]]\nname = \"fore\"\nlength_m = 1\nmass_kg = 1\n"}}),
-              HasSubstr("mechanism.link[1].name: 'fore' is the name of another link, too"));
+              HasSubstr("mechanism.link[1].name: 'fore' is also the name of another link"));
   EXPECT_THAT(problems({{"2 upper", ""}, {"3 fore", ""}, {"4 payload", ""}}),
               HasSubstr("mechanism.link: this key is missing"));
   EXPECT_THAT(problems({{"2 upper", "link = []\n"}, {"3 fore", ""}, {"4 payload", ""}}),

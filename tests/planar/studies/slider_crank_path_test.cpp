@@ -54,7 +54,7 @@ TEST(SliderPathStudyRead, TimingMustFit) {
   EXPECT_THAT(timed("mode = \"increments\", increments_deg = [1, 2, 3, 4]"),
               HasSubstr("4 increments for 4 points; give 3"));
   EXPECT_THAT(timed("mode = \"given\", angles_deg = [1, 2, 3]"), HasSubstr("3 angles for 4 points"));
-  EXPECT_THAT(timed("mode = \"free\", step_deg = 10"), HasSubstr("step goes with mode equal_steps"));
+  EXPECT_THAT(timed("mode = \"free\", step_deg = 10"), HasSubstr("step is for mode equal_steps"));
   EXPECT_THAT(timed("mode = \"free\", increments_deg = [1, 2, 3]"),
               HasSubstr("increments go with mode increments, the mode is free"));
   EXPECT_THAT(timed("mode = \"increment\""),
@@ -91,7 +91,7 @@ TEST(SliderPathStudyRead, ObjectivesLimitsAndMethodsMustFit) {
   const std::string path = target(std::string("closed = true\n") + square);
   EXPECT_THAT(problems_of(path + "[[objective]]\ntype = \"slider.stroke\"\n"),
               HasSubstr("the stroke alone says nothing about the path"));
-  EXPECT_THAT(problems_of(path + both + both), HasSubstr("an objective stands twice"));
+  EXPECT_THAT(problems_of(path + both + both), HasSubstr("an objective is given twice"));
   EXPECT_THAT(problems_of(path + "[optimiser]\nmethod = \"nsga2\"\n"),
               HasSubstr("nsga2 gives fronts of several objectives"));
   EXPECT_THAT(problems_of(path + both + "[optimiser]\nmethod = \"nsga2\"\npopulation = 30\n"),
@@ -106,7 +106,7 @@ TEST(SliderPathStudyRead, ObjectivesLimitsAndMethodsMustFit) {
   EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"stroke\"\n"),
               HasSubstr("the stroke has no limit"));
   EXPECT_THAT(problems_of(path + "[[constraint]]\ntype = \"stroke\"\nmin_mm = 2\nmax_mm = 1\n"),
-              HasSubstr("2 mm at least and 1 mm at most"));
+              HasSubstr("at least 2 mm and at most 1 mm"));
   EXPECT_THAT(
       problems_of(target(std::string(square) + "timing = { mode = \"equal_steps\", step_deg = 400 }\n")),
       HasSubstr("the step is 400 deg, it must not be zero nor more than a turn"));

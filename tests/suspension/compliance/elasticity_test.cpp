@@ -59,7 +59,7 @@ TEST(Elasticity, Rods) {
   EXPECT_THAT(test::message([] {
                 elastic_rods(guide_sample("2RS-US").guide, {1, 2, 3}, 7);
               }),
-              ::testing::StartsWith("elastic_rods: lower wishbone is no rod"));
+              ::testing::StartsWith("elastic_rods: lower wishbone is not a rod"));
   EXPECT_THAT(test::message([] { ideal_joint('U'); }),
               ::testing::StartsWith("ideal_joint: joint 'U'; there are R, S and P"));
 }

@@ -214,7 +214,7 @@ TEST(Statics, ALimitOfTravelHasNoBalance) {
   EXPECT_TRUE(by_height.status == Status::singular || std::abs(by_height.support) > 1e6);
   EXPECT_EQ(solve_forces(guide, plan, limit, some_load, Support::spring).status, Status::done);
   EXPECT_THAT(test::message([&] { rod_force(guide, limit, {}); }),
-              ::testing::StartsWith("rod_force: lower wishbone is no rod"));
+              ::testing::StartsWith("rod_force: lower wishbone is not a rod"));
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST(GuideConstraints, Contract) {
   WheelGuide guide = guide_sample("5US").guide;
   guide.links.pop_back();
   EXPECT_THAT(test::message([&] { prepare_guide(guide); }),
-              ::testing::HasSubstr("the count of constraints leaves 2 freedoms"));
+              ::testing::HasSubstr("2 degrees of freedom remain"));
   guide = guide_sample("5US").guide;
   guide.wheel.tyre_diameter = -1;
   EXPECT_THAT(test::message([&] { prepare_guide(guide); }),

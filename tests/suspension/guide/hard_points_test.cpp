@@ -78,7 +78,7 @@ TEST(HardPoints, SaysWhatIsWrongWithAList) {
   EXPECT_THAT(problems_of(""), HasSubstr("points.txt: error: holds no point; one point a line: name x y z"));
   EXPECT_THAT(
       problems_of("a 1 2 3\nA 1 2 4\n"),
-      HasSubstr("points.txt:2:1: error: a: stands twice, at different places; give every point a name"));
+      HasSubstr("points.txt:2:1: error: a: is given twice, at different places; give every point a name"));
   EXPECT_THAT(problems_of("1 2 3\n"), HasSubstr("points.txt:1:1: error: a point has no name"));
   EXPECT_THAT(problems_of("a 1 2 3e9\n"),
               HasSubstr("lies at (0.001, 0.002, 3e+06) m; is the unit of the list right?"));

@@ -22,7 +22,7 @@ TEST(Structure, ReadsAndWritesNames) {
 
 TEST(Structure, NamesMistakesOfAName) {
   EXPECT_EQ(parse_structure("SR-3KX").problem,
-            "'KX' in 'SR-3KX' is no link type; there are R, RR, S, RS, SR, SP, US, SS");
+            "'KX' in 'SR-3KX' is not a link type; there are R, RR, S, RS, SR, SP, US, SS");
   EXPECT_EQ(parse_structure("9US").problem, "'9US' in '9US': a count lies between 1 and 5");
   EXPECT_EQ(parse_structure("SR--US").problem,
             "'SR--US' has nothing between its '-': write link types such as SR-3US");
@@ -60,7 +60,7 @@ TEST(Structure, WrongCountsAreToldWithTheirSum) {
   Diagnostics found = check_structure(guide);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].message,
-            "the links take 4 of the carrier's 6 freedoms (2 RS takes 4), 5 are to be taken");
+            "the links constrain 4 of the carrier's 6 degrees of freedom (2 RS: 4), 5 must be constrained");
   EXPECT_EQ(found[0].hint, "the wheel would have 2 degrees of freedom: add links");
 
   guide = guide_sample("5US").guide;
@@ -69,8 +69,10 @@ TEST(Structure, WrongCountsAreToldWithTheirSum) {
   found = check_structure(guide);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].message,
-            "the links take 6 of the carrier's 6 freedoms (6 US takes 6), 5 are to be taken");
-  EXPECT_EQ(found[0].hint, "redundant links need elastic joints: rigid ones would lock, or fit by luck");
+            "the links constrain 6 of the carrier's 6 degrees of freedom (6 US: 6), 5 must be constrained");
+  EXPECT_EQ(
+      found[0].hint,
+      "redundant links need elastic joints: rigid ones would lock, or close for special dimensions only");
 }
 
 TEST(Structure, EqualLinksLoseRank) {
@@ -80,10 +82,10 @@ TEST(Structure, EqualLinksLoseRank) {
   const Diagnostics found = check_structure(guide);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].severity, Diagnostic::Severity::error);
-  EXPECT_THAT(
-      found[0].message,
-      ::testing::StartsWith("the count is right, and yet the links leave the carrier free with the height of "
-                            "the wheel centre held: turning about y"));
+  EXPECT_THAT(found[0].message,
+              ::testing::StartsWith(
+                  "the count is right, yet the links do not constrain the carrier when the height of "
+                  "the wheel centre is fixed: turning about y"));
 }
 
 TEST(Structure, TrailingLinkWithALateralHingeHardlyHoldsPitch) {
@@ -93,8 +95,8 @@ TEST(Structure, TrailingLinkWithALateralHingeHardlyHoldsPitch) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].severity, Diagnostic::Severity::warning);
   EXPECT_THAT(found[0].message,
-              ::testing::StartsWith("the links hardly hold the carrier with the height of the "
-                                    "wheel centre held: turning about y"));
+              ::testing::StartsWith("the links hardly constrain the carrier when the height of the "
+                                    "wheel centre is fixed: turning about y"));
 }
 
 }  // namespace

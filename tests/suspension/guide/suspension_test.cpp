@@ -77,8 +77,8 @@ TEST(WheelGuide, CouplersAndSprings) {
   // An upright rod has no level axis across it that would be the one.
   guide.links[0].type = LinkType::US;
   guide.links[0].body[0] = guide.links[0].carrier[0] + Vec3{0, 0, 0.3};
-  EXPECT_TRUE(only(guide).ends_with(
-      "stands upright, so that no axis of its universal joint can be taken for granted"))
+  EXPECT_TRUE(
+      only(guide).ends_with("is vertical, so that no axis of its universal joint can be taken for granted"))
       << only(guide);
   guide.links[0].cross_axis = Vec3{1, 0.2, 0};
   EXPECT_TRUE(check(guide).empty());

@@ -124,7 +124,7 @@ TEST(PoseCompletion, WhatIsRefused) {
   CarrierTarget pose = e.targets.poses[0];
   pose.angles.toe = pose.angles.carrier_pitch = nan;
   EXPECT_THAT(message([&] { solve_for(e.targets, pose, e.links[0], PoseParameter::carrier_pitch); }),
-              HasSubstr("link 'link 1' cannot settle carrier_pitch: toe is missing, too"));
+              HasSubstr("link 'link 1' cannot settle carrier_pitch: toe is also missing"));
 }
 
 }  // namespace

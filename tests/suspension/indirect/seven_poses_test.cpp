@@ -153,7 +153,7 @@ TEST(SevenPoses, NeedsSevenPositions) {
   test::Example e = test::published_example("ex1-forward");
   e.targets.poses.resize(6);
   EXPECT_THAT(linkwright::test::message([&] { seven_pose_rods(e.targets, false); }),
-              ::testing::HasSubstr("needs six positions beside the reference, got 5"));
+              ::testing::HasSubstr("needs six positions besides the reference, got 5"));
 }
 
 }  // namespace

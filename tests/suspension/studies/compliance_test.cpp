@@ -89,7 +89,7 @@ TEST(ComplianceStudyRead, NamesWhatIsWrong) {
   EXPECT_THAT(problems_of(wishbone + rods()),
               HasSubstr("no link is called 'lower front rod'; there are: lower wishbone"));
   EXPECT_THAT(problems_of(wishbone + rod("lower wishbone", 1)),
-              HasSubstr("compliance.joint[0].end: is missing: 'lower wishbone' is no rod"));
+              HasSubstr("compliance.joint[0].end: is missing: 'lower wishbone' is not a rod"));
 }
 
 TEST(ComplianceStudy, SaysWhatIsLeftFree) {

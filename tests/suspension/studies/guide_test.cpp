@@ -121,7 +121,7 @@ TEST(GuideStudyRead, NamesWhatIsWrongWithTheMechanism) {
       HasSubstr("mechanism.link[0].body_m: is a design variable, but this kind of study has none"));
   // One rod leaves the carrier five freedoms.
   EXPECT_THAT(problems_of(wheel + link("US", "body_m = [0, 0.3, 0]\ncarrier_m = [0, 0.7, 0]\n") + sweep),
-              HasSubstr("mechanism.links: the links take 1 of the carrier's 6 freedoms"));
+              HasSubstr("mechanism.links: the links constrain 1 of the carrier's 6 degrees of freedom"));
   EXPECT_THAT(problems_of(wheel + "[mechanism.hard_points]\nx = \"left\"\n" +
                           link("US", "body_m = [0, 0.3, 0]\ncarrier_m = [0, 0.7, 0]\n") + sweep),
               HasSubstr("x and y both lie along left and right"));

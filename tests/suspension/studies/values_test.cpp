@@ -36,7 +36,7 @@ TEST(InputValues, SayWhatTheyLack) {
               HasSubstr("sweep.travel.to: is missing; write from_mm, to_mm and step_mm"));
   EXPECT_THAT(told("from_mm = 80\nto_mm = -80\nstep_mm = 1\n"), HasSubstr("exchange them"));
   EXPECT_THAT(told("values_mm = []\n"), HasSubstr("are none; write values_mm = [...]"));
-  EXPECT_THAT(told("values_mm = [1]\nfrom_mm = 2\n"), HasSubstr("are listed, and given by a range, too"));
+  EXPECT_THAT(told("values_mm = [1]\nfrom_mm = 2\n"), HasSubstr("are given both as a list and as a range"));
   EXPECT_THAT(told("from_mm = 0\nto_mm = 80\nstep_mm = 1e-5\n"), HasSubstr("makes 8e+06 values"));
 }
 

@@ -230,7 +230,7 @@ struct DesignReferenceForm {
 };
 template <class Visitor>
 void fields(Visitor&& visit, DesignReferenceForm& r) {
-  visit(Field{.key = "label", .summary = "what it is called in the report"}, r.label);
+  visit(Field{.key = "label", .summary = "its name in the report"}, r.label);
   if (r.target != DesignTarget::masses)
     visit(Field{.key = "parameters", .summary = "its lengths", .required = true}, r.parameters);
   if (r.target != DesignTarget::lengths)

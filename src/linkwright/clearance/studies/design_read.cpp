@@ -221,7 +221,7 @@ study::Kind kind_of(DesignTarget target) {
       table("drive", "what turns the crank", true, DesignDriveForm{});
       table("environment", "weight", false, planar::Environment{});
     }
-    table("target", "what is wanted", true, DesignTargetForm{});
+    table("target", "what is prescribed", true, DesignTargetForm{});
     table("reference", "a design that the answer is compared with", false, DesignReferenceForm{});
     table("optimiser", "how designs are searched", false, DesignOptimiser{});
   };

@@ -301,10 +301,10 @@ class DesignReporter {
 
   std::string contact_text(const DesignMeasures& d) const {
     if (!lost(d))
-      return fmt::format("kept: least tension {:.4g} N at a crank angle of {:.1f}°", d.run.least_tension,
+      return fmt::format("kept: minimum tension {:.4g} N at a crank angle of {:.1f}°", d.run.least_tension,
                          wrapped_degrees(d.least_at));
     return fmt::format(
-        "lost at a crank angle of {:.1f}°; without contact {:.3g} % of the turn, least tension "
+        "lost at a crank angle of {:.1f}°; without contact {:.3g} % of the turn, minimum tension "
         "{:.4g} N at {:.1f}°",
         wrapped_degrees(separation_angle(d)), 100 * d.run.separated, d.run.least_tension,
         wrapped_degrees(d.least_at));
@@ -348,8 +348,8 @@ class DesignReporter {
     }
     fact("method", std::string(method()));
     if (answer_->starts > 0 && s_.target == DesignTarget::lengths)
-      fact("local searches that came to it", fmt::format("{} of {}", answer_->reached, answer_->starts));
-    study::add_seed_facts(result_, "seeds that reached the best", runs_.answers.size());
+      fact("local searches that reached it", fmt::format("{} of {}", answer_->reached, answer_->starts));
+    study::add_seed_facts(result_, "runs that reached the best solution", runs_.answers.size());
   }
   double off(std::size_t k) const {
     return std::abs(d_.reached[k] - std::complex<double>(s_.path.x[k], s_.path.y[k]));
@@ -401,12 +401,13 @@ class DesignReporter {
           "allow more mass at the clearance joint");
     if (d_.run.status != Status::done) warn(fmt::format("the turn ends early: {}", d_.run.message));
     if (lost(d_))
-      warn(fmt::format(
-               "pin and bush separate at a crank angle of {:.1f}° (least tension {:.4g} N at {:.1f}°): what "
-               "follows is outside of the model",
-               wrapped_degrees(separation_angle(d_)), d_.run.least_tension, wrapped_degrees(d_.least_at)),
-           "simulate it with model = \"contact\", or allow a heavier coupler with its mass at the clearance "
-           "joint");
+      warn(
+          fmt::format(
+              "pin and bush separate at a crank angle of {:.1f}° (minimum tension {:.4g} N at {:.1f}°): what "
+              "follows is outside of the model",
+              wrapped_degrees(separation_angle(d_)), d_.run.least_tension, wrapped_degrees(d_.least_at)),
+          "simulate it with model = \"contact\", or allow a heavier coupler with its mass at the clearance "
+          "joint");
   }
 
   void headline() {

@@ -215,11 +215,11 @@ class Facts {
       lost_ = lost_ || lost;
       if (!lost) {
         fact(fmt::format("contact of {}", name(k)),
-             fmt::format("kept: least tension {:.4g} N", v.least_tension), Verdict::good);
+             fmt::format("kept: minimum tension {:.4g} N", v.least_tension), Verdict::good);
         continue;
       }
       fact(fmt::format("contact of {}", name(k)),
-           fmt::format("lost at {:.4g} s; without contact {:.3g} % of the time, least tension {:.4g} N",
+           fmt::format("lost at {:.4g} s; without contact {:.3g} % of the time, minimum tension {:.4g} N",
                        v.first_separation, 100 * v.separated, v.least_tension),
            Verdict::bad);
       warn(fmt::format(

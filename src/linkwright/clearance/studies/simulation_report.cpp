@@ -292,7 +292,7 @@ class SimulationReporter {
       of_pins("link-speeds", "Speeds of the clearance links", speeds);
     }
     motion("paths", "Paths of the traced points, with and without clearance", paths, Style::polar);
-    motion("path-errors", "How far the traced points are off", errors);
+    motion("path-errors", "Path deviation from the ideal linkage", errors);
     for (std::size_t k = 0; k < s_.traces.size(); ++k)
       against_ideal("acceleration-" + trace_key(k),
                     "Acceleration of " + trace_name(k) + " (pale: without clearance)",

@@ -215,10 +215,10 @@ void read_watch(study::ObjectReader& document, ToleranceStudy& s, Value& canonic
     table->error(form.forces.empty() ? "drives" : "forces",
                  fmt::format("forces and torques need the mass of every body: {} {} none", bodies,
                              s.motion.plan.massless.size() == 1 ? "has" : "have"),
-                 "give mass_kg, or look at coordinates and traced points only");
+                 "give mass_kg, or watch coordinates and traced points only");
   }
   if (quantity_count(l, s.outputs) == 0 && !document.document().has_errors())
-    document.error("watch", "nothing is looked at",
+    document.error("watch", "nothing is watched",
                    "add [[trace]] with a point, or [watch] with coordinates, forces or drives");
 }
 
@@ -356,7 +356,7 @@ void describe(study::SchemaWriter& document) {
                     study::schema_array(study::schema_fields<LoosePinForm>()));
   document.property(Field{.key = "tolerance", .summary = "lengths that deviate"},
                     study::schema_array(study::schema_fields<LengthForm>()));
-  document.property(Field{.key = "watch", .summary = "what is looked at beside the traced points"},
+  document.property(Field{.key = "watch", .summary = "what is reported besides the traced points"},
                     study::schema_fields<WatchForm>());
   study::SchemaWriter limit;
   LimitForm form;

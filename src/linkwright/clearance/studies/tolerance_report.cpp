@@ -125,7 +125,7 @@ class ToleranceReporter {
     for (std::size_t p = 0; p < bands_.size(); ++p)
       for (const char* end : {"_x_m", "_y_m", "_left_x_m", "_left_y_m", "_right_x_m", "_right_y_m"})
         paths.push_back(r_.quantities[p].key + end);
-    over_input("band")("paths", fmt::format("Paths and how far they may be off, drawn {:g} x", scale_), paths,
+    over_input("band")("paths", fmt::format("Paths and their tolerance bands, drawn {:g} x", scale_), paths,
                        Style::polar);
     for (std::size_t q = 0; q < std::min(quantities(), most_told); ++q) {
       const ToleranceQuantity& quantity = r_.quantities[q];
@@ -139,7 +139,8 @@ class ToleranceReporter {
       for (const std::size_t k : r_.by_share(q))
         if (parts.size() < most_curves) parts.push_back(planar::identifier(r_.tolerances[k]) + "_" + unit);
       over_input("contributions_" + quantity.key)("contributions-" + quantity.key,
-                                                  "Who makes the worst error of " + quantity.name, parts);
+                                                  "Contributions to the worst-case error of " + quantity.name,
+                                                  parts);
       // Where a band can be seen around its curve.
       if ((quantity.kind == Kind::force || quantity.kind == Kind::torque) &&
           worst(q) > 0.02 * largest_value(q))
@@ -202,7 +203,7 @@ class ToleranceReporter {
            always ? Verdict::good : Verdict::plain);
     }
     if (std::isfinite(r_.transmission))
-      fact("least transmission angle",
+      fact("minimum transmission angle",
            fmt::format("{:.1f}° of {} at {}", math::degrees(r_.transmission), r_.transmission_group,
                        where(r_.transmission_row)),
            r_.transmission < poor_transmission ? Verdict::bad : Verdict::plain);
@@ -250,7 +251,7 @@ class ToleranceReporter {
              std::move(hint));
     };
     told([](Status s) { return s != Status::done && s != Status::infeasible; },
-         "have no answer: the linkage does not assemble there or stands at a dead point",
+         "have no answer: the linkage does not assemble there or is at a dead point",
          "sweep over a range where it moves; the analysis of planar.linkage reports that range");
     told([](Status s) { return s == Status::infeasible; },
          "are at the end of the motion: linkages with the least errors do not assemble there",
@@ -312,7 +313,7 @@ class ToleranceReporter {
     const ToleranceQuantity& main = r_.quantities[0];
     if (!main.any) {
       result_.headline =
-          "No position of the sweep has an answer: the linkage does not assemble or stands at "
+          "No position of the sweep has an answer: the linkage does not assemble or is at "
           "dead points.";
       return;
     }

@@ -38,14 +38,14 @@ void check_links(study::ObjectReader& mechanism, ArmForm& arm) {
     } else if (!is_column_name(link.name)) {
       table.error(
           "name",
-          fmt::format("is '{}', must begin with a letter and hold letters, digits and _ only", link.name),
+          fmt::format("is '{}', must begin with a letter and contain letters, digits and _ only", link.name),
           "it becomes the beginning of column names");
     } else if (link.name == "hub") {
       table.error("name", "is 'hub', which stands for the hub itself", "take another one");
     }
     for (std::size_t other = 0; other < k; ++other)
       if (links[other].name == link.name)
-        table.error("name", fmt::format("'{}' is the name of another link, too", link.name));
+        table.error("name", fmt::format("'{}' is also the name of another link", link.name));
     if (k == 0 && link.hinge)
       table.error("hinge", "the first link is welded to the hub",
                   "give the mechanism hub_stiffness, hub_damping and hub_inertia");

@@ -75,11 +75,11 @@ study::Kind vibration_kind() {
   kind.schema = [](study::SchemaWriter& document) {
     document.property(Field{.key = "mechanism", .summary = "hub and link", .required = true},
                       study::schema_fields<HubLinkForm>());
-    document.property(Field{.key = "vibration", .summary = "what is asked of its vibrations"},
+    document.property(Field{.key = "vibration", .summary = "what is computed of its vibrations"},
                       study::schema_fields<VibrationForm>());
     document.property(Field{.key = "campbell", .summary = "frequencies over the speed of the hub"},
                       study::schema_fields<CampbellForm>());
-    document.property(Field{.key = "load", .summary = "what it carries at rest against its hub"},
+    document.property(Field{.key = "load", .summary = "its load at rest against the hub"},
                       study::schema_fields<LoadForm>());
   };
   kind.prepare = [](study::ObjectReader& document, const study::Common& common) {

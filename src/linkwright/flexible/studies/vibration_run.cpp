@@ -330,7 +330,7 @@ class Analyst {
       warn("load", "the link does not stay like that: it has buckled", "take a smaller load along it");
     if (const double kink = largest_kink(chain_, found.state.q); kink > kink_limit)
       warn("vibration.divisions",
-           fmt::format("two bars stand {:.2g} rad to each other, more than {:g}: the cells are too long for "
+           fmt::format("two bars meet at {:.2g} rad, more than {:g}: the cells are too long for "
                        "this curvature",
                        kink, kink_limit),
            "take more divisions");

@@ -23,7 +23,7 @@ namespace linkwright::parallel {
 enum class DexterityGoal { worst, mean, size };
 constexpr std::array<EnumName<DexterityGoal>, 3> names(DexterityGoal) {
   return {{{DexterityGoal::worst, "worst",
-            "the least local conditioning index of the region as large as possible"},
+            "the minimum local conditioning index of the region as large as possible"},
            {DexterityGoal::mean, "mean", "the mean of it over the region (GCI) as large as possible"},
            {DexterityGoal::size, "size", "arm and rod as short as the limits allow"}}};
 }

@@ -43,7 +43,7 @@ constexpr std::array<EnumName<PiLimit>, 8> names(PiLimit) {
   return {{{PiLimit::torque, "torque", "torque at the output with the force of the diagonal"},
            {PiLimit::resolution, "resolution", "turn of the output for a step of the diagonal"},
            {PiLimit::speed, "speed", "speed of the output with the rate of the diagonal"},
-           {PiLimit::transmission, "transmission", "least transmission angle"},
+           {PiLimit::transmission, "transmission", "minimum transmission angle"},
            {PiLimit::stroke, "stroke", "stroke of the diagonal"},
            {PiLimit::telescoping, "telescoping", "longest to shortest diagonal"},
            {PiLimit::ends, "ends", "range of the angle within +-90 deg"},

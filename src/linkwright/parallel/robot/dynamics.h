@@ -88,7 +88,7 @@ void fields(Visitor&& visit, LegMasses& m) {
               .maximum = 1e9},
         m.rod_inertia);
   visit(Field{.key = "rod_split",
-              .summary = "simplified model: share of the rods' mass that is put to the platform, the rest to "
+              .summary = "simplified model: share of the rods' mass assigned to the platform, the rest to "
                          "the elbow",
               .minimum = 0,
               .maximum = 1},

@@ -262,7 +262,7 @@ study::Scene scene_of(const DexterityStudy& s, const DexterityDesign& best) {
 std::string objective_text(DexterityGoal goal, double value) {
   return goal == DexterityGoal::size   ? fmt::format("arm and rod {:.4g} mm together", 1e3 * value)
          : goal == DexterityGoal::mean ? fmt::format("mean conditioning index {:.6f}", value)
-                                       : fmt::format("least conditioning index {:.6f}", value);
+                                       : fmt::format("minimum conditioning index {:.6f}", value);
 }
 
 study::Kind kind_of(RobotFamily family) {
@@ -437,7 +437,7 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
                            : length ? fmt::format("{:.3f} mm", 1e3 * a.best.x[i])
                                     : fmt::format("{:.5f}", a.best.x[i]));
   }
-  fact("least conditioning index", fmt::format("{:.6f}", a.best.worst));
+  fact("minimum conditioning index", fmt::format("{:.6f}", a.best.worst));
   fact("mean conditioning index", fmt::format("{:.6f}", a.best.mean));
   fact("arm and rod together", fmt::format("{:.3f} mm", 1e3 * a.best.size));
   fact("arm angles used", fmt::format("{:.2f}° to {:.2f}°", math::degrees(a.best.arm_lowest),
@@ -452,7 +452,7 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
   if (s.task.family == RobotFamily::delta)
     for (const DexterityStand& l : a.best.limits)
       if (l.limit == DexterityLimit::constraint)
-        fact("least constraint index", fmt::format("{:.6f}", l.value),
+        fact("minimum constraint index", fmt::format("{:.6f}", l.value),
              l.excess <= 0 || l.active ? Verdict::good : Verdict::bad);
   if (s.transmission_put_in)
     fact("limit put in",
@@ -462,7 +462,7 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
   if (good) {
     proof = prove_region(s.task, a.best);
     fact("whole region free of singularities",
-         proof.proven     ? "proven, between the nodes, too"
+         proof.proven     ? "proven, also between the nodes"
          : proof.violated ? fmt::format("no: at ({:.4g}, {:.4g}, {:.4g}) m the constraint index misses its "
                                         "limit, or it is singular",
                                         proof.violated->x, proof.violated->y, proof.violated->z)
@@ -476,9 +476,9 @@ study::Result run_dexterity_study(const DexterityStudy& s, const study::Common& 
   for (const DexterityStand& l : a.best.limits)
     if (l.active) held += fmt::format("{}{}", held.empty() ? "" : ", ", name_of(l.limit));
   if (!held.empty()) fact("held back by", held);
-  if (a.starts > 0) fact("local searches that came to it", fmt::format("{} of {}", a.reached_best, a.starts));
+  if (a.starts > 0) fact("local searches that reached it", fmt::format("{} of {}", a.reached_best, a.starts));
   if (runs.answers.size() > 1)
-    fact("seeds that came to it", study::successful_seeds(result, runs.answers.size()));
+    fact("runs that reached it", study::successful_seeds(result, runs.answers.size()));
   result.scenes.push_back(scene_of(s, a.best));
   result.headline =
       proof.violated

@@ -21,7 +21,7 @@ void fields(Visitor&& visit, DexterityLimitsForm& l) {
   const auto index = [](std::string_view key, std::string_view summary) {
     return Field{.key = key, .summary = summary, .minimum = 0, .maximum = 1};
   };
-  visit(index("conditioning", "least local conditioning index"), l.conditioning);
+  visit(index("conditioning", "minimum local conditioning index"), l.conditioning);
   visit(index("input", "least input transmission index"), l.input);
   visit(index("output", "least output transmission index"), l.output);
   visit(index("transmission",
@@ -29,7 +29,7 @@ void fields(Visitor&& visit, DexterityLimitsForm& l) {
               "transmission, or both input and output, else none"),
         l.transmission);
   visit(index("constraint",
-              "least constraint index of a DELTA: how firmly its parallelograms keep the platform from "
+              "minimum constraint index of a DELTA: how firmly its parallelograms keep the platform from "
               "turning; default 0.2; 0: only never to be lost"),
         l.constraint);
   visit(Field{.key = "arm_travel",
@@ -99,7 +99,7 @@ void fields(Visitor&& visit, RegionForm& r) {
               .minimum = 1,
               .maximum = 10000},
         r.cells);
-  visit(Field{.key = "goal", .summary = "what is made best"}, r.goal);
+  visit(Field{.key = "goal", .summary = "what is optimised"}, r.goal);
   visit(Field{.key = "limits", .summary = "what holds everywhere in the region"}, r.limits);
   visit(Field{.key = "pi_joint", .summary = "Pi-joints that are designed with the robot"}, r.pi_joint);
 }
@@ -116,7 +116,7 @@ void fields(Visitor&& visit, RecommendedDexterity& r) {
               .minimum = 0,
               .maximum = 1e6},
         r.options.confirmations);
-  visit(Field{.key = "between_nodes", .summary = "look between the nodes, too"}, r.options.between_nodes);
+  visit(Field{.key = "between_nodes", .summary = "check between the nodes as well"}, r.options.between_nodes);
 }
 constexpr Word choice_word(const RecommendedDexterity&) {
   return {"recommended", "sequential quadratic programming with exact derivatives at the worst poses"};

@@ -162,8 +162,8 @@ std::string PathJudge::text(const Peak& peak) const {
       break;
     }
     case Asked::swing:
-      what = fmt::format("a rod leans {} out of the plane of its arm, allowed are {}", degrees(d.value),
-                         degrees(d.limit));
+      what = fmt::format("a rod leans {} out of the plane of its arm, at most {} is allowed",
+                         degrees(d.value), degrees(d.limit));
       break;
     case Asked::elbow:
       what = fmt::format("the angle at an elbow is {}, {} {} is required", degrees(d.value),

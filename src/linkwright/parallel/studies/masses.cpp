@@ -16,7 +16,7 @@ std::optional<RobotMasses> read_masses(study::ObjectReader& document, const Robo
   if (form.pi) {
     for (const char* key : {"arm_inertia", "arm_mass", "arm_centre"})
       if (table->has(key)) {
-        table->error(key, "is given for plain arms, and the masses of the Pi-joints, too",
+        table->error(key, "is given for plain arms together with the masses of the Pi-joints",
                      "keep [masses.pi_joint], or the arm's masses");
         return std::nullopt;
       }

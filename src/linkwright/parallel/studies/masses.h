@@ -28,7 +28,7 @@ void fields(Visitor&& visit, MassesForm& m) {
           .maximum = 1e6},
       m.gravity);
   visit(Field{.key = "pi_joint",
-              .summary = "masses of each Pi-joint, in the place of arm_inertia, arm_mass, arm_centre"},
+              .summary = "masses of each Pi-joint, instead of arm_inertia, arm_mass, arm_centre"},
         m.pi);
 }
 

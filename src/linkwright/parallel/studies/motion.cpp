@@ -336,9 +336,9 @@ void add_motion(study::Result& result, const RobotDescription& d, const std::opt
     if (const auto* p = judge.peak(asked))
       fact(label, fmt::format("{:.3f} ({})", p->demand.value, study.motion.where(p->time)));
   };
-  least(Asked::transmission, "least transmission index");
+  least(Asked::transmission, "minimum transmission index");
   if (got.falls.empty())
-    least(Asked::constraint, "least constraint index");
+    least(Asked::constraint, "minimum constraint index");
   else
     fact("constraint index falls to", got.falls);
   if (got.gets_to < study.motion.duration())

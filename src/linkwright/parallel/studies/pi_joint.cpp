@@ -164,7 +164,7 @@ std::optional<PiAnalysis> read_analysis(study::ObjectReader& document, const stu
   }
   if (!(sweep.from < sweep.to && sweep.from >= -right && sweep.to <= right)) {
     range->error(sweep.from < sweep.to ? "from" : "to",
-                 "the angle goes from above -90 deg to below 90 deg, upwards");
+                 "the angle must rise from above -90 deg to below 90 deg");
     return std::nullopt;
   }
   const int samples = common.output.samples;
@@ -283,7 +283,7 @@ study::Result run_pi_analysis(const PiAnalysis& s, RunContext&) {
     fact("screw", self_locking(s.equipment.drive->screw) ? "self-locking" : "can be driven back by the load");
   }
   if (s.equipment.bars)
-    fact("least stiffness",
+    fact("minimum stiffness",
          fmt::format("{:.4g} N m/rad", least([](const PiCurvePoint& p) { return p.stiffness; })));
   for (const PiSingularPosition& p : singular_positions(s.joint))
     fact("singular",
@@ -362,7 +362,7 @@ study::Result run_pi_design(const PiRequirements& r, const study::Seeds& seeds, 
                           ? fmt::format("{}{}", millimetres(report.closed_form.design->size),
                                         report.closed_form_is_best ? ", the best there is" : "")
                           : "none: requirements are in conflict");
-  fact("local searches that came to it", fmt::format("{} of {}", report.reached_best, report.starts));
+  fact("local searches that reached it", fmt::format("{} of {}", report.reached_best, report.starts));
   result.statistics["evaluations"] = static_cast<std::int64_t>(report.evaluations);
   result.statistics["starts"] = static_cast<std::int64_t>(report.starts);
   result.statistics["reached_best"] = static_cast<std::int64_t>(report.reached_best);

@@ -102,7 +102,7 @@ void measures(Rows& row, const RobotDescription& d, const AskedPose& asked, cons
   const double least = k.eigenvalue[0], largest = k.eigenvalue[d.robot.legs() - 1];
   const Displacement give =
       displacement(d.robot, d.drives, at, drives.drive, {vec(asked.force), vec(asked.moment)});
-  row("least_stiffness_N_per_m", "least stiffness of the platform (N/m)", known(least));
+  row("least_stiffness_N_per_m", "minimum stiffness of the platform (N/m)", known(least));
   row("largest_stiffness_N_per_m", "largest stiffness of the platform (N/m)", known(largest));
   row("displacement_m", "displacement by the load (m)", known(norm(give.shift)));
 }

@@ -22,8 +22,7 @@ void fields(Visitor&& visit, AskedPose& p) {
   visit(Field{.key = "name", .summary = "for tables"}, p.name);
   visit(robot_fields::place("position", "of the platform point"), p.position);
   visit(robot_fields::angle("rotation", "rotation vector seen from the base (HEXA)"), p.rotation);
-  visit(robot_fields::angle("arm_angles", "one a leg, in the place of position: direct kinematics"),
-        p.arm_angles);
+  visit(robot_fields::angle("arm_angles", "one a leg, instead of position: direct kinematics"), p.arm_angles);
   visit(Field{.key = "force",
               .summary = "that acts on the platform point",
               .dimension = Dimension::force,

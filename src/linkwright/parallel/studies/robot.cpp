@@ -29,12 +29,12 @@ std::optional<Robot> robot_of(study::ObjectReader& mechanism, const DeltaForm& f
   if (mechanism.has("leg")) {
     for (const char* key : {"base_radius", "platform_radius", "arm", "rod"})
       if (mechanism.has(key)) {
-        mechanism.error(key, "is given for all legs, and the legs are given one by one, too",
+        mechanism.error(key, "is given for all legs and for single legs",
                         "keep the tables [[mechanism.leg]], or the four lengths");
         return std::nullopt;
       }
     if (form.legs.size() != 3) {
-      mechanism.error("leg", fmt::format("a DELTA has 3 legs, here are {}", form.legs.size()));
+      mechanism.error("leg", fmt::format("a DELTA has 3 legs, got {}", form.legs.size()));
       return std::nullopt;
     }
     Robot out{.freedom = Freedom::space_translation};
@@ -62,7 +62,7 @@ std::optional<Robot> robot_of(study::ObjectReader& mechanism, const DeltaForm& f
 std::optional<Robot> robot_of(study::ObjectReader& mechanism, const PlanarForm& form, bool offsets) {
   if (form.legs.empty() && !mechanism.has("leg")) return std::nullopt;  // reported as missing
   if (form.legs.size() != 2) {
-    mechanism.error("leg", fmt::format("a planar robot has 2 legs, here are {}", form.legs.size()));
+    mechanism.error("leg", fmt::format("a planar robot has 2 legs, got {}", form.legs.size()));
     return std::nullopt;
   }
   auto tables = mechanism.tables("leg");
@@ -192,7 +192,7 @@ std::optional<DriveRead> drive_of(study::ObjectReader& table, const DriveForm& f
 
 std::optional<PiMotor> motor_of(study::ObjectReader& table, const MotorForm& form) {
   if (form.torque && !form.speeds.empty()) {
-    table.error("torque", "is given, and a curve, too", "keep torque, or speeds and torques");
+    table.error("torque", "is given together with a curve", "keep torque, or speeds and torques");
     return std::nullopt;
   }
   if (form.speeds.size() != form.torques.size()) {

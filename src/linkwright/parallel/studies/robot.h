@@ -74,7 +74,7 @@ void fields(Visitor&& visit, DeltaForm& d) {
         d.platform_radius);
   visit(robot_fields::length("arm", "length of the arms, pivot to elbow", false), d.arm);
   visit(robot_fields::length("rod", "length of the rods, elbow to platform", false), d.rod);
-  visit(Field{.key = "leg", .summary = "three legs that differ, in the place of the lengths above"}, d.legs);
+  visit(Field{.key = "leg", .summary = "three legs that differ, instead of the lengths above"}, d.legs);
 }
 
 struct HexaForm {

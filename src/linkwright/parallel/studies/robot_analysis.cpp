@@ -166,7 +166,7 @@ std::optional<RobotAnalysis> read_robot_analysis(study::ObjectReader& document, 
   s.workspace = read_workspace(document, *description, canonical);
   if (document.document().has_errors()) return std::nullopt;
   if (s.poses.poses.empty() && !s.motion && !s.workspace) {
-    document.error("", "nothing is asked for", "add [[pose]], [motion] or [workspace]");
+    document.error("", "nothing is requested", "add [[pose]], [motion] or [workspace]");
     return std::nullopt;
   }
   return s;

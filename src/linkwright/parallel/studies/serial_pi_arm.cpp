@@ -148,7 +148,7 @@ std::optional<SerialArmMasses> read_masses(study::ObjectReader& document, const 
     out.joint[k].pi->lead = d.motors[k].screw.lead;
     for (const char* key : {"arm_inertia", "arm_mass", "arm_centre", "coupler_mass"})
       if (joint.has(key)) {
-        joint.error(key, "is given for plain arms, and the masses of the Pi-joint, too",
+        joint.error(key, "is given for plain arms together with the masses of the Pi-joint",
                     "keep [masses.joint.pi_joint], or the masses of arms and coupler");
         return std::nullopt;
       }
@@ -289,7 +289,7 @@ std::optional<SerialAnalysis> read_serial_analysis(study::ObjectReader& document
   s.workspace = read_workspace(document, description->arm, s.grid, canonical);
   if (document.document().has_errors()) return std::nullopt;
   if (s.poses.empty() && !s.motion && !s.workspace) {
-    document.error("", "nothing is asked for", "add [[pose]], [motion] or [workspace]");
+    document.error("", "nothing is requested", "add [[pose]], [motion] or [workspace]");
     return std::nullopt;
   }
   return s;

@@ -41,8 +41,7 @@ struct SerialJointMassesForm {
 template <class Visitor>
 void fields(Visitor&& visit, SerialJointMassesForm& m) {
   fields(visit, m.plain);
-  visit(Field{.key = "pi_joint",
-              .summary = "masses of its Pi-joint, in the place of those of arms and coupler"},
+  visit(Field{.key = "pi_joint", .summary = "masses of its Pi-joint, instead of those of arms and coupler"},
         m.pi);
 }
 struct SerialMassesForm {
@@ -94,7 +93,7 @@ void fields(Visitor&& visit, SerialLimits& l) {
                  .minimum = 0,
                  .maximum = 3.1415926535897931};
   };
-  visit(index("conditioning", "least local conditioning index"), l.conditioning);
+  visit(index("conditioning", "minimum local conditioning index"), l.conditioning);
   visit(index("drive_transmission", "least sine of the angle between diagonal and arm of a Pi-joint"),
         l.drive_transmission);
   visit(angle("least_elbow", "least angle between the arms, 0 = folded"), l.least_elbow);

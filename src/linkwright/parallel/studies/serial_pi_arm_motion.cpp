@@ -194,7 +194,7 @@ void add_serial_motion(study::Result& result, const SerialAnalysis& s, RunContex
   const study::AddFact fact{result.facts};
   fact("duration of the path", fmt::format("{:.4g} s", study.motion.duration()));
   if (const auto* p = judge.peak(Asked::conditioning))
-    fact("least local conditioning index",
+    fact("minimum local conditioning index",
          fmt::format("{:.3f} ({})", p->demand.value, study.motion.where(p->time)));
   if (gets_to < study.motion.duration())
     fact("judged up to", fmt::format("{}: the arm gets no farther", study.motion.where_exactly(gets_to)));

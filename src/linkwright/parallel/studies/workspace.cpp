@@ -207,7 +207,7 @@ std::optional<WorkspaceStudy> read_workspace(study::ObjectReader& document, cons
       return std::nullopt;
     }
     if (form.inscribed->height && form.inscribed->ratio) {
-      inner->error("ratio", "is given, and the height, too", "keep one of them");
+      inner->error("ratio", "is given together with the height", "keep one of them");
       return std::nullopt;
     }
     for (const std::size_t i : {0u, 1u, 2u})

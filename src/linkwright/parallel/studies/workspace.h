@@ -26,12 +26,12 @@ void fields(Visitor&& visit, QualityLimits& l) {
     return Field{
         .key = key, .summary = summary, .dimension = Dimension::angle, .minimum = 0, .maximum = most};
   };
-  visit(index("transmission", "least transmission index of the legs"), l.transmission);
-  visit(index("conditioning", "least local conditioning index"), l.conditioning);
+  visit(index("transmission", "minimum transmission index of the legs"), l.transmission);
+  visit(index("conditioning", "minimum local conditioning index"), l.conditioning);
   visit(index("drive_transmission", "least sine of the angle between diagonal and arm of a Pi-joint"),
         l.drive_transmission);
   visit(index("constraint",
-              "least constraint index of a DELTA: how firmly its parallelograms keep the platform from "
+              "minimum constraint index of a DELTA: how firmly its parallelograms keep the platform from "
               "turning; below 0.001 is singular"),
         l.constraint);
   visit(angle("rod_swing", "largest angle between a rod and the plane of its arm", 1.5707963267948966),

@@ -162,7 +162,7 @@ class Layer {
     if (norm(to - from) > least_way) return append(straight(from, to), to, s);
     const Vec3 turn = turn_to(s.rotation);
     if (norm(turn) == 0)
-      return fail("to", fmt::format("the line goes nowhere: the tool is at {} already", shown(from)),
+      return fail("to", fmt::format("the line has no length: the tool is already at {}", shown(from)),
                   "give another end, another rotation, or a dwell");
     begin().turn = turn;
     out_.runs.back().parts.push_back({{.from = from, .to = from, .length = norm(turn)}, step_});
@@ -211,7 +211,7 @@ class Layer {
     if (!(s.height > 0) || !std::isfinite(s.height))
       return fail("height", fmt::format("height is {:g} m, must be more than 0 m", s.height));
     if (s.back_dwell > 0 && !s.back)
-      return fail("back_dwell", "back_dwell is the rest after the way back, but there is none",
+      return fail("back_dwell", "back_dwell is the dwell after the return, but there is no return",
                   "set back = true, or give dwell");
     if (!(s.corner > 0 && s.corner <= 1))
       return fail("corner", fmt::format("corner is {:g}, must be more than 0 and at most 1", s.corner),

@@ -247,7 +247,7 @@ void fields(Visitor&& visit, ToolStep& s) {
 template <class Visitor>
 void fields(Visitor&& visit, ToolPath& p) {
   visit(Field{.key = "law", .summary = "how the steps are run in time"}, p.law);
-  visit(Field{.key = "blend", .summary = "run through where steps go on in the same direction"}, p.blend);
+  visit(Field{.key = "blend", .summary = "do not stop between steps of the same direction"}, p.blend);
   visit(Field{.key = "corner",
               .summary = "corners between lines are rounded, beginning this far from them; 0 = stop there",
               .dimension = Dimension::length,

@@ -76,7 +76,7 @@ std::vector<double> goal_values(const BalancingTask& task, const Table& table) {
 }
 
 BalancingProblem balancing_problem(BalancingTask task) {
-  LINKWRIGHT_REQUIRE(!task.objectives.empty(), "nothing is to become small");
+  LINKWRIGHT_REQUIRE(!task.objectives.empty(), "no objective is given");
   LINKWRIGHT_REQUIRE(task.initial.size() == task.variables.size(), "{} initial values for {} variables",
                      task.initial.size(), task.variables.size());
   Evaluator evaluator{std::move(task), {}, {}, {}};

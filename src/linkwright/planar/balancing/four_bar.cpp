@@ -234,7 +234,7 @@ void require_valid(const FourBarBalancing& b) {
       "crank speed {}, crank acceleration {} and gravity {} must be finite", b.crank_speed,
       b.crank_acceleration, b.gravity);
   LINKWRIGHT_REQUIRE(b.min_transmission_angle >= 0 && b.min_transmission_angle < pi / 2,
-                     "least transmission angle must be in [0, pi/2), got {}", b.min_transmission_angle);
+                     "minimum transmission angle must be in [0, pi/2), got {}", b.min_transmission_angle);
   if (b.rocker_swing) {
     LINKWRIGHT_REQUIRE(b.crank_rotates_fully, "a limit of the rocker's swing needs crank_rotates_fully");
     LINKWRIGHT_REQUIRE(b.rocker_swing->lower <= b.rocker_swing->upper, "rocker swing from {} to {}",

@@ -400,7 +400,7 @@ void Balancer::check_weight(const Counterweight& w, const PlacedCounterweight& a
                                      distance, w.radius.lower));
   else if (at.spread > 1e-6 * at.mass.mass * reach * reach)
     out.broken.push_back(
-        fmt::format("{} is no point: its inertia about its centre is {:.6g} kg m2", w.name, at.spread));
+        fmt::format("{} is not a point: its inertia about its centre is {:.6g} kg m2", w.name, at.spread));
 }
 
 double Balancer::cost(std::span<const double> measures) const {

@@ -461,7 +461,7 @@ BalancingRun restored(const Value& value, const BalancingProblem& p, const Balan
   const Value& feasible = kept_member(value, "feasible", what);
   const Value& designs = kept_member(value, "designs", what);
   if (!feasible.is_bool() || !designs.is_array())
-    throw CheckpointError(fmt::format("{}: is no balancing run", what));
+    throw CheckpointError(fmt::format("{}: is not a balancing run", what));
   run.status = feasible.as_bool() ? Status::done : Status::infeasible;
   run.evaluations = kept_integer(value, "evaluations", 0, most_evaluations, what);
   for (const Value& kept : designs.as_array()) {
@@ -474,7 +474,7 @@ BalancingRun restored(const Value& value, const BalancingProblem& p, const Balan
     if (!active.is_array() || !proof.is_string())
       throw CheckpointError(fmt::format("{}: a design lacks its texts", what));
     for (const Value& limit : active.as_array()) {
-      if (!limit.is_string()) throw CheckpointError(fmt::format("{}: an active bound is no text", what));
+      if (!limit.is_string()) throw CheckpointError(fmt::format("{}: an active bound is not text", what));
       design.active.push_back(limit.as_string());
     }
     design.proof = proof.as_string();

@@ -279,7 +279,7 @@ void require_valid(const ArmTask& task, const ArmDesign& design) {
                      design.largest_coefficient);
   for (std::size_t k = 0; k < n && design.degree > 5; ++k)
     LINKWRIGHT_REQUIRE(std::holds_alternative<math::Polynomial345>(task.laws[k]),
-                       "law {} is no polynomial 3-4-5, degree {} has no meaning for it", k + 1,
+                       "law {} is not a polynomial 3-4-5, degree {} has no meaning for it", k + 1,
                        design.degree);
   for (const Counterweight& w : design.counterweights) {
     LINKWRIGHT_REQUIRE(w.link < n, "counterweight '{}' on link {} of {}", w.name, w.link, n);

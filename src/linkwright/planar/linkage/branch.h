@@ -15,7 +15,7 @@ enum class AtChangePoint {
   keep_sign  ///< the modes keep their signs: the other branch, with a kink in the velocities
 };
 constexpr std::array<EnumName<AtChangePoint>, 3> names(AtChangePoint) {
-  return {{{AtChangePoint::smooth, "smooth", "goes on smoothly: the assembly mode changes sign"},
+  return {{{AtChangePoint::smooth, "smooth", "continues smoothly: the assembly mode changes sign"},
            {AtChangePoint::stop, "stop", "ends the motion"},
            {AtChangePoint::keep_sign, "keep_sign", "keeps the sign of the mode: with a kink"}}};
 }

@@ -55,7 +55,7 @@ void set_start(Linkage& linkage, std::string_view body, std::complex<double> ori
 
 BodyPoint point_named(const Linkage& linkage, std::string_view name) {
   const auto dot = name.rfind('.');
-  LINKWRIGHT_REQUIRE(dot != std::string_view::npos, "'{}' is no point: write body.point", name);
+  LINKWRIGHT_REQUIRE(dot != std::string_view::npos, "'{}' is not a point: write body.point", name);
   const int body = body_named(linkage, name.substr(0, dot));
   const int point = point_index(linkage.bodies[static_cast<std::size_t>(body)], name.substr(dot + 1));
   LINKWRIGHT_REQUIRE(point >= 0, "body '{}' has no point '{}'", name.substr(0, dot), name.substr(dot + 1));

@@ -32,7 +32,7 @@ class Names {
   BodyPoint point(const std::string& key, const std::string& name) {
     const auto dot = name.rfind('.');
     if (dot == std::string::npos) {
-      problem(key, fmt::format("'{}' is no point", name), "write body.point, as \"crank.A\"");
+      problem(key, fmt::format("'{}' is not a point", name), "write body.point, as \"crank.A\"");
       return {};
     }
     const std::size_t before = problems_.size();

@@ -157,7 +157,7 @@ void fields(Visitor&& visit, BodyForm& b) {
   visit(place("centre", "mass centre in the frame of the body; if absent the mean of the points"), b.centre);
   visit(Field{.key = "attached", .summary = "masses that sit on the body: counterweights, payloads"},
         b.attached);
-  visit(Field{.key = "start", .summary = "about where the body stands at the start"}, b.start);
+  visit(Field{.key = "start", .summary = "approximate position of the body at the start"}, b.start);
 }
 template <class Visitor>
 void fields(Visitor&& visit, JointForm& j) {

@@ -107,7 +107,7 @@ class Checker {
       }
       const LinkageJoint& j = l_.joints[static_cast<std::size_t>(d)];
       if (!seen.insert(d).second)
-        error("drive", fmt::format("joint '{}' is driven twice", j.name), "one drive a joint is enough");
+        error("drive", fmt::format("joint '{}' is driven twice", j.name), "one drive per joint is enough");
       if (j.type != JointType::revolute && j.type != JointType::prismatic)
         error("drive",
               fmt::format("joint '{}' is of type {}: only revolute and prismatic joints are driven", j.name,

@@ -61,7 +61,7 @@ void find_modes(PlanDraft& d) {
       for (const Group& g : d.plan().groups)
         if (traits_of(g).has_modes) dyads += (dyads.empty() ? "" : ", ") + g.name;
       d.error("assembly",
-              fmt::format("'{}' and '{}' are no pair with two assembly modes",
+              fmt::format("'{}' and '{}' are not a pair with two assembly modes",
                           name_or_number(d, d.linkage.modes[i].first),
                           name_or_number(d, d.linkage.modes[i].second)),
               dyads.empty() ? "this linkage has no such pair" : "these are: " + dyads);

@@ -69,7 +69,7 @@ LinkageSample stephenson_3_sample() {
   add_pin(l, "E0", "ground.E0", "output.E0");
   set_mode(l, "link", "output", AssemblyMode::minus);
   set_uniform_all(l, 2);
-  return full_turn("stephenson_3", "A point of the coupler drives a third bar: dwells can be had this way.",
+  return full_turn("stephenson_3", "A point of the coupler drives a third bar: this gives dwells.",
                    std::move(l), "link.E");
 }
 

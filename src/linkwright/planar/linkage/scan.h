@@ -18,7 +18,7 @@ enum class EndKind {
 constexpr std::array<EnumName<EndKind>, 4> names(EndKind) {
   return {{{EndKind::bound, "bound", "end of the interval that was asked for"},
            {EndKind::limit, "limit", "limit of motion"},
-           {EndKind::change_point, "change_point", "the assembly modes meet and cross"},
+           {EndKind::change_point, "change_point", "the assembly modes coincide"},
            {EndKind::singular, "singular", "slides become parallel"}}};
 }
 

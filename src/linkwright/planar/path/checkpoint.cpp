@@ -38,7 +38,7 @@ PathDesign design_of(const std::vector<double>& v, const PathProblem& problem, s
   if (!is_sign(v[0]) || !std::all_of(v.begin() + 1, v.begin() + 5, is_length) ||
       !std::all_of(v.begin() + 5, v.begin() + 9, is_place) || !is_angle(v[9]) || !is_sign(v[10]) ||
       !std::all_of(v.begin() + linkage_numbers, v.end(), is_angle))
-    throw CheckpointError(fmt::format("{}: a design is no four-bar", what));
+    throw CheckpointError(fmt::format("{}: a design is not a four-bar", what));
   const FourBar linkage{.ground = v[1],
                         .crank = v[2],
                         .coupler = v[3],
@@ -87,7 +87,7 @@ PathSeedRun restored(const Value& value, const PathProblem& problem, std::string
   for (std::size_t i = 0; i < best.size(); ++i) {
     const Value& at = evaluations.as_array()[i];
     if (!at.is_integer() || at.as_integer() < 0 || !std::isfinite(best[i]))
-      throw CheckpointError(fmt::format("{}: entry {} of its history is no number", what, i));
+      throw CheckpointError(fmt::format("{}: entry {} of its history is not a number", what, i));
     run.history.push_back({at.as_integer(), best[i]});
   }
   return run;

@@ -45,7 +45,7 @@ std::vector<PublishedPathDesign> eighteen_point_designs() {
       {"Cabrera et al. 2007, as printed",
        design(4.453772, 0.297057, 3.913095, 0.849372, 1.6610626, 2.7387359, 2.806964, 4.853543, -1.309243),
        4.853543, 0.0196, "not reproduced",
-       "the column lost a value: 4.853543 stands twice and the entries below are shifted"},
+       "the column lost a value: 4.853543 is printed twice and the entries below are shifted"},
       {"Cabrera et al. 2007, columns corrected",
        design(4.453772, 0.297057, 3.913095, 0.849372, -2.06632, 1.6610626, -1.309243, 2.806964, 2.7387359),
        4.853543, 0.0196, "corrected",

@@ -69,7 +69,7 @@ void require_valid(const PathProblem& p) {
                        "bounds of {} are {} to {}", name(FourBarParameter(j)), p.bounds[j].lower,
                        p.bounds[j].upper);
   LINKWRIGHT_REQUIRE(p.min_transmission_angle >= 0 && p.min_transmission_angle < pi / 2,
-                     "the least transmission angle must be at least 0 and less than pi/2, got {}",
+                     "the minimum transmission angle must be at least 0 and less than pi/2, got {}",
                      p.min_transmission_angle);
   if (p.packaging)
     LINKWRIGHT_REQUIRE(std::isfinite(p.packaging->x_min) && std::isfinite(p.packaging->x_max) &&

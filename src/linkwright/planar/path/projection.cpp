@@ -205,7 +205,7 @@ bool PathProjection::evaluate(std::span<const double> q, std::span<double> resid
 }
 
 PathDesign PathProjection::design(const PathProblem& problem, std::span<const double> q) {
-  LINKWRIGHT_REQUIRE(project(q), "q is no linkage that assembles at every point");
+  LINKWRIGHT_REQUIRE(project(q), "q is not a linkage that assembles at every point");
   const std::size_t first = pivot_fixed_ ? 0 : 2;
   std::complex<double> a = frame_fixed_ ? coefficient_[first] * frame_
                                         : std::complex<double>(coefficient_[first], coefficient_[first + 1]);

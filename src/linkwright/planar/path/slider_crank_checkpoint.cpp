@@ -45,7 +45,7 @@ SliderPathDesign design_of(const std::vector<double>& v, const SliderPathProblem
   if (!is_sign(v[0]) || !is_sign(v[1]) || !is_length(v[2]) || !is_length(v[3]) || !is_place(v[4]) ||
       !is_turn(v[5]) || !std::all_of(v.begin() + 6, v.begin() + mechanism_numbers, is_place) ||
       !std::all_of(v.begin() + mechanism_numbers, v.end(), is_turn))
-    throw CheckpointError(fmt::format("{}: a design is no slider-crank", what));
+    throw CheckpointError(fmt::format("{}: a design is not a slider-crank", what));
   SliderCrankMechanism m;
   m.branch = v[0] > 0 ? SliderSide::forward : SliderSide::backward;
   m.parameters = {.crank = v[2],
@@ -94,7 +94,7 @@ SliderPathSynthesis restored(const Value& value, const SliderPathProblem& proble
   for (std::size_t i = 0; i < best.size(); ++i) {
     const Value& at = evaluations.as_array()[i];
     if (!at.is_integer() || at.as_integer() < 0 || !std::isfinite(best[i]))
-      throw CheckpointError(fmt::format("{}: entry {} of its history is no number", what, i));
+      throw CheckpointError(fmt::format("{}: entry {} of its history is not a number", what, i));
     run.history.push_back({at.as_integer(), best[i]});
   }
   return run;

@@ -271,7 +271,7 @@ bool SliderPathProjection::evaluate(std::span<const double> q, std::span<double>
 }
 
 SliderPathProjection::Recovered SliderPathProjection::recover(std::span<const double> q) {
-  LINKWRIGHT_REQUIRE(project(q), "q is no slider-crank that reaches its guide at every point");
+  LINKWRIGHT_REQUIRE(project(q), "q is not a slider-crank that reaches its guide at every point");
   Recovered out;
   const double crank = std::abs(a_);
   double guide = guide_fixed_ ? guide_ : start_fixed_ ? start_ - phase_ : std::arg(a_);

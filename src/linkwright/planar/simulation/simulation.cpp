@@ -693,11 +693,11 @@ class Simulation {
     } else if (at_change_) {
       report_.status = Status::limit_reached;
       report_.message =
-          fmt::format("the motion stops at {}: '{}' stands at a change point, where it {}", where,
+          fmt::format("the motion stops at {}: '{}' is at a change point, where it {}", where,
                       plan_.groups[at(report_.group)].name,
                       options_.at_change_point == AtChangePoint::stop
-                          ? "can go on in two ways"
-                          : "cannot go on with the sign of its mode: that branch does not meet this one");
+                          ? "can continue in either assembly mode"
+                          : "cannot continue with the sign of its mode: that branch does not meet this one");
     } else if (at_limit_) {
       limit(where);
     } else if (ode.status == Status::limit_reached || ode.status == Status::infeasible) {
@@ -718,7 +718,7 @@ class Simulation {
   void limit(const std::string& where) {
     report_.status = Status::limit_reached;
     report_.message = fmt::format(
-        "'{}' reaches its dead point at {}: the joint turns back there while the linkage goes on in the "
+        "'{}' reaches its dead point at {}: the joint turns back there while the linkage continues in the "
         "other "
         "assembly mode",
         plan_.groups[at(report_.group)].name, where);

@@ -50,7 +50,7 @@ bool rotates_fully(const LinkagePlan& plan, const SpeedFluctuationSetup& s, Answ
                               math::degrees(path.low.value), math::degrees(path.high.value));
   } else if (!path.change_points.empty()) {
     out.status = Status::infeasible;
-    out.message = fmt::format("the cycle goes through a change point at {:.6g} deg",
+    out.message = fmt::format("the cycle passes through a change point at {:.6g} deg",
                               math::degrees(path.change_points.front().value));
   }
   return out.status == Status::done;
@@ -226,7 +226,7 @@ SteadyCycle steady_cycle(const Linkage& l, const LinkagePlan& plan, const SpeedF
   }
   out.status = Status::not_converged;
   out.message =
-      "the speed does not settle: without a motor that goes by speed nothing makes it repeat itself";
+      "the speed does not become periodic: only a motor whose torque depends on its speed makes it so";
   return out;
 }
 

@@ -118,9 +118,9 @@ std::string first_bad_row(const Table& table) {
 }
 
 void read_goals(study::ObjectReader& document, BalancingStudy& s) {
-  document(Field{.key = "objective", .summary = "what is to become small", .required = true}, s.objectives);
+  document(Field{.key = "objective", .summary = "what is minimised", .required = true}, s.objectives);
   if (s.objectives.empty() && document.has("objective"))
-    document.error("objective", "nothing is to become small", "add [[objective]]");
+    document.error("objective", "no objective is given", "add [[objective]]");
   std::vector<BalancingLimit> limits;
   document(Field{.key = "constraint", .summary = "what must hold"}, limits);
   std::vector<study::ObjectReader> entries = document.tables("constraint");
@@ -226,7 +226,7 @@ BalancingStudy read_balancing_study(study::ObjectReader& document, const study::
     check_initial(document, common, s);
   if (s.designed.numbers.empty() && !document.document().has_errors())
     document.error("mechanism", "there is no design variable: every number is fixed",
-                   "write { min = ..., max = ..., initial = ... } in the place of a number");
+                   "write { min = ..., max = ..., initial = ... } instead of a number");
   return s;
 }
 
@@ -272,7 +272,7 @@ study::Kind kind_of(const BalancedMechanism& mechanism) {
     describe_table(document, "environment", false, false);
     describe_table(document, "sweep", false, false);
     if (many_drives) describe_table(document, "trace", true, false);
-    document.property(Field{.key = "objective", .summary = "what is to become small", .required = true},
+    document.property(Field{.key = "objective", .summary = "what is minimised", .required = true},
                       study::schema_array(study::schema_fields<BalancingGoal>()));
     document.property(Field{.key = "constraint", .summary = "what must hold"},
                       study::schema_array(study::schema_fields<BalancingLimit>()));

@@ -386,7 +386,7 @@ class Report {
     fact("active bounds", text.empty() ? "none" : text);
     fact("method",
          fmt::format("{}, combine {}", method_name(s_.optimiser.method), name_of(s_.optimiser.combine)));
-    study::add_seed_facts(result_, "seeds that reached the best", runs_.answers.size(), false);
+    study::add_seed_facts(result_, "runs that reached the best solution", runs_.answers.size(), false);
   }
 
   // Of a four-bar, in closed form: what would have to be added to the answer for a shaking force of its
@@ -424,7 +424,7 @@ study::Result run_balancing_study(const BalancingStudy& s, const study::Common& 
   if (!exact && std::holds_alternative<ConvexBalancing>(s.optimiser.method)) {
     study::Result refused;
     refused.status = Status::infeasible;
-    refused.headline = fmt::format("This is no convex problem: {}.", why);
+    refused.headline = fmt::format("This is not a convex problem: {}.", why);
     refused.diagnostics.push_back({Diagnostic::Severity::error,
                                    {},
                                    {},

@@ -40,7 +40,7 @@ void give_mass(study::ObjectReader& entry, LinkageBody& body, const ElasticPiece
                   fmt::format("body '{}' is given {:.4g} kg, but its beam weighs {:.4g} kg, which takes the "
                               "place of it",
                               body.name, body.mass->mass, mass),
-                  "attach what is on it beside the beam: attached = [{ mass_kg = ..., at_mm = [...] }]");
+                  "attach other masses to it: attached = [{ mass_kg = ..., at_mm = [...] }]");
   const std::complex<double> middle =
       (body.points[at(pieces.beam.from)].at + body.points[at(pieces.beam.to)].at) / 2.0;
   body.mass = BodyMass{mass, mass * pieces.length * pieces.length / 12, middle};

@@ -145,7 +145,7 @@ class ElasticReporter {
            fmt::format("{:.4g} mm at {:.4g} s", 1e3 * std::abs(most.value), r_.times[most.row]));
       if (share > far_bent)
         warn(fmt::format("{} bends by {:.3g} of its length", name, share),
-             "a beam theory without stretching is off by about the square of it");
+             "the error of a beam theory without stretching is about the square of it");
     }
     if (const study::Extreme most = study::largest(v.stress); most.any() && p.beam.fibre_distance > 0)
       fact(name + ": largest stress",

@@ -27,7 +27,7 @@ void fields(Visitor&& visit, LinkageQuality& q) {
   visit(Field{.key = "instant_centres", .summary = "table of all instant centres at every position"},
         q.instant_centres);
   visit(Field{.key = "assembly_modes",
-              .summary = "table of all ways to assemble the linkage at the first position"},
+              .summary = "table of all assembly modes of the linkage at the first position"},
         q.assembly_modes);
 }
 
@@ -39,8 +39,7 @@ constexpr std::array<EnumName<SweepType>, 2> names(SweepType) {
            {SweepType::time, "time", "evenly spaced times; the drives follow their laws"}}};
 }
 constexpr Field change_point_field{
-    .key = "at_change_point",
-    .summary = "grid over one input: how the linkage goes on where assembly modes meet"};
+    .key = "at_change_point", .summary = "grid over one input: how the linkage continues at a change point"};
 constexpr Field crank_angle_field{.key = "crank_angle",
                                   .summary = "the axis of a four-bar: crank angles from the ground link"};
 constexpr double most_rows = 1e6;
@@ -120,10 +119,10 @@ void read_grid(study::ObjectReader& sweep, const Linkage& l, LinkageType type,
   for (std::size_t i = 0; i < grid.inputs.size(); ++i) {
     InputSamples& a = grid.inputs[i];
     if (a.samples == 0 && !sweep.document().has_errors())
-      sweep.error("input",
-                  fmt::format("joint '{}' is driven, but the sweep does not say where it goes",
-                              input_joint(l, i).name),
-                  "add a [[sweep.input]] for it");
+      sweep.error(
+          "input",
+          fmt::format("joint '{}' is driven, but the sweep has no input for it", input_joint(l, i).name),
+          "add a [[sweep.input]] for it");
     const bool rotary = input_joint(l, i).type == JointType::revolute;
     study::ObjectWriter writer(axes[i]);
     writer(Field{.key = "joint", .summary = {}}, input_joint(l, i).name);
@@ -274,7 +273,7 @@ namespace {
 
 void describe(study::SchemaWriter& document, LinkageType type) {
   describe_linkage_motion(document, type, true);
-  document.property(Field{.key = "quality", .summary = "what is asked beyond the table"},
+  document.property(Field{.key = "quality", .summary = "what is computed beyond the table"},
                     study::schema_fields<LinkageQuality>());
 }
 

@@ -127,7 +127,7 @@ class Maker {
       const auto found =
           find_mass(study::steps_to(s_.designed.tables, out_->numbers[j].place), s_.mechanism->type);
       if (!found) {
-        why_ = fmt::format("'{}' is no mass", out_->numbers[j].key);
+        why_ = fmt::format("'{}' is not a mass", out_->numbers[j].key);
         return nullptr;
       }
       found_.push_back(*found);

@@ -194,7 +194,7 @@ void fields(Visitor&& visit, TransmissionLimit& t) {
         t.min);
 }
 constexpr Word choice_word(const TransmissionLimit&) {
-  return {"transmission_angle", "least transmission angle"};
+  return {"transmission_angle", "minimum transmission angle"};
 }
 
 struct PackagingLimit {

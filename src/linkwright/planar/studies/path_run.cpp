@@ -359,7 +359,7 @@ study::Fact transmission_fact(const PathProblem& p, const PathDesign& d) {
   if (!p.closed)
     text += fmt::format(" over the path ({:.1f}° over the whole motion)", math::degrees(mu.whole));
   const bool poor = math::degrees(judged_transmission(p, d)) < 20;
-  return {"least transmission angle", std::move(text),
+  return {"minimum transmission angle", std::move(text),
           poor ? study::Fact::Verdict::bad : study::Fact::Verdict::plain};
 }
 
@@ -457,7 +457,7 @@ study::Result run_path_study(const PathStudy& s, const study::Common& common, Ru
       transmission_fact(s.problem, best),
       {"method", run.method},
   };
-  study::add_seed_facts(result, "seeds that reached the best", run.runs.size());
+  study::add_seed_facts(result, "runs that reached the best solution", run.runs.size());
   study::warn_of_missing_seeds(result, run.runs.size(), common.seeds);
   if (!but.empty()) {
     std::string names;

@@ -62,13 +62,13 @@ void complete_links(study::ObjectReader& mechanism, std::vector<ArmLinkEntry>& l
     } else if (!is_column_name(link.name)) {
       table.error(
           "name",
-          fmt::format("is '{}', must begin with a letter and hold letters, digits and _ only", link.name),
+          fmt::format("is '{}', must begin with a letter and contain letters, digits and _ only", link.name),
           "it becomes the beginning of column names");
     }
     const auto same = std::find_if(links.begin(), links.begin() + static_cast<std::ptrdiff_t>(k),
                                    [&](const ArmLinkEntry& other) { return other.name == link.name; });
     if (same != links.begin() + static_cast<std::ptrdiff_t>(k))
-      table.error("name", fmt::format("'{}' is the name of another link, too", link.name));
+      table.error("name", fmt::format("'{}' is also the name of another link", link.name));
     if (!link.inertia) link.inertia = link.mass * link.length * link.length / 12;
     if (!link.centre_distance) link.centre_distance = link.length / 2;
   }

@@ -193,7 +193,7 @@ study::Prepared prepare(study::ObjectReader& document, const study::Common& comm
   const bool any_free =
       std::any_of(s.drives.begin(), s.drives.end(), [](const InputDrive& c) { return !c.law; });
   if (!any_free && !elastic && !document.document().has_errors())
-    document.error("drive", "every drive has a motion law: nothing is left for forces to move",
+    document.error("drive", "every drive has a motion law: no coordinate is left for forces to move",
                    "write free = true in a [[drive]], make a body flexible by [[elastic]], or take kind = "
                    "\"analysis\" with a sweep over time");
   if (s.settle > 0 && any_free)

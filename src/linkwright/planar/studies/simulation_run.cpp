@@ -157,7 +157,8 @@ class SimulationRunner {
                                         report_.passages.size(), first.time, input_joint(s_.linkage, 0).name,
                                         shown(0, first.value), first.groups.size(), choice));
       if (s_.options.at_change_point == AtChangePoint::smooth)
-        warn(fmt::format("the linkage went through {} change points, where it can go on in two ways: it went "
+        warn(fmt::format("the linkage went through {} change points, where it can continue in either "
+                         "assembly mode: it went "
                          "on smoothly",
                          report_.passages.size()),
              "simulation.at_change_point = \"stop\" or \"keep_sign\" chooses otherwise");

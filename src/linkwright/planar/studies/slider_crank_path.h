@@ -122,7 +122,7 @@ constexpr std::array<EnumName<SliderObjectiveType>, 2> names(SliderObjectiveType
   return {{{SliderObjectiveType::sum_squared_distance, "path.sum_squared_distance",
             "sum over the points of the squared distance (Boskovic 2018, Eqs. (4.14), (4.18))"},
            {SliderObjectiveType::stroke, "slider.stroke",
-            "stroke of the slider over a full turn, beside the path: a front (Boskovic 2018, Eqs. "
+            "stroke of the slider over a full turn, in addition to the path: a front (Boskovic 2018, Eqs. "
             "(4.17)-(4.19))"}}};
 }
 struct SliderObjectiveEntry {

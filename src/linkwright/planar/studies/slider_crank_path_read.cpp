@@ -33,7 +33,7 @@ void read_timing(study::ObjectReader& target, const study::DisplayUnits& units, 
       for (std::size_t k = 0; k < n; ++k) offsets.push_back(*t.step * static_cast<double>(k));
     }
   } else if (t.step) {
-    target.error("timing", fmt::format("step goes with mode equal_steps, the mode is {}", name_of(t.mode)),
+    target.error("timing", fmt::format("step is for mode equal_steps, the mode is {}", name_of(t.mode)),
                  "remove the step");
   }
   if (t.mode == SliderTiming::increments) {
@@ -112,7 +112,7 @@ void set_bounds(study::ObjectReader& mechanism, SliderPathStudy& s) {
   if (starts_anywhere(s)) return;
   if (s.mechanism.parameters.ranges[index(P::start_angle)])
     mechanism.warning("parameters",
-                      fmt::format("start_angle has no use: the timing is {}", name_of(s.target.timing.mode)));
+                      fmt::format("start_angle is ignored: the timing is {}", name_of(s.target.timing.mode)));
   s.problem.bounds[index(P::start_angle)] = {0, 0};
 }
 
@@ -156,7 +156,7 @@ void set_constraints(study::ObjectReader& document, const study::DisplayUnits& u
   }
   if (p.stroke.lower > p.stroke.upper)
     document.error("constraint",
-                   fmt::format("the stroke is to be {} at least and {} at most",
+                   fmt::format("the stroke must be at least {} and at most {}",
                                units.text(p.stroke.lower, Dimension::length, 6),
                                units.text(p.stroke.upper, Dimension::length, 6)),
                    "give min less than max");
@@ -172,7 +172,7 @@ void set_objectives(study::ObjectReader& document, SliderPathStudy& s) {
   for (const SliderObjectiveEntry& o : s.objectives)
     ++(o.type == SliderObjectiveType::stroke ? strokes : paths);
   if (paths > 1 || strokes > 1)
-    document.error("objective", "an objective stands twice", "keep each of them once");
+    document.error("objective", "an objective is given twice", "keep each of them once");
   else if (strokes == 1 && paths == 0)
     document.error("objective", "the stroke alone says nothing about the path",
                    "add [[objective]] type = \"path.sum_squared_distance\", or limit the stroke by a "

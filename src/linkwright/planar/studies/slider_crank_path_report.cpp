@@ -317,9 +317,9 @@ class Report {
            pressure > steep ? Verdict::bad : Verdict::plain);
     }
     fact("method", runs_.method);
-    study::add_seed_facts(result_,
-                          s_.front ? "seeds that reached the common front" : "seeds that reached the best",
-                          runs_.runs.size());
+    study::add_seed_facts(
+        result_, s_.front ? "runs that reached the common front" : "runs that reached the best solution",
+        runs_.runs.size());
     const study::AddWarning warn{result_.diagnostics};
     study::warn_of_missing_seeds(result_, runs_.runs.size(), common_.seeds);
     if (pressure > steep)

@@ -68,7 +68,7 @@ GuideElasticity elastic_rods(const WheelGuide& guide, const std::vector<double>&
   GuideElasticity out{.spring = spring};
   for (std::size_t i = 0; i < rods.size(); ++i) {
     const LinkType type = guide.links[i].type;
-    LINKWRIGHT_REQUIRE(type == LinkType::US || type == LinkType::SS, "{} is no rod",
+    LINKWRIGHT_REQUIRE(type == LinkType::US || type == LinkType::SS, "{} is not a rod",
                        link_label(guide, static_cast<int>(i)));
     out.links.push_back({.body = {{.translation = {rods[i], rigid, rigid}}}});
   }

@@ -128,7 +128,7 @@ GuideForces solve_forces(const WheelGuide& guide, const GuidePlan& plan, const G
 
 double rod_force(const WheelGuide& guide, const GuidePosition& position, const JointForce& joint) {
   const LinkType type = guide.links.at(joint.link).type;
-  LINKWRIGHT_REQUIRE(type == LinkType::US || type == LinkType::SS, "{} is no rod",
+  LINKWRIGHT_REQUIRE(type == LinkType::US || type == LinkType::SS, "{} is not a rod",
                      link_label(guide, joint.link));
   return dot(joint.force, unit(carrier_point(guide, joint.link, 0, position.place.carrier) -
                                body_point(guide, joint.link, 0, position.input.rack)));

@@ -22,7 +22,7 @@ GuidePlan prepare_guide(const WheelGuide& guide) {
   LINKWRIGHT_REQUIRE(problems.empty(), "{} problems, the first: {}", problems.size(),
                      to_string(problems.front()));
   const int freedoms = mobility(structure_of(guide), static_cast<int>(guide.couplers.size()));
-  LINKWRIGHT_REQUIRE(freedoms == 1, "the count of constraints leaves {} freedoms", freedoms);
+  LINKWRIGHT_REQUIRE(freedoms == 1, "{} degrees of freedom remain", freedoms);
   GuidePlan plan = kernel::prepare(guide);
   for (int i = 0; i < static_cast<int>(guide.links.size()); ++i) plan.labels.push_back(link_label(guide, i));
   for (std::size_t i = 0; i < guide.couplers.size(); ++i) {

@@ -174,7 +174,7 @@ Diagnostics check(const WheelGuide& guide) {
       found.add(
           key,
           fmt::format(
-              "{} lies {:.3g} mm off the line of {}, which stands upright, so that no axis of its universal "
+              "{} lies {:.3g} mm off the line of {}, which is vertical, so that no axis of its universal "
               "joint can be taken for granted",
               what, off * 1e3, link_label(guide, link)),
           "give the link cross_axis = [x, y, z]");

@@ -186,7 +186,7 @@ CouplerFit fit_coupler(const CarrierTargets& targets, std::span<const GuideLink>
                      "coupler '{}': offset of at least {} m and at most {} m on a link of {} m", task.name,
                      task.least_offset, task.most_offset, rod);
   const Track track = coupler_track(targets, first, second);
-  LINKWRIGHT_REQUIRE(track.size() >= 5, "coupler '{}': needs four positions beside the reference, got {}",
+  LINKWRIGHT_REQUIRE(track.size() >= 5, "coupler '{}': needs four positions besides the reference, got {}",
                      task.name, track.size() - 1);
 
   CouplerFit fit;

@@ -72,7 +72,7 @@ GuideErrors::GuideErrors(const CarrierTargets& targets, std::span<const LinkTask
                          std::span<const CouplerTask> couplers, CarrierPitchTechnique technique,
                          double largest_carrier_pitch)
     : targets_(targets), technique_(technique) {
-  LINKWRIGHT_REQUIRE(!links.empty(), "no link is to be found");
+  LINKWRIGHT_REQUIRE(!links.empty(), "no link has unknown points");
   LINKWRIGHT_REQUIRE(largest_carrier_pitch > 0, "carrier pitch of at most {} rad", largest_carrier_pitch);
   const Vec3& origin = targets.wheel.centre;
   double farthest = 0;

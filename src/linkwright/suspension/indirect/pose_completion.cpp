@@ -128,7 +128,7 @@ RodSolution solve_for(const CarrierTargets& targets, const CarrierTarget& pose, 
   require_rod(rod);
   for (const auto& other : names(PoseParameter{}))
     LINKWRIGHT_REQUIRE(other.value == parameter || std::isfinite(value_of(pose, other.value)),
-                       "link '{}' cannot settle {}: {} is missing, too", rod.name, name_of(parameter),
+                       "link '{}' cannot settle {}: {} is also missing", rod.name, name_of(parameter),
                        other.name);
   if (std::isnan(expected)) expected = value_of(reference_of(targets), parameter);
   RodSolution out;

@@ -331,7 +331,7 @@ SevenPoseReport seven_pose_rods(const LinkMotion& motion, const SixPositions& po
 
 SevenPoseReport seven_pose_rods(const CarrierTargets& targets, bool moved_by_rack, std::uint64_t seed) {
   const LinkMotion motion = link_motion(targets, moved_by_rack, targets.wheel.centre);
-  LINKWRIGHT_REQUIRE(motion.size() >= 6, "needs six positions beside the reference, got {}", motion.size());
+  LINKWRIGHT_REQUIRE(motion.size() >= 6, "needs six positions besides the reference, got {}", motion.size());
   // Each time the position furthest from those chosen; turns count at the length scale.
   std::vector<double> nearest(motion.size());
   const auto apart = [](const Vec3& shift, const Mat3& a, const Mat3& b) {

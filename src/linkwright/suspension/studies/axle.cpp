@@ -98,12 +98,10 @@ Table steer_table(std::span<const AxleRow> rows, const AxleParameters& straight,
       return steering_ratio((p.steering_left->steer_by_rack + p.steering_right->steer_by_rack) / 2,
                             *form.rack_per_turn);
     });
-  of_left("left_brake_arm_m", "left lever arm of braking, outboard brake (m)",
-          &SteeringParameters::brake_arm);
-  of_left("left_drive_arm_m", "left lever arm of driving (m)", &SteeringParameters::drive_arm);
-  of_left("left_lateral_arm_m", "left lever arm of the lateral force (m)", &SteeringParameters::lateral_arm);
-  of_left("left_load_arm_m", "left lever arm of the wheel load, jacking (m/rad)",
-          &SteeringParameters::load_arm);
+  of_left("left_brake_arm_m", "left brake moment arm, outboard brake (m)", &SteeringParameters::brake_arm);
+  of_left("left_drive_arm_m", "left drive moment arm (m)", &SteeringParameters::drive_arm);
+  of_left("left_lateral_arm_m", "left lateral force moment arm (m)", &SteeringParameters::lateral_arm);
+  of_left("left_load_arm_m", "left wheel load moment arm, jacking (m/rad)", &SteeringParameters::load_arm);
   of_left("left_contact_rise_by_rack", "left rise of the contact by rack (m/m)",
           &SteeringParameters::contact_rise_by_rack);
   if (vehicle) {
@@ -226,7 +224,7 @@ void add_axle(study::Result& result, const WheelGuide& guide, const AxleForm& fo
     const study::AddPlot plot{result, {.table = "steer", .x = "rack_m"}};
     plot("steer-angles", "Steer angles over rack", {"left_steer_rad", "right_steer_rad"});
     plot("ackermann", "Ackermann over rack", {"ackermann_percent"});
-    plot("lever-arms", "Lever arms of the left wheel about its steering axis",
+    plot("lever-arms", "Moment arms of the left wheel about its steering axis",
          {"left_brake_arm_m", "left_drive_arm_m", "left_lateral_arm_m", "left_load_arm_m"});
     remark_lost(result, rows, "rack (m)");
     if (form.rack_per_turn && straight.steering_left && straight.steering_right)

@@ -220,7 +220,8 @@ void check_compliance(study::ObjectReader& document, ComplianceForm& form,
     }
     const LinkType type = guide.links[static_cast<std::size_t>(link)].type;
     if (!j.end && !is_rod(type))
-      wrong("end", fmt::format("is missing: '{}' is no rod", j.link), "write end = \"body\" or \"carrier\"");
+      wrong("end", fmt::format("is missing: '{}' is not a rod", j.link),
+            "write end = \"body\" or \"carrier\"");
     if (!j.end && !j.stiffness && is_rod(type))
       wrong("stiffness", "is missing",
             "write stiffness_N_per_mm, or end and axial_N_per_mm, radial_N_per_mm");

@@ -101,7 +101,7 @@ void fields(Visitor&& visit, ComplianceForm& c) {
               .maximum = 1e9},
         c.preload);
   visit(Field{.key = "joint", .summary = "elastic joints; all others are rigid"}, c.joints);
-  visit(Field{.key = "load", .summary = "loads beside the standard cases"}, c.loads);
+  visit(Field{.key = "load", .summary = "loads in addition to the standard cases"}, c.loads);
 }
 
 /// Checks what was read against the suspension; problems go to the reader.

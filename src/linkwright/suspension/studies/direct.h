@@ -92,7 +92,7 @@ template <class Visitor>
 void fields(Visitor&& visit, LinkClearanceConstraint& c) {
   visit(Field{.key = "first", .summary = "name of a link", .required = true}, c.first);
   visit(Field{.key = "second", .summary = "name of another one", .required = true}, c.second);
-  visit(guide_fields::size("min", "least distance of their lines: both radii and what is left between", true),
+  visit(guide_fields::size("min", "minimum distance of their lines: both radii and the clearance", true),
         c.min);
 }
 constexpr Word choice_word(const LinkClearanceConstraint&) {
@@ -161,10 +161,13 @@ struct RecommendedDirect {
 };
 template <class Visitor>
 void fields(Visitor&& visit, RecommendedDirect& r) {
-  visit(Field{.key = "goal", .summary = "what is made small"}, r.options.goal);
+  visit(Field{.key = "goal", .summary = "what is minimised"}, r.options.goal);
   visit(Field{.key = "starts", .summary = "local searches from random places", .minimum = 1, .maximum = 1e6},
         r.options.starts);
-  visit(Field{.key = "refined", .summary = "best ends that go on to the goal", .minimum = 1, .maximum = 1e4},
+  visit(Field{.key = "refined",
+              .summary = "best ends that are refined for the goal",
+              .minimum = 1,
+              .maximum = 1e4},
         r.options.refined);
   visit(Field{.key = "evaluations", .summary = "of a local search, at most", .minimum = 1, .maximum = 1e7},
         r.options.evaluations);
@@ -178,7 +181,7 @@ struct PublishedDirect {
 };
 template <class Visitor>
 void fields(Visitor&& visit, PublishedDirect& p) {
-  visit(Field{.key = "goal", .summary = "what is made small"}, p.options.goal);
+  visit(Field{.key = "goal", .summary = "what is minimised"}, p.options.goal);
   visit(Field{.key = "population", .summary = "members", .minimum = 4, .maximum = 1e6}, p.population);
   visit(Field{.key = "generations", .summary = "at most", .minimum = 1, .maximum = 1e7}, p.generations);
 }

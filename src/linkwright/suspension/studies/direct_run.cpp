@@ -39,7 +39,7 @@ DirectSynthesis search(const PublishedDirect& method, const DirectTask& task, st
   return evolve(task, method.options, seed, context, method.population, method.generations).found;
 }
 
-/// One figure for what the goal makes small. By priorities it is the largest deviation, although the order of
+/// One figure for what the goal minimises. By priorities it is the largest deviation, although the order of
 /// answers goes by objectives met: see better.
 double cost_of(const DirectSynthesis& answer, const DirectOptions& options) {
   if (!answer.answer.assembled) return infinity;
@@ -86,7 +86,7 @@ DirectSynthesis restored(const Value& value, const DirectStudy& s, std::string_v
   DirectSynthesis out = assess(s.task, options_of(s), shares);
   out.status = study::restored_status(value, what);
   const Value& reason = kept_member(value, "reason", what);
-  if (!reason.is_string()) throw CheckpointError(fmt::format("{}: its reason is no text", what));
+  if (!reason.is_string()) throw CheckpointError(fmt::format("{}: its reason is not text", what));
   out.reason = reason.as_string();
   out.assembled = static_cast<int>(kept_integer(value, "assembled", 0, 1000000, what));
   out.reached_best = static_cast<int>(kept_integer(value, "reached_best", 0, out.assembled, what));
@@ -288,7 +288,7 @@ void add_statistics(study::Result& result, const DirectStudy& s, const Runs& run
     seeds.status.emplace_back(to_string(a.status));
   }
   seeds.add("seed", "seed", number);
-  seeds.add("goal", "what the goal makes small", cost);
+  seeds.add("goal", "value of the goal", cost);
   seeds.add("evaluations", "evaluations", evaluations);
   seeds.add("starts_assembled", "starts that assembled", assembled);
   seeds.add("starts_at_best_least_squares", "of them, starts that reached the best least squares", reached);
@@ -377,7 +377,7 @@ study::Result run_direct_study(const DirectStudy& s, const study::Common& common
   result.facts.push_back({"active targets", fmt::format("{} for {} design variables", best.active.size(),
                                                         s.task.designed.size())});
   result.facts.push_back({"method", std::string(result.statistics.find("method")->as_string())});
-  study::add_seed_facts(result, "seeds that reached the best", runs.answers.size(), false);
+  study::add_seed_facts(result, "runs that reached the best solution", runs.answers.size(), false);
   const study::AddWarning warn{result.diagnostics};
   if (!before.answer.assembled)
     warn(

@@ -106,10 +106,10 @@ void fields(Visitor&& visit, GuideLinkForm& l) {
   visit(guide_fields::place("carrier", "points at the carrier: one, or two on the axis of a hinge"),
         l.carrier);
   visit(Field{.key = "points",
-              .summary = "names of hard points in the place of body and carrier, those of the body first"},
+              .summary = "names of hard points instead of body and carrier, those of the body first"},
         l.points);
   visit(Field{.key = "length",
-              .summary = "of a US or SS link, in the place of the distance of its points",
+              .summary = "of a US or SS link, instead of the distance of its points",
               .dimension = Dimension::length,
               .minimum = 1e-6,
               .maximum = 1e3},
@@ -143,13 +143,12 @@ void fields(Visitor&& visit, GuideCouplerForm& c) {
               .maximum = 1},
         c.fraction);
   visit(Field{.key = "offset",
-              .summary = "its place on that link as a distance from the body, in the place of fraction",
+              .summary = "its place on that link as a distance from the body, instead of fraction",
               .dimension = Dimension::length,
               .minimum = 0,
               .maximum = 1e3},
         c.offset);
-  visit(guide_fields::place("first_point",
-                            "its point on that link, off the line too, in the place of fraction"),
+  visit(guide_fields::place("first_point", "its point on that link, off the line too, instead of fraction"),
         c.first_point);
   visit(Field{.key = "second", .summary = "name of the SR link that it ends on", .required = true}, c.second);
   visit(guide_fields::place("point", "its point on that link", true), c.point);
@@ -166,7 +165,7 @@ template <class Visitor>
 void fields(Visitor&& visit, GuideSpringForm& s) {
   visit(guide_fields::place("body", "its end at the body"), s.body);
   visit(guide_fields::place("moving", "its other end"), s.moving);
-  visit(Field{.key = "points", .summary = "names of two hard points in the place of both"}, s.points);
+  visit(Field{.key = "points", .summary = "names of two hard points instead of both"}, s.points);
   visit(Field{.key = "attached_to", .summary = "\"carrier\" or the name of a link"}, s.attached_to);
   visit(Field{.key = "stiffness",
               .summary = "of the spring, for wheel rates and compliance",

@@ -46,7 +46,7 @@ template <class Visitor>
 void fields(Visitor&& visit, GuideSweep& s) {
   visit(Field{.key = "type", .summary = "which positions are taken"}, s.type);
   visit(Field{.key = "steering_lock",
-              .summary = "what is held while the wheel is steered about its steering axis: spring, "
+              .summary = "what is held constant while steering, for the steering axis: spring, "
                          "wheel_centre_z or contact_z; default: the spring if there is one"},
         s.steering_lock);
   visit(Field{.key = "assemblies", .summary = "table of the other assembly modes of the suspension"},

@@ -432,7 +432,7 @@ study::Result run_sweep_study(const SweepStudy& asked, RunContext& context) {
     if (lost++ < 5)
       warn(fmt::format("travel {:.6g} mm, rack {:.6g} mm: {}: {}", grid.travel(i) * 1e3, grid.rack(i) * 1e3,
                        to_string(p.status), p.reason),
-           "the table `limits` lists how far the links reach");
+           "the table `limits` lists the travel that the links allow");
   }
   if (lost > 5) warn(fmt::format("{} more positions are not reached", lost - 5));
   result.headline =

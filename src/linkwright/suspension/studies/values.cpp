@@ -31,7 +31,7 @@ std::optional<std::vector<double>> values_of(study::ObjectReader& table, const I
   std::vector<double> out;
   if (v.values) {
     if (v.from || v.to || v.step || v.samples) {
-      table.error("values", "are listed, and given by a range, too", "keep values, or from, to and step");
+      table.error("values", "are given both as a list and as a range", "keep values, or from, to and step");
       return std::nullopt;
     }
     out = *v.values;

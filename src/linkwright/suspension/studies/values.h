@@ -29,12 +29,9 @@ void visit_values(Visitor&& visit, InputValues& v, Dimension dimension, double m
   visit(number("from", "first value", -most), v.from);
   visit(number("to", "last value", -most), v.to);
   visit(number("step", "between values", 1e-9), v.step);
-  visit(Field{.key = "samples",
-              .summary = "number of values, in the place of step",
-              .minimum = 1,
-              .maximum = 1e6},
+  visit(Field{.key = "samples", .summary = "number of values, instead of step", .minimum = 1, .maximum = 1e6},
         v.samples);
-  visit(number("values", "in the place of from, to and step", -most), v.values);
+  visit(number("values", "instead of from, to and step", -most), v.values);
 }
 template <class Visitor>
 void fields(Visitor&& visit, LengthValues& v) {
