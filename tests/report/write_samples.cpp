@@ -1,11 +1,15 @@
 // Writes what the report tests outside C++ look at: write_samples DIR makes DIR/report.html,
-// DIR/simulation.html, DIR/spatial.html, DIR/maps.html, DIR/diagrams.html, DIR/hostile.html, DIR/empty.html,
-// DIR/scene.dxf, DIR/scene.svg, and DIR/report.json with the tables of the first report as CSV.
+// DIR/simulation.html, DIR/spatial.html, DIR/maps.html, DIR/diagrams.html, DIR/nowhere.html,
+// DIR/hostile.html, DIR/empty.html, DIR/scene.dxf, DIR/scene.svg, and DIR/report.json with the tables of the
+// first report as CSV.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
+#include "linkwright/core/numbers.h"
 #include "linkwright/report/dxf.h"
 #include "linkwright/report/html.h"
 #include "linkwright/report/svg.h"
@@ -67,6 +71,27 @@ int main(int count, char** arguments) {
                                         .tool = "linkwright 0.1.0",
                                         .command = {},
                                         .result_json = report::test::sample_json(diagrams)}));
+
+  study::Result nowhere = report::test::sample_diagrams();
+  nowhere.status = Status::no_assembly;
+  nowhere.diagnostics.push_back({.severity = Diagnostic::Severity::warning,
+                                 .file = {},
+                                 .position = {},
+                                 .key = {},
+                                 .message = "361 of 361 positions do not assemble",
+                                 .hint = "the rocker is too short"});
+  for (auto& point : nowhere.scenes[0].points)
+    point.x = point.y = std::vector<double>(nowhere.scenes[0].input.size(), nan);
+  for (Table& table : nowhere.tables)
+    for (std::size_t i = 1; i < table.columns.size(); ++i)
+      std::fill(table.columns[i].values.begin(), table.columns[i].values.end(), nan);
+  write(folder / "nowhere.html", html({.result = nowhere,
+                                       .study_toml = {},
+                                       .title = "Rocker too short",
+                                       .source = {},
+                                       .tool = "linkwright 0.1.0",
+                                       .command = {},
+                                       .result_json = report::test::sample_json(nowhere)}));
 
   const study::Result spatial = report::test::sample_spatial();
   write(folder / "spatial.html", html({.result = spatial,

@@ -164,7 +164,8 @@ export function drawingSvg(drawing: SVGSVGElement): string {
   copy.querySelectorAll<SVGElement>("*").forEach((element, i) => {
     const computed = getComputedStyle(from[i]);
     for (const name of styles) element.setAttribute(name, computed.getPropertyValue(name));
-    element.removeAttribute("class");
+    // Their colours are those of the page, which the file does not have.
+    for (const name of ["class", "style"]) element.removeAttribute(name);
   });
   if (theme === undefined) delete root.dataset.theme;
   else root.dataset.theme = theme;

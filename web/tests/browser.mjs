@@ -191,7 +191,10 @@ test("downloads have their content", async () => {
   assert.equal(readFileSync(table.path, "utf8"), readFileSync(join(samples, "motion of solution-1.csv"), "utf8"));
   assert.equal(readFileSync((await download(page, "result.json")).path, "utf8"), readFileSync(join(samples, "report.json"), "utf8"));
   assert.match(readFileSync((await download(page, "study.toml")).path, "utf8"), /^schema = 1/);
-  assert.match(readFileSync((await download(page, "svg")).path, "utf8"), /^<svg[^]*<\/svg>$/);
+  const drawn = readFileSync((await download(page, "svg")).path, "utf8");
+  assert.match(drawn, /^<svg[^]*<\/svg>$/);
+  assert.doesNotMatch(drawn, /var\(--/);
+  assert.match(drawn, /stroke="rgb\(0, 114, 178\)"/, "the crank has its colour");
   assert.equal(readFileSync((await download(page, "png")).path).subarray(1, 4).toString(), "PNG");
   const drawing = await download(page, "dxf");
   assert.equal(execFileSync(python, [checkDxf, drawing.path], { encoding: "utf8" }).trim(), "ok");
@@ -751,6 +754,9 @@ test("the first screen has the verdict, the mechanism and its controls", async (
       assert.ok((await page.locator("header.verdict .headline").innerText()).length > 0);
       const [stage, facts] = [await page.locator(".machine").boundingBox(), page.locator(".aside .facts")];
       if (width > 940 && (await facts.count())) assert.ok((await facts.boundingBox()).x > stage.x + stage.width, "facts stand beside the mechanism");
+      await page.locator(".menu summary").click();
+      const choices = await page.locator(".choices").boundingBox();
+      assert.ok(choices.x >= 0 && choices.x + choices.width <= width && choices.y >= 0, `the choices of ${name} stand at ${choices.x}, ${choices.y}`);
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${name} is too wide for ${width}`);
       await close();
     }
@@ -850,6 +856,17 @@ test("paper shows what is folded on the screen", async () => {
   assert.equal(await page.locator("details:not([open], .menu, .data-table details)").count(), 0);
   await page.evaluate(() => dispatchEvent(new Event("afterprint")));
   assert.equal(await page.locator("#app details[open]").count(), 0);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test("where nothing assembles the report says so once", async () => {
+  const { page, errors, close } = await open("nowhere.html", { reducedMotion: "reduce" });
+  const text = await page.locator("#app").innerText();
+  assert.match(text, /Nothing to draw: the mechanism assembles at no input\./);
+  for (const once of ["361 of 361 positions do not assemble", "the rocker is too short"]) assert.equal(text.split(once).length, 2, once);
+  assert.doesNotMatch(text, /No values/);
+  for (const part of ["#drawing", "#play", '[data-plot="angle"]', ".menu"]) assert.equal(await page.locator(part).count(), 0, part);
   assert.deepEqual(errors, []);
   await close();
 });
