@@ -132,7 +132,7 @@ Table motion_table(const PathDesign& design, std::string name, int samples) {
   return table;
 }
 
-Table table_of(PathPoints points, std::string name) {
+Table table_of(ReachedPoints points, std::string name) {
   Table table;
   table.name = std::move(name);
   std::vector<double> number;

@@ -22,10 +22,10 @@ study::Scene path_scene(const PathProblem& problem, const PathDesign& design, st
 Table motion_table(const PathDesign& design, std::string name, int samples);
 
 /// Target points, the crank angles there (rad), where the design comes, and how far off; lengths in m.
-struct PathPoints {
+struct ReachedPoints {
   std::vector<double> angles, target_x, target_y, x, y, distance;
 };
-Table table_of(PathPoints points, std::string name);
+Table table_of(ReachedPoints points, std::string name);
 
 /// That of a four-bar, with its tolerances.
 Table point_table(const PathProblem& problem, const PathDesign& design, std::string name);
