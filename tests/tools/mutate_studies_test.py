@@ -9,6 +9,8 @@ TOOLS = Path(__file__).resolve().parent.parent.parent / "tools"
 
 GOOD = """
 import json, pathlib, sys
+if sys.argv[1] == "catalogue":
+    print("[]")
 if sys.argv[1] == "run":
     folder = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
     folder.mkdir(exist_ok=True)
