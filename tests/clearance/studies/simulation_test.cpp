@@ -178,7 +178,7 @@ TEST(ClearanceStudy, DrawsThePlayEnlarged) {
   const study::Result r = run_text(one_turn());
   ASSERT_EQ(r.scenes.size(), 1u);
   const study::Scene& scene = r.scenes[0];
-  EXPECT_EQ(scene.title, "motion, clearance drawn 10 x");
+  EXPECT_EQ(scene.title, "clearance drawn 10 x");
   EXPECT_LE(scene.samples(), 361u);
   ASSERT_EQ(scene.circles.size(), 1u);
   EXPECT_EQ(scene.circles[0].name, "clearance of B, 0.5 mm");

@@ -117,7 +117,7 @@ TEST(ToolLayout, SaysWhichStepIsWrongAndHowToMendIt) {
 
   EXPECT_EQ(
       message_of(ToolLine{.to = {0, 0, 0}}),
-      "step 2 (line): the line has no length: the tool is at (0, 0, 0) m already; give another end, another "
+      "step 2 (line): the line has no length: the tool is already at (0, 0, 0) m; give another end, another "
       "rotation, or a dwell");
   EXPECT_EQ(message_of(ToolLine{.to = {0, NAN, 0}}), "step 2 (line): to is not finite");
   EXPECT_EQ(message_of(ToolLine{.to = {0, 1, 0}, .rotation = Coordinates{0, 0, INFINITY}}),

@@ -160,14 +160,14 @@ TEST(LinkageElasticStudy, DrawsDeflectionsAsLargeAsTheyAreSeen) {
   const study::Result chosen = run_text(with_rod());
   ASSERT_THAT(chosen.scenes, SizeIs(1));
   const study::Scene& s = chosen.scenes[0];
-  EXPECT_THAT(s.title, HasSubstr("motion, deflections drawn "));
+  EXPECT_THAT(s.title, HasSubstr("deflections drawn "));
   const study::Result ten =
       run_text(replaced(with_rod(), "samples = 101", "samples = 101\ndeflection_scale = 10"));
-  EXPECT_EQ(ten.scenes.at(0).title, "motion, deflections drawn 10 x");
+  EXPECT_EQ(ten.scenes.at(0).title, "deflections drawn 10 x");
   EXPECT_EQ(run_text(replaced(with_rod(), "samples = 101", "samples = 101\ndeflection_scale = 1"))
                 .scenes.at(0)
                 .title,
-            "motion");
+            "simulation/planar.linkage");
   // The middle of the rod stands ten times its deflection off the line between the drawn ends.
   const study::Scene& t = ten.scenes[0];
   std::vector<int> bars;
