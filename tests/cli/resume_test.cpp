@@ -1,3 +1,5 @@
+#include <gmock/gmock.h>
+
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -96,9 +98,10 @@ TEST_F(Resume, AfterControlCAndTheTimeLimit) {
 TEST_F(Resume, AnInterruptedRunSaysHowItGoesOn) {
   const auto words = command("fourbar-18-points.toml",
                              {"--set", "optimiser.seeds.count=100000", "--time-limit", "0.5", "--out", "a"});
-  EXPECT_EQ(run(words), 0);
+  // Whether the checks hold depends on how far half a second goes.
+  EXPECT_THAT(run(words), ::testing::AnyOf(0, 1));
   EXPECT_EQ(err_, "a/checkpoint.jsonl: the same command with --resume continues from here\n");
-  EXPECT_EQ(run(with(words, {"--quiet"})), 0);
+  EXPECT_THAT(run(with(words, {"--quiet"})), ::testing::AnyOf(0, 1));
   EXPECT_EQ(err_, "");
 }
 

@@ -25,6 +25,8 @@ async function open(name, options = {}, before) {
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("request", (request) => /^(file|blob|data):/.test(request.url()) || errors.push(`asks for ${request.url()}`));
   await page.goto(url(name));
+  // The viewer stands once the data are unpacked; where it cannot, the form without scripts stays.
+  if (options.javaScriptEnabled !== false) await page.locator("#static").waitFor({ state: "detached", timeout: 10_000 }).catch(() => {});
   return { page, errors, close: () => context.close() };
 }
 
